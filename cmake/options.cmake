@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Compiler flags that keep bits equal between machines and backends, warnings, and the two helpers every room uses.
+
+add_library(grouser_flags INTERFACE)
+target_include_directories(grouser_flags INTERFACE ${PROJECT_SOURCE_DIR})
+# No fused multiply-add unless written, no fast-math, no -march=native: one scene, one answer.
+target_compile_options(grouser_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Werror -ffp-contract=off>)
+
+if(GROUSER_SANITIZE)
+  target_compile_options(grouser_flags INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${GROUSER_SANITIZE} -fno-omit-frame-pointer>)
+  target_link_options(grouser_flags INTERFACE -fsanitize=${GROUSER_SANITIZE})
+endif()
+
+if(GROUSER_CUDA)
+  if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+    set(CMAKE_CUDA_ARCHITECTURES 80 90)
+  endif()
+  if(NOT CMAKE_CUDA_COMPILER AND EXISTS /usr/local/cuda/bin/nvcc)
+    set(CMAKE_CUDA_COMPILER /usr/local/cuda/bin/nvcc)
+  endif()
+  enable_language(CUDA)
+  set(CMAKE_CUDA_STANDARD 20)
+  set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+  find_package(CUDAToolkit REQUIRED)
+  target_compile_definitions(grouser_flags INTERFACE GROUSER_CUDA=1)
+  target_link_libraries(grouser_flags INTERFACE CUDA::cudart_static)
+  target_compile_options(grouser_flags INTERFACE
+    $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false -Werror all-warnings -Xcompiler=-Wall,-Wextra,-ffp-contract=off,-fopenmp>)
+endif()
+
+# grouser_room(NAME SOURCES... ): a static library grouser_NAME. Files in *.cu are CUDA where it is on, plain C++ where not.
+function(grouser_room name)
+  add_library(grouser_${name} STATIC ${ARGN})
+  target_link_libraries(grouser_${name} PUBLIC grouser_flags OpenMP::OpenMP_CXX)
+  grouser_cu_as_cxx(${ARGN})
+endfunction()
+
+function(grouser_cu_as_cxx)
+  if(GROUSER_CUDA)
+    return()
+  endif()
+  foreach(source ${ARGN})
+    if(source MATCHES "\\.cu$")
+      set_source_files_properties(${source} PROPERTIES LANGUAGE CXX COMPILE_OPTIONS "-xc++")
+    endif()
+  endforeach()
+endfunction()
