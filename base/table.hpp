@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/error.hpp"
+#include "base/vec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Strict reading of TOML files, driven by one table of fields for each section.
+///
+/// A section is a plain struct; its `Table` names every key once, with unit, range and help, bound to the member that
+/// holds it. The table drives the reading, the checks, the help text and the resolved copy:
+///
+///     struct Wheel { double radius = 0.2; std::string material; };
+///     base::Table<Wheel> wheelTable() {
+///       base::Table<Wheel> t("wheel", "One road wheel");
+///       t.add("radius", &Wheel::radius, "m", "rolling radius").above(0).atMost(10);
+///       t.add("material", &Wheel::material, "", "name of its material").required();
+///       return t;
+///     }
+///     const base::Document doc = base::Document::load("wheel.toml", {});
+///     const Wheel wheel = doc.root().section("wheel").read(wheelTable());
+namespace grouser::base {
+
+/// What a field can hold once read. `monostate` is an optional field that was not given.
+using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::array<double, 2>, Vec3d,
+                                std::vector<double>, std::vector<std::string>, std::array<bool, 2>>;
+
+/// The type a field must have in the file. Whole numbers are taken for reals, never the other way round.
+enum class FieldType { Boolean, Integer, Real, Text, Pair, Vector, RealList, TextList, BooleanPair };
+
+/// Everything about a field but where its value is kept. The setters return the field, so that they chain.
+struct Field {
+  std::string key;
+  std::string unit; ///< without brackets; empty for text and switches, "-" for a dimensionless number
+  std::string help; ///< half a sentence
+  FieldType type{};
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool minOpen = false, maxOpen = false;
+  bool isRequired = false;
+  std::string autoWord;             ///< a word that stands for "not given", e.g. "auto"
+  std::vector<std::string> choices; ///< of a text; empty: any text
+
+  Field& above(double a) { return min = a, minOpen = true, *this; }
+  Field& atLeast(double a) { return min = a, minOpen = false, *this; }
+  Field& below(double b) { return max = b, maxOpen = true, *this; }
+  Field& atMost(double b) { return max = b, maxOpen = false, *this; }
+  Field& required() { return isRequired = true, *this; }
+  /// The word may be written instead of a value; the member must be a `std::optional` and is then left empty.
+  Field& orWord(std::string word) { return autoWord = std::move(word), *this; }
+  Field& oneOf(std::vector<std::string> words) { return choices = std::move(words), *this; }
+
+  /// "(0, 10]", "one of cpu, cuda", or "" where everything goes.
+  std::string rangeText() const;
+};
+
+/// Value as TOML text; a real always shows as one ("1.0") and reads back to the same bits.
+std::string toToml(const FieldValue& value);
+
+/// One value of a parsed file with the place it came from.
+struct Node {
+  using List = std::vector<Node>;
+  struct Entry;
+  using Map = std::vector<Entry>; ///< in the file's order
+
+  std::string origin; ///< "scene.toml:14", or "--set" for an override
+  std::variant<bool, std::int64_t, double, std::string, List, Map> value;
+
+  bool isMap() const { return std::holds_alternative<Map>(value); }
+  bool isList() const { return std::holds_alternative<List>(value); }
+  const Node* find(std::string_view key) const; ///< null where there is no such key, or no map
+  Node* find(std::string_view key);
+};
+struct Node::Entry {
+  std::string key;
+  Node node;
+};
+
+namespace detail {
+FieldValue readValue(const Node& node, const Field& field, const std::string& fullKey);
+[[noreturn]] void failMissing(const Node& section, const Field& field, const std::string& path);
+void checkKeys(const Node& section, const std::string& path, const std::vector<std::string>& valid);
+
+template <class T> struct FieldTypeOf;
+template <> struct FieldTypeOf<bool> {
+  static constexpr FieldType type = FieldType::Boolean;
+  using Stored = bool;
+};
+template <> struct FieldTypeOf<int> {
+  static constexpr FieldType type = FieldType::Integer;
+  using Stored = std::int64_t;
+};
+template <> struct FieldTypeOf<std::int64_t> {
+  static constexpr FieldType type = FieldType::Integer;
+  using Stored = std::int64_t;
+};
+template <> struct FieldTypeOf<double> {
+  static constexpr FieldType type = FieldType::Real;
+  using Stored = double;
+};
+template <> struct FieldTypeOf<std::string> {
+  static constexpr FieldType type = FieldType::Text;
+  using Stored = std::string;
+};
+template <> struct FieldTypeOf<std::array<double, 2>> {
+  static constexpr FieldType type = FieldType::Pair;
+  using Stored = std::array<double, 2>;
+};
+template <> struct FieldTypeOf<Vec3d> {
+  static constexpr FieldType type = FieldType::Vector;
+  using Stored = Vec3d;
+};
+template <> struct FieldTypeOf<std::vector<double>> {
+  static constexpr FieldType type = FieldType::RealList;
+  using Stored = std::vector<double>;
+};
+template <> struct FieldTypeOf<std::vector<std::string>> {
+  static constexpr FieldType type = FieldType::TextList;
+  using Stored = std::vector<std::string>;
+};
+template <> struct FieldTypeOf<std::array<bool, 2>> {
+  static constexpr FieldType type = FieldType::BooleanPair;
+  using Stored = std::array<bool, 2>;
+};
+template <class T> struct FieldTypeOf<std::optional<T>> : FieldTypeOf<T> {};
+template <class T> inline constexpr bool isOptional = false;
+template <class T> inline constexpr bool isOptional<std::optional<T>> = true;
+} // namespace detail
+
+/// The fields of one section, bound to the members of `S`. Defaults are those of a default-constructed `S`.
+/// A member may be bool, int, int64, double, string, array<double, 2>, Vec3d, vector<double>, vector<string>,
+/// array<bool, 2>, or an optional of these (absent: not given).
+template <class S> class Table {
+public:
+  /// `name` as it stands in a file ("run", "material.NAME"), and one sentence of help.
+  Table(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
+
+  template <class T> Field& add(std::string key, T S::*member, std::string unit, std::string help) {
+    using Traits = detail::FieldTypeOf<T>;
+    using Stored = typename Traits::Stored;
+    auto set = [member](S& s, const FieldValue& v) {
+      if (std::holds_alternative<std::monostate>(v)) {
+        s.*member = T{};
+      } else if constexpr (detail::isOptional<T>) {
+        s.*member = static_cast<typename T::value_type>(std::get<Stored>(v));
+      } else {
+        s.*member = static_cast<T>(std::get<Stored>(v));
+      }
+    };
+    auto get = [member](const S& s) -> FieldValue {
+      if constexpr (detail::isOptional<T>) {
+        if (!(s.*member)) return std::monostate{};
+        return static_cast<Stored>(*(s.*member));
+      } else {
+        return static_cast<Stored>(s.*member);
+      }
+    };
+    Field field;
+    field.key = std::move(key), field.unit = std::move(unit), field.help = std::move(help), field.type = Traits::type;
+    entries_.push_back({std::move(field), std::move(set), std::move(get)});
+    return entries_.back().field;
+  }
+
+  const std::string& name() const { return name_; }
+  const std::string& help() const { return help_; }
+  std::vector<Field> fields() const {
+    std::vector<Field> list;
+    for (const Entry& e : entries_) list.push_back(e.field);
+    return list;
+  }
+  FieldValue value(const S& s, std::string_view key) const {
+    for (const Entry& e : entries_)
+      if (e.field.key == key) return e.get(s);
+    return {};
+  }
+
+  /// Reads `section` over the defaults of `s`. `path` is the section's full name in messages; `subsections` are the
+  /// keys that others read. Throws InputError: unknown key, wrong type, out of range, missing.
+  void read(const Node& section, const std::string& path, S& s,
+            const std::vector<std::string>& subsections = {}) const {
+    std::vector<std::string> valid = subsections;
+    for (const Entry& e : entries_) valid.push_back(e.field.key);
+    detail::checkKeys(section, path, valid);
+    for (const Entry& e : entries_) {
+      const Node* node = section.find(e.field.key);
+      if (node)
+        e.set(s, detail::readValue(*node, e.field, path.empty() ? e.field.key : path + "." + e.field.key));
+      else if (e.field.isRequired)
+        detail::failMissing(section, e.field, path);
+    }
+  }
+
+  /// `key = value` lines of every field that has a value, in the table's order.
+  std::string write(const S& s) const {
+    std::string text;
+    for (const Entry& e : entries_) {
+      const FieldValue v = e.get(s);
+      if (!std::holds_alternative<std::monostate>(v))
+        text += e.field.key + " = " + toToml(v) + "\n";
+      else if (!e.field.autoWord.empty())
+        text += e.field.key + " = \"" + e.field.autoWord + "\"\n";
+    }
+    return text;
+  }
+
+private:
+  struct Entry {
+    Field field;
+    std::function<void(S&, const FieldValue&)> set;
+    std::function<FieldValue(const S&)> get;
+  };
+  std::string name_, help_;
+  std::vector<Entry> entries_;
+};
+
+/// A view of one table of a file.
+class Section {
+public:
+  Section(const Node& node, std::string path) : node_(&node), path_(std::move(path)) {}
+
+  const Node& node() const { return *node_; }
+  const std::string& path() const { return path_; }           ///< "material.soil"; empty at the root
+  const std::string& origin() const { return node_->origin; } ///< "scene.toml:14"
+  std::string name() const { return path_.substr(path_.rfind('.') + 1); }
+
+  bool has(std::string_view key) const { return node_->find(key) != nullptr; }
+  /// The table `key`. Throws InputError where it is missing or no table.
+  Section section(const std::string& key) const;
+  /// The tables under `key` by name, in the file's order: [material.soil], [material.steel]. Empty where there are
+  /// none.
+  std::vector<std::pair<std::string, Section>> named(const std::string& key) const;
+  /// The elements of `[[key]]`. Empty where there are none.
+  std::vector<Section> list(const std::string& key) const;
+
+  /// The section read over `S`'s defaults.
+  template <class S>
+  S read(const Table<S>& table, S defaults = {}, const std::vector<std::string>& subsections = {}) const {
+    table.read(*node_, path_, defaults, subsections);
+    return defaults;
+  }
+
+  /// Throws InputError for a key that is none of `valid`, naming the nearest.
+  void allowOnly(const std::vector<std::string>& valid) const { detail::checkKeys(*node_, path_, valid); }
+
+  /// Throws InputError "file:line: path.key = value <message>"; the line is the key's, or the section's if it is
+  /// absent.
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+
+private:
+  const Node* node_;
+  std::string path_;
+};
+
+/// A parsed TOML file with overrides applied. `version = 1` is checked and required.
+class Document {
+public:
+  /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01` or `contact."a|b".friction=0.3`; its
+  /// value is TOML, or a bare word taken as text. Throws InputError: no such file, syntax (file:line:column), version,
+  /// override.
+  static Document load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+  /// The same from text; `name` stands for the file in messages.
+  static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
+
+  /// Valid as long as the document lives. Sections may be read with `version` among their subsections.
+  Section root() const& { return {root_, ""}; }
+  Section root() const&& = delete;
+
+private:
+  Node root_;
+};
+
+/// Number of edits (insert, delete, replace, swap of neighbours; case ignored) between two words.
+int editDistance(std::string_view a, std::string_view b);
+/// The word of `valid` nearest to `word`; empty where `valid` is empty.
+std::string nearestWord(std::string_view word, const std::vector<std::string>& valid);
+
+/// Rows "key | unit | default | range | help" of a Markdown table, under a heading with the table's name and help.
+std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
+                           const std::vector<FieldValue>& defaults);
+template <class S> std::string describe(const Table<S>& table) {
+  const std::vector<Field> fields = table.fields();
+  std::vector<FieldValue> defaults;
+  for (const Field& f : fields) defaults.push_back(table.value(S{}, f.key));
+  return describeFields(table.name(), table.help(), fields, defaults);
+}
+
+} // namespace grouser::base
