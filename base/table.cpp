@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace grouser::base {
+
+namespace {
+
+std::string number(double x) {
+  std::string text = fmt::format("{}", x);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+/// A bound as a person writes it: 0, 0.5, 1e+06.
+std::string bound(double x) { return fmt::format("{:.6g}", x); }
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += '\\', out += c;
+    else if (c == '\n')
+      out += "\\n";
+    else if (c == '\t')
+      out += "\\t";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04X}", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+template <class Range, class Format> std::string bracketed(const Range& range, Format format) {
+  std::string out = "[";
+  for (const auto& x : range) out += (out.size() > 1 ? ", " : "") + format(x);
+  return out + "]";
+}
+
+template <class... Fs> struct Overloaded : Fs... { using Fs::operator()...; };
+
+std::string typeText(FieldType type) {
+  switch (type) {
+  case FieldType::Boolean:
+    return "true or false";
+  case FieldType::Integer:
+    return "a whole number";
+  case FieldType::Real:
+    return "a number";
+  case FieldType::Text:
+    return "a text in quotes";
+  case FieldType::Pair:
+    return "two numbers [a, b]";
+  case FieldType::Vector:
+    return "three numbers [x, y, z]";
+  case FieldType::RealList:
+    return "a list of numbers [a, b, ...]";
+  case FieldType::TextList:
+    return "a list of texts";
+  case FieldType::BooleanPair:
+    return "two switches [true, false]";
+  }
+  return "";
+}
+
+/// What stands in the file, for a message: cut short where it is long.
+std::string nodeText(const Node& node) {
+  return std::visit(Overloaded{[](bool b) { return std::string(b ? "true" : "false"); },
+                               [](std::int64_t i) { return fmt::format("{}", i); },
+                               [](double x) { return fmt::format("{}", x); },
+                               [](const std::string& s) { return quoted(s); },
+                               [](const Node::List& list) {
+                                 if (list.size() > 4) return fmt::format("a list of {} entries", list.size());
+                                 return bracketed(list, nodeText);
+                               },
+                               [](const Node::Map&) { return std::string("a table"); }},
+                    node.value);
+}
+
+std::string unitText(const Field& field) { return field.unit.empty() ? "" : " [" + field.unit + "]"; }
+
+[[noreturn]] void failType(const Node& node, const Field& field, const std::string& fullKey) {
+  std::string wanted = typeText(field.type);
+  if (!field.autoWord.empty()) wanted += " or \"" + field.autoWord + "\"";
+  throw InputError(fmt::format("{}: {} = {} has the wrong type; give {}{} ({})", node.origin, fullKey, nodeText(node),
+                               wanted, unitText(field), field.help));
+}
+
+double readReal(const Node& node, const Node& whole, const Field& field, const std::string& fullKey) {
+  double x = 0;
+  if (const auto* d = std::get_if<double>(&node.value))
+    x = *d;
+  else if (const auto* i = std::get_if<std::int64_t>(&node.value))
+    x = static_cast<double>(*i);
+  else
+    failType(whole, field, fullKey);
+  const bool low = field.minOpen ? !(x > field.min) : !(x >= field.min);
+  const bool high = field.maxOpen ? !(x < field.max) : !(x <= field.max);
+  if (!std::isfinite(x))
+    throw InputError(fmt::format("{}: {} = {}{} is not finite; give a finite number", node.origin, fullKey,
+                                 nodeText(whole), unitText(field)));
+  if (low || high)
+    throw InputError(fmt::format("{}: {} = {}{} is outside {}; choose a value in that range ({})", node.origin, fullKey,
+                                 nodeText(whole), unitText(field), field.rangeText(), field.help));
+  return x;
+}
+
+const Node::List& readList(const Node& node, std::size_t count, const Field& field, const std::string& fullKey) {
+  const auto* list = std::get_if<Node::List>(&node.value);
+  if (!list || (count && list->size() != count)) failType(node, field, fullKey);
+  return *list;
+}
+
+std::string readText(const Node& node, const Field& field, const std::string& fullKey) {
+  const auto* text = std::get_if<std::string>(&node.value);
+  if (!text) failType(node, field, fullKey);
+  if (!field.choices.empty() && std::find(field.choices.begin(), field.choices.end(), *text) == field.choices.end())
+    throw InputError(fmt::format("{}: {} = {} is none of {}; did you mean \"{}\"? ({})", node.origin, fullKey,
+                                 quoted(*text), fmt::join(field.choices, ", "), nearestWord(*text, field.choices),
+                                 field.help));
+  return *text;
+}
+
+bool readSwitch(const Node& node, const Node& whole, const Field& field, const std::string& fullKey) {
+  const auto* b = std::get_if<bool>(&node.value);
+  if (!b) failType(whole, field, fullKey);
+  return *b;
+}
+
+} // namespace
+
+std::string Field::rangeText() const {
+  if (!choices.empty()) return fmt::format("one of {}", fmt::join(choices, ", "));
+  if (!std::isfinite(min) && !std::isfinite(max)) return "";
+  return fmt::format("{}{}, {}{}", minOpen || !std::isfinite(min) ? "(" : "[", bound(min), bound(max),
+                     maxOpen || !std::isfinite(max) ? ")" : "]");
+}
+
+std::string toToml(const FieldValue& value) {
+  return std::visit(Overloaded{[](std::monostate) { return std::string(); },
+                               [](bool b) { return std::string(b ? "true" : "false"); },
+                               [](std::int64_t i) { return fmt::format("{}", i); }, [](double x) { return number(x); },
+                               [](const std::string& s) { return quoted(s); },
+                               [](const std::array<double, 2>& a) { return bracketed(a, number); },
+                               [](const Vec3d& v) {
+                                 return bracketed(std::array{v.x, v.y, v.z}, number);
+                               },
+                               [](const std::vector<double>& v) { return bracketed(v, number); },
+                               [](const std::vector<std::string>& v) { return bracketed(v, quoted); },
+                               [](const std::array<bool, 2>& a) {
+                                 return bracketed(a, [](bool b) { return std::string(b ? "true" : "false"); });
+                               }},
+                    value);
+}
+
+const Node* Node::find(std::string_view key) const {
+  const auto* map = std::get_if<Map>(&value);
+  if (!map) return nullptr;
+  for (const Entry& e : *map)
+    if (e.key == key) return &e.node;
+  return nullptr;
+}
+
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+
+namespace detail {
+
+FieldValue readValue(const Node& node, const Field& field, const std::string& fullKey) {
+  if (!field.autoWord.empty())
+    if (const auto* word = std::get_if<std::string>(&node.value); word && *word == field.autoWord) return {};
+  const auto real = [&](const Node& n) { return readReal(n, node, field, fullKey); };
+  switch (field.type) {
+  case FieldType::Boolean:
+    return readSwitch(node, node, field, fullKey);
+  case FieldType::Integer:
+    if (!std::holds_alternative<std::int64_t>(node.value)) failType(node, field, fullKey);
+    real(node);
+    return std::get<std::int64_t>(node.value);
+  case FieldType::Real:
+    return real(node);
+  case FieldType::Text:
+    return readText(node, field, fullKey);
+  case FieldType::Pair: {
+    const Node::List& list = readList(node, 2, field, fullKey);
+    return std::array{real(list[0]), real(list[1])};
+  }
+  case FieldType::Vector: {
+    const Node::List& list = readList(node, 3, field, fullKey);
+    return Vec3d{real(list[0]), real(list[1]), real(list[2])};
+  }
+  case FieldType::RealList: {
+    std::vector<double> values;
+    for (const Node& n : readList(node, 0, field, fullKey)) values.push_back(real(n));
+    return values;
+  }
+  case FieldType::TextList: {
+    std::vector<std::string> values;
+    for (const Node& n : readList(node, 0, field, fullKey)) values.push_back(readText(n, field, fullKey));
+    return values;
+  }
+  case FieldType::BooleanPair: {
+    const Node::List& list = readList(node, 2, field, fullKey);
+    return std::array{readSwitch(list[0], node, field, fullKey), readSwitch(list[1], node, field, fullKey)};
+  }
+  }
+  return {};
+}
+
+void failMissing(const Node& section, const Field& field, const std::string& path) {
+  const std::string range = field.rangeText();
+  throw InputError(fmt::format("{}: {} lacks the required key {}{}; add {} = {}{} ({})", section.origin,
+                               path.empty() ? "the file" : "[" + path + "]", field.key, unitText(field), field.key,
+                               typeText(field.type), range.empty() ? "" : ", " + range, field.help));
+}
+
+void checkKeys(const Node& section, const std::string& path, const std::vector<std::string>& valid) {
+  const auto* map = std::get_if<Node::Map>(&section.value);
+  if (!map)
+    throw InputError(fmt::format("{}: {} = {} has the wrong type; make it a table: [{}]", section.origin, path,
+                                 nodeText(section), path));
+  for (const Node::Entry& e : *map) {
+    if (std::find(valid.begin(), valid.end(), e.key) != valid.end()) continue;
+    const bool isSection = e.node.isMap() || (e.node.isList() && path.empty());
+    throw InputError(fmt::format("{}: unknown {} {}{}; did you mean {}? (valid here: {})", e.node.origin,
+                                 isSection ? "section" : "key", path.empty() ? "" : path + ".", e.key,
+                                 nearestWord(e.key, valid), fmt::join(valid, ", ")));
+  }
+}
+
+} // namespace detail
+
+Section Section::section(const std::string& key) const {
+  const std::string full = path_.empty() ? key : path_ + "." + key;
+  const Node* node = node_->find(key);
+  if (!node) throw InputError(fmt::format("{}: the section [{}] is missing; add it", origin(), full));
+  if (!node->isMap())
+    throw InputError(fmt::format("{}: {} = {} has the wrong type; make it a table: [{}]", node->origin, full,
+                                 nodeText(*node), full));
+  return {*node, full};
+}
+
+std::vector<std::pair<std::string, Section>> Section::named(const std::string& key) const {
+  std::vector<std::pair<std::string, Section>> sections;
+  if (!has(key)) return sections;
+  const Section parent = section(key);
+  for (const Node::Entry& e : std::get<Node::Map>(parent.node().value)) {
+    const bool bare = std::all_of(e.key.begin(), e.key.end(),
+                                  [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+    const std::string full = parent.path() + "." + (bare ? e.key : quoted(e.key));
+    if (!e.node.isMap())
+      throw InputError(fmt::format("{}: {} = {} is no section; name it, as in [{}.NAME]", e.node.origin, full,
+                                   nodeText(e.node), parent.path()));
+    sections.emplace_back(e.key, Section(e.node, full));
+  }
+  return sections;
+}
+
+std::vector<Section> Section::list(const std::string& key) const {
+  std::vector<Section> sections;
+  const Node* node = node_->find(key);
+  if (!node) return sections;
+  const std::string full = path_.empty() ? key : path_ + "." + key;
+  const auto* list = std::get_if<Node::List>(&node->value);
+  if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))
+    throw InputError(fmt::format("{}: {} has the wrong type; make it a list of sections, each under [[{}]]",
+                                 node->origin, full, full));
+  for (std::size_t i = 0; i < list->size(); ++i) sections.emplace_back((*list)[i], fmt::format("{}.{}", full, i));
+  return sections;
+}
+
+void Section::fail(const std::string& key, const std::string& message) const {
+  const std::string full = path_.empty() ? key : key.empty() ? path_ : path_ + "." + key;
+  const Node* node = node_->find(key);
+  if (!node || node->isMap()) throw InputError(fmt::format("{}: {} {}", node ? node->origin : origin(), full, message));
+  throw InputError(fmt::format("{}: {} = {} {}", node->origin, full, nodeText(*node), message));
+}
+
+int editDistance(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = static_cast<int>(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int cost = lower(a[i - 1]) != lower(b[j - 1]);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + cost});
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+std::string nearestWord(std::string_view word, const std::vector<std::string>& valid) {
+  std::string best;
+  int least = std::numeric_limits<int>::max();
+  for (const std::string& candidate : valid)
+    if (const int d = editDistance(word, candidate); d < least) least = d, best = candidate;
+  return best;
+}
+
+std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
+                           const std::vector<FieldValue>& defaults) {
+  std::string text = fmt::format(
+      "### `{}`\n\n{}.\n\n| key | unit | default | range | what it is |\n|---|---|---|---|---|\n", name, help);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const Field& f = fields[i];
+    std::string fallback = toToml(defaults[i]);
+    if (f.isRequired)
+      fallback = "required";
+    else if (fallback.empty() && !f.autoWord.empty())
+      fallback = quoted(f.autoWord);
+    else if (fallback.empty() || fallback == "\"\"")
+      fallback = "none";
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, f.unit, fallback, f.rangeText(), f.help);
+  }
+  return text;
+}
+
+} // namespace grouser::base

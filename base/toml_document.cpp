@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The only file that includes toml++: from its tree to ours, and overrides into it.
+#include "base/table.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace grouser::base {
+
+namespace {
+
+constexpr std::int64_t kVersion = 1;
+
+Node convert(const toml::node& from, const std::string& file) {
+  Node to;
+  to.origin = fmt::format("{}:{}", file, from.source().begin.line);
+  if (const auto* table = from.as_table()) {
+    Node::Map map;
+    for (const auto& [key, child] : *table) map.push_back({std::string(key.str()), convert(child, file)});
+    to.value = std::move(map);
+  } else if (const auto* array = from.as_array()) {
+    Node::List list;
+    for (const auto& child : *array) list.push_back(convert(child, file));
+    to.value = std::move(list);
+  } else if (const auto* text = from.as_string()) {
+    to.value = text->get();
+  } else if (const auto* whole = from.as_integer()) {
+    to.value = whole->get();
+  } else if (const auto* real = from.as_floating_point()) {
+    to.value = real->get();
+  } else if (const auto* flag = from.as_boolean()) {
+    to.value = flag->get();
+  } else {
+    throw InputError(fmt::format("{}: a date or time has no meaning here; remove it or put it in quotes", to.origin));
+  }
+  return to;
+}
+
+/// toml++ keeps keys in alphabetic order; messages and resolved copies follow the file's.
+void sortByLine(Node& node, const toml::node& from) {
+  if (const auto* table = from.as_table()) {
+    auto& map = std::get<Node::Map>(node.value);
+    const auto place = [&](const Node::Entry& e) {
+      const toml::key* key = nullptr;
+      for (const auto& [k, child] : *table)
+        if (k.str() == e.key) key = &k;
+      return std::pair{key->source().begin.line, key->source().begin.column};
+    };
+    for (Node::Entry& e : map) sortByLine(e.node, *table->get(e.key));
+    std::stable_sort(map.begin(), map.end(),
+                     [&](const Node::Entry& a, const Node::Entry& b) { return place(a) < place(b); });
+  } else if (const auto* array = from.as_array()) {
+    auto& list = std::get<Node::List>(node.value);
+    for (std::size_t i = 0; i < list.size(); ++i) sortByLine(list[i], *array->get(i));
+  }
+}
+
+Node parseToml(std::string_view text, const std::string& name) {
+  try {
+    const toml::table table = toml::parse(text, name);
+    Node node = convert(table, name);
+    sortByLine(node, table);
+    return node;
+  } catch (const toml::parse_error& e) {
+    throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}; correct the syntax there", name, e.source().begin.line,
+                                 e.source().begin.column, e.description()));
+  }
+}
+
+/// `contact."a|b".friction` cut at its dots.
+std::vector<std::string> splitKey(std::string_view key, const std::string& whole) {
+  std::vector<std::string> parts(1);
+  bool inQuotes = false;
+  for (const char c : key) {
+    if (c == '"')
+      inQuotes = !inQuotes;
+    else if (c == '.' && !inQuotes)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  if (inQuotes || std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); }))
+    throw InputError(
+        fmt::format("--set {}: the key is not of the form section.key; write e.g. --set run.duration=2", whole));
+  return parts;
+}
+
+void setOrigin(Node& node, const std::string& origin) {
+  node.origin = origin;
+  if (auto* map = std::get_if<Node::Map>(&node.value))
+    for (Node::Entry& e : *map) setOrigin(e.node, origin);
+  if (auto* list = std::get_if<Node::List>(&node.value))
+    for (Node& n : *list) setOrigin(n, origin);
+}
+
+/// The value of an override: TOML where it parses as such, else the bare text.
+Node overrideValue(const std::string& text) {
+  Node node;
+  try {
+    node = convert(*toml::parse("value = " + text).get("value"), "--set");
+  } catch (const toml::parse_error&) {
+    node.value = text;
+  }
+  setOrigin(node, "--set");
+  return node;
+}
+
+void applyOverride(Node& root, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(fmt::format("--set {}: no value is given; write key=value, e.g. --set run.duration=2", text));
+  const std::vector<std::string> parts = splitKey(std::string_view(text).substr(0, equals), text);
+  Node* node = &root;
+  for (const std::string& part : parts) {
+    if (auto* list = std::get_if<Node::List>(&node->value)) {
+      const bool isNumber = std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (!isNumber || part.size() > 9 || std::stoul(part) >= list->size())
+        throw InputError(
+            fmt::format("--set {}: there is no entry {} in a list of {}; count from 0", text, part, list->size()));
+      node = &(*list)[std::stoul(part)];
+      continue;
+    }
+    if (!node->isMap())
+      throw InputError(fmt::format("--set {}: what stands before {} is a value, no section", text, part));
+    Node* child = node->find(part);
+    if (!child) {
+      auto& map = std::get<Node::Map>(node->value);
+      map.push_back({part, Node{"--set", Node::Map{}}});
+      child = &map.back().node;
+    }
+    node = child;
+  }
+  *node = overrideValue(text.substr(equals + 1));
+}
+
+void checkVersion(const Node& root, const std::string& name) {
+  const Node* version = root.find("version");
+  if (!version)
+    throw InputError(fmt::format("{}: the key version is missing; begin the file with version = {}", name, kVersion));
+  const auto* number = std::get_if<std::int64_t>(&version->value);
+  if (!number || *number != kVersion)
+    throw InputError(fmt::format("{}: version is not one that this program reads; it reads version = {}",
+                                 version->origin, kVersion));
+}
+
+} // namespace
+
+Document Document::parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
+  Document document;
+  document.root_ = parseToml(text, name);
+  checkVersion(document.root_, name);
+  for (const std::string& o : overrides) applyOverride(document.root_, o);
+  checkVersion(document.root_, name);
+  return document;
+}
+
+Document Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw InputError(fmt::format("{}: cannot be read; check the path", path.string()));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return parse(text, path.string(), overrides);
+}
+
+} // namespace grouser::base
