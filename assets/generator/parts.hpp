@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+
+#include <string>
+#include <vector>
+
+/// The vehicle's meshes from a few lengths. Every part is a union of closed shells that may overlap; each shell is a
+/// 2-manifold with outward, counter-clockwise triangles. Part frame: origin at the part's natural centre, x forward,
+/// y left, z up; wheels turn about y. All lengths in metres.
+namespace grouser::assets {
+
+using base::TriangleMesh;
+
+/// Lengths that parts of one track share.
+struct TrackDims {
+  double pitch{0.154};           ///< distance of neighbouring pins
+  double plateTop{0.020};        ///< wheel plate above the line of pins
+  double padBottom{-0.040};      ///< pad below the line of pins
+  double grouserDepth{0.015};    ///< grouser tips below the pad
+  double grouserX{0.045};        ///< grousers at x = +-this
+  double grouserWidth{0.016};    ///< grouser's length in x at its root
+  double chamfer{0.003};         ///< chamfer of grouser tips, pad edges and wheel discs
+  double plateHalfLength{0.068}; ///< plates and pad in x
+  double plateInner{0.030};      ///< wheel plates from this |y| ...
+  double plateOuter{0.110};      ///< ... to this one; discs of the wheels too
+  double padHalfWidth{0.140};    ///< pad to this |y|
+  double hornHeight{0.060};      ///< guide horn above the wheel plate
+  double hornWidth{0.030};       ///< guide horn in y
+  double hornLength{0.080};      ///< guide horn in x at the plate
+  double hornTipLength{0.030};   ///< guide horn in x at its tip
+  double hornTipWidth{0.018};    ///< guide horn in y at its tip
+  double wheelGap{0.054};        ///< gap between a wheel's two discs
+  double bossRadius{0.018};      ///< pin bosses, which alone meet the sprocket
+  double bossInner{0.145};       ///< bosses from this |y| ...
+  double bossOuter{0.175};       ///< ... to this one
+  double pinRadius{0.010};       ///< pins, from |y| = plateOuter to bossOuter
+  int bossFacets{48};            ///< facets of a boss
+};
+
+/// One track shoe: pad with two grousers, two wheel plates, guide horn, and at x = +pitch/2 the two bosses and pins of
+/// that joint (those at -pitch/2 belong to the neighbour). Origin between the pins.
+TriangleMesh shoe(const TrackDims& dims = {});
+
+/// Two discs on a hub: road wheel, roller, idler.
+struct WheelDims {
+  double radius{0.19};    ///< mean radius of the rim polygon
+  double hubRadius{0.10}; ///< hub between the discs, clear of the horns
+  int facets{128};        ///< of the rim
+};
+TriangleMesh wheel(const WheelDims& wheel, const TrackDims& dims = {});
+
+/// The sprocket's own lengths (profile of a gap: x tangential, y radial, from the pin seated in it).
+struct SprocketDims {
+  int teeth{10};
+  double pinRadius{0.249177};             ///< radius of the circle of seated pins
+  double seatRadius{0.0185};              ///< seat arc about the pin ...
+  double seatHalfAngle{60};               ///< ... over +-this from its bottom [degrees]
+  double flankRadius{0.060};              ///< convex flank arc ...
+  double flankX{0.0680}, flankY{-0.0393}; ///< ... about (+-flankX, flankY)
+  double tipX{0.0451}, tipY{0.0162};      ///< end of the flank
+  double landRadius{0.2692};              ///< tooth tips
+  double ringInner{0.150};                ///< toothed rings from this |y| ...
+  double ringOuter{0.170};                ///< ... to this one
+  double boreRadius{0.120};               ///< inner radius of the rings, inside the hub
+  double hubRadius{0.140};                ///< hub that joins them, clear of plates and horns
+  int seatSegments{24}, flankSegments{8}, landSegments{6};
+};
+
+/// Gap k is centred at 360 k / teeth degrees in the x-z plane, measured from +x towards +z.
+TriangleMesh sprocket(const SprocketDims& dims = {});
+
+/// Hull of the vehicle for pictures, not for contact. Origin: axle of the rear sprockets on the centre line.
+TriangleMesh chassis();
+
+/// A mesh and the name of its file, "shoe" for shoe.obj.
+struct NamedMesh {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+/// The default vehicle's parts: shoe, road_wheel, roller, idler, sprocket, chassis.
+std::vector<NamedMesh> vehicleParts();
+
+/// OBJ text with nine significant digits; the same bytes on every machine.
+std::string toObj(const NamedMesh& part);
+
+} // namespace grouser::assets

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace grouser::spheredecomp {
+
+using base::SphereSet;
+using base::TriangleMesh;
+
+/// How fine a part is cut. Give a radius, or a count and the radius is found.
+struct DecompositionOptions {
+  double radius{};            ///< sphere radius [m]; 0: take it from targetCount
+  std::size_t targetCount{};  ///< wanted number of spheres; used when radius is 0
+  double spacingRatio{1.0};   ///< lattice spacing / radius [-], in [0.2, 1.5]
+  double maxDip{0.05};        ///< surface spheres are added until the surface dips less than this between them [radius]
+  double flatTolerance{0.01}; ///< a flat disc may stand this much out of the mesh [radius]
+  bool interior{true};        ///< also fill the inside with lattice spheres (contacts need the surface only)
+};
+
+/// Cuts a closed mesh into spheres of one radius on a lattice. Shells may overlap: only the outer surface of their
+/// union becomes surface. Each lattice point inside that is nearer to the surface than radius + spacing/2 moves along
+/// the surface normal to the depth of one radius; near edges, to where the sphere fits; where the part is thinner than
+/// a sphere, the sphere shrinks. Holes that remain are closed by spheres under points of the surface. Deterministic for
+/// any thread count.
+/// @param mesh  closed, outward, welded (see importMesh)
+/// @param name  kept in the result and named in errors
+/// Throws base::InputError when the options are out of range, the mesh is not closed, or the radius is too coarse or
+/// too fine for the part (more than 50 million lattice points).
+SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options);
+
+} // namespace grouser::spheredecomp

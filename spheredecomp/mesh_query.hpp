@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "spheredecomp/mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::spheredecomp {
+
+/// The point of a mesh nearest to a query point.
+struct ClosestPoint {
+  Vec3d point;              ///< [m]
+  double distance{};        ///< [m], >= 0
+  std::uint32_t triangle{}; ///< index of the triangle it lies on; the lowest index of equally near ones
+};
+
+/// One crossing of a vertical line with the mesh.
+struct Crossing {
+  double z{}; ///< [m]
+  int step{}; ///< change of the winding number when the crossing is passed downwards: +1 enters through an upper face
+};
+
+/// Distance and inside/outside queries on a triangle mesh, by a tree of boxes. Constant after construction: any number
+/// of threads may ask.
+class MeshQuery {
+public:
+  /// The mesh is copied. It needs to be closed for the winding number, not for distances.
+  explicit MeshQuery(TriangleMesh mesh);
+
+  /// Nearest point of the surface; the mesh must have a triangle.
+  ClosestPoint closest(const Vec3d& p) const;
+
+  /// All crossings of the vertical line through (x, y), from above downwards, appended to `crossings` (cleared first).
+  void column(double x, double y, std::vector<Crossing>& crossings) const;
+
+  /// Winding number of the mesh about `p`: how many shells enclose it. Counted by signed crossings of a vertical ray,
+  /// which for a closed mesh equals the solid angle divided by 4 pi. A point on the surface may count either way.
+  int winding(const Vec3d& p) const;
+  bool inside(const Vec3d& p) const { return winding(p) != 0; }
+
+  /// Distance to the surface [m], negative inside.
+  double signedDistance(const Vec3d& p) const;
+
+  /// Indices of triangles whose bounding boxes overlap the box [low, high], ascending.
+  void overlapping(const Vec3d& low, const Vec3d& high, std::vector<std::uint32_t>& triangles) const;
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const Vec3d& vertex(std::uint32_t triangle, int corner) const {
+    return mesh_.vertices[mesh_.indices[3 * triangle + static_cast<std::uint32_t>(corner)]];
+  }
+  /// Outward unit normal of a triangle.
+  const Vec3d& normal(std::uint32_t triangle) const { return normals_[triangle]; }
+
+private:
+  struct Node {
+    Vec3d low, high;
+    std::uint32_t first{}; ///< first entry of order_ (leaf) or left child (the right one follows it)
+    std::uint32_t count{}; ///< triangles of a leaf, 0 for an inner node
+  };
+  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+
+  TriangleMesh mesh_;
+  std::vector<Vec3d> normals_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+/// Generalised winding number by solid angles, sum / (4 pi) [-] (van Oosterom and Strackee 1983, eq. 8). Costs a sum
+/// over all triangles: the reference for MeshQuery::winding.
+double solidAngleWinding(const TriangleMesh& mesh, const Vec3d& p);
+
+} // namespace grouser::spheredecomp

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace grouser::spheredecomp {
+
+using base::SphereSet;
+using base::TriangleMesh;
+
+/// Distances between two surfaces A (the mesh's outer surface) and B (the set's) [m].
+struct SurfaceDistance {
+  double meshToSet{};  ///< greatest distance from a point of the mesh to the set's surface (one-sided Hausdorff)
+  double setToMesh{};  ///< greatest distance from a point of the set's surface to the mesh
+  double rms{};        ///< root mean square of meshToSet over the mesh's area
+  double protrusion{}; ///< greatest distance of a point of the set's surface outside the mesh
+  double hausdorff() const { return meshToSet > setToMesh ? meshToSet : setToMesh; }
+};
+
+/// How well a sphere set stands for its mesh.
+struct Quality {
+  std::size_t surfaceCount{};
+  std::size_t interiorCount{};
+  SurfaceDistance discs;   ///< set = rounded discs (SetSphere::flat), what contacts see
+  SurfaceDistance spheres; ///< set = plain spheres
+  double volumeRatio{};    ///< volume of the union of all spheres / volume of the mesh [-]
+  double areaRatio{};      ///< sum of SetSphere::area / outer area of the mesh [-]
+};
+
+/// Measures by deterministic sampling; the samples lie about a third of the spacing apart, so that the distances are
+/// lower bounds, short of the supremum by a few hundredths of the radius.
+Quality measure(const TriangleMesh& mesh, const SphereSet& set);
+
+/// The figures as text, a few lines with units.
+std::string report(const SphereSet& set, const Quality& quality);
+
+} // namespace grouser::spheredecomp
