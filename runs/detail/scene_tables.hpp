@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/table.hpp"
+#include "runs/scene.hpp"
+
+namespace grouser::runs::detail {
+
+base::Table<RunSettings> runTable();
+base::Table<Material> materialTable();
+base::Table<ContactPair> contactTable();
+base::Table<Grain> grainTable();
+base::Table<Plane> planeTable();
+base::Table<Terrain> terrainTable();
+base::Table<Vehicle> vehicleTable();
+base::Table<Driver> driverTable();
+base::Table<SpeedTable> speedTable();
+base::Table<Output> outputTable();
+
+} // namespace grouser::runs::detail

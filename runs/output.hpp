@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+#include "base/vec.hpp"
+#include "runs/scene.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What a run leaves in its folder: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
+/// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing of how a
+/// simulation computes it.
+namespace grouser::runs {
+
+/// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
+/// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
+struct Channel {
+  std::string path; ///< "vehicle/shoes/sinkage"
+  std::string unit; ///< "m"; "-" where dimensionless
+  std::string help;
+  int width = 1;
+  /// Names of the columns in timeseries.csv: "x","y","z". Empty: a wide channel is in results.h5 only.
+  std::vector<std::string> columns;
+};
+
+/// The numbers of one output time, in the order of the channels, each channel's `width` numbers in turn.
+struct Row {
+  std::int64_t step{};
+  double time{}; ///< [s]
+  std::vector<double> values;
+};
+
+/// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
+struct FramePart {
+  std::string name;        ///< "left shoe 12"
+  std::string kind;        ///< "shoe", "sprocket", ...: decides the colour
+  base::TriangleMesh mesh; ///< body frame
+};
+
+/// The grains and parts at one time. All arrays of grains have the same length.
+struct Frame {
+  std::int64_t step{};
+  double time{};                      ///< [s]
+  std::vector<base::Vec3f> positions; ///< [m]
+  std::vector<float> radii;           ///< [m]
+  std::vector<float> speeds;          ///< [m/s]
+  std::vector<std::uint32_t> ids;
+  std::vector<base::Pose> partPoses; ///< one a part
+};
+
+/// What is known when a run ends.
+struct Summary {
+  std::int64_t steps{};
+  double simulatedTime{};                ///< [s]
+  double wallTime{};                     ///< [s]
+  std::string stateHash;                 ///< hexadecimal; empty where not taken
+  std::map<std::string, double> figures; ///< anything else worth keeping: "particle steps per second"
+  std::map<std::string, std::string> notes;
+};
+
+/// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
+void checkOutputFolder(const std::filesystem::path& folder, bool force);
+
+/// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.
+/// With `force` the files of a former run are removed first; other files stay.
+/// Calls that fail (disk full) throw std::runtime_error with the file's name.
+class RunWriter {
+public:
+  struct Options {
+    bool force = false;
+    bool frames = true;
+    std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
+  };
+  RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
+  ~RunWriter();
+  RunWriter(const RunWriter&) = delete;
+  RunWriter& operator=(const RunWriter&) = delete;
+
+  /// Labels of a wide channel's numbers, e.g. of the shoes: kept as an attribute in results.h5.
+  void labels(const std::string& path, const std::vector<std::string>& names);
+  /// A constant of the run in results.h5, e.g. "vehicle/pitch_radius" [m].
+  void constant(const std::string& path, const std::string& unit, double value);
+
+  /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
+  void setParts(std::vector<FramePart> parts, base::TriangleMesh ground);
+
+  void row(const Row& row);
+  void frame(const Frame& frame);
+  /// Closes the files and completes the manifest. Without it the manifest says that the run did not end.
+  void finish(const Summary& summary);
+
+  const std::filesystem::path& folder() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
+/// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
+namespace grouser::runs {
+
+/// [run]
+struct RunSettings {
+  double duration = 0;            ///< [s] after the bed has settled
+  std::optional<double> timeStep; ///< [s]; empty: the largest step the stability rule allows
+  base::Vec3d gravity{0, 0, -9.81};
+  double outputInterval = 0.02;
+  double frameInterval = 0.1;
+  std::int64_t seed = 1;
+  std::string device = "auto"; ///< auto | cpu | cuda
+  int threads = 0;             ///< 0: all
+  double skin = 0.3;           ///< [-] of a grain's radius
+  double maxOverlap = 0.2;     ///< [-] of a grain's radius; beyond it the run stops
+  bool operator==(const RunSettings&) const = default;
+};
+
+/// [material.NAME]
+struct Material {
+  std::string name;
+  double density = 2500;
+  std::string law = "linear";
+  double stiffness = 1e6;
+  std::optional<double> restitution; ///< one of these two has a value after loading
+  std::optional<double> damping;     ///< [1/s] gamma of F_n = k overlap - gamma m_eff v_n
+  bool attraction = false;
+  double friction = 0.5;
+  double tangentialStiffnessRatio = 2.0 / 7.0;
+  double tangentialDampingRatio = 0.5;
+  bool operator==(const Material&) const = default;
+};
+
+/// [contact."first|second"]: what a pair of materials has otherwise than the mixing rule gives.
+struct ContactPair {
+  std::string first, second;
+  std::optional<double> stiffness, restitution, damping, friction;
+  bool operator==(const ContactPair&) const = default;
+};
+
+/// [[grain]]
+struct Grain {
+  base::Vec3d position, velocity, spin;
+  double radius = 0;
+  std::string material;
+  bool operator==(const Grain&) const = default;
+};
+
+/// [[plane]]: fills the half-space behind its normal.
+struct Plane {
+  base::Vec3d point, normal{0, 0, 1};
+  std::string material;
+  bool operator==(const Plane&) const = default;
+};
+
+/// [terrain]
+struct Terrain {
+  std::string heightmap;               ///< absolute path after loading
+  std::array<double, 2> size{};        ///< [m] x, y
+  std::array<double, 2> heightRange{}; ///< [m] of black, of white
+  std::array<double, 2> corner{};      ///< [m] x, y of the near left corner
+  std::string kind = "granular";       ///< granular | rigid
+  std::string material;
+  std::string groundMaterial; ///< of floor and walls; the bed's where not given
+  std::optional<double> grainRadius;
+  std::optional<int> layers;
+  std::optional<double> depth;
+  double spacing = 2.1; ///< [-] lattice spacing in grain radii
+  double jitter = 0.05; ///< [-] of the radius
+  std::string floor = "follow";
+  bool walls = true;
+  double settleTimeLimit = 3.0;
+  double settleKineticEnergy = 1e-4; ///< [-] mean kinetic energy a grain over m g radius
+  std::optional<double> settleUnbalanced;
+  bool settleCache = true;
+  bool granular() const { return kind == "granular"; }
+  bool operator==(const Terrain&) const = default;
+};
+
+/// [vehicle]
+struct Vehicle {
+  std::string spec;                              ///< absolute path after loading
+  std::optional<std::array<double, 2>> position; ///< [m] x, y of the point between the sprockets; empty: on the terrain
+  double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
+  double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
+  double sphereSpacing = 0.02;                   ///< [m] of the parts' sphere sets
+  std::string material;                          ///< of the shoes against the ground
+  std::string chassis = "free";                  ///< free | fixed
+  bool operator==(const Vehicle&) const = default;
+};
+
+/// Sprocket speeds over time, linear between the points, constant outside.
+struct SpeedTable {
+  std::vector<double> time, left, right; ///< [s], [rad/s], [rad/s]
+  bool operator==(const SpeedTable&) const = default;
+};
+
+/// [driver]
+struct Driver {
+  std::optional<double> sprocketSpeed, left, right; ///< [rad/s]
+  std::optional<SpeedTable> table;                  ///< [driver.table]; its time begins with the drive
+  double tensionRamp = 0.3;
+  double lowerRamp = 0.0;
+  double weightRamp = 0.5;
+  std::optional<double> driveStart; ///< [s]; empty: when tension, lowering and weight are done
+  double driveRamp = 0.8;
+  bool operator==(const Driver&) const = default;
+
+  double driveBegins() const { return driveStart.value_or(tensionRamp + lowerRamp + weightRamp); }
+  /// Whatever form the speeds were given in, as one table.
+  SpeedTable speeds() const;
+};
+
+/// [output]
+struct Output {
+  std::string folder; ///< empty: out/NAME of the scene file
+  bool frames = true;
+  bool picture = true;
+  bool plots = true;
+  int pictureWidth = 1600;
+  bool operator==(const Output&) const = default;
+};
+
+/// One scene file with overrides applied and everything checked that can be checked without building it.
+struct Scene {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  RunSettings run;
+  std::vector<Material> materials;
+  std::vector<ContactPair> contacts;
+  std::vector<Grain> grains;
+  std::vector<Plane> planes;
+  std::optional<Terrain> terrain;
+  std::optional<Vehicle> vehicle;
+  Driver driver;
+  Output output;
+
+  std::string name() const { return file.stem().string(); }
+  /// The material `name`; loading has made sure that it exists.
+  const Material& material(const std::string& name) const;
+  /// The override of a pair, in either order; null where there is none.
+  const ContactPair* contact(const std::string& a, const std::string& b) const;
+};
+
+/// Reads and checks a scene. Throws base::InputError with file, line, key, value, range and remedy.
+Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// The same from text; paths in it are relative to the folder of `file`.
+Scene parseScene(std::string_view text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides = {});
+
+/// The scene with every default filled in, as TOML that loads to the same scene.
+std::string resolvedToml(const Scene& scene);
+
+/// All keys of a scene file with unit, default, range and meaning, as Markdown.
+std::string fieldHelp();
+
+} // namespace grouser::runs

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one table of fields of a scene file: it drives parsing, checks, `grouser fields` and the resolved copy.
+#include "runs/detail/scene_tables.hpp"
+
+namespace grouser::runs::detail {
+
+using base::Table;
+
+Table<RunSettings> runTable() {
+  using S = RunSettings;
+  Table<S> t("run", "Time, gravity, and the machine to run on");
+  t.add("duration", &S::duration, "s", "simulated time, after the bed has settled").above(0).atMost(1e5).required();
+  t.add("time_step", &S::timeStep, "s", "\"auto\" is the largest step the stability rule allows")
+      .above(0)
+      .atMost(0.1)
+      .orWord("auto");
+  t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);
+  t.add("output_interval", &S::outputInterval, "s", "between rows of the time series").above(0);
+  t.add("frame_interval", &S::frameInterval, "s", "between frames for ParaView").above(0);
+  t.add("seed", &S::seed, "-", "of every random number").atLeast(0);
+  t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one")
+      .oneOf({"auto", "cpu", "cuda"});
+  t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
+      .atLeast(0)
+      .atMost(1024);
+  t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(4);
+  t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
+      .above(0)
+      .atMost(1);
+  return t;
+}
+
+Table<Material> materialTable() {
+  using S = Material;
+  Table<S> t("material.NAME", "A material; NAME is what other sections call it");
+  t.add("density", &S::density, "kg/m3", "of the solid").above(0).atMost(1e5);
+  t.add("law", &S::law, "", "contact law: linear spring and dashpot with Coulomb friction").oneOf({"linear"});
+  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness k of a contact").above(0).atMost(1e12);
+  t.add("restitution", &S::restitution, "-", "rebound over impact speed; 0.5 where damping is not given either")
+      .atLeast(0)
+      .atMost(1);
+  t.add("damping", &S::damping, "1/s", "gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
+      .atLeast(0)
+      .atMost(1e9);
+  t.add("attraction", &S::attraction, "", "whether the damping force may pull two parting surfaces together");
+  t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
+  t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-", "tangential over normal stiffness")
+      .above(0)
+      .atMost(1);
+  t.add("tangential_damping_ratio", &S::tangentialDampingRatio, "-", "tangential over normal damping")
+      .atLeast(0)
+      .atMost(2);
+  return t;
+}
+
+Table<ContactPair> contactTable() {
+  using S = ContactPair;
+  Table<S> t("contact.\"a|b\"", "What materials a and b have against each other, otherwise than the mixing rule gives");
+  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").above(0).atMost(1e12);
+  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(0).atMost(1);
+  t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
+  t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
+  return t;
+}
+
+Table<Grain> grainTable() {
+  using S = Grain;
+  Table<S> t("[grain]", "A single grain, for small scenes");
+  t.add("position", &S::position, "m", "of the centre").required();
+  t.add("velocity", &S::velocity, "m/s", "at the start");
+  t.add("spin", &S::spin, "rad/s", "angular velocity at the start");
+  t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
+  t.add("material", &S::material, "", "name of its material").required();
+  return t;
+}
+
+Table<Plane> planeTable() {
+  using S = Plane;
+  Table<S> t("[plane]", "A fixed rigid plane; the solid lies behind its normal");
+  t.add("point", &S::point, "m", "any point of the plane");
+  t.add("normal", &S::normal, "-", "out of the solid; of any length but zero");
+  t.add("material", &S::material, "", "name of its material").required();
+  return t;
+}
+
+Table<Terrain> terrainTable() {
+  using S = Terrain;
+  Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
+  t.add("heightmap", &S::heightmap, "", "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points")
+      .required();
+  t.add("size", &S::size, "m", "extent in x and y").above(0).atMost(1e5).required();
+  t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();
+  t.add("corner", &S::corner, "m", "x and y of the corner with the least x and y").atLeast(-1e6).atMost(1e6);
+  t.add("kind", &S::kind, "", "a bed of grains or rigid ground").oneOf({"granular", "rigid"});
+  t.add("material", &S::material, "", "of the grains, or of the rigid ground").required();
+  t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");
+  t.add("grain_radius", &S::grainRadius, "m", "of every grain; required for a granular bed").above(0).atMost(10);
+  t.add("layers", &S::layers, "-", "grain layers above the floor; this or depth").atLeast(1).atMost(10000);
+  t.add("depth", &S::depth, "m", "of the bed; this or layers").above(0).atMost(1e3);
+  t.add("spacing", &S::spacing, "-", "of the lattice that the grains start on, in radii").atLeast(2).atMost(4);
+  t.add("jitter", &S::jitter, "-", "random shift at the start, in radii").atLeast(0).atMost(1);
+  t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat").oneOf({"follow", "flat"});
+  t.add("walls", &S::walls, "", "upright walls along the edges of the map, that hold the bed");
+  t.add("settle_time_limit", &S::settleTimeLimit, "s", "the bed must be at rest by then; 0 leaves settling out")
+      .atLeast(0)
+      .atMost(1e4);
+  t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-", "at rest: mean kinetic energy a grain over m g radius")
+      .above(0)
+      .atMost(1e3);
+  t.add("settle_unbalanced", &S::settleUnbalanced, "-", "at rest, in addition: mean net force over mean contact force")
+      .above(0)
+      .atMost(1);
+  t.add("settle_cache", &S::settleCache, "", "keep the settled bed, and take it again for the same input");
+  return t;
+}
+
+Table<Vehicle> vehicleTable() {
+  using S = Vehicle;
+  Table<S> t("vehicle", "A tracked vehicle");
+  t.add("spec", &S::spec, "", "vehicle file, relative to the scene or to the assets folder").required();
+  t.add("position", &S::position, "m",
+        "x and y of the point between the sprockets; \"auto\" is on the terrain's near end")
+      .atLeast(-1e6)
+      .atMost(1e6)
+      .orWord("auto");
+  t.add("heading", &S::heading, "deg", "from the x axis, counter-clockwise seen from above").atLeast(-360).atMost(360);
+  t.add("clearance", &S::clearance, "m", "between lowest grouser and highest ground below at the start")
+      .atLeast(0)
+      .atMost(10);
+  t.add("sphere_spacing", &S::sphereSpacing, "m", "of the parts' sphere sets").above(0).atMost(1);
+  t.add("material", &S::material, "", "of the shoes against the ground").required();
+  t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench").oneOf({"free", "fixed"});
+  return t;
+}
+
+Table<Driver> driverTable() {
+  using S = Driver;
+  Table<S> t("driver", "Sprocket speeds and the order of the start: tension, lowering, weight, drive");
+  t.add("sprocket_speed", &S::sprocketSpeed, "rad/s", "of both sprockets; positive drives forward")
+      .atLeast(-100)
+      .atMost(100);
+  t.add("left", &S::left, "rad/s", "of the left sprocket, together with right").atLeast(-100).atMost(100);
+  t.add("right", &S::right, "rad/s", "of the right sprocket, together with left").atLeast(-100).atMost(100);
+  t.add("tension_ramp", &S::tensionRamp, "s", "over which the idlers' springs come on").atLeast(0).atMost(1e3);
+  t.add("lower_ramp", &S::lowerRamp, "s", "over which the vehicle is let down on the ground, then")
+      .atLeast(0)
+      .atMost(1e3);
+  t.add("weight_ramp", &S::weightRamp, "s", "over which gravity and the arms' preload come on, then")
+      .atLeast(0)
+      .atMost(1e3);
+  t.add("drive_start", &S::driveStart, "s", "\"auto\" is the end of the weight's ramp")
+      .atLeast(0)
+      .atMost(1e5)
+      .orWord("auto");
+  t.add("drive_ramp", &S::driveRamp, "s", "over which the sprockets come up to speed").atLeast(0).atMost(1e3);
+  return t;
+}
+
+Table<SpeedTable> speedTable() {
+  using S = SpeedTable;
+  Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
+  t.add("time", &S::time, "s", "from the start of the drive, increasing").atLeast(0).required();
+  t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
+  t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
+  return t;
+}
+
+Table<Output> outputTable() {
+  using S = Output;
+  Table<S> t("output", "What a run leaves; intervals stand in [run]");
+  t.add("folder", &S::folder, "", "of the results, from where grouser is called; out/NAME where not given");
+  t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
+  t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
+  t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);
+  t.add("plots", &S::plots, "", "plots of the time series, by Python and matplotlib");
+  return t;
+}
+
+} // namespace grouser::runs::detail
