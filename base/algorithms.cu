@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/algorithms.hpp"
+
+#include <omp.h>
+#include <thrust/execution_policy.h>
+#include <thrust/functional.h>
+#include <thrust/reduce.h>
+#include <thrust/scan.h>
+#include <thrust/sequence.h>
+#include <thrust/sort.h>
+#include <thrust/system/omp/execution_policy.h>
+
+#if defined(__CUDACC__)
+#include <thrust/system/cuda/execution_policy.h>
+#endif
+
+namespace grouser::base {
+
+namespace {
+
+/// Calls `work(policy)` with Thrust's policy for `exec`.
+template <class Work> auto withPolicy(const Exec& exec, const Work& work) {
+#if defined(__CUDACC__)
+  if (!exec.onCpu()) return work(thrust::cuda::par.on(static_cast<cudaStream_t>(exec.stream)));
+#endif
+  omp_set_num_threads(exec.threads);
+  return work(thrust::omp::par);
+}
+
+struct Sort {
+  std::uint64_t* keys;
+  std::uint32_t* values;
+  std::size_t count;
+  template <class Policy> int operator()(const Policy& policy) const {
+    thrust::stable_sort_by_key(policy, keys, keys + count, values);
+    return 0;
+  }
+};
+
+struct Scan {
+  const std::uint32_t* in;
+  std::uint32_t* out;
+  std::size_t count;
+  template <class Policy> int operator()(const Policy& policy) const {
+    thrust::exclusive_scan(policy, in, in + count, out, 0u);
+    return 0;
+  }
+};
+
+struct Maximum {
+  const std::uint32_t* values;
+  std::size_t count;
+  template <class Policy> std::uint32_t operator()(const Policy& policy) const {
+    return thrust::reduce(policy, values, values + count, 0u, thrust::maximum<std::uint32_t>());
+  }
+};
+
+struct Sum {
+  const std::int64_t* values;
+  std::size_t count;
+  template <class Policy> std::int64_t operator()(const Policy& policy) const {
+    return thrust::reduce(policy, values, values + count, std::int64_t{0}, thrust::plus<std::int64_t>());
+  }
+};
+
+struct Sequence {
+  std::uint32_t* out;
+  std::size_t count;
+  template <class Policy> int operator()(const Policy& policy) const {
+    thrust::sequence(policy, out, out + count);
+    return 0;
+  }
+};
+
+} // namespace
+
+void sortByKey(const Exec& exec, std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
+  if (count) withPolicy(exec, Sort{keys, values, count});
+}
+
+std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint32_t* out, std::size_t count) {
+  if (count == 0) return 0;
+  std::uint32_t lastIn = 0, lastOut = 0;
+  copyToHost(exec, &lastIn, in + count - 1, sizeof lastIn);
+  withPolicy(exec, Scan{in, out, count});
+  copyToHost(exec, &lastOut, out + count - 1, sizeof lastOut);
+  return lastOut + lastIn;
+}
+
+std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count) {
+  return count ? withPolicy(exec, Maximum{values, count}) : 0u;
+}
+
+std::int64_t sum(const Exec& exec, const std::int64_t* values, std::size_t count) {
+  return count ? withPolicy(exec, Sum{values, count}) : std::int64_t{0};
+}
+
+void iota(const Exec& exec, std::uint32_t* out, std::size_t count) {
+  if (count) withPolicy(exec, Sequence{out, count});
+}
+
+} // namespace grouser::base

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+
+#include <cstdint>
+
+/// Parallel building blocks (Thrust beneath) on the memory of `exec`. Integer only, so every order gives the same result.
+namespace grouser::base {
+
+/// Stable sort of `values` by `keys`, both of length `count`, in place.
+void sortByKey(const Exec& exec, std::uint64_t* keys, std::uint32_t* values, std::size_t count);
+/// out[i] = in[0] + ... + in[i-1]; `out` may be `in`. Returns the total.
+std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint32_t* out, std::size_t count);
+/// Largest element; 0 for an empty range.
+std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count);
+/// Sum in 64 bits.
+std::int64_t sum(const Exec& exec, const std::int64_t* values, std::size_t count);
+/// out[i] = i.
+void iota(const Exec& exec, std::uint32_t* out, std::size_t count);
+
+} // namespace grouser::base

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace grouser::base {
+
+/// Owned memory of `size()` plain elements on the device of an Exec. Kernels take `data()`.
+template <class T> class Array {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+  Array() = default;
+  explicit Array(const Exec& exec, std::size_t size = 0) : exec_(exec) { resize(size); }
+  Array(const Exec& exec, const std::vector<T>& values) : exec_(exec) { assign(values); }
+  Array(Array&& other) noexcept { swap(other); }
+  Array& operator=(Array&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  Array(const Array&) = delete;
+  Array& operator=(const Array&) = delete;
+  ~Array() { release(exec_, data_); }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  std::size_t bytes() const { return capacity_ * sizeof(T); }
+
+  /// Changes the size; contents are undefined afterwards. Memory grows, it never shrinks.
+  void resize(std::size_t size) {
+    if (size > capacity_) {
+      release(exec_, data_);
+      data_ = nullptr, capacity_ = 0;
+      data_ = static_cast<T*>(allocate(exec_, size * sizeof(T)));
+      capacity_ = size;
+    }
+    size_ = size;
+  }
+  void zero() { setZero(exec_, data_, size_ * sizeof(T)); }
+  void assign(const std::vector<T>& values) {
+    resize(values.size());
+    copyToDevice(exec_, data_, values.data(), values.size() * sizeof(T));
+  }
+  std::vector<T> toHost() const {
+    std::vector<T> values(size_);
+    copyToHost(exec_, values.data(), data_, size_ * sizeof(T));
+    return values;
+  }
+  T at(std::size_t i) const {
+    T value;
+    copyToHost(exec_, &value, data_ + i, sizeof(T));
+    return value;
+  }
+  void swap(Array& other) noexcept {
+    std::swap(exec_, other.exec_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+private:
+  Exec exec_{};
+  T* data_{nullptr};
+  std::size_t size_{0}, capacity_{0};
+};
+
+} // namespace grouser::base

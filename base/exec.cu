@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/exec.hpp"
+
+#include "base/error.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <omp.h>
+
+#if defined(__CUDACC__)
+#include "base/cuda_check.cuh"
+#endif
+
+namespace grouser::base {
+
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+[[noreturn]] void noCuda() {
+  throw DeviceError("this build has no CUDA backend; use --device cpu, or build with the preset 'cuda'");
+}
+
+std::string processorName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+} // namespace
+
+Exec cpuExec(int threads) {
+  Exec exec;
+  exec.threads = threads > 0 ? threads : omp_get_num_procs();
+  return exec;
+}
+
+#if defined(__CUDACC__)
+
+bool cudaAvailable() {
+  int count = 0;
+  return cudaGetDeviceCount(&count) == cudaSuccess && count > 0;
+}
+
+Exec cudaExec(int index) {
+  checkCuda(cudaSetDevice(index), "cudaSetDevice");
+  cudaStream_t stream = nullptr;
+  checkCuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "cudaStreamCreate");
+  Exec exec;
+  exec.device = Device::Cuda;
+  exec.stream = stream;
+  return exec;
+}
+
+#else
+
+bool cudaAvailable() { return false; }
+Exec cudaExec(int) { noCuda(); }
+
+#endif
+
+std::string describe(const Exec& exec) {
+  if (exec.onCpu()) return std::to_string(exec.threads) + " thread(s) on " + processorName();
+#if defined(__CUDACC__)
+  int index = 0;
+  cudaDeviceProp properties{};
+  checkCuda(cudaGetDevice(&index), "cudaGetDevice");
+  checkCuda(cudaGetDeviceProperties(&properties, index), "cudaGetDeviceProperties");
+  return std::string(properties.name) + ", " + std::to_string(properties.totalGlobalMem >> 30) + " GiB";
+#else
+  noCuda();
+#endif
+}
+
+void synchronize(const Exec& exec) {
+  if (exec.onCpu()) return;
+#if defined(__CUDACC__)
+  checkCuda(cudaStreamSynchronize(static_cast<cudaStream_t>(exec.stream)), "cudaStreamSynchronize");
+#endif
+}
+
+void* allocate(const Exec& exec, std::size_t bytes) {
+  if (bytes == 0) return nullptr;
+  void* memory = nullptr;
+  if (exec.onCpu()) {
+    memory = std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
+    if (!memory) throw DeviceError("out of host memory: " + std::to_string(bytes) + " bytes asked for");
+    std::memset(memory, 0, bytes);
+    return memory;
+  }
+#if defined(__CUDACC__)
+  checkCuda(cudaMalloc(&memory, bytes), "cudaMalloc of " + std::to_string(bytes) + " bytes");
+  setZero(exec, memory, bytes);
+  return memory;
+#else
+  noCuda();
+#endif
+}
+
+void release(const Exec& exec, void* memory) noexcept {
+  if (exec.onCpu()) {
+    std::free(memory);
+    return;
+  }
+#if defined(__CUDACC__)
+  cudaFree(memory); // nothing to be done about a failure while unwinding
+#endif
+}
+
+void copyToDevice(const Exec& exec, void* device, const void* host, std::size_t bytes) {
+  if (bytes == 0) return;
+  if (exec.onCpu()) {
+    std::memcpy(device, host, bytes);
+    return;
+  }
+#if defined(__CUDACC__)
+  auto stream = static_cast<cudaStream_t>(exec.stream);
+  checkCuda(cudaMemcpyAsync(device, host, bytes, cudaMemcpyHostToDevice, stream), "copy to device");
+  checkCuda(cudaStreamSynchronize(stream), "copy to device");
+#endif
+}
+
+void copyToHost(const Exec& exec, void* host, const void* device, std::size_t bytes) {
+  if (bytes == 0) return;
+  if (exec.onCpu()) {
+    std::memcpy(host, device, bytes);
+    return;
+  }
+#if defined(__CUDACC__)
+  auto stream = static_cast<cudaStream_t>(exec.stream);
+  checkCuda(cudaMemcpyAsync(host, device, bytes, cudaMemcpyDeviceToHost, stream), "copy to host");
+  checkCuda(cudaStreamSynchronize(stream), "copy to host");
+#endif
+}
+
+void copyOnDevice(const Exec& exec, void* to, const void* from, std::size_t bytes) {
+  if (bytes == 0) return;
+  if (exec.onCpu()) {
+    std::memcpy(to, from, bytes);
+    return;
+  }
+#if defined(__CUDACC__)
+  checkCuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, static_cast<cudaStream_t>(exec.stream)),
+            "copy on device");
+#endif
+}
+
+void setZero(const Exec& exec, void* device, std::size_t bytes) {
+  if (bytes == 0) return;
+  if (exec.onCpu()) {
+    std::memset(device, 0, bytes);
+    return;
+  }
+#if defined(__CUDACC__)
+  checkCuda(cudaMemsetAsync(device, 0, bytes, static_cast<cudaStream_t>(exec.stream)), "set to zero");
+#endif
+}
+
+} // namespace grouser::base

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace grouser::base {
+
+enum class Device { Cpu, Cuda };
+
+/// Where work runs: CPU threads, or one CUDA device and its stream. Cheap to copy; owns nothing.
+struct Exec {
+  Device device{Device::Cpu};
+  int threads{1};         ///< CPU threads, >= 1
+  void* stream{nullptr};  ///< cudaStream_t where device is Cuda
+
+  bool onCpu() const { return device == Device::Cpu; }
+};
+
+/// Execution on the CPU. `threads` 0 takes all the cores this process may use.
+Exec cpuExec(int threads = 0);
+/// Execution on CUDA device `index`. Throws DeviceError where this build or machine has none.
+Exec cudaExec(int index = 0);
+/// True where this build has CUDA and a usable device is present.
+bool cudaAvailable();
+/// One line about the device: cores and processor, or the GPU's name and memory.
+std::string describe(const Exec& exec);
+
+/// Waits until all work given to `exec` has ended. Throws DeviceError with the code received.
+void synchronize(const Exec& exec);
+
+/// Untyped memory on `exec`'s device, zeroed. Throws DeviceError (out of memory names the bytes asked for).
+void* allocate(const Exec& exec, std::size_t bytes);
+void release(const Exec& exec, void* memory) noexcept;
+void copyToDevice(const Exec& exec, void* device, const void* host, std::size_t bytes);
+/// Waits for earlier work on the stream, then copies.
+void copyToHost(const Exec& exec, void* host, const void* device, std::size_t bytes);
+void copyOnDevice(const Exec& exec, void* to, const void* from, std::size_t bytes);
+void setZero(const Exec& exec, void* device, std::size_t bytes);
+
+} // namespace grouser::base

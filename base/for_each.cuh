@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "base/host_device.hpp"
+
+#include <cstdint>
+
+#if defined(__CUDACC__)
+#include "base/cuda_check.cuh"
+#endif
+
+namespace grouser::base {
+
+#if defined(__CUDACC__)
+namespace detail {
+template <class Body> __global__ void forEachKernel(Body body, std::int64_t count) {
+  const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (i < count) body(static_cast<int>(i));
+}
+} // namespace detail
+#endif
+
+/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, one kernel on the GPU.
+/// `body` is a named functor of pointers and scalars; `name` appears in errors. Asynchronous on the GPU.
+template <class Body> void forEach(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
+  if (count <= 0) return;
+  if (exec.onCpu()) {
+    const int n = static_cast<int>(count);
+    // A thread costs more than a handful of items.
+    const int threads = count < 64 ? 1 : exec.threads;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int i = 0; i < n; ++i) body(i);
+    return;
+  }
+#if defined(__CUDACC__)
+  constexpr int kBlock = 128;
+  const auto blocks = static_cast<unsigned>((count + kBlock - 1) / kBlock);
+  detail::forEachKernel<<<blocks, kBlock, 0, static_cast<cudaStream_t>(exec.stream)>>>(body, count);
+  checkCuda(cudaGetLastError(), std::string("launch of ") + name);
+#else
+  (void)name;
+#endif
+}
+
+/// Adds to a counter shared by threads; integer, so the order does not matter.
+GROUSER_HD void atomicAdd64(std::int64_t* target, std::int64_t value) {
+#if defined(__CUDA_ARCH__)
+  atomicAdd(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
+#else
+  __atomic_fetch_add(target, value, __ATOMIC_RELAXED);
+#endif
+}
+
+GROUSER_HD std::uint32_t atomicAdd32(std::uint32_t* target, std::uint32_t value) {
+#if defined(__CUDA_ARCH__)
+  return atomicAdd(target, value);
+#else
+  return __atomic_fetch_add(target, value, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Sets a shared flag word; every writer writes the same kind of value, so any order will do.
+GROUSER_HD void raise(std::uint32_t* flag) {
+#if defined(__CUDA_ARCH__)
+  atomicOr(flag, 1u);
+#else
+  __atomic_store_n(flag, 1u, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Keeps the smallest value: the first fault by key, whatever thread finds it first.
+GROUSER_HD void atomicMin64(std::uint64_t* target, std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+  atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
+#else
+  std::uint64_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
+  while (value < old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+  }
+#endif
+}
+
+} // namespace grouser::base

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cstdint>
+
+namespace grouser::base {
+
+/// Position of a grain as three 42-bit integers in 16 bytes: the low 32 bits of each axis, then three times 10 high bits.
+///
+/// One unit is a power of two of a metre, chosen so that the largest grain's diameter is between 1e8 and 2e8 units. The
+/// low words alone give the exact difference of any two grains less than 2^31 units (about 10 diameters) apart, by
+/// 32-bit subtraction that wraps: no cell arithmetic, no rounding, the same from either side. The range is 2^42 units,
+/// 20,000 to 40,000 diameters.
+struct alignas(16) Position {
+  std::uint32_t x, y, z, high;
+};
+
+/// Signed 42-bit coordinate of one axis [units]; `low` is that axis' word.
+GROUSER_HD std::int64_t axisOf(std::uint32_t low, std::uint32_t high, int axis) {
+  const std::int64_t top = static_cast<std::int32_t>(high << (22 - 10 * axis)) >> 22; // sign-extends 10 bits
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(top) << 32 | low);
+}
+
+GROUSER_HD Vec3l toUnits(const Position& p) {
+  return {axisOf(p.x, p.high, 0), axisOf(p.y, p.high, 1), axisOf(p.z, p.high, 2)};
+}
+
+GROUSER_HD Position fromUnits(const Vec3l& u) {
+  const auto high = [](std::int64_t v) { return static_cast<std::uint32_t>(static_cast<std::uint64_t>(v) >> 32) & 0x3FFu; };
+  return {static_cast<std::uint32_t>(u.x), static_cast<std::uint32_t>(u.y), static_cast<std::uint32_t>(u.z),
+          high(u.x) | high(u.y) << 10 | high(u.z) << 20};
+}
+
+/// b - a [units], exact while the two are less than 2^31 units apart on each axis.
+GROUSER_HD Vec3i difference(const Position& a, const Position& b) {
+  return {static_cast<std::int32_t>(b.x - a.x), static_cast<std::int32_t>(b.y - a.y),
+          static_cast<std::int32_t>(b.z - a.z)};
+}
+
+GROUSER_HD std::int64_t squaredNorm(const Vec3i& d) {
+  const std::int64_t x = d.x, y = d.y, z = d.z;
+  return x * x + y * y + z * z;
+}
+
+/// Units of length of a scene.
+struct PositionScale {
+  double unit{1};    ///< [m], a power of two
+  double perMetre{1}; ///< 1 / unit, exact
+
+  GROUSER_HD Vec3d toMetres(const Position& p) const {
+    const Vec3l u = toUnits(p);
+    return {static_cast<double>(u.x) * unit, static_cast<double>(u.y) * unit, static_cast<double>(u.z) * unit};
+  }
+  /// Nearest grid point. The caller has checked `inRange`.
+  GROUSER_HD Position fromMetres(const Vec3d& p) const {
+    return fromUnits({static_cast<std::int64_t>(floor(p.x * perMetre + 0.5)),
+                      static_cast<std::int64_t>(floor(p.y * perMetre + 0.5)),
+                      static_cast<std::int64_t>(floor(p.z * perMetre + 0.5))});
+  }
+  double limit() const { return 2199023255552.0 * unit; } ///< |coordinate| must stay below this [m]
+};
+
+/// Scale for grains of at most `diameter` [m].
+PositionScale positionScale(double diameter);
+
+} // namespace grouser::base

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/neighbour_list.hpp"
+
+#include "base/algorithms.hpp"
+#include "base/error.hpp"
+#include "base/for_each.cuh"
+
+#include <algorithm>
+
+namespace grouser::contact {
+
+using base::Position;
+using base::Vec3f;
+using base::Vec3i;
+using base::Vec3l;
+
+namespace {
+
+constexpr std::uint32_t kMaxCapacity = 64; // bits of the touching mask
+constexpr int kChunk = 512;
+
+using Cell = base::Vec3<std::uint32_t>;
+
+/// Cell of a grain, counted from the lowest representable position.
+GROUSER_HD Cell cellOf(const Position& p, std::int64_t edge) {
+  constexpr std::int64_t kBias = std::int64_t{1} << 41;
+  const Vec3l u = base::toUnits(p);
+  return {static_cast<std::uint32_t>((u.x + kBias) / edge), static_cast<std::uint32_t>((u.y + kBias) / edge),
+          static_cast<std::uint32_t>((u.z + kBias) / edge)};
+}
+
+/// Lowest and highest cell in use. bounds[0..2] hold the complement of the minimum, so that all six grow.
+struct FindBounds {
+  const Position* position;
+  std::int64_t count, edge;
+  std::uint32_t* bounds;
+
+  GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
+#if defined(__CUDA_ARCH__)
+    atomicMax(target, value);
+#else
+    std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
+    while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+    }
+#endif
+  }
+  GROUSER_HD void operator()(int chunk) const {
+    const std::int64_t first = static_cast<std::int64_t>(chunk) * kChunk;
+    const std::int64_t last = first + kChunk < count ? first + kChunk : count;
+    Cell low{~0u, ~0u, ~0u}, high{0, 0, 0};
+    for (std::int64_t i = first; i < last; ++i) {
+      const Cell c = cellOf(position[i], edge);
+      low = base::min(low, c), high = base::max(high, c);
+    }
+    for (int a = 0; a < 3; ++a) {
+      raiseTo(bounds + a, ~low[a]);
+      raiseTo(bounds + 3 + a, high[a]);
+    }
+  }
+};
+
+/// Dense grid over the cells in use; z runs fastest, so the three cells of a column are neighbours in memory.
+struct Grid {
+  Cell low, cells;
+  std::int64_t edge;
+  GROUSER_HD std::uint64_t key(const Cell& c) const {
+    return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
+  }
+  GROUSER_HD Cell local(const Position& p) const {
+    const Cell c = cellOf(p, edge);
+    return {c.x - low.x, c.y - low.y, c.z - low.z};
+  }
+};
+
+struct AssignKeys {
+  Grid grid;
+  const Position* position;
+  std::uint64_t* key;
+  GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[i])); }
+};
+
+/// start[c] = first slot whose key is >= c, for c in [0, cells].
+struct MarkStarts {
+  const std::uint64_t* key;
+  std::int64_t count, cells;
+  std::uint32_t* start;
+  GROUSER_HD void operator()(int i) const {
+    const std::int64_t before = i == 0 ? -1 : static_cast<std::int64_t>(key[i - 1]);
+    const std::int64_t here = i == count ? cells : static_cast<std::int64_t>(key[i]);
+    for (std::int64_t c = before + 1; c <= here; ++c) start[c] = static_cast<std::uint32_t>(i);
+  }
+};
+
+/// Collects the neighbours of one grain and orders them by global id.
+struct Collect {
+  Grid grid;
+  const Position* position;
+  const std::uint32_t* id;
+  const std::uint32_t* start;
+  std::int64_t reach2;
+  std::uint32_t capacity;
+  std::uint32_t *count, *slot;
+  std::int64_t grainStride, slotStride;
+
+  GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
+
+  GROUSER_HD void operator()(int i) const {
+    const Position p = position[i];
+    const Cell c = grid.local(p);
+    const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
+    std::uint32_t found = 0;
+    for (std::uint32_t x = c.x == 0 ? 0 : c.x - 1; x <= c.x + 1 && x < grid.cells.x; ++x)
+      for (std::uint32_t y = c.y == 0 ? 0 : c.y - 1; y <= c.y + 1 && y < grid.cells.y; ++y) {
+        const std::uint32_t last = start[grid.key({x, y, z1}) + 1];
+        for (std::uint32_t j = start[grid.key({x, y, z0})]; j < last; ++j) {
+          if (static_cast<int>(j) == i || base::squaredNorm(base::difference(p, position[j])) >= reach2) continue;
+          if (found < capacity) insert(i, found, j);
+          ++found;
+        }
+      }
+    count[i] = found;
+  }
+
+  GROUSER_HD void insert(int i, std::uint32_t filled, std::uint32_t j) const {
+    const std::uint32_t wanted = id[j];
+    std::uint32_t k = filled;
+    while (k > 0 && id[slot[at(i, k - 1)]] > wanted) {
+      slot[at(i, k)] = slot[at(i, k - 1)];
+      --k;
+    }
+    slot[at(i, k)] = j;
+  }
+};
+
+/// Takes the tangential springs of pairs that stood in the old list too.
+struct CarryHistory {
+  const std::uint32_t *order, *id;
+  const std::uint32_t *count, *slot;
+  std::int64_t grainStride, slotStride;
+  Vec3f* shear;
+  std::uint64_t* touching;
+  const std::uint32_t *oldCount, *oldSlot, *oldId;
+  const Vec3f* oldShear;
+  const std::uint64_t* oldTouching;
+  std::int64_t oldGrainStride, oldSlotStride;
+
+  GROUSER_HD void operator()(int i) const {
+    const std::int64_t o = order[i];
+    const std::uint32_t oldN = oldCount[o], n = count[i];
+    const std::uint64_t oldMask = oldTouching[o];
+    std::uint64_t mask = 0;
+    // Both lists ascend in the neighbours' ids: one merge.
+    std::uint32_t m = 0;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::int64_t a = i * grainStride + k * slotStride;
+      const std::uint32_t wanted = id[slot[a]];
+      while (m < oldN && oldId[oldSlot[o * oldGrainStride + m * oldSlotStride]] < wanted) ++m;
+      if (m == oldN) break;
+      const std::int64_t b = o * oldGrainStride + m * oldSlotStride;
+      if (oldId[oldSlot[b]] != wanted || !(oldMask >> m & 1)) continue;
+      mask |= std::uint64_t{1} << k;
+      if (shear) shear[a] = oldShear[b];
+    }
+    touching[i] = mask;
+  }
+};
+
+} // namespace
+
+NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, bool history)
+    : exec_(exec), diameter_(diameter), skin_(skin), history_(history) {
+  for (Lists* lists : {&now_, &old_}) {
+    lists->count = base::Array<std::uint32_t>(exec);
+    lists->slot = base::Array<std::uint32_t>(exec);
+    lists->shear = base::Array<Vec3f>(exec);
+    lists->touching = base::Array<std::uint64_t>(exec);
+    lists->id = base::Array<std::uint32_t>(exec);
+  }
+  order_ = base::Array<std::uint32_t>(exec);
+  key_ = base::Array<std::uint64_t>(exec);
+  cellStart_ = base::Array<std::uint32_t>(exec);
+  bounds_ = base::Array<std::uint32_t>(exec, 6);
+}
+
+void NeighbourList::sort(const Position* position, std::size_t count) {
+  count_ = count;
+  const auto n = static_cast<std::int64_t>(count);
+  order_.resize(count);
+  key_.resize(count);
+  // A few grains far away must not make the grid huge: widen its cells until it fits.
+  const double most = 16.0 * static_cast<double>(count) + 1e6;
+  for (edge_ = diameter_ + skin_;; edge_ *= 2) {
+    bounds_.zero();
+    base::forEach(exec_, "find grid bounds", (n + kChunk - 1) / kChunk, FindBounds{position, n, edge_, bounds_.data()});
+    const std::vector<std::uint32_t> b = bounds_.toHost();
+    low_ = {~b[0], ~b[1], ~b[2]};
+    cells_ = {b[3] - low_.x + 1, b[4] - low_.y + 1, b[5] - low_.z + 1};
+    if (static_cast<double>(cells_.x) * cells_.y * cells_.z <= most) break;
+  }
+  base::forEach(exec_, "assign cell keys", n, AssignKeys{Grid{low_, cells_, edge_}, position, key_.data()});
+  base::iota(exec_, order_.data(), count);
+  base::sortByKey(exec_, key_.data(), order_.data(), count);
+  const std::int64_t cells = static_cast<std::int64_t>(cells_.x) * cells_.y * cells_.z;
+  cellStart_.resize(static_cast<std::size_t>(cells) + 1);
+  base::forEach(exec_, "mark cell starts", n + 1, MarkStarts{key_.data(), n, cells, cellStart_.data()});
+}
+
+void NeighbourList::allocate(Lists& lists, std::size_t count) const {
+  const std::size_t entries = count * capacity_;
+  lists.count.resize(count);
+  lists.slot.resize(entries);
+  if (history_) lists.shear.resize(entries);
+  lists.touching.resize(count);
+  lists.id.resize(count);
+  // Grain by grain on the CPU (one cache line a list), slot by slot on the GPU (coalesced).
+  lists.grainStride = exec_.onCpu() ? capacity_ : 1;
+  lists.slotStride = exec_.onCpu() ? 1 : static_cast<std::int64_t>(count);
+}
+
+void NeighbourList::build(const Position* position, const std::uint32_t* id) {
+  const auto n = static_cast<std::int64_t>(count_);
+  std::swap(now_, old_);
+  for (;;) {
+    allocate(now_, count_);
+    base::forEach(exec_, "collect neighbours", n,
+                  Collect{Grid{low_, cells_, edge_}, position, id, cellStart_.data(),
+                          (diameter_ + skin_) * (diameter_ + skin_), capacity_, now_.count.data(), now_.slot.data(),
+                          now_.grainStride, now_.slotStride});
+    const std::uint32_t most = base::maximum(exec_, now_.count.data(), count_);
+    if (most <= capacity_) break;
+    if (most > kMaxCapacity)
+      throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours within reach, more than " +
+                                  std::to_string(kMaxCapacity) + ": the bed has collapsed into itself; use a smaller " +
+                                  "time step or stiffer grains");
+    capacity_ = std::min(kMaxCapacity, (most + 3) / 4 * 4);
+  }
+  base::copyOnDevice(exec_, now_.id.data(), id, count_ * sizeof(std::uint32_t));
+  if (haveOld_) {
+    base::forEach(exec_, "carry contact history", n,
+                  CarryHistory{order_.data(), id, now_.count.data(), now_.slot.data(), now_.grainStride,
+                               now_.slotStride, history_ ? now_.shear.data() : nullptr, now_.touching.data(),
+                               old_.count.data(), old_.slot.data(), old_.id.data(), old_.shear.data(),
+                               old_.touching.data(), old_.grainStride, old_.slotStride});
+  } else {
+    now_.touching.zero();
+    haveOld_ = true;
+  }
+}
+
+NeighbourView NeighbourList::view() {
+  return {now_.count.data(),     now_.slot.data(),  history_ ? now_.shear.data() : nullptr,
+          now_.touching.data(), now_.grainStride, now_.slotStride};
+}
+
+std::size_t NeighbourList::bytes() const {
+  std::size_t total = order_.bytes() + key_.bytes() + cellStart_.bytes();
+  for (const Lists* lists : {&now_, &old_})
+    total += lists->count.bytes() + lists->slot.bytes() + lists->shear.bytes() + lists->touching.bytes() + lists->id.bytes();
+  return total;
+}
+
+NeighbourList::HostCopy NeighbourList::toHost() const {
+  return {now_.count.toHost(), now_.slot.toHost(), now_.shear.toHost(),
+          now_.touching.toHost(), now_.grainStride, now_.slotStride};
+}
+
+} // namespace grouser::contact

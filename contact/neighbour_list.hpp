@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "base/position.hpp"
+
+#include <cstdint>
+
+namespace grouser::contact {
+
+/// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global ids,
+/// each with the tangential spring of that contact. Bit k of `touching[i]` says that slot k touched in the last step.
+struct NeighbourView {
+  const std::uint32_t* count;
+  const std::uint32_t* slot;
+  base::Vec3f* shear; ///< null where the scene has no friction
+  std::uint64_t* touching;
+  std::int64_t grainStride, slotStride;
+
+  GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
+};
+
+/// Every pair of equal spheres closer than diameter + skin, listed from both sides, with contact history.
+///
+/// Valid while no grain has moved more than half the skin. Lists grow when they are full and never drop a neighbour.
+/// Grains are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not depend on when
+/// the list is rebuilt: candidates that do not touch add nothing, and the order is that of the ids.
+class NeighbourList {
+public:
+  /// `diameter` and `skin` in units of the scene's position scale; `history` allocates tangential springs.
+  NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, bool history);
+
+  /// Sorts `count` grains in space. Afterwards `order()[i]` is the old slot of the grain that belongs in slot i.
+  void sort(const base::Position* position, std::size_t count);
+  const std::uint32_t* order() const { return order_.data(); }
+
+  /// Lists the neighbours of grains already permuted by `order()`, and carries history over from the last list.
+  /// `id` is ascending-comparable global id by new slot.
+  void build(const base::Position* position, const std::uint32_t* id);
+
+  NeighbourView view();
+  std::uint32_t capacity() const { return capacity_; }
+  std::size_t bytes() const;
+
+  /// Contacts with history, for checkpoints and the state hash: arrays by slot, host side.
+  struct HostCopy {
+    std::vector<std::uint32_t> count, slot;
+    std::vector<base::Vec3f> shear;
+    std::vector<std::uint64_t> touching;
+    std::int64_t grainStride{}, slotStride{};
+    std::int64_t at(std::size_t i, std::uint32_t k) const { return static_cast<std::int64_t>(i) * grainStride + k * slotStride; }
+  };
+  HostCopy toHost() const;
+
+private:
+  struct Lists {
+    base::Array<std::uint32_t> count, slot;
+    base::Array<base::Vec3f> shear;
+    base::Array<std::uint64_t> touching;
+    base::Array<std::uint32_t> id; ///< by slot, as at the build
+    std::int64_t grainStride{}, slotStride{};
+  };
+  void allocate(Lists& lists, std::size_t count) const;
+
+  base::Exec exec_;
+  std::int64_t diameter_, skin_;
+  bool history_;
+  std::uint32_t capacity_{16};
+  std::size_t count_{0};
+  bool haveOld_{false};
+  Lists now_, old_;
+  base::Array<std::uint32_t> order_;
+  base::Array<std::uint64_t> key_;
+  base::Array<std::uint32_t> cellStart_, bounds_;
+  base::Vec3<std::uint32_t> low_{}, cells_{};
+  std::int64_t edge_{};
+};
+
+} // namespace grouser::contact
