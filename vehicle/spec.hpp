@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::vehicle {
+
+using base::Vec3d;
+
+/// Mass and principal moments of inertia about the centre of mass, axes along the part's frame.
+struct MassSpec {
+  double mass{}; ///< [kg]
+  Vec3d inertia; ///< (I_xx, I_yy, I_zz) [kg m2]
+};
+
+/// A part with a surface.
+struct SurfaceSpec : MassSpec {
+  std::string mesh; ///< mesh file in the spec's mesh folder
+};
+
+/// Track shoe. Centre of mass on the pin line. Its frame: origin in the middle between the two pin axes, x along the
+/// track (forward on the ground run), y left, z towards the inside of the loop. The pins lie at x = +-pitch/2, z = 0.
+struct ShoeSpec : SurfaceSpec {
+  int count{};            ///< shoes a track [-]
+  double pitch{};         ///< distance of the two pin axes [m]
+  double plateTop{};      ///< z of the wheel plate's face, on which wheels roll [m]
+  double padBottom{};     ///< z of the pad plate's lower face [m]; sinkage is measured from here
+  double grouserHeight{}; ///< how far the grousers reach below the pad [m]
+  double halfLength{};    ///< half length of plate and pad along x [m]
+  double padHalfWidth{};  ///< pads reach to this |y| [m]
+  double hornHeight{};    ///< guide horn above the plate [m]; the thrown-track alarm's measure
+  double maximumFold{};   ///< largest angle between neighbours that the plates clear [rad]
+  double pinDamping{};    ///< viscous moment in each pin joint [N m s/rad]
+};
+
+/// Drive sprocket, at the rear. Its frame: origin on the axle, y along it; gap k lies at the angle 2 pi k / teeth from
+/// +x towards +z.
+struct SprocketSpec : SurfaceSpec {
+  int teeth{}; ///< [-]
+};
+
+struct RoadWheelSpec : SurfaceSpec {
+  int count{};      ///< a track [-]
+  double radius{};  ///< [m]
+  double firstX{};  ///< axle of the rearmost wheel, from the sprocket's axle [m]
+  double spacing{}; ///< [m]
+  double z{};       ///< axle height over the sprocket's axle [m]
+};
+
+/// Trailing arm: from a pivot ahead of and above the wheel's axle. Its centre of mass lies in its middle.
+struct ArmSpec : MassSpec {
+  double length{};     ///< pivot to axle [m]
+  double pivotAngle{}; ///< of the pivot over the horizontal through the axle [rad]
+  double stiffness{};  ///< torsion bar [N m/rad]
+  double damping{};    ///< [N m s/rad]
+  double preload{};    ///< vertical load on the wheel that the bar carries in the drawn position [N]
+};
+
+struct RollerSpec : SurfaceSpec {
+  double radius{};          ///< [m]
+  std::vector<double> x, z; ///< axles from the sprocket's axle [m]
+};
+
+struct IdlerSpec : SurfaceSpec {
+  double radius{}; ///< [m]
+  double x{}, z{}; ///< drawn place of the axle [m]; the wrap finds the exact x, which must lie within the slide's range
+  double slideMin{};      ///< stop to the rear, relative to the wrap's place [m], < 0
+  double slideMax{};      ///< stop to the front [m], > 0
+  double stiffness{};     ///< tensioner spring [N/m]
+  double damping{};       ///< [N s/m]
+  double preload{};       ///< spring force at the wrap's place [N]
+  double stopStiffness{}; ///< [N/m]
+  double stopDamping{};   ///< [N s/m]
+  double carrierMass{};   ///< [kg]
+  Vec3d carrierInertia;   ///< [kg m2]
+};
+
+struct ChassisSpec : SurfaceSpec {
+  Vec3d centre; ///< centre of mass from the middle of the sprockets' axle line [m]
+};
+
+/// Part against part, and part against ground.
+struct ContactSpec {
+  double foundationModulus{}; ///< force = modulus * sum(area * overlap) [N/m3]
+  double relaxationTime{};    ///< damping of the foundation: stress = modulus * (overlap + time * rate) [s]
+  double tangentialRatio{};   ///< tangential over normal stiffness [-]
+  double frictionInside{};    ///< shoes against wheels, sprocket, idler [-]
+  double frictionGround{};    ///< shoes against ground [-]
+};
+
+/// Everything that is constant of a tracked vehicle. Vehicle frame: x forward, y left, z up, origin in the middle of
+/// the sprockets' axle line. The two tracks are alike, at y = +-trackOffset.
+struct VehicleSpec {
+  std::string name;
+  std::string meshFolder; ///< absolute or relative to the working folder
+  double trackOffset{};   ///< [m]
+  ChassisSpec chassis;
+  ShoeSpec shoe;
+  SprocketSpec sprocket;
+  RoadWheelSpec roadWheel;
+  ArmSpec arm;
+  RollerSpec roller;
+  IdlerSpec idler;
+  ContactSpec contact;
+
+  /// Height of the pin line of the ground run [m]: wheels stand on the plates.
+  double groundPinHeight() const { return roadWheel.z - roadWheel.radius - shoe.plateTop; }
+  /// Height of the lowest points, the grousers of the ground run [m].
+  double groundHeight() const { return groundPinHeight() + shoe.padBottom - shoe.grouserHeight; }
+  /// Mean travel a radian of the sprocket [m]: teeth x pitch / (2 pi).
+  double pitchRadius() const;
+  /// Sum over all parts, both tracks [kg].
+  double totalMass() const;
+  /// Radius on which engaged pins lie [m]: pitch / (2 sin(pi / teeth)).
+  double sprocketPinRadius() const;
+  /// Radius of the pins that lie on the idler [m].
+  double idlerPinRadius() const;
+};
+
+/// Read a vehicle spec file. Throws base::InputError (file:line, key, value, range) on anything unknown, missing or
+/// out of range.
+VehicleSpec readVehicleSpec(const std::string& path);
+
+} // namespace grouser::vehicle

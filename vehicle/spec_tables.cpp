@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/spec_tables.hpp"
+
+#include "base/math.hpp"
+
+namespace grouser::vehicle {
+namespace {
+
+using base::Table;
+
+/// Mass and inertia keys, the same for every part. A pointer to a base's member serves the derived struct as well.
+template <class S> void addMass(Table<S>& table) {
+  table.add("mass", static_cast<double S::*>(&MassSpec::mass), "kg", "mass").above(0).required();
+  table.add("inertia", static_cast<Vec3d S::*>(&MassSpec::inertia), "kg m2", "principal moments about x, y, z")
+      .required();
+}
+template <class S> void addSurface(Table<S>& table) {
+  addMass(table);
+  table.add("mesh", static_cast<std::string S::*>(&SurfaceSpec::mesh), "", "mesh file in the mesh folder").required();
+}
+
+} // namespace
+
+Table<VehicleSpec> vehicleTable() {
+  Table<VehicleSpec> t("vehicle", "The whole vehicle");
+  t.add("name", &VehicleSpec::name, "", "name in outputs and messages").required();
+  t.add("mesh_folder", &VehicleSpec::meshFolder, "", "folder of the meshes, from this file's folder").required();
+  t.add("track_offset", &VehicleSpec::trackOffset, "m", "tracks lie at y = +-track_offset")
+      .above(0)
+      .atMost(5)
+      .required();
+  return t;
+}
+
+Table<ChassisSpec> chassisTable() {
+  Table<ChassisSpec> t("chassis", "Hull with everything that rides in it");
+  addSurface(t);
+  t.add("centre", &ChassisSpec::centre, "m", "centre of mass from the middle of the sprockets' axle line").required();
+  return t;
+}
+
+Table<ShoeSpec> shoeTable() {
+  Table<ShoeSpec> t("shoe", "One track shoe; heights from the line of its pins");
+  t.add("count", &ShoeSpec::count, "-", "shoes a track").atLeast(12).atMost(400).required();
+  t.add("pitch", &ShoeSpec::pitch, "m", "distance of the two pin axes").above(0).atMost(1).required();
+  t.add("plate_top", &ShoeSpec::plateTop, "m", "face on which wheels roll").atLeast(0).atMost(0.2).required();
+  t.add("pad_bottom", &ShoeSpec::padBottom, "m", "lower face of the pad").below(0).atLeast(-0.5).required();
+  t.add("grouser_height", &ShoeSpec::grouserHeight, "m", "reach of the grousers below the pad")
+      .atLeast(0)
+      .atMost(0.2)
+      .required();
+  t.add("half_length", &ShoeSpec::halfLength, "m", "half length of plate and pad").above(0).atMost(0.5).required();
+  t.add("pad_half_width", &ShoeSpec::padHalfWidth, "m", "pads reach to this |y|").above(0).atMost(1).required();
+  t.add("horn_height", &ShoeSpec::hornHeight, "m", "guide horn above the plate").above(0).atMost(0.3).required();
+  t.add("maximum_fold", &ShoeSpec::maximumFold, "rad", "largest angle between neighbours that the plates clear")
+      .above(0)
+      .below(base::kPi / 2)
+      .required();
+  t.add("pin_damping", &ShoeSpec::pinDamping, "N m s/rad", "viscous moment in each pin joint")
+      .atLeast(0)
+      .atMost(1e4)
+      .required();
+  addSurface(t);
+  return t;
+}
+
+Table<SprocketSpec> sprocketTable() {
+  Table<SprocketSpec> t("sprocket", "Drive sprocket at the rear, its axle is the origin");
+  t.add("teeth", &SprocketSpec::teeth, "-", "number of teeth").atLeast(6).atMost(40).required();
+  addSurface(t);
+  return t;
+}
+
+Table<RoadWheelSpec> roadWheelTable() {
+  Table<RoadWheelSpec> t("road_wheel", "Road wheels of one track");
+  t.add("count", &RoadWheelSpec::count, "-", "wheels a track").atLeast(2).atMost(12).required();
+  t.add("radius", &RoadWheelSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
+  t.add("first_x", &RoadWheelSpec::firstX, "m", "axle of the rearmost wheel").required();
+  t.add("spacing", &RoadWheelSpec::spacing, "m", "from axle to axle").above(0).atMost(5).required();
+  t.add("z", &RoadWheelSpec::z, "m", "axle height").required();
+  addSurface(t);
+  return t;
+}
+
+Table<ArmSpec> armTable() {
+  Table<ArmSpec> t("arm", "Trailing arm of a road wheel with its torsion bar");
+  t.add("length", &ArmSpec::length, "m", "pivot to axle").above(0).atMost(2).required();
+  t.add("pivot_angle", &ArmSpec::pivotAngle, "rad", "of the pivot over the horizontal through the axle")
+      .atLeast(-1)
+      .atMost(1)
+      .required();
+  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar").atLeast(0).required();
+  t.add("damping", &ArmSpec::damping, "N m s/rad", "damper about the pivot").atLeast(0).required();
+  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position").atLeast(0).required();
+  addMass(t);
+  return t;
+}
+
+Table<RollerSpec> rollerTable() {
+  Table<RollerSpec> t("roller", "Support rollers of one track");
+  t.add("radius", &RollerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
+  t.add("x", &RollerSpec::x, "m", "axles").required();
+  t.add("z", &RollerSpec::z, "m", "axles").required();
+  addSurface(t);
+  return t;
+}
+
+Table<IdlerSpec> idlerTable() {
+  Table<IdlerSpec> t("idler", "Idler in front, on a carrier that slides along x against the tensioner");
+  t.add("radius", &IdlerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
+  t.add("x", &IdlerSpec::x, "m", "drawn place of the axle; the wrap finds the exact one").above(0).required();
+  t.add("z", &IdlerSpec::z, "m", "axle height").required();
+  t.add("slide_min", &IdlerSpec::slideMin, "m", "stop to the rear").atMost(0).atLeast(-0.5).required();
+  t.add("slide_max", &IdlerSpec::slideMax, "m", "stop to the front").atLeast(0).atMost(0.5).required();
+  t.add("stiffness", &IdlerSpec::stiffness, "N/m", "tensioner spring").above(0).required();
+  t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damper").atLeast(0).required();
+  t.add("preload", &IdlerSpec::preload, "N", "spring force at the wrap's place").atLeast(0).required();
+  t.add("stop_stiffness", &IdlerSpec::stopStiffness, "N/m", "of both stops").above(0).required();
+  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m", "of both stops").atLeast(0).required();
+  t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "sliding carrier").above(0).required();
+  t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "of the carrier").required();
+  addSurface(t);
+  return t;
+}
+
+Table<ContactSpec> contactTable() {
+  Table<ContactSpec> t("contact", "Part against part, and part against rigid ground");
+  t.add("foundation_modulus", &ContactSpec::foundationModulus, "N/m3", "force = modulus x sum of area x overlap")
+      .above(0)
+      .required();
+  t.add("relaxation_time", &ContactSpec::relaxationTime, "s", "stress = modulus x (overlap + time x rate)")
+      .atLeast(0)
+      .atMost(0.1)
+      .required();
+  t.add("tangential_ratio", &ContactSpec::tangentialRatio, "-", "tangential over normal stiffness")
+      .atLeast(0)
+      .atMost(1)
+      .required();
+  t.add("friction_inside", &ContactSpec::frictionInside, "-", "shoes against wheels, sprocket, idler")
+      .atLeast(0)
+      .atMost(2)
+      .required();
+  t.add("friction_ground", &ContactSpec::frictionGround, "-", "shoes against ground").atLeast(0).atMost(2).required();
+  return t;
+}
+
+} // namespace grouser::vehicle

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/table.hpp"
+#include "vehicle/spec.hpp"
+
+namespace grouser::vehicle {
+
+/// The sections of a vehicle spec file: one table of fields each, which drives reading, checks and documentation.
+base::Table<VehicleSpec> vehicleTable();
+base::Table<ChassisSpec> chassisTable();
+base::Table<ShoeSpec> shoeTable();
+base::Table<SprocketSpec> sprocketTable();
+base::Table<RoadWheelSpec> roadWheelTable();
+base::Table<ArmSpec> armTable();
+base::Table<RollerSpec> rollerTable();
+base::Table<IdlerSpec> idlerTable();
+base::Table<ContactSpec> contactTable();
+
+} // namespace grouser::vehicle

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/wrap.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace grouser::vehicle {
+namespace {
+
+using base::kPi;
+
+/// A tangent that runs past a pin by less than this is still counted as convex: the top line meets the sprocket's first
+/// gap within a fraction of a degree of the tangent.
+constexpr double kConcave = 1.0 * kPi / 180;
+/// The loop is closed when the free strands miss their whole pitches by less than this [m]: a few ulp of the loop's
+/// length.
+constexpr double kClosed = 1e-14;
+
+PlanePoint onCircle(double cx, double cz, double radius, double angle) {
+  return {cx + radius * base::cos(angle), cz + radius * base::sin(angle)};
+}
+double distance(PlanePoint a, PlanePoint b) { return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.z - a.z) * (b.z - a.z)); }
+double direction(PlanePoint a, PlanePoint b) { return base::atan2(b.z - a.z, b.x - a.x); }
+double wrapToPi(double angle) { return angle - 2 * kPi * std::floor((angle + kPi) / (2 * kPi)); }
+
+/// What stays the same over all splits.
+struct Frame {
+  int shoes, teeth;
+  double pitch, sprocketRadius, idlerRadius, idlerStep, idlerX, idlerZ, groundZ, rearWheelX, frontWheelX, maximumFold;
+
+  explicit Frame(const VehicleSpec& spec)
+      : shoes(spec.shoe.count), teeth(spec.sprocket.teeth), pitch(spec.shoe.pitch),
+        sprocketRadius(spec.sprocketPinRadius()), idlerRadius(spec.idlerPinRadius()),
+        idlerStep(2 * base::asin(0.5 * spec.shoe.pitch / spec.idlerPinRadius())), idlerX(spec.idler.x),
+        idlerZ(spec.idler.z), groundZ(spec.groundPinHeight()), rearWheelX(spec.roadWheel.firstX),
+        frontWheelX(spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1)),
+        maximumFold(spec.shoe.maximumFold) {}
+
+  /// Angle of gap k; the gaps lie symmetric to the horizontal through the axle's rear: 180 + k degrees-a-tooth.
+  double gapAngle(int k) const { return kPi + 2 * kPi * k / teeth; }
+};
+
+/// The free unknowns of one split.
+struct Ends {
+  double idlerX, firstAngle;
+};
+
+/// Newton on: |front strand| = n_front pitch, |top| = n_top pitch, for the idler's x and its first pin angle.
+std::optional<Ends> solveIdler(const Frame& f, PlanePoint groundEnd, PlanePoint sprocketTop, const WrapCounts& n) {
+  Ends u{f.idlerX, -0.5 * kPi};
+  const double turn = n.idler * f.idlerStep;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const PlanePoint in = onCircle(u.idlerX, f.idlerZ, f.idlerRadius, u.firstAngle);
+    const PlanePoint out = onCircle(u.idlerX, f.idlerZ, f.idlerRadius, u.firstAngle + turn);
+    const double front = distance(groundEnd, in), top = distance(sprocketTop, out);
+    const double missFront = front - n.frontStrand * f.pitch, missTop = top - n.top * f.pitch;
+    if (std::fabs(missFront) <= kClosed && std::fabs(missTop) <= kClosed) return u;
+
+    // d(length)/d(x) = e_x; d(length)/d(angle) = e . d(point)/d(angle), where d(point)/d(angle) = (-(z - z_c), x -
+    // x_c).
+    const double a = (in.x - groundEnd.x) / front;
+    const double b = (-(in.x - groundEnd.x) * (in.z - f.idlerZ) + (in.z - groundEnd.z) * (in.x - u.idlerX)) / front;
+    const double c = (out.x - sprocketTop.x) / top;
+    const double d =
+        (-(out.x - sprocketTop.x) * (out.z - f.idlerZ) + (out.z - sprocketTop.z) * (out.x - u.idlerX)) / top;
+    const double determinant = a * d - b * c;
+    if (std::fabs(determinant) < 1e-9) return std::nullopt;
+    const double stepX = (-missFront * d + missTop * b) / determinant;
+    const double stepAngle = (-a * missTop + c * missFront) / determinant;
+    u.idlerX += std::clamp(stepX, -0.1, 0.1);
+    u.firstAngle += std::clamp(stepAngle, -0.3, 0.3);
+    // The last steps are round-off of the lengths.
+    if (iteration > 8 && std::fabs(stepX) < 1e-15 && std::fabs(stepAngle) < 1e-14) return u;
+  }
+  return std::nullopt;
+}
+
+/// One split of the shoes, closed and convex, or nothing. `topGap` and `bottomGap` count teeth from the gap at 180
+/// degrees.
+std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCounts n) {
+  n.sprocket = bottomGap - topGap;
+  n.top = f.shoes - n.sprocket - n.rearStrand - n.ground - n.frontStrand - n.idler;
+  if (n.top < 1) return std::nullopt;
+  const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
+  const PlanePoint sprocketBottom = onCircle(0, 0, f.sprocketRadius, f.gapAngle(bottomGap));
+
+  const double drop = sprocketBottom.z - f.groundZ, rear = n.rearStrand * f.pitch;
+  if (drop < 0 || drop >= rear) return std::nullopt;
+  const PlanePoint groundStart{sprocketBottom.x + std::sqrt((rear - drop) * (rear + drop)), f.groundZ};
+  const PlanePoint groundEnd{groundStart.x + n.ground * f.pitch, f.groundZ};
+  if (groundStart.x > f.rearWheelX || groundEnd.x < f.frontWheelX) return std::nullopt;
+
+  const auto ends = solveIdler(f, groundEnd, sprocketTop, n);
+  if (!ends) return std::nullopt;
+  const PlanePoint in = onCircle(ends->idlerX, f.idlerZ, f.idlerRadius, ends->firstAngle);
+  const PlanePoint out = onCircle(ends->idlerX, f.idlerZ, f.idlerRadius, ends->firstAngle + n.idler * f.idlerStep);
+
+  Wrap wrap;
+  wrap.counts = n;
+  wrap.pitch = f.pitch;
+  wrap.idlerX = ends->idlerX;
+  wrap.idlerFirstAngle = ends->firstAngle;
+  const double halfTooth = kPi / f.teeth;
+  const double edges[] = {f.gapAngle(bottomGap) - halfTooth + 0.5 * kPi,
+                          direction(sprocketBottom, groundStart),
+                          0,
+                          direction(groundEnd, in),
+                          ends->firstAngle + 0.5 * f.idlerStep + 0.5 * kPi,
+                          ends->firstAngle + (n.idler - 0.5) * f.idlerStep + 0.5 * kPi,
+                          direction(out, sprocketTop),
+                          f.gapAngle(topGap) + halfTooth + 0.5 * kPi};
+  wrap.kinks = {wrapToPi(edges[1] - edges[0]), wrapToPi(edges[2] - edges[1]), wrapToPi(edges[3] - edges[2]),
+                wrapToPi(edges[4] - edges[3]), wrapToPi(edges[6] - edges[5]), wrapToPi(edges[7] - edges[6])};
+  for (const double kink : wrap.kinks)
+    if (kink < -kConcave || kink > f.maximumFold) return std::nullopt;
+
+  // Free strands are straight: their pins divide them evenly.
+  const auto strand = [&wrap](PlanePoint a, PlanePoint b, int pitches) {
+    for (int i = 0; i < pitches; ++i) {
+      const double s = static_cast<double>(i) / pitches;
+      wrap.pins.push_back({a.x + s * (b.x - a.x), a.z + s * (b.z - a.z)});
+    }
+  };
+  for (int i = 0; i < n.sprocket; ++i) wrap.pins.push_back(onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap + i)));
+  strand(sprocketBottom, groundStart, n.rearStrand);
+  strand(groundStart, groundEnd, n.ground);
+  strand(groundEnd, in, n.frontStrand);
+  for (int i = 0; i < n.idler; ++i)
+    wrap.pins.push_back(onCircle(wrap.idlerX, f.idlerZ, f.idlerRadius, wrap.idlerFirstAngle + i * f.idlerStep));
+  strand(out, sprocketTop, n.top);
+  // A mesh has gap 0 on its x axis; with an odd number of teeth the gap at 180 degrees is half a tooth away.
+  wrap.sprocketPhase = f.teeth % 2 == 0 ? 0.0 : halfTooth;
+  return wrap;
+}
+
+/// The better of two loops: more pins in the sprocket, then the idler nearer to its drawn place.
+bool better(const Wrap& a, const Wrap& b, double idlerX) {
+  if (a.counts.sprocket != b.counts.sprocket) return a.counts.sprocket > b.counts.sprocket;
+  return std::fabs(a.idlerX - idlerX) < std::fabs(b.idlerX - idlerX);
+}
+
+[[noreturn]] void refuse(const VehicleSpec& spec, const std::optional<Wrap>& nearest) {
+  char text[640];
+  const double loop = spec.shoe.count * spec.shoe.pitch, hull = hullLength(spec);
+  if (nearest)
+    std::snprintf(
+        text, sizeof text,
+        "vehicle %s: %d shoes of pitch %g m (loop %.4f m) close only with the idler at x = %.4f m, %+.1f mm from "
+        "idler.x = %.4f m, outside its slide [%g, %g] mm; set idler.x = %.4f or change shoe.count",
+        spec.name.c_str(), spec.shoe.count, spec.shoe.pitch, loop, nearest->idlerX,
+        1e3 * (nearest->idlerX - spec.idler.x), spec.idler.x, 1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax,
+        nearest->idlerX);
+  else
+    std::snprintf(
+        text, sizeof text,
+        "vehicle %s: the track does not close: %d shoes of pitch %g m make %.4f m, the way about the wheels is "
+        "%.4f m (%+.1f mm); change shoe.count to %d, or idler.x to about %.4f m",
+        spec.name.c_str(), spec.shoe.count, spec.shoe.pitch, loop, hull, 1e3 * (loop - hull),
+        static_cast<int>(std::floor(hull / spec.shoe.pitch + 0.5)), spec.idler.x + 0.5 * (loop - hull));
+  throw base::InputError(text);
+}
+
+} // namespace
+
+double Wrap::closure() const {
+  double worst = 0;
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    worst = std::max(worst, std::fabs(distance(pins[i], pins[(i + 1) % pins.size()]) - pitch));
+  return worst;
+}
+
+PlanePoint Wrap::shoeCentre(int i) const {
+  const PlanePoint a = pins[i], b = pins[(i + 1) % pins.size()];
+  return {0.5 * (a.x + b.x), 0.5 * (a.z + b.z)};
+}
+
+double Wrap::shoeAngle(int i) const { return direction(pins[i], pins[(i + 1) % pins.size()]); }
+
+base::Quat planeRotation(double angle) { return {base::cos(0.5 * angle), 0, -base::sin(0.5 * angle), 0}; }
+
+Wrap wrapTrack(const VehicleSpec& spec) {
+  const Frame f(spec);
+  std::optional<Wrap> best, nearest;
+  const double span = f.frontWheelX - f.rearWheelX;
+  const int groundMin = std::max(1, static_cast<int>(std::floor(span / f.pitch)));
+  for (int topGap = -f.teeth / 2; topGap < 0; ++topGap)
+    for (int bottomGap = 1; bottomGap <= f.teeth / 2; ++bottomGap)
+      for (int rear = 1; rear <= f.shoes / 4; ++rear)
+        for (int ground = groundMin; ground <= groundMin + 6; ++ground)
+          for (int front = 1; front <= f.shoes / 4; ++front)
+            for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler) {
+              const auto wrap = closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0});
+              if (!wrap) continue;
+              if (!nearest || std::fabs(wrap->idlerX - f.idlerX) < std::fabs(nearest->idlerX - f.idlerX))
+                nearest = wrap;
+              const double slide = wrap->idlerX - f.idlerX;
+              if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) continue;
+              if (!best || better(*wrap, *best, f.idlerX)) best = wrap;
+            }
+  if (!best) refuse(spec, nearest);
+  return *best;
+}
+
+double hullLength(const VehicleSpec& spec) {
+  // Perimeter of the convex hull of finely cut circles and of the ground run's ends (Andrew's monotone chain). A
+  // polygon of pins is shorter than its circle: the circles here have the polygon's length a radian.
+  const Frame f(spec);
+  const double sprocketRadius = spec.pitchRadius(), idlerRadius = f.pitch / f.idlerStep;
+  std::vector<PlanePoint> points{{f.rearWheelX, f.groundZ}, {f.frontWheelX, f.groundZ}};
+  constexpr int kCuts = 720;
+  for (int i = 0; i < kCuts; ++i) {
+    points.push_back(onCircle(0, 0, sprocketRadius, 2 * kPi * i / kCuts));
+    points.push_back(onCircle(f.idlerX, f.idlerZ, idlerRadius, 2 * kPi * i / kCuts));
+  }
+  std::sort(points.begin(), points.end(),
+            [](PlanePoint a, PlanePoint b) { return a.x < b.x || (a.x == b.x && a.z < b.z); });
+  const auto turnsRight = [](PlanePoint a, PlanePoint b, PlanePoint c) {
+    return (b.x - a.x) * (c.z - a.z) - (b.z - a.z) * (c.x - a.x) <= 0;
+  };
+  std::vector<PlanePoint> hull;
+  const auto chain = [&](auto begin, auto end, std::size_t base) {
+    for (auto it = begin; it != end; ++it) {
+      while (hull.size() >= base + 2 && turnsRight(hull[hull.size() - 2], hull.back(), *it)) hull.pop_back();
+      hull.push_back(*it);
+    }
+    hull.pop_back();
+  };
+  chain(points.begin(), points.end(), 0);
+  chain(points.rbegin(), points.rend(), hull.size());
+  double length = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) length += distance(hull[i], hull[(i + 1) % hull.size()]);
+  return length;
+}
+
+} // namespace grouser::vehicle

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vehicle/spec.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grouser::vehicle {
+
+/// A point of the track's plane: x forward, z up, from the sprocket's axle [m].
+struct PlanePoint {
+  double x{}, z{};
+};
+
+/// How many pitches lie on each stretch of the loop, in the order in which pins are numbered.
+struct WrapCounts {
+  int sprocket{};   ///< edges between engaged pins
+  int rearStrand{}; ///< from the sprocket down to the ground run
+  int ground{};
+  int frontStrand{}; ///< from the ground run up to the idler
+  int idler{};       ///< edges between pins on the idler
+  int top{};         ///< from the idler back to the sprocket
+};
+
+/// Exact closed polygon of the shoes about the wheels: every edge one pitch long.
+/// Pins are numbered from the sprocket's top gap, rearwards and down, forward along the ground, up the idler and back
+/// along the top; shoe i reaches from pin i (its rear end, x = -pitch/2) to pin i+1 (x = +pitch/2).
+struct Wrap {
+  WrapCounts counts;
+  double pitch{};         ///< [m]
+  double sprocketPhase{}; ///< angle of the sprocket about -y (from +x towards +z) at which its gaps take the pins [rad]
+  double idlerX{};        ///< [m]
+  double idlerFirstAngle{}; ///< angle of the first pin on the idler, from +x towards +z [rad]
+  std::array<double, 6>
+      kinks{}; ///< turns [rad] at: sprocket exit, ground start, ground end, idler entry, exit, sprocket entry
+  std::vector<PlanePoint> pins; ///< [shoes]
+
+  /// Largest deviation of an edge from one pitch [m].
+  double closure() const;
+  /// Middle of shoe i [m].
+  PlanePoint shoeCentre(int i) const;
+  /// Direction of shoe i's x axis, from +x towards +z [rad].
+  double shoeAngle(int i) const;
+  /// Shoes with both pins on the ground run: [first, last].
+  int firstGroundShoe() const { return counts.sprocket + counts.rearStrand; }
+  int lastGroundShoe() const { return firstGroundShoe() + counts.ground - 1; }
+};
+
+/// Place the shoes exactly. Tries every split of the shoes over the stretches, solves idler x and first pin angle by
+/// Newton so that both free strands have whole pitches, and takes the convex loop with most pins in the sprocket whose
+/// idler lies nearest to its drawn place. Throws base::InputError when no loop closes with the idler inside its slide:
+/// it names the gap and what to change.
+Wrap wrapTrack(const VehicleSpec& spec);
+
+/// Length of the shortest loop of pins about sprocket, road wheels and idler in their drawn places [m].
+double hullLength(const VehicleSpec& spec);
+
+/// Orientation of a part whose x axis points along `angle` in the track's plane (from +x towards +z): a turn of -angle
+/// about +y.
+base::Quat planeRotation(double angle);
+
+} // namespace grouser::vehicle
