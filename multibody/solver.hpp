@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/model.hpp"
+#include "multibody/state.hpp"
+
+#include <memory>
+#include <string>
+
+namespace grouser::multibody {
+
+struct SolverOptions {
+  double positionTolerance = 1e-10; ///< on every hard constraint after a step [m, rad]
+  int maxIterations = 12;           ///< of the position solve; typically one or two are used
+};
+
+/// How well the last step was solved.
+struct StepReport {
+  int iterations = 0;
+  double maxPositionError = 0; ///< max |C| over the hard rows at the new poses [m, rad]
+  double maxVelocityError =
+      0;                ///< max |J v - rate imposed| over the hard rows, J at the middle of the step [m/s, rad/s]
+  int singularRows = 0; ///< rows without a pivot in this step: a singular position is being passed
+};
+
+/// Advances a mechanism by constrained symplectic Euler; see integrator.hpp for the scheme. Deterministic, one thread,
+/// no allocation in step().
+class Solver {
+public:
+  /// Orders the elimination and finds redundant constraints. The model must outlive the solver.
+  /// Throws base::InputError if joints are not closed at the start (naming the joint and its gap).
+  explicit Solver(const Model& model, const SolverOptions& options = {});
+  ~Solver();
+  Solver(Solver&&) noexcept;
+  Solver& operator=(Solver&&) noexcept;
+
+  /// One step of size dt [s], > 0. Throws base::SimulationError (naming step time and joint or body) when the position
+  /// solve fails or a state is not finite.
+  void step(State& state, const Loads& loads, double dt);
+
+  const StepReport& lastStep() const;
+  /// Size of the problem, independent parts, fill of the factor, and what was done about redundant rows.
+  const std::string& report() const;
+  /// Rows dropped because others imply them.
+  int redundantRows() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace grouser::multibody

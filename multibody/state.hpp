@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/model.hpp"
+
+#include <vector>
+
+namespace grouser::multibody {
+
+struct Twist {
+  Vec3d v; ///< of the centre of mass, world components [m/s]
+  Vec3d w; ///< world components [rad/s]
+};
+
+/// Force and torque about the centre of mass, world components.
+struct Wrench {
+  Vec3d force;  ///< [N]
+  Vec3d torque; ///< [N m]
+};
+
+/// What a joint did in the last step.
+struct JointReading {
+  Vec3d force; ///< on B from A, hard rows and axis force together, world components [N]; for a shoe joint the track
+               ///< tension
+  Vec3d
+      torque; ///< on B from A about the joint point (origin of B's frame), axis torque included, world components [N m]
+  double position = 0;    ///< angle [rad], unwrapped over turns, or slide [m]; 0 where the type has no axis
+  double rate = 0;        ///< [rad/s] or [m/s]
+  double axisForce = 0;   ///< damping, spring, stops and drive along the free axis, on B [N] or [N m]
+  double driveForce = 0;  ///< the drive's part of it [N] or [N m]
+  double springForce = 0; ///< the springs' part of it, with their dampers and stops [N] or [N m]
+};
+
+/// What a point spring did in the last step.
+struct SpringReading {
+  double force = 0;  ///< positive pushes apart [N]
+  double length = 0; ///< [m]
+};
+
+/// Work since the start [J]. Each is impulse times the mean of the rates before and after the step, so that
+/// kinetic energy now = at the start + gravity + external + drives + springs - dissipated, up to the step's order.
+struct Ledger {
+  double gravityWork = 0;
+  double externalWork = 0; ///< of the wrenches in Loads
+  double driveWork = 0;
+  double springWork = 0; ///< of the elastic forces and preloads (loss of elastic energy and what ramps put in)
+  double dissipated = 0; ///< in dampers, joint damping and stops
+};
+
+/// Everything that changes. Poses and velocities are staggered, as in any kick-drift scheme: after a step `pose` is at
+/// `time`, `twist` is the mean twist over the step that led there.
+struct State {
+  double time = 0;
+  std::vector<Pose> pose;            ///< X_WB, one a body
+  std::vector<Twist> twist;          ///< one a body
+  std::vector<Vec3d> spinMomentum;   ///< angular momentum about the centre of mass, world components [kg m2/s]
+  std::vector<JointReading> joint;   ///< one a joint
+  std::vector<SpringReading> spring; ///< one a point spring
+  Ledger ledger;
+
+  /// The complete dynamic state as a flat array: a run resumed from it gives the same bits as one straight through.
+  std::vector<double> save() const;
+  /// Inverse of save(); throws base::InputError if the length does not fit this state's model.
+  void restore(const std::vector<double>& flat);
+};
+
+/// Scale factors of one spring [-], to ramp it in.
+struct SpringControl {
+  double loadFactor = 1;      ///< of the preload
+  double stiffnessFactor = 1; ///< of the stiffness
+};
+
+struct DriveControl {
+  bool on = true;
+  double speed = 0; ///< [rad/s] or [m/s]
+};
+
+/// What is imposed from outside during one step.
+struct Loads {
+  Vec3d gravity{0, 0, -9.81};             ///< [m/s2]
+  std::vector<Wrench> external;           ///< one a body
+  std::vector<SpringControl> axisSprings; ///< one an axis spring
+  std::vector<SpringControl> pointSprings;
+  std::vector<DriveControl> drives;
+};
+
+/// The model's state at the start; joint readings hold positions and rates, no forces yet.
+State makeState(const Model& model);
+/// No wrenches, all factors 1, drives as the model says.
+Loads makeLoads(const Model& model);
+/// Sets a body's velocity (the spin momentum follows it).
+void setTwist(const Model& model, State& state, int body, const Twist& twist);
+/// Puts a body elsewhere, keeping its twist. Axis positions follow at the next step.
+void setPose(const Model& model, State& state, int body, const Pose& pose);
+
+/// Energies [J] and momenta of a state.
+struct Totals {
+  double kinetic = 0;
+  double gravity = 0; ///< -sum m g.p
+  double elastic = 0; ///< springs, preloads (as constant forces from freePosition or restLength on) and stops
+  Vec3d linearMomentum;
+  Vec3d angularMomentum; ///< about the world's origin
+};
+Totals totals(const Model& model, const State& state, const Loads& loads);
+
+} // namespace grouser::multibody
