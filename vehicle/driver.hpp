@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace grouser::vehicle {
+
+/// Speeds of the two sprockets over time: linear between the points, constant outside them.
+/// Forward is positive: a turn about +y takes the top of the sprocket to +x and its bottom to -x, so that the ground
+/// run moves back under the hull.
+struct SpeedTable {
+  std::vector<double> time;  ///< [s] from the begin of the drive, strictly rising
+  std::vector<double> left;  ///< [rad/s]
+  std::vector<double> right; ///< [rad/s]
+};
+
+struct DriverOptions {
+  double tensionRamp = 0.15; ///< tensioner's preload from 0 to its full force [s]
+  double weightRamp = 0.3;   ///< then weight and the arms' preload from 0 to full [s]
+  double driveStart = 0.45;  ///< time at which the sprockets begin to turn [s], >= tensionRamp + weightRamp
+  double driveRamp = 0.3;    ///< sprocket speed from 0 to the table's value [s]
+  SpeedTable speeds{{0}, {0}, {0}};
+};
+
+/// What the driver asks for at one time.
+struct Controls {
+  double tension = 1;                        ///< factor on the tensioner's preload, 0..1
+  double weight = 1;                         ///< factor on the vehicle's weight and the arms' preload, 0..1
+  std::array<double, 2> sprocketSpeed{0, 0}; ///< left, right [rad/s]
+};
+
+/// Tension, then weight, then drive, each on a smooth ramp: a step of the tension gives peaks of 16 kN where a ramp
+/// gives 7 kN, a step of the drive to 5 rad/s 99 kN where a ramp of 0.8 s gives 11 kN.
+class Driver {
+public:
+  /// Throws base::InputError on negative times, unequal columns or falling table times.
+  explicit Driver(DriverOptions options);
+  Controls at(double time) const;
+  const DriverOptions& options() const { return options_; }
+
+private:
+  DriverOptions options_;
+};
+
+/// 3 s^2 - 2 s^3 of s = (time - start) / duration, held to 0 before and 1 after; a step where duration is 0.
+double smoothRamp(double time, double start, double duration);
+
+} // namespace grouser::vehicle
