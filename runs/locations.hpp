@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// The folder that holds assets/ and runs/plots/: GROUSER_SHARE of the environment if set, else beside the program
+/// (../share/grouser), else the source folder that the program was built from.
+std::filesystem::path shareFolder();
+
+/// The file that a scene means by `name`: an absolute path, or relative to one of the folder of `scene`, the current
+/// folder, assets/. Empty where there is none; `tried` then lists the places looked at.
+std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
+                                std::vector<std::filesystem::path>& tried);
+
+} // namespace grouser::runs

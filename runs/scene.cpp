@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/scene.hpp"
+
+#include "base/table.hpp"
+#include "runs/detail/scene_tables.hpp"
+#include "runs/locations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+using base::InputError;
+using base::Section;
+
+namespace {
+
+const std::vector<std::string> kSections = {"version", "run",     "material", "contact", "grain",
+                                            "plane",   "terrain", "vehicle",  "driver",  "output"};
+
+/// One of the two ways to say how lossy a contact is.
+template <class S> void checkOneLoss(const Section& section, const S& s) {
+  if (s.restitution && s.damping)
+    section.fail("damping", "stands beside restitution, which says the same; remove one of the two");
+}
+
+std::vector<Material> readMaterials(const Section& root) {
+  std::vector<Material> materials;
+  for (const auto& [name, section] : root.named("material")) {
+    if (name.find('|') != std::string::npos)
+      section.fail("", "has a name with |, which separates the two of a pair; choose another name");
+    Material m = section.read(detail::materialTable());
+    m.name = name;
+    checkOneLoss(section, m);
+    if (!m.restitution && !m.damping) m.restitution = 0.5;
+    materials.push_back(std::move(m));
+  }
+  return materials;
+}
+
+std::vector<std::string> materialNames(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(m.name);
+  return names;
+}
+
+/// Fails unless `name` is a material of the scene; `key` is where the name stands.
+void checkMaterial(const Scene& scene, const Section& section, const std::string& key, const std::string& name) {
+  const std::vector<std::string> names = materialNames(scene);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  if (names.empty()) section.fail(key, fmt::format("names no material of this scene (\"{0}\"); add a section [material.{0}]", name));
+  section.fail(key, fmt::format("names no material of this scene (\"{0}\"); did you mean \"{1}\"? Or add a section [material.{0}]",
+                                name, base::nearestWord(name, names)));
+}
+
+void readContacts(const Section& root, Scene& scene) {
+  for (const auto& [name, section] : root.named("contact")) {
+    const std::size_t bar = name.find('|');
+    if (bar == std::string::npos || name.find('|', bar + 1) != std::string::npos)
+      section.fail("", "is not of the form [contact.\"a|b\"] with two materials; write the pair that way");
+    ContactPair pair = section.read(detail::contactTable());
+    pair.first = name.substr(0, bar), pair.second = name.substr(bar + 1);
+    checkMaterial(scene, section, "", pair.first);
+    checkMaterial(scene, section, "", pair.second);
+    checkOneLoss(section, pair);
+    if (scene.contact(pair.first, pair.second))
+      section.fail("", "is given twice, in both orders; remove one of the two");
+    scene.contacts.push_back(std::move(pair));
+  }
+}
+
+void readGrainsAndPlanes(const Section& root, Scene& scene) {
+  for (const Section& section : root.list("grain")) {
+    scene.grains.push_back(section.read(detail::grainTable()));
+    checkMaterial(scene, section, "material", scene.grains.back().material);
+  }
+  for (const Section& section : root.list("plane")) {
+    scene.planes.push_back(section.read(detail::planeTable()));
+    checkMaterial(scene, section, "material", scene.planes.back().material);
+    if (base::norm2(scene.planes.back().normal) == 0)
+      section.fail("normal", "is zero; give the direction out of the solid, e.g. [0, 0, 1]");
+  }
+}
+
+/// Makes `name` the absolute path of an existing file.
+void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {
+  std::vector<std::filesystem::path> tried;
+  const std::filesystem::path found = findInput(name, scene.file, tried);
+  if (found.empty()) {
+    std::string places;
+    for (const auto& p : tried) places += (places.empty() ? "" : ", ") + p.string();
+    section.fail(key, fmt::format("does not exist; correct the path (looked for {})", places));
+  }
+  name = found.string();
+}
+
+void readTerrain(const Section& section, Scene& scene) {
+  Terrain t = section.read(detail::terrainTable());
+  checkMaterial(scene, section, "material", t.material);
+  if (t.groundMaterial.empty()) t.groundMaterial = t.material;
+  checkMaterial(scene, section, "ground_material", t.groundMaterial);
+  if (t.heightRange[1] < t.heightRange[0])
+    section.fail("height_range", "[m] has white below black; give the lower height first");
+  if (t.granular()) {
+    if (!t.grainRadius)
+      section.fail("grain_radius", "[m] is missing, which a granular bed needs; add it, or set kind = \"rigid\"");
+    if (t.layers && t.depth)
+      section.fail("depth", "[m] stands beside layers, which says the same; remove one of the two");
+    if (!t.layers && !t.depth) section.fail("layers", "is missing; give layers [-] or depth [m] of the bed");
+    if (t.depth && *t.depth < 2 * *t.grainRadius)
+      section.fail("depth", fmt::format("[m] is less than one grain of radius {} m; give at least {}", *t.grainRadius,
+                                        2 * *t.grainRadius));
+    if (std::min(t.size[0], t.size[1]) < 4 * *t.grainRadius)
+      section.fail("size", fmt::format("[m] holds less than two grains of radius {} m; enlarge it", *t.grainRadius));
+  } else {
+    for (const char* key : {"grain_radius", "layers", "depth"})
+      if (section.has(key)) section.fail(key, "has no meaning on rigid ground; remove it, or set kind = \"granular\"");
+  }
+  resolveFile(scene, section, "heightmap", t.heightmap);
+  scene.terrain = std::move(t);
+}
+
+void readVehicle(const Section& section, Scene& scene) {
+  Vehicle v = section.read(detail::vehicleTable());
+  checkMaterial(scene, section, "material", v.material);
+  resolveFile(scene, section, "spec", v.spec);
+  const bool hasGround = scene.terrain || !scene.planes.empty();
+  if (!hasGround && v.chassis != "fixed")
+    section.fail("chassis", "is \"free\" over no ground; add [terrain] or [[plane]], or set chassis = \"fixed\"");
+  if (v.position && scene.terrain) {
+    const Terrain& t = *scene.terrain;
+    for (int i = 0; i < 2; ++i)
+      if ((*v.position)[i] < t.corner[i] || (*v.position)[i] > t.corner[i] + t.size[i])
+        section.fail("position",
+                     fmt::format("[m] is outside the terrain, x [{}, {}], y [{}, {}]; place the vehicle on it",
+                                 t.corner[0], t.corner[0] + t.size[0], t.corner[1], t.corner[1] + t.size[1]));
+  }
+  scene.vehicle = std::move(v);
+}
+
+SpeedTable readSpeeds(const Section& section) {
+  SpeedTable table = section.read(detail::speedTable());
+  const std::size_t n = table.time.size();
+  if (n == 0) section.fail("time", "[s] is empty; give at least one time");
+  if (table.left.size() != n || table.right.size() != n)
+    section.fail(table.left.size() != n ? "left" : "right",
+                 fmt::format("[rad/s] has another length than time, which has {}; make all three alike", n));
+  for (std::size_t i = 1; i < n; ++i)
+    if (!(table.time[i] > table.time[i - 1]))
+      section.fail("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+  return table;
+}
+
+void readDriver(const Section& section, Scene& scene) {
+  if (!scene.vehicle) section.fail("", "has nothing to drive; add a section [vehicle], or remove this one");
+  Driver d = section.read(detail::driverTable(), {}, {"table"});
+  if (section.has("table")) d.table = readSpeeds(section.section("table"));
+  if (d.left.has_value() != d.right.has_value())
+    section.fail(d.left ? "left" : "right", fmt::format("[rad/s] stands without {}; give both, or sprocket_speed alone",
+                                                        d.left ? "right" : "left"));
+  if ((d.sprocketSpeed ? 1 : 0) + (d.left ? 1 : 0) + (d.table ? 1 : 0) > 1)
+    section.fail(d.sprocketSpeed ? "sprocket_speed" : "left",
+                 "[rad/s] is one of several speeds given; keep one of sprocket_speed, left with right, [driver.table]");
+  scene.driver = std::move(d);
+}
+
+void checkIntervals(const Section& section, const RunSettings& run) {
+  if (!run.timeStep) return;
+  if (*run.timeStep > run.duration)
+    section.fail("time_step", fmt::format("[s] is above the duration of {} s; lower it", run.duration));
+  if (run.outputInterval < *run.timeStep)
+    section.fail("output_interval",
+                 fmt::format("[s] is below the time step of {} s; raise it to that at least", *run.timeStep));
+  if (run.frameInterval < *run.timeStep)
+    section.fail("frame_interval",
+                 fmt::format("[s] is below the time step of {} s; raise it to that at least", *run.timeStep));
+}
+
+Scene readScene(const base::Document& document, const std::filesystem::path& file,
+                const std::vector<std::string>& overrides) {
+  const Section root = document.root();
+  root.allowOnly(kSections);
+  Scene scene;
+  scene.file = file, scene.overrides = overrides;
+  scene.run = root.section("run").read(detail::runTable());
+  checkIntervals(root.section("run"), scene.run);
+  scene.materials = readMaterials(root);
+  readContacts(root, scene);
+  readGrainsAndPlanes(root, scene);
+  if (root.has("terrain")) readTerrain(root.section("terrain"), scene);
+  if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
+  if (root.has("driver")) readDriver(root.section("driver"), scene);
+  if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
+  if (scene.grains.empty() && !scene.terrain && !scene.vehicle)
+    throw InputError(
+        fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle] or [[grain]]", file.string()));
+  return scene;
+}
+
+template <class S> std::string block(const std::string& heading, const base::Table<S>& table, const S& s) {
+  return "\n" + heading + "\n" + table.write(s);
+}
+
+/// A name as a key of TOML: in quotes always, which is always allowed.
+std::string key(const std::string& name) { return base::toToml(name); }
+
+} // namespace
+
+SpeedTable Driver::speeds() const {
+  if (table) return *table;
+  return {{0}, {left.value_or(sprocketSpeed.value_or(0))}, {right.value_or(sprocketSpeed.value_or(0))}};
+}
+
+const Material& Scene::material(const std::string& name) const {
+  for (const Material& m : materials)
+    if (m.name == name) return m;
+  throw InputError(
+      fmt::format("{}: \"{}\" is no material of this scene; add a section [material.{}]", file.string(), name, name));
+}
+
+const ContactPair* Scene::contact(const std::string& a, const std::string& b) const {
+  for (const ContactPair& p : contacts)
+    if ((p.first == a && p.second == b) || (p.first == b && p.second == a)) return &p;
+  return nullptr;
+}
+
+Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return readScene(base::Document::load(file, overrides), file, overrides);
+}
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return readScene(base::Document::parse(text, file.string(), overrides), file, overrides);
+}
+
+std::string resolvedToml(const Scene& scene) {
+  std::string text = "version = 1\n" + block("[run]", detail::runTable(), scene.run);
+  for (const Material& m : scene.materials) text += block("[material." + key(m.name) + "]", detail::materialTable(), m);
+  for (const ContactPair& p : scene.contacts)
+    text += block("[contact." + key(p.first + "|" + p.second) + "]", detail::contactTable(), p);
+  for (const Grain& g : scene.grains) text += block("[[grain]]", detail::grainTable(), g);
+  for (const Plane& p : scene.planes) text += block("[[plane]]", detail::planeTable(), p);
+  if (scene.terrain) text += block("[terrain]", detail::terrainTable(), *scene.terrain);
+  if (scene.vehicle) {
+    text += block("[vehicle]", detail::vehicleTable(), *scene.vehicle);
+    text += block("[driver]", detail::driverTable(), scene.driver);
+    if (scene.driver.table) text += block("[driver.table]", detail::speedTable(), *scene.driver.table);
+  }
+  return text + block("[output]", detail::outputTable(), scene.output);
+}
+
+std::string fieldHelp() {
+  std::string text =
+      "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required; a section "
+      "that is absent is not built.\n";
+  const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
+  add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
+  add(detail::grainTable()), add(detail::planeTable()), add(detail::terrainTable());
+  add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());
+  return text;
+}
+
+} // namespace grouser::runs
