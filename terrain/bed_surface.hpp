@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/layers.hpp"
+
+#include <span>
+#include <vector>
+
+namespace grouser::terrain {
+
+/// Surface height of a bed of grains: the highest grain top within one grain diameter, smoothed.
+///
+/// On a grid of about one grain radius:
+///  1. highest: the highest top (centre + radius) among grains whose centre lies within one diameter d in the plane;
+///     the floor where there is none;
+///  2. lowest of that within d. Steps 1 and 2 are a morphological closing: without the second, a slope would
+///     raise the surface by d tan(slope), and a lone stone would be as wide as two diameters;
+///  3. one pass of the binomial kernel (1 2 1)/4 in x and y, linear at the border.
+/// Queries are bilinear between nodes and take the nearest border point outside.
+///
+/// Exact on a lattice of equal tops, level or inclined up to the unevenness of the lattice. On a bed whose tops scatter
+/// it lies above the mean of the tops (tests/terrain/bed_surface_test.cpp measures by how much): as a straight-edge
+/// would. Grains in flight count as bed: ask for the surface of a settled bed. O(N), and independent of the grains'
+/// order.
+class BedSurface {
+public:
+  /// `diameter` [m]: of the largest grain. The grid spans `area`. Grains outside it by more than a diameter do not
+  /// count. InputError: `diameter` not positive, or a grain that is no finite number.
+  BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area, double diameter);
+
+  /// Surface height at (x, y) [m]; never NaN.
+  double height(double x, double y) const;
+
+  const Rectangle& area() const { return area_; }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  /// Nodes [columns * rows] [m], row by row, row 0 at the smallest y; for output and checkpoints.
+  const std::vector<double>& heights() const { return heights_; }
+
+private:
+  Rectangle area_;
+  int columns_{}, rows_{};
+  double dx_{}, dy_{};
+  std::vector<double> heights_;
+};
+
+} // namespace grouser::terrain
