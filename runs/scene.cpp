@@ -49,9 +49,12 @@ std::vector<std::string> materialNames(const Scene& scene) {
 void checkMaterial(const Scene& scene, const Section& section, const std::string& key, const std::string& name) {
   const std::vector<std::string> names = materialNames(scene);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  if (names.empty()) section.fail(key, fmt::format("names no material of this scene (\"{0}\"); add a section [material.{0}]", name));
-  section.fail(key, fmt::format("names no material of this scene (\"{0}\"); did you mean \"{1}\"? Or add a section [material.{0}]",
-                                name, base::nearestWord(name, names)));
+  if (names.empty())
+    section.fail(key, fmt::format("names no material of this scene (\"{0}\"); add a section [material.{0}]", name));
+  section.fail(
+      key,
+      fmt::format("names no material of this scene (\"{0}\"); did you mean \"{1}\"? Or add a section [material.{0}]",
+                  name, base::nearestWord(name, names)));
 }
 
 void readContacts(const Section& root, Scene& scene) {
@@ -123,18 +126,18 @@ void readTerrain(const Section& section, Scene& scene) {
 
 void readVehicle(const Section& section, Scene& scene) {
   Vehicle v = section.read(detail::vehicleTable());
-  checkMaterial(scene, section, "material", v.material);
+  if (!v.material.empty()) checkMaterial(scene, section, "material", v.material);
   resolveFile(scene, section, "spec", v.spec);
   const bool hasGround = scene.terrain || !scene.planes.empty();
   if (!hasGround && v.chassis != "fixed")
     section.fail("chassis", "is \"free\" over no ground; add [terrain] or [[plane]], or set chassis = \"fixed\"");
   if (v.position && scene.terrain) {
-    const Terrain& t = *scene.terrain;
-    for (int i = 0; i < 2; ++i)
-      if ((*v.position)[i] < t.corner[i] || (*v.position)[i] > t.corner[i] + t.size[i])
-        section.fail("position",
-                     fmt::format("[m] is outside the terrain, x [{}, {}], y [{}, {}]; place the vehicle on it",
-                                 t.corner[0], t.corner[0] + t.size[0], t.corner[1], t.corner[1] + t.size[1]));
+    const auto [sizeX, sizeY] = scene.terrain->size;
+    const auto [x, y] = *v.position;
+    if (x < 0 || x > sizeX || y < -sizeY / 2 || y > sizeY / 2)
+      section.fail("position",
+                   fmt::format("[m] is outside the terrain, x in [0, {}], y in [{}, {}]; place the vehicle on it",
+                               sizeX, -sizeY / 2, sizeY / 2));
   }
   scene.vehicle = std::move(v);
 }

@@ -67,12 +67,11 @@ struct Plane {
   bool operator==(const Plane&) const = default;
 };
 
-/// [terrain]
+/// [terrain]: x in [0, size x], y in [-size y / 2, size y / 2].
 struct Terrain {
   std::string heightmap;               ///< absolute path after loading
   std::array<double, 2> size{};        ///< [m] x, y
   std::array<double, 2> heightRange{}; ///< [m] of black, of white
-  std::array<double, 2> corner{};      ///< [m] x, y of the near left corner
   std::string kind = "granular";       ///< granular | rigid
   std::string material;
   std::string groundMaterial; ///< of floor and walls; the bed's where not given
@@ -80,7 +79,8 @@ struct Terrain {
   std::optional<int> layers;
   std::optional<double> depth;
   double spacing = 2.1; ///< [-] lattice spacing in grain radii
-  double jitter = 0.05; ///< [-] of the radius
+  double jitter = 0.9;  ///< [-] of the lattice's free gap
+  double packing = 0.6; ///< [-] solid fraction expected once settled
   std::string floor = "follow";
   bool walls = true;
   double settleTimeLimit = 3.0;
@@ -98,8 +98,8 @@ struct Vehicle {
   double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
   double sphereSpacing = 0.02;                   ///< [m] of the parts' sphere sets
-  std::string material;                          ///< of the shoes against the ground
-  std::string chassis = "free";                  ///< free | fixed
+  std::string material;         ///< of the parts against the ground; empty: the contact data of the spec
+  std::string chassis = "free"; ///< free | fixed
   bool operator==(const Vehicle&) const = default;
 };
 
@@ -113,14 +113,13 @@ struct SpeedTable {
 struct Driver {
   std::optional<double> sprocketSpeed, left, right; ///< [rad/s]
   std::optional<SpeedTable> table;                  ///< [driver.table]; its time begins with the drive
-  double tensionRamp = 0.3;
-  double lowerRamp = 0.0;
-  double weightRamp = 0.5;
-  std::optional<double> driveStart; ///< [s]; empty: when tension, lowering and weight are done
-  double driveRamp = 0.8;
+  double tensionRamp = 0.15;
+  double weightRamp = 0.3;
+  std::optional<double> driveStart; ///< [s]; empty: when tension and weight are on
+  double driveRamp = 0.3;
   bool operator==(const Driver&) const = default;
 
-  double driveBegins() const { return driveStart.value_or(tensionRamp + lowerRamp + weightRamp); }
+  double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
   /// Whatever form the speeds were given in, as one table.
   SpeedTable speeds() const;
 };

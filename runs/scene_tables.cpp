@@ -88,9 +88,8 @@ Table<Terrain> terrainTable() {
   Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
   t.add("heightmap", &S::heightmap, "", "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points")
       .required();
-  t.add("size", &S::size, "m", "extent in x and y").above(0).atMost(1e5).required();
+  t.add("size", &S::size, "m", "extent in x, from 0, and in y, to both sides of 0").above(0).atMost(1e5).required();
   t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();
-  t.add("corner", &S::corner, "m", "x and y of the corner with the least x and y").atLeast(-1e6).atMost(1e6);
   t.add("kind", &S::kind, "", "a bed of grains or rigid ground").oneOf({"granular", "rigid"});
   t.add("material", &S::material, "", "of the grains, or of the rigid ground").required();
   t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");
@@ -98,7 +97,10 @@ Table<Terrain> terrainTable() {
   t.add("layers", &S::layers, "-", "grain layers above the floor; this or depth").atLeast(1).atMost(10000);
   t.add("depth", &S::depth, "m", "of the bed; this or layers").above(0).atMost(1e3);
   t.add("spacing", &S::spacing, "-", "of the lattice that the grains start on, in radii").atLeast(2).atMost(4);
-  t.add("jitter", &S::jitter, "-", "random shift at the start, in radii").atLeast(0).atMost(1);
+  t.add("jitter", &S::jitter, "-", "random shift at the start, as a share of the lattice's free gap")
+      .atLeast(0)
+      .atMost(1);
+  t.add("packing", &S::packing, "-", "solid fraction expected once settled").atLeast(0.3).atMost(0.74);
   t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat").oneOf({"follow", "flat"});
   t.add("walls", &S::walls, "", "upright walls along the edges of the map, that hold the bed");
   t.add("settle_time_limit", &S::settleTimeLimit, "s", "the bed must be at rest by then; 0 leaves settling out")
@@ -128,23 +130,20 @@ Table<Vehicle> vehicleTable() {
       .atLeast(0)
       .atMost(10);
   t.add("sphere_spacing", &S::sphereSpacing, "m", "of the parts' sphere sets").above(0).atMost(1);
-  t.add("material", &S::material, "", "of the shoes against the ground").required();
+  t.add("material", &S::material, "", "of the parts against the ground; the contact data of the spec where not given");
   t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench").oneOf({"free", "fixed"});
   return t;
 }
 
 Table<Driver> driverTable() {
   using S = Driver;
-  Table<S> t("driver", "Sprocket speeds and the order of the start: tension, lowering, weight, drive");
+  Table<S> t("driver", "Sprocket speeds and the order of the start: tension, weight, drive");
   t.add("sprocket_speed", &S::sprocketSpeed, "rad/s", "of both sprockets; positive drives forward")
       .atLeast(-100)
       .atMost(100);
   t.add("left", &S::left, "rad/s", "of the left sprocket, together with right").atLeast(-100).atMost(100);
   t.add("right", &S::right, "rad/s", "of the right sprocket, together with left").atLeast(-100).atMost(100);
   t.add("tension_ramp", &S::tensionRamp, "s", "over which the idlers' springs come on").atLeast(0).atMost(1e3);
-  t.add("lower_ramp", &S::lowerRamp, "s", "over which the vehicle is let down on the ground, then")
-      .atLeast(0)
-      .atMost(1e3);
   t.add("weight_ramp", &S::weightRamp, "s", "over which gravity and the arms' preload come on, then")
       .atLeast(0)
       .atMost(1e3);
