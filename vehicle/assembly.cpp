@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/assembly.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <utility>
+
+namespace grouser::vehicle {
+namespace {
+
+using base::Mat3d;
+using base::Pose;
+using base::Quat;
+using base::Vec3d;
+using multibody::JointType;
+
+const Vec3d kForward{1, 0, 0}, kLeft{0, 1, 0};
+
+/// Adds one track after the other to an assembly. Points and frames are given in the vehicle frame V, whose axes are
+/// those of the chassis at the start.
+class Builder {
+public:
+  Builder(const VehicleSpec& spec, const AssemblyOptions& options) : options_(options) {
+    assembly_.spec = spec;
+    assembly_.wrap = wrapTrack(spec);
+  }
+
+  Assembly build() {
+    addChassis();
+    if (options_.left) addTrack(Side::kLeft);
+    if (options_.right) addTrack(Side::kRight);
+    pairParts();
+    for (const multibody::Body& body : assembly_.model.bodies())
+      if (!body.fixed) assembly_.mass += body.mass;
+    return std::move(assembly_);
+  }
+
+private:
+  const VehicleSpec& spec() const { return assembly_.spec; }
+  std::string named(const std::string& what, int index = -1) const {
+    const std::string name = std::string(sideName(track_.side)) + " " + what;
+    return index < 0 ? name : name + " " + std::to_string(index);
+  }
+
+  int addBody(const std::string& name, const MassSpec& mass, const Pose& pose_V, bool fixed = false) {
+    multibody::Body body;
+    body.name = name;
+    body.mass = mass.mass;
+    body.inertia_B = Mat3d::diagonal(mass.inertia);
+    body.pose = multibody::compose(options_.pose_W, pose_V);
+    body.v_WB = options_.velocity;
+    body.fixed = fixed;
+    return assembly_.model.addBody(body);
+  }
+
+  /// The part frame is the body frame unless `pose_B` says otherwise. Returns the part's index.
+  int addPart(PartKind kind, int body, const std::string& mesh, int track, const Pose& pose_B = {}) {
+    assembly_.parts.push_back({assembly_.model.bodyName(body), kind, body, mesh, track, pose_B});
+    return static_cast<int>(assembly_.parts.size()) - 1;
+  }
+
+  int trackIndex() const { return static_cast<int>(assembly_.tracks.size()); }
+
+  /// Hinge about y; its angle grows with a turn about +y.
+  int addAxle(const std::string& name, int bodyA, int bodyB, const Vec3d& p_V) {
+    const Pose frame_W = multibody::compose(options_.pose_W, multibody::frameWithZX(p_V, kLeft, kForward));
+    return assembly_.model.addJointAt(name, JointType::kRevolute, bodyA, bodyB, frame_W);
+  }
+
+  void addChassis() {
+    const ChassisSpec& c = spec().chassis;
+    assembly_.chassis = addBody("chassis", c, {c.centre, {}}, options_.fixChassis);
+    addPart(PartKind::kChassis, assembly_.chassis, c.mesh, -1, {-c.centre, {}});
+  }
+
+  void addTrack(Side side) {
+    track_ = Track{};
+    track_.side = side;
+    track_.y = side == Side::kLeft ? spec().trackOffset : -spec().trackOffset;
+    addRoadWheels();
+    addRollers();
+    addSprocket();
+    addIdler();
+    addShoes();
+    assembly_.tracks.push_back(std::move(track_));
+  }
+
+  void addRoadWheels() {
+    const RoadWheelSpec& w = spec().roadWheel;
+    const ArmSpec& a = spec().arm;
+    const Vec3d alongArm{base::cos(a.pivotAngle), 0, base::sin(a.pivotAngle)};
+    for (int i = 0; i < w.count; ++i) {
+      const Vec3d axle{w.firstX + i * w.spacing, track_.y, w.z};
+      const int arm = addBody(named("arm", i), a, {axle + alongArm * (0.5 * a.length), planeRotation(a.pivotAngle)});
+      const int wheel = addBody(named("road wheel", i), w, {axle, {}});
+      const int joint = addAxle(named("arm pivot", i), assembly_.chassis, arm, axle + alongArm * a.length);
+      addAxle(named("road wheel axle", i), arm, wheel, axle);
+
+      // A vertical load F on the axle turns the arm about +y with F l cos(angle): the bar holds against it.
+      multibody::AxisSpring bar;
+      bar.name = named("torsion bar", i);
+      bar.joint = joint;
+      bar.stiffness = a.stiffness;
+      bar.damping = a.damping;
+      bar.preload = -a.preload * a.length * alongArm.x;
+      track_.armSprings.push_back(assembly_.model.addAxisSpring(bar));
+      track_.arms.push_back(arm);
+      track_.armJoints.push_back(joint);
+      track_.wheels.push_back(wheel);
+      addPart(PartKind::kRoadWheel, wheel, w.mesh, trackIndex());
+    }
+  }
+
+  void addRollers() {
+    const RollerSpec& r = spec().roller;
+    for (std::size_t i = 0; i < r.x.size(); ++i) {
+      const Vec3d axle{r.x[i], track_.y, r.z[i]};
+      const int roller = addBody(named("roller", static_cast<int>(i)), r, {axle, {}});
+      addAxle(named("roller axle", static_cast<int>(i)), assembly_.chassis, roller, axle);
+      track_.rollers.push_back(roller);
+      addPart(PartKind::kRoller, roller, r.mesh, trackIndex());
+    }
+  }
+
+  void addSprocket() {
+    const Vec3d axle{0, track_.y, 0};
+    track_.sprocket = addBody(named("sprocket"), spec().sprocket, {axle, planeRotation(assembly_.wrap.sprocketPhase)});
+    track_.sprocketJoint = addAxle(named("sprocket axle"), assembly_.chassis, track_.sprocket, axle);
+    track_.drive = assembly_.model.addDrive({named("drive"), track_.sprocketJoint, 0, true});
+    addPart(PartKind::kSprocket, track_.sprocket, spec().sprocket.mesh, trackIndex());
+  }
+
+  void addIdler() {
+    const IdlerSpec& s = spec().idler;
+    const Vec3d axle{assembly_.wrap.idlerX, track_.y, s.z};
+    track_.carrier = addBody(named("idler carrier"), {s.carrierMass, s.carrierInertia}, {axle, {}});
+    track_.idler = addBody(named("idler"), s, {axle, {}});
+    const Pose slide_W = multibody::compose(options_.pose_W, multibody::frameWithZX(axle, kForward, kLeft));
+    track_.slideJoint = assembly_.model.addJointAt(named("idler slide"), JointType::kPrismatic, assembly_.chassis,
+                                                   track_.carrier, slide_W);
+    addAxle(named("idler axle"), track_.carrier, track_.idler, axle);
+    multibody::AxisSpring tensioner;
+    tensioner.name = named("tensioner");
+    tensioner.joint = track_.slideJoint;
+    tensioner.stiffness = s.stiffness;
+    tensioner.damping = s.damping;
+    tensioner.preload = s.preload;
+    tensioner.lowerLimit = s.slideMin;
+    tensioner.upperLimit = s.slideMax;
+    tensioner.stopStiffness = s.stopStiffness;
+    tensioner.stopDamping = s.stopDamping;
+    track_.tensioner = assembly_.model.addAxisSpring(tensioner);
+    addPart(PartKind::kIdler, track_.idler, s.mesh, trackIndex());
+  }
+
+  void addShoes() {
+    const ShoeSpec& s = spec().shoe;
+    const Wrap& wrap = assembly_.wrap;
+    for (int i = 0; i < s.count; ++i) {
+      const PlanePoint c = wrap.shoeCentre(i);
+      track_.shoes.push_back(addBody(named("shoe", i), s, {{c.x, track_.y, c.z}, planeRotation(wrap.shoeAngle(i))}));
+      track_.shoeParts.push_back(addPart(PartKind::kShoe, track_.shoes.back(), s.mesh, trackIndex()));
+    }
+    // Pins turn about -y, so that a fold about a wheel is positive. The universal joint also turns about the shoe's x
+    // axis; half a loop away that axis is never along the line to the spherical joint, so no constraint is lost or
+    // doubled.
+    const Pose front_B = multibody::frameWithZX({0.5 * s.pitch, 0, 0}, -kLeft, kForward);
+    const Pose rear_B = multibody::frameWithZX({-0.5 * s.pitch, 0, 0}, -kLeft, kForward);
+    for (int i = 0; i < s.count; ++i) {
+      const JointType type = i == 0             ? JointType::kSpherical
+                             : i == s.count / 2 ? JointType::kUniversal
+                                                : JointType::kRevolute;
+      multibody::Joint pin;
+      pin.name = named("pin", i);
+      pin.type = type;
+      pin.bodyA = track_.shoes[i];
+      pin.bodyB = track_.shoes[(i + 1) % s.count];
+      pin.frame_A = front_B;
+      pin.frame_B = rear_B;
+      pin.damping = type == JointType::kRevolute ? s.pinDamping : 0.0;
+      track_.shoeJoints.push_back(assembly_.model.addJoint(pin));
+    }
+  }
+
+  void pairParts() {
+    const auto& parts = assembly_.parts;
+    for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
+      if (parts[i].kind != PartKind::kShoe) continue;
+      assembly_.groundParts.push_back(i);
+      for (int j = 0; j < static_cast<int>(parts.size()); ++j)
+        if (parts[j].track == parts[i].track && parts[j].kind != PartKind::kShoe) assembly_.pairs.push_back({i, j});
+    }
+  }
+
+  AssemblyOptions options_;
+  Assembly assembly_;
+  Track track_;
+};
+
+} // namespace
+
+const char* sideName(Side side) { return side == Side::kLeft ? "left" : "right"; }
+
+Assembly assemble(const VehicleSpec& spec, const AssemblyOptions& options) {
+  if (!options.left && !options.right)
+    throw base::InputError("vehicle: neither the left nor the right track is asked for");
+  return Builder(spec, options).build();
+}
+
+base::Pose placeOnGround(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
+                         double heading) {
+  return {{x, y, groundHeight + clearance - spec.groundHeight()},
+          {base::cos(0.5 * heading), 0, 0, base::sin(0.5 * heading)}};
+}
+
+void applyControls(const Assembly& vehicle, const Controls& controls, const base::Vec3d& gravity,
+                   multibody::Loads& loads) {
+  loads.gravity = gravity * controls.weight;
+  for (const Track& track : vehicle.tracks) {
+    loads.axisSprings[track.tensioner].loadFactor = controls.tension;
+    for (const int bar : track.armSprings) loads.axisSprings[bar].loadFactor = controls.weight;
+    loads.drives[track.drive].speed = controls.sprocketSpeed[track.side == Side::kLeft ? 0 : 1];
+  }
+}
+
+base::Pose partPose(const Part& part, const multibody::State& state) {
+  return multibody::compose(state.pose[part.body], part.pose_B);
+}
+
+} // namespace grouser::vehicle
