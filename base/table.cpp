@@ -307,7 +307,7 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
 std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
                            const std::vector<FieldValue>& defaults) {
   std::string text = fmt::format(
-      "### `{}`\n\n{}.\n\n| key | unit | default | range | what it is |\n|---|---|---|---|---|\n", name, help);
+      "### `[{}]`\n\n{}.\n\n| key | unit | default | range | what it is |\n|---|---|---|---|---|\n", name, help);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const Field& f = fields[i];
     std::string fallback = toToml(defaults[i]);

@@ -93,6 +93,8 @@ public:
   void frame(const Frame& frame);
   /// Closes the files and completes the manifest. Without it the manifest says that the run did not end.
   void finish(const Summary& summary);
+  /// Instead of finish: the run was stopped by an error, whose message goes into the manifest.
+  void abandon(const std::string& reason);
 
   const std::filesystem::path& folder() const;
 

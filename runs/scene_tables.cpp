@@ -96,7 +96,7 @@ Table<Terrain> terrainTable() {
   t.add("grain_radius", &S::grainRadius, "m", "of every grain; required for a granular bed").above(0).atMost(10);
   t.add("layers", &S::layers, "-", "grain layers above the floor; this or depth").atLeast(1).atMost(10000);
   t.add("depth", &S::depth, "m", "of the bed; this or layers").above(0).atMost(1e3);
-  t.add("spacing", &S::spacing, "-", "of the lattice that the grains start on, in radii").atLeast(2).atMost(4);
+  t.add("spacing", &S::spacing, "-", "of the lattice that the grains start on, in radii").above(2).atMost(10);
   t.add("jitter", &S::jitter, "-", "random shift at the start, as a share of the lattice's free gap")
       .atLeast(0)
       .atMost(1);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace grouser::runs {
+
+/// What this program was built from, and with.
+struct BuildInfo {
+  std::string version;  ///< "0.1.0"
+  std::string commit;   ///< short hash, "-dirty" behind it where the sources were changed; "unknown" outside git
+  std::string compiler; ///< "GCC 12.2.0"
+  std::string cuda;     ///< toolkit version; empty where built without
+};
+BuildInfo buildInfo();
+
+/// `grouser --version`: one line a fact.
+std::string versionText();
+
+/// The machine this runs on: processor, logical cores, memory, system.
+std::string machineText();
+
+} // namespace grouser::runs

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/frames_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+namespace grouser::runs {
+
+namespace {
+
+/// A <DataItem> that points into frames.h5.
+std::string item(const std::string& shape, const char* type, int bytes, const std::string& dataset) {
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Endian=\"Little\" Format=\"HDF\">"
+                     "frames.h5:{}</DataItem>",
+                     shape, type, bytes, dataset);
+}
+
+std::string geometry(std::size_t vertices, const std::string& dataset) {
+  return fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                     item(fmt::format("{} 3", vertices), "Float", 4, dataset));
+}
+
+std::string attribute(const char* name, const char* centre, std::size_t count, const char* type,
+                      const std::string& dataset) {
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">{}</Attribute>\n", name,
+                     centre, item(fmt::format("{}", count), type, 4, dataset));
+}
+
+std::string triangles(std::size_t count, const std::string& dataset) {
+  return fmt::format("        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", count,
+                     item(fmt::format("{} 3", count), "UInt", 4, dataset));
+}
+
+std::string grid(const char* name, const std::string& content) {
+  return content.empty()
+             ? ""
+             : fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n{}      </Grid>\n", name, content);
+}
+
+std::vector<float> flat(const std::vector<base::Vec3d>& points) {
+  std::vector<float> out;
+  out.reserve(3 * points.size());
+  for (const base::Vec3d& p : points)
+    for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
+  return out;
+}
+
+} // namespace
+
+FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts,
+                       const base::TriangleMesh& ground)
+    : folder_(folder), file_(Hdf5File::create(folder / "frames.h5")), parts_(std::move(parts)) {
+  std::vector<std::uint32_t> corners, partOf, kindOf;
+  std::vector<std::string> names, kinds;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const FramePart& part = parts_[p];
+    const auto kind = std::find(kinds.begin(), kinds.end(), part.kind) - kinds.begin();
+    if (kind == static_cast<std::ptrdiff_t>(kinds.size())) kinds.push_back(part.kind);
+    names.push_back(part.name);
+    for (const std::uint32_t i : part.mesh.indices) corners.push_back(static_cast<std::uint32_t>(partVertices_) + i);
+    partOf.insert(partOf.end(), part.mesh.indices.size() / 3, static_cast<std::uint32_t>(p));
+    kindOf.insert(kindOf.end(), part.mesh.indices.size() / 3, static_cast<std::uint32_t>(kind));
+    partVertices_ += part.mesh.vertices.size();
+  }
+  partTriangles_ = corners.size() / 3;
+  if (partTriangles_) {
+    file_.write("/parts/triangles", corners, {partTriangles_, 3});
+    file_.write("/parts/part", partOf, {partTriangles_});
+    file_.write("/parts/kind", kindOf, {partTriangles_});
+    file_.attribute("/parts/part", "names", names);
+    file_.attribute("/parts/kind", "names", kinds);
+  }
+  groundVertices_ = ground.vertices.size(), groundTriangles_ = ground.indices.size() / 3;
+  if (groundTriangles_) {
+    file_.write("/ground/position", flat(ground.vertices), {groundVertices_, 3});
+    file_.write("/ground/triangles", ground.indices, {groundTriangles_, 3});
+  }
+}
+
+void FramesFile::add(const Frame& frame) {
+  const std::size_t grains = frame.positions.size();
+  if (frame.radii.size() != grains || frame.speeds.size() != grains || frame.ids.size() != grains ||
+      frame.partPoses.size() != parts_.size())
+    throw std::logic_error("a frame's arrays differ in length");
+  const std::string group = fmt::format("/{:06}", count_);
+  file_.makeGroup(group);
+  file_.attribute(group, "time", frame.time);
+  file_.attribute(group, "step", static_cast<double>(frame.step));
+
+  std::string grids;
+  if (grains) {
+    std::vector<float> positions(3 * grains);
+    std::vector<std::uint32_t> sequence(grains);
+    for (std::size_t i = 0; i < grains; ++i) {
+      for (int k = 0; k < 3; ++k) positions[3 * i + static_cast<std::size_t>(k)] = frame.positions[i][k];
+      sequence[i] = static_cast<std::uint32_t>(i);
+    }
+    const std::string at = group + "/grains";
+    file_.write(at + "/position", positions, {grains, 3});
+    file_.write(at + "/radius", frame.radii, {grains});
+    file_.write(at + "/speed", frame.speeds, {grains});
+    file_.write(at + "/id", frame.ids, {grains});
+    file_.write(at + "/vertex", sequence, {grains, 1});
+    // The vertices are listed, though they are just 0, 1, 2...: not every reader makes them up.
+    const std::string vertices = fmt::format(
+        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
+        grains, item(fmt::format("{} 1", grains), "UInt", 4, at + "/vertex"));
+    grids += grid("grains", vertices + geometry(grains, at + "/position") +
+                                attribute("radius", "Node", grains, "Float", at + "/radius") +
+                                attribute("speed", "Node", grains, "Float", at + "/speed") +
+                                attribute("id", "Node", grains, "UInt", at + "/id"));
+  }
+  if (partTriangles_) {
+    std::vector<base::Vec3d> world;
+    world.reserve(partVertices_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
+    file_.write(group + "/parts/position", flat(world), {partVertices_, 3});
+    grids += grid("parts", triangles(partTriangles_, "/parts/triangles") +
+                               geometry(partVertices_, group + "/parts/position") +
+                               attribute("part", "Cell", partTriangles_, "UInt", "/parts/part") +
+                               attribute("kind", "Cell", partTriangles_, "UInt", "/parts/kind"));
+  }
+  if (groundTriangles_)
+    grids += grid("ground",
+                  triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));
+  file_.flush();
+
+  ++count_;
+  if (grids.empty()) return;
+  steps_ += fmt::format("    <Grid Name=\"step {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n      <Time "
+                        "Value=\"{}\"/>\n{}    </Grid>\n",
+                        frame.step, frame.time, grids);
+  writeXdmf();
+}
+
+void FramesFile::writeXdmf() const {
+  const std::filesystem::path target = folder_ / "frames.xdmf", part = folder_ / "frames.xdmf.part";
+  std::ofstream file(part, std::ios::binary);
+  file << "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n  <Grid Name=\"run\" GridType=\"Collection\" "
+          "CollectionType=\"Temporal\">\n"
+       << steps_ << "  </Grid>\n</Domain>\n</Xdmf>\n";
+  file.close();
+  if (!file) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", part.string()));
+  std::filesystem::rename(part, target);
+}
+
+} // namespace grouser::runs

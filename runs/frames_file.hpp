@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/hdf5_file.hpp"
+#include "runs/output.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// Grains, parts and ground over time for ParaView: numbers in frames.h5, their meaning in frames.xdmf beside it.
+///
+/// frames.h5:  /parts/triangles [t, 3], /parts/part [t], /parts/kind [t];  /ground/position [v, 3], /ground/triangles;
+///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3]
+/// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground". It is written anew after each
+/// frame and put in place by renaming, so that it always names complete frames only.
+class FramesFile {
+public:
+  FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground);
+
+  /// Throws std::logic_error where the arrays' lengths do not agree.
+  void add(const Frame& frame);
+
+private:
+  void writeXdmf() const;
+
+  std::filesystem::path folder_;
+  Hdf5File file_;
+  std::vector<FramePart> parts_;
+  std::size_t partVertices_ = 0, partTriangles_ = 0, groundVertices_ = 0, groundTriangles_ = 0;
+  std::string steps_; ///< the frames so far, as XML
+  std::size_t count_ = 0;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// A thin owner of HDF5 handles: one process writes or reads one file. Failures throw; HDF5's own error stack is kept
+/// off the terminal.
+namespace grouser::runs {
+
+/// Number types that go into a file; always stored little-endian.
+enum class NumberType { Float32, Float64, Int64, UInt32 };
+template <class T> struct NumberTypeOf;
+template <> struct NumberTypeOf<float> { static constexpr NumberType value = NumberType::Float32; };
+template <> struct NumberTypeOf<double> { static constexpr NumberType value = NumberType::Float64; };
+template <> struct NumberTypeOf<std::int64_t> { static constexpr NumberType value = NumberType::Int64; };
+template <> struct NumberTypeOf<std::uint32_t> { static constexpr NumberType value = NumberType::UInt32; };
+
+/// A dataset that grows by rows of `width` numbers: shape [rows, width], or [rows] where width is 0.
+class GrowingDataset {
+public:
+  GrowingDataset() = default;
+  GrowingDataset(GrowingDataset&& other) noexcept;
+  GrowingDataset& operator=(GrowingDataset&& other) noexcept;
+  ~GrowingDataset();
+
+  /// Appends one row of max(width, 1) numbers.
+  void append(const double* numbers);
+  void append(const std::int64_t* numbers);
+
+private:
+  friend class Hdf5File;
+  GrowingDataset(std::int64_t dataset, int width) : dataset_(dataset), width_(width) {}
+  void appendRow(const void* numbers, std::int64_t memoryType);
+
+  std::int64_t dataset_ = -1;
+  int width_ = 0;
+  std::uint64_t rows_ = 0;
+};
+
+class Hdf5File {
+public:
+  /// Creates or replaces the file. Throws std::runtime_error with the path.
+  static Hdf5File create(const std::filesystem::path& path);
+  /// Opens for reading. Throws base::InputError where it is missing or no HDF5 file.
+  static Hdf5File open(const std::filesystem::path& path);
+  Hdf5File(Hdf5File&& other) noexcept;
+  Hdf5File& operator=(Hdf5File&& other) noexcept;
+  ~Hdf5File();
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Groups on the way are made as needed, here and below.
+  void makeGroup(const std::string& group);
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values);
+
+  template <class T>
+  void write(const std::string& dataset, const std::vector<T>& numbers, const std::vector<std::uint64_t>& shape) {
+    writeNumbers(dataset, numbers.data(), NumberTypeOf<T>::value, shape);
+  }
+  /// `chunkRows` rows are allotted at a time.
+  GrowingDataset growing(const std::string& dataset, NumberType type, int width, int chunkRows);
+  /// A second name for an object.
+  void link(const std::string& existing, const std::string& name);
+  /// Everything written so far is on disk after this: a killed program leaves a readable file.
+  void flush();
+
+  bool has(const std::string& object) const;
+  /// Shape and numbers of a dataset, converted to double. Throws base::InputError where there is none.
+  std::vector<std::uint64_t> shape(const std::string& dataset) const;
+  std::vector<double> numbers(const std::string& dataset) const;
+  /// Empty where there is no such attribute.
+  std::string text(const std::string& object, const std::string& name) const;
+  std::vector<std::string> texts(const std::string& object, const std::string& name) const;
+
+private:
+  Hdf5File(std::int64_t file, std::filesystem::path path) : file_(file), path_(std::move(path)) {}
+  void writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
+                    const std::vector<std::uint64_t>& shape);
+  void check(std::int64_t status, const char* what) const;
+
+  std::int64_t file_ = -1;
+  std::filesystem::path path_;
+};
+
+} // namespace grouser::runs

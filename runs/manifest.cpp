@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/manifest.hpp"
+
+#include "runs/build_info.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <fmt/chrono.h>
+#include <fstream>
+#include <stdexcept>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+} // namespace
+
+Manifest::Manifest(fs::path path, const Scene& scene, const std::map<std::string, std::string>& metadata)
+    : path_(std::move(path)), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
+      overrides_(scene.overrides), notes_(metadata) {}
+
+void Manifest::write(const std::string& status) const {
+  const BuildInfo build = buildInfo();
+  nlohmann::ordered_json json;
+  json["status"] = status;
+  json["scene"] = scene_;
+  json["overrides"] = overrides_;
+  json["program"] = {{"name", "grouser"},
+                     {"version", build.version},
+                     {"commit", build.commit},
+                     {"compiler", build.compiler},
+                     {"cuda", build.cuda}};
+  json["machine"] = machineText();
+  json["started"] = started_;
+  for (const auto& [key, text] : notes_) json[key] = text;
+  if (status == "finished") {
+    json["ended"] = now();
+    json["steps"] = summary_.steps;
+    json["simulated_time_s"] = summary_.simulatedTime;
+    json["wall_time_s"] = summary_.wallTime;
+    if (!summary_.stateHash.empty()) json["state_hash"] = summary_.stateHash;
+    for (const auto& [key, text] : summary_.notes) json[key] = text;
+    for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
+  }
+  std::map<std::string, std::uintmax_t> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_.parent_path()))
+    if (entry.is_regular_file() && entry.path() != path_) files[entry.path().filename().string()] = entry.file_size();
+  for (const auto& [name, bytes] : files) json["files"][name] = {{"bytes", bytes}};
+
+  const fs::path part = path_.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << json.dump(2) << '\n';
+  file.close();
+  if (!file) throw std::runtime_error(part.string() + ": could not be written; is the disk full?");
+  fs::rename(part, path_);
+}
+
+} // namespace grouser::runs
