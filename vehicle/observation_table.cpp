@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/observation_table.hpp"
+
+namespace grouser::vehicle {
+namespace {
+
+struct ScalarField {
+  const char *name, *unit, *help;
+  double TrackObservation::*member;
+};
+struct ShoeField {
+  const char *name, *unit, *help;
+  std::vector<double> TrackObservation::*member;
+};
+struct VehicleField {
+  const char *name, *unit, *help;
+  double Observation::*member;
+};
+struct VectorField {
+  const char *name, *unit, *help;
+  std::vector<std::string> columns;
+  base::Vec3d Observation::*member;
+};
+
+const std::vector<VectorField>& vectorFields() {
+  static const std::vector<VectorField> fields{
+      {"position", "m", "middle of the sprockets' axle line", {"x", "y", "z"}, &Observation::position},
+      {"velocity", "m/s", "of the chassis' centre of mass", {"x", "y", "z"}, &Observation::velocity},
+      {"ground_force", "N", "of the ground on all shoes", {"forward", "left", "up"}, &Observation::groundForce},
+  };
+  return fields;
+}
+
+constexpr VehicleField kVehicleFields[] = {
+    {"heading", "rad", "of the hull, from world x towards y", &Observation::heading},
+    {"pitch_angle", "rad", "of the hull, nose up positive", &Observation::pitchAngle},
+    {"roll_angle", "rad", "of the hull, right side down positive", &Observation::rollAngle},
+    {"gross_traction", "N", "drive torques over the pitch radius", &Observation::grossTraction},
+    {"drawbar_pull", "N", "net thrust of the ground along the heading", &Observation::drawbarPull},
+    {"motion_resistance", "N", "gross traction minus drawbar pull", &Observation::motionResistance},
+};
+
+constexpr ScalarField kTrackFields[] = {
+    {"sprocket_speed", "rad/s", "forward positive", &TrackObservation::sprocketSpeed},
+    {"drive_torque", "N m", "multiplier of the sprocket's drive, forward positive", &TrackObservation::driveTorque},
+    {"idler_force", "N", "of the tensioner on the idler, forward positive", &TrackObservation::idlerForce},
+    {"idler_slide", "m", "from the drawn place, forward positive", &TrackObservation::idlerSlide},
+    {"speed", "m/s", "of the hull at this track", &TrackObservation::speed},
+    {"slip", "-", "1 - speed / (sprocket speed x pitch radius)", &TrackObservation::slip},
+    {"tooth_speed", "m/s", "mean over whole tooth passages", &TrackObservation::toothSpeed},
+    {"tooth_slip", "-", "mean over whole tooth passages", &TrackObservation::toothSlip},
+    {"teeth_passed", "-", "sprocket speed x teeth / (2 pi), integrated", &TrackObservation::teethPassed},
+    {"pitches_passed", "-", "pitches of track past the sprocket", &TrackObservation::pitchesPassed},
+    {"skipped", "-", "teeth passed minus pitches passed", &TrackObservation::skipped},
+    {"sideways", "m", "largest distance of a shoe from its track's plane", &TrackObservation::sideways},
+    {"wheel_lift", "m", "largest gap between a road wheel and its plates", &TrackObservation::wheelLift},
+};
+
+constexpr ShoeField kShoeFields[] = {
+    {"pad_height", "m", "lowest point of each shoe's pad plate", &TrackObservation::padHeight},
+    {"sinkage", "m", "undisturbed surface minus pad height, on the ground run", &TrackObservation::sinkage},
+    {"tension", "N", "force in the pin joint ahead of each shoe", &TrackObservation::tension},
+    {"ground_pressure", "Pa", "ground force normal to the pad over its area", &TrackObservation::groundPressure},
+    {"on_ground", "-", "1 on the ground run and carrying load", &TrackObservation::onGround},
+};
+
+} // namespace
+
+std::vector<Quantity> quantities(const Assembly& vehicle) {
+  std::vector<Quantity> list;
+  for (const VectorField& f : vectorFields())
+    list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 3, f.columns});
+  for (const VehicleField& f : kVehicleFields)
+    list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 1, {}});
+  for (const Track& track : vehicle.tracks) {
+    const std::string folder = std::string("vehicle/") + sideName(track.side) + "/";
+    for (const ScalarField& f : kTrackFields) list.push_back({folder + f.name, f.unit, f.help, 1, {}});
+    for (const ShoeField& f : kShoeFields)
+      list.push_back({folder + f.name, f.unit, f.help, static_cast<int>(track.shoes.size()), {}});
+  }
+  return list;
+}
+
+std::vector<double> flatten(const Observation& observation) {
+  std::vector<double> values;
+  for (const VectorField& f : vectorFields()) {
+    const base::Vec3d& v = observation.*f.member;
+    values.insert(values.end(), {v.x, v.y, v.z});
+  }
+  for (const VehicleField& f : kVehicleFields) values.push_back(observation.*f.member);
+  for (const TrackObservation& track : observation.tracks) {
+    for (const ScalarField& f : kTrackFields) values.push_back(track.*f.member);
+    for (const ShoeField& f : kShoeFields) {
+      const std::vector<double>& shoes = track.*f.member;
+      values.insert(values.end(), shoes.begin(), shoes.end());
+    }
+  }
+  return values;
+}
+
+} // namespace grouser::vehicle

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vehicle/observers.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::vehicle {
+
+/// One observed quantity as an output file wants it.
+struct Quantity {
+  std::string path; ///< "vehicle/left/tension"
+  std::string unit; ///< "N"; "-" where dimensionless
+  std::string help;
+  int width = 1;                    ///< numbers a row: 3 of a vector, one a shoe
+  std::vector<std::string> columns; ///< names of a vector's components; empty for scalars and for one a shoe
+};
+
+/// What an observation of this vehicle holds, in the order of flatten().
+std::vector<Quantity> quantities(const Assembly& vehicle);
+
+/// The numbers of an observation, each quantity's `width` numbers in turn.
+std::vector<double> flatten(const Observation& observation);
+
+} // namespace grouser::vehicle

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/observers.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace grouser::vehicle {
+namespace {
+
+using base::Vec3d;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStandardGravity = 9.80665;
+/// Below this a sprocket stands and slip has no meaning [rad/s].
+constexpr double kStanding = 1e-6;
+/// Slack and stretch move the track against the sprocket by less than half a pitch; three quarters is on the way to a
+/// skip.
+constexpr double kSkip = 0.75;
+
+/// Does the ground carry more than half of the weight?
+bool stands(const Assembly& vehicle, const GroundLoads& ground) {
+  double up = 0;
+  for (const Vec3d& f : ground.force) up += f.z;
+  return up > 0.5 * vehicle.mass * kStandardGravity;
+}
+
+} // namespace
+
+double padHeight(const ShoeSpec& shoe, const base::Pose& pose_W) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const double x : {-shoe.halfLength, shoe.halfLength})
+    for (const double y : {-shoe.padHalfWidth, shoe.padHalfWidth})
+      lowest = std::min(lowest, pose_W.toWorld({x, y, shoe.padBottom}).z);
+  return lowest;
+}
+
+bool onGroundRun(const Assembly& vehicle, int track, int shoe, const multibody::State& state) {
+  const Track& t = vehicle.tracks[track];
+  const base::Pose pose_W = vehiclePose(vehicle, state);
+  const Vec3d p_V = pose_W.toBody(state.pose[t.shoes[shoe]].position);
+  const Vec3d rear_V = pose_W.toBody(state.pose[t.wheels.front()].position);
+  const Vec3d front_V = pose_W.toBody(state.pose[t.wheels.back()].position);
+  return p_V.x >= rear_V.x && p_V.x <= front_V.x && p_V.z < std::min(rear_V.z, front_V.z);
+}
+
+double carryingLoad(const Assembly& vehicle) {
+  return 0.01 * vehicle.mass * kStandardGravity /
+         (static_cast<double>(vehicle.tracks.size()) * vehicle.wrap.counts.ground);
+}
+
+double sidewaysShift(const Assembly& vehicle, int track, const multibody::State& state) {
+  const Track& t = vehicle.tracks[track];
+  const base::Pose pose_W = vehiclePose(vehicle, state);
+  double worst = 0;
+  for (const int shoe : t.shoes) worst = std::max(worst, std::fabs(pose_W.toBody(state.pose[shoe].position).y - t.y));
+  return worst;
+}
+
+double wheelLift(const Assembly& vehicle, int track, const multibody::State& state) {
+  const Track& t = vehicle.tracks[track];
+  const VehicleSpec& spec = vehicle.spec;
+  const base::Pose pose_W = vehiclePose(vehicle, state);
+  const double halfPitch = 0.5 * spec.shoe.pitch;
+  std::vector<double> gap(t.wheels.size(), std::numeric_limits<double>::infinity());
+  std::vector<Vec3d> axle_V;
+  for (const int wheel : t.wheels) axle_V.push_back(pose_W.toBody(state.pose[wheel].position));
+  for (const int shoe : t.shoes) {
+    const base::Pose& pose = state.pose[shoe];
+    const Vec3d rear = pose_W.toBody(pose.toWorld({-halfPitch, 0, spec.shoe.plateTop}));
+    const Vec3d front = pose_W.toBody(pose.toWorld({halfPitch, 0, spec.shoe.plateTop}));
+    for (std::size_t i = 0; i < t.wheels.size(); ++i) {
+      const double s = (axle_V[i].x - rear.x) / (front.x - rear.x);
+      // Of the plate under the wheel; the plates of neighbours overlap or leave a gap where the track is folded.
+      if (!(s >= -0.1 && s <= 1.1) || 0.5 * (rear.z + front.z) > axle_V[i].z) continue;
+      gap[i] = std::min(gap[i], axle_V[i].z - spec.roadWheel.radius - (rear.z + s * (front.z - rear.z)));
+    }
+  }
+  double worst = 0;
+  for (const double g : gap) worst = std::max(worst, g);
+  return worst;
+}
+
+double suspendedSag(const VehicleSpec& spec) {
+  const double span = spec.idler.x, load = spec.shoe.mass / spec.shoe.pitch * kStandardGravity;
+  // The tensioner holds two strands, both nearly along its slide.
+  return load * span * span / (8 * 0.5 * std::max(spec.idler.preload, 1.0));
+}
+
+Observer::Observer(const Assembly& vehicle, const ObserverOptions& options) : vehicle_(&vehicle) {
+  for (int i = 0; i < static_cast<int>(vehicle.tracks.size()); ++i)
+    travel_.emplace_back(vehicle, i, options.averageTeeth);
+}
+
+void Observer::update(const multibody::State& state, double dt) {
+  for (Travel& travel : travel_) travel.update(state, dt);
+}
+
+std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
+  const double horn = vehicle_->spec.shoe.hornHeight;
+  // A track that hangs free, or whose load is not known, may sag off its wheels.
+  const double allowed = horn + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
+  char text[200] = "";
+  for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
+    const char* side = sideName(vehicle_->tracks[i].side);
+    const double sideways = sidewaysShift(*vehicle_, i, state), lift = wheelLift(*vehicle_, i, state);
+    if (!(sideways <= horn))
+      std::snprintf(text, sizeof text,
+                    "%s track thrown: a shoe is %.0f mm beside its wheels, more than a horn's height of %.0f mm", side,
+                    1e3 * sideways, 1e3 * horn);
+    else if (!(lift <= allowed))
+      std::snprintf(text, sizeof text, "%s track thrown: a road wheel is %.0f mm off its plates, more than %.0f mm",
+                    side, 1e3 * lift, 1e3 * allowed);
+    else if (!(std::fabs(travel_[i].skipped()) <= kSkip))
+      std::snprintf(text, sizeof text, "%s track skips: %.2f teeth have passed, but %.2f pitches", side,
+                    travel_[i].teethPassed(), travel_[i].pitchesPassed());
+    if (text[0]) break;
+  }
+  return text;
+}
+
+TrackObservation Observer::observeTrack(int track, const multibody::State& state, const GroundLoads& ground,
+                                        const SurfaceHeight& surface) const {
+  const Track& t = vehicle_->tracks[track];
+  const VehicleSpec& spec = vehicle_->spec;
+  const Travel& travel = travel_[track];
+  TrackObservation o;
+  const double padArea = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
+  const double carrying = carryingLoad(*vehicle_);
+  for (std::size_t i = 0; i < t.shoes.size(); ++i) {
+    const base::Pose& pose = state.pose[t.shoes[i]];
+    const bool known = !ground.force.empty();
+    const Vec3d force = known ? ground.force[t.shoes[i]] : Vec3d{};
+    const bool carries = known && force.z > carrying && onGroundRun(*vehicle_, track, static_cast<int>(i), state);
+    const double height = padHeight(spec.shoe, pose);
+    o.padHeight.push_back(height);
+    o.onGround.push_back(carries ? 1 : 0);
+    o.sinkage.push_back(carries && surface ? surface(pose.position.x, pose.position.y) - height : kNaN);
+    o.tension.push_back(base::norm(state.joint[t.shoeJoints[i]].force));
+    o.groundPressure.push_back(known ? base::dot(force, base::rotate(pose.orientation, {0, 0, 1})) / padArea : kNaN);
+  }
+  const multibody::JointReading& sprocket = state.joint[t.sprocketJoint];
+  const multibody::JointReading& slide = state.joint[t.slideJoint];
+  o.sprocketSpeed = sprocket.rate;
+  o.driveTorque = sprocket.driveForce;
+  o.idlerForce = slide.springForce;
+  o.idlerSlide = slide.position;
+  o.speed = trackSpeed(*vehicle_, track, state);
+  o.slip = std::fabs(sprocket.rate) < kStanding ? kNaN : 1 - o.speed / (sprocket.rate * spec.pitchRadius());
+  o.toothSpeed = travel.toothSpeed();
+  o.toothSlip = travel.toothSlip();
+  o.teethPassed = travel.teethPassed();
+  o.pitchesPassed = travel.pitchesPassed();
+  o.skipped = travel.skipped();
+  o.sideways = sidewaysShift(*vehicle_, track, state);
+  o.wheelLift = wheelLift(*vehicle_, track, state);
+  return o;
+}
+
+Observation Observer::observe(const multibody::State& state, const GroundLoads& ground,
+                              const SurfaceHeight& surface) const {
+  Observation o;
+  const base::Pose pose_W = vehiclePose(*vehicle_, state);
+  const Vec3d ahead = base::rotate(pose_W.orientation, {1, 0, 0});
+  const Vec3d left = base::rotate(pose_W.orientation, {0, 1, 0});
+  const Vec3d up = base::rotate(pose_W.orientation, {0, 0, 1});
+  o.time = state.time;
+  o.position = pose_W.position;
+  o.velocity = state.twist[vehicle_->chassis].v;
+  o.heading = base::atan2(ahead.y, ahead.x);
+  o.pitchAngle = base::atan2(ahead.z, std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y));
+  o.rollAngle = base::atan2(left.z, up.z);
+
+  double torque = 0;
+  for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
+    o.tracks.push_back(observeTrack(i, state, ground, surface));
+    torque += o.tracks.back().driveTorque;
+  }
+  o.grossTraction = torque / vehicle_->spec.pitchRadius();
+  o.groundForce = {kNaN, kNaN, kNaN};
+  if (!ground.force.empty()) {
+    Vec3d sum;
+    for (const int part : vehicle_->groundParts) sum += ground.force[vehicle_->parts[part].body];
+    const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
+    o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};
+  }
+  o.drawbarPull = o.groundForce.x;
+  o.motionResistance = o.grossTraction - o.drawbarPull;
+  o.alarm = alarm(state, ground);
+  return o;
+}
+
+std::vector<double> Observer::save() const {
+  std::vector<double> flat;
+  for (const Travel& travel : travel_) {
+    const std::vector<double> one = travel.save();
+    flat.insert(flat.end(), one.begin(), one.end());
+  }
+  return flat;
+}
+
+void Observer::restore(const std::vector<double>& flat) {
+  const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
+  if (flat.size() != each * travel_.size()) throw base::InputError("observers: the checkpoint is of another vehicle");
+  for (std::size_t i = 0; i < travel_.size(); ++i)
+    travel_[i].restore({flat.begin() + i * each, flat.begin() + (i + 1) * each});
+}
+
+} // namespace grouser::vehicle

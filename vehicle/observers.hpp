@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/state.hpp"
+#include "vehicle/assembly.hpp"
+#include "vehicle/travel.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace grouser::vehicle {
+
+/// Height of the undisturbed surface at (x, y), before the vehicle touched it [m].
+using SurfaceHeight = std::function<double(double x, double y)>;
+
+/// What the ground did to the bodies: force on each body of the model, world components [N]. Empty: not known.
+struct GroundLoads {
+  std::vector<base::Vec3d> force;
+};
+
+/// One track at one time. Vectors have one entry a shoe, in the order of the wrap.
+struct TrackObservation {
+  std::vector<double> padHeight;      ///< lowest point of the pad plate, not of its grouser [m]
+  std::vector<double> sinkage;        ///< undisturbed surface minus padHeight [m]; NaN off the ground run
+  std::vector<double> tension;        ///< constraint force in the pin joint ahead of each shoe [N]
+  std::vector<double> groundPressure; ///< ground force normal to the pad over the pad's area [Pa]; NaN if not known
+  std::vector<double> onGround;       ///< 1 on the ground run and carrying load, else 0
+  double sprocketSpeed = 0;           ///< [rad/s]
+  double driveTorque = 0;             ///< of the hull on the sprocket, positive drives forward [N m]
+  double idlerForce = 0;              ///< of the tensioner on the idler's carrier, forward positive [N]
+  double idlerSlide = 0;              ///< from the place of the wrap, forward positive [m]
+  double speed = 0;                   ///< of the hull at this track, along the hull's x axis [m/s]
+  double slip = 0;                    ///< 1 - speed / (omega r_pitch) [-]; NaN while the sprocket stands
+  double toothSpeed = 0;              ///< mean over whole tooth passages [m/s]; NaN before the first
+  double toothSlip = 0;               ///< the same for the slip [-]
+  double teethPassed = 0;             ///< omega Z / (2 pi), integrated [-]
+  double pitchesPassed = 0;           ///< of the track past the sprocket [-]
+  double skipped = 0;                 ///< teethPassed - pitchesPassed [-]
+  double sideways = 0;                ///< largest distance of a shoe from its track's plane [m]
+  double wheelLift = 0;               ///< largest gap between a road wheel and the plates under it [m]
+};
+
+struct Observation {
+  double time = 0;             ///< [s]
+  base::Vec3d position;        ///< middle of the sprockets' axle line, world [m]
+  base::Vec3d velocity;        ///< of the chassis' centre of mass, world [m/s]
+  double heading = 0;          ///< of the hull's x axis from world x towards y [rad]
+  double pitchAngle = 0;       ///< nose up positive [rad]
+  double rollAngle = 0;        ///< right side down positive [rad]
+  base::Vec3d groundForce;     ///< sum over all shoes: forward along the heading, left, up [N]; NaN if not known
+  double grossTraction = 0;    ///< sum of drive torques over the pitch radius [N]
+  double drawbarPull = 0;      ///< net thrust that the ground leaves the vehicle, forward along the heading [N]
+  double motionResistance = 0; ///< grossTraction - drawbarPull [N]
+  std::vector<TrackObservation> tracks;
+  std::string alarm; ///< thrown or skipped track, in words; empty while all is well
+};
+
+struct ObserverOptions {
+  int averageTeeth = 1; ///< tooth passages of one mean
+};
+
+/// Watches a vehicle: update() after every step, observe() when there is something to be written.
+class Observer {
+public:
+  /// The vehicle must outlive the observer.
+  explicit Observer(const Assembly& vehicle, const ObserverOptions& options = {});
+
+  void update(const multibody::State& state, double dt);
+  /// `surface` may be null where there is no bed: sinkage is NaN then.
+  Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
+  /// The alarm alone, cheap enough for every step or every few: "" while all is well.
+  std::string alarm(const multibody::State& state, const GroundLoads& ground) const;
+  const Travel& travel(int track) const { return travel_[track]; }
+
+  std::vector<double> save() const;
+  void restore(const std::vector<double>& flat);
+
+private:
+  TrackObservation observeTrack(int track, const multibody::State& state, const GroundLoads& ground,
+                                const SurfaceHeight& surface) const;
+
+  const Assembly* vehicle_;
+  std::vector<Travel> travel_;
+};
+
+/// Lowest point of a shoe's pad plate: of its four lower corners, in the world [m].
+double padHeight(const ShoeSpec& shoe, const base::Pose& pose_W);
+
+/// Shoe on the lower run with its middle between the axles of the first and last road wheel, seen from the hull.
+/// Whether it carries load is another question.
+bool onGroundRun(const Assembly& vehicle, int track, int shoe, const multibody::State& state);
+
+/// Load from which on a shoe counts as carrying: 1 % of the vehicle's weight spread over the ground run [N].
+double carryingLoad(const Assembly& vehicle);
+
+/// Largest distance of a shoe's middle from the track's plane [m].
+double sidewaysShift(const Assembly& vehicle, int track, const multibody::State& state);
+
+/// Largest gap between a road wheel's rim and the plates under it, square to the hull [m].
+double wheelLift(const Assembly& vehicle, int track, const multibody::State& state);
+
+/// How far the lower run of a vehicle that hangs free sags under its own weight, as a parabola between sprocket and
+/// idler: lambda g L^2 / (8 T) [m]. Such a gap under a wheel is no thrown track.
+double suspendedSag(const VehicleSpec& spec);
+
+} // namespace grouser::vehicle
