@@ -101,7 +101,9 @@ void setOrigin(Node& node, const std::string& origin) {
 Node overrideValue(const std::string& text) {
   Node node;
   try {
-    node = convert(*toml::parse("value = " + text).get("value"), "--set");
+    const toml::table table = toml::parse("value = " + text);
+    if (table.size() == 1) node = convert(*table.get("value"), "--set");
+    else node.value = text;
   } catch (const toml::parse_error&) {
     node.value = text;
   }

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace grouser::base {
+namespace {
+
+struct Wheel {
+  double radius = 0.2;
+  int count = 5;
+  bool steered = false;
+  std::string kind = "road";
+  Vec3d centre;
+  std::array<double, 2> range{0, 1};
+  std::vector<double> angles;
+  std::vector<std::string> tags;
+  std::optional<double> step;
+  std::optional<double> width;
+};
+
+Table<Wheel> wheelTable() {
+  Table<Wheel> t("wheel", "One wheel");
+  t.add("radius", &Wheel::radius, "m", "rolling radius").above(0).atMost(10);
+  t.add("count", &Wheel::count, "-", "how many").atLeast(1).atMost(20);
+  t.add("steered", &Wheel::steered, "", "turns about z");
+  t.add("kind", &Wheel::kind, "", "what it does").oneOf({"road", "idler"});
+  t.add("centre", &Wheel::centre, "m", "of the axle");
+  t.add("range", &Wheel::range, "m", "from, to");
+  t.add("angles", &Wheel::angles, "rad", "of the spokes");
+  t.add("tags", &Wheel::tags, "", "free words");
+  t.add("step", &Wheel::step, "s", "time step").above(0).orWord("auto");
+  t.add("width", &Wheel::width, "m", "of the tread").above(0);
+  return t;
+}
+
+/// What reading `text` says, after `version = 1` on line 1 and [wheel] on line 2; empty where nothing is wrong.
+std::string complaint(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    const Document doc = Document::parse("version = 1\n[wheel]\n" + text, "w.toml", overrides);
+    doc.root().allowOnly({"version", "wheel"});
+    doc.root().section("wheel").read(wheelTable());
+    return "";
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+Wheel read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const Document doc = Document::parse("version = 1\n[wheel]\n" + text, "w.toml", overrides);
+  return doc.root().section("wheel").read(wheelTable());
+}
+
+TEST(Table, EveryTypeIsRead) {
+  const Wheel w =
+      read("radius = 1\ncount = 7\nsteered = true\nkind = \"idler\"\ncentre = [1, 2.5, -3]\nrange = [0, 2]\n"
+           "angles = [0.1, 1]\ntags = [\"a\", \"b\"]\nstep = 1e-4\nwidth = 0.5\n");
+  EXPECT_EQ(w.radius, 1.0);
+  EXPECT_EQ(w.count, 7);
+  EXPECT_TRUE(w.steered);
+  EXPECT_EQ(w.kind, "idler");
+  EXPECT_EQ(w.centre, (Vec3d{1, 2.5, -3}));
+  EXPECT_EQ(w.range, (std::array<double, 2>{0, 2}));
+  EXPECT_EQ(w.angles, (std::vector<double>{0.1, 1}));
+  EXPECT_EQ(w.tags, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(w.step, 1e-4);
+  EXPECT_EQ(w.width, 0.5);
+}
+
+TEST(Table, WhatIsAbsentKeepsItsDefault) {
+  const Wheel w = read("step = \"auto\"\n");
+  EXPECT_EQ(w.radius, 0.2);
+  EXPECT_FALSE(w.step.has_value());
+  EXPECT_FALSE(w.width.has_value());
+}
+
+struct Broken {
+  const char* name;
+  const char* text;
+  const char* message;
+};
+
+class BrokenField : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenField, IsNamedWithPlaceValueAndRemedy) { EXPECT_EQ(complaint(GetParam().text), GetParam().message); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BrokenField,
+    testing::Values(
+        Broken{"OutOfRange", "\nradius = -1",
+               "w.toml:4: wheel.radius = -1 [m] is outside (0, 10]; choose a value in that range (rolling radius)"},
+        Broken{"AtOpenBound", "radius = 0.0",
+               "w.toml:3: wheel.radius = 0 [m] is outside (0, 10]; choose a value in that range (rolling radius)"},
+        Broken{"NotANumber", "radius = nan", "w.toml:3: wheel.radius = nan [m] is not finite; give a finite number"},
+        Broken{"Infinite", "centre = [0, inf, 0]",
+               "w.toml:3: wheel.centre = [0, inf, 0] [m] is not finite; give a finite number"},
+        Broken{"WrongType", "radius = \"wide\"",
+               "w.toml:3: wheel.radius = \"wide\" has the wrong type; give a number [m] (rolling radius)"},
+        Broken{"RealForInteger", "count = 2.5",
+               "w.toml:3: wheel.count = 2.5 has the wrong type; give a whole number [-] (how many)"},
+        Broken{"IntegerOutOfRange", "count = 21",
+               "w.toml:3: wheel.count = 21 [-] is outside [1, 20]; choose a value in that range (how many)"},
+        Broken{"NumberForSwitch", "steered = 1",
+               "w.toml:3: wheel.steered = 1 has the wrong type; give true or false (turns about z)"},
+        Broken{"UnknownWord", "kind = \"idle\"",
+               "w.toml:3: wheel.kind = \"idle\" is none of road, idler; did you mean \"idler\"? (what it does)"},
+        Broken{"ShortVector", "centre = [1, 2]",
+               "w.toml:3: wheel.centre = [1, 2] has the wrong type; give three numbers [x, y, z] [m] (of the axle)"},
+        Broken{"WordWhereAutoIsMeant", "step = \"automatic\"",
+               "w.toml:3: wheel.step = \"automatic\" has the wrong type; give a number or \"auto\" [s] (time step)"},
+        Broken{"ListWithText", "angles = [1, \"b\"]",
+               "w.toml:3: wheel.angles = [1, \"b\"] has the wrong type; give a list of numbers [a, b, ...] [rad] (of "
+               "the spokes)"},
+        Broken{"Date", "radius = 2020-01-01",
+               "w.toml:3: a date or time has no meaning here; remove it or put it in quotes"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(Table, UnknownKeyNamesTheNearest) {
+  const std::string message = complaint("raduis = 1");
+  EXPECT_EQ(message.find("w.toml:3: unknown key wheel.raduis; did you mean radius?"), 0u) << message;
+}
+
+TEST(Table, UnknownSectionNamesTheNearest) {
+  const std::string message = complaint("[whel]\n");
+  EXPECT_EQ(message.find("w.toml:3: unknown section whel; did you mean wheel?"), 0u) << message;
+}
+
+TEST(Table, SyntaxErrorNamesLineAndColumn) {
+  const std::string message = complaint("radius = = 1");
+  EXPECT_EQ(message.find("w.toml:3:10: not valid TOML"), 0u) << message;
+}
+
+TEST(Table, KeyGivenTwiceIsAnError) { EXPECT_NE(complaint("radius = 1\nradius = 2"), ""); }
+
+TEST(Table, FirstOfSeveralMistakesInTheFileIsReported) {
+  const std::string message = complaint("zzz = 1\naaa = 1");
+  EXPECT_EQ(message.find("w.toml:3: unknown key wheel.zzz"), 0u) << message;
+}
+
+TEST(Table, MissingRequiredKeyIsNamedWithUnit) {
+  Table<Wheel> t("wheel", "One wheel");
+  t.add("radius", &Wheel::radius, "m", "rolling radius").above(0).required();
+  const Document doc = Document::parse("version = 1\n[wheel]", "w.toml");
+  try {
+    doc.root().section("wheel").read(t, {}, {});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(
+        e.what(),
+        "w.toml:2: [wheel] lacks the required key radius [m]; add radius = a number, (0, inf) (rolling radius)");
+  }
+}
+
+TEST(Table, VersionIsRequiredAndChecked) {
+  EXPECT_THROW(Document::parse("[wheel]\n", "w.toml"), InputError);
+  EXPECT_THROW(Document::parse("version = 2\n", "w.toml"), InputError);
+  EXPECT_THROW(Document::parse("version = \"1\"\n", "w.toml"), InputError);
+  EXPECT_NO_THROW(Document::parse("version = 1\n", "w.toml"));
+}
+
+TEST(Overrides, ReplaceAndAddValues) {
+  EXPECT_EQ(read("radius = 1", {"wheel.radius=2.5"}).radius, 2.5);
+  EXPECT_EQ(read("", {"wheel.count=3"}).count, 3);
+  EXPECT_EQ(read("", {"wheel.kind=idler"}).kind, "idler");
+  EXPECT_EQ(read("", {"wheel.centre=[1, 2, 3]"}).centre, (Vec3d{1, 2, 3}));
+}
+
+TEST(Overrides, AreCheckedLikeTheFile) {
+  EXPECT_EQ(complaint("", {"wheel.radius=-2"}),
+            "--set: wheel.radius = -2 [m] is outside (0, 10]; choose a value in that range (rolling radius)");
+  EXPECT_EQ(complaint("", {"wheel.raduis=2"}).find("--set: unknown key wheel.raduis; did you mean radius?"), 0u);
+  EXPECT_EQ(complaint("", {"weel.radius=2"}).find("--set: unknown section weel; did you mean wheel?"), 0u);
+  EXPECT_NE(complaint("", {"wheel.radius"}).find("no value is given"), std::string::npos);
+  EXPECT_NE(complaint("", {"wheel..radius=1"}).find("not of the form"), std::string::npos);
+  EXPECT_NE(complaint("radius = 1", {"wheel.radius.x=1"}).find("is a value, no section"), std::string::npos);
+  // An override cannot smuggle in a second key.
+  EXPECT_NE(complaint("", {"wheel.kind=\"road\"\nradius = 3"}), "");
+}
+
+TEST(Overrides, ReachIntoListsAndQuotedNames) {
+  const Document doc = Document::parse("version = 1\n[[grain]]\nradius = 1\n[[grain]]\nradius = 2\n[contact.\"a|b\"]\n",
+                                       "s.toml", {"grain.1.radius=5", "contact.\"a|b\".friction=0.5"});
+  EXPECT_EQ(std::get<std::int64_t>(doc.root().list("grain")[1].node().find("radius")->value), 5);
+  EXPECT_EQ(doc.root().named("contact").front().first, "a|b");
+  EXPECT_TRUE(doc.root().named("contact").front().second.has("friction"));
+  EXPECT_THROW(Document::parse("version = 1\n[[grain]]\nradius = 1\n", "s.toml", {"grain.1.radius=5"}), InputError);
+}
+
+TEST(Table, WrittenValuesReadBackToTheSameBits) {
+  Wheel w;
+  w.radius = 0.1 + 0.2, w.centre = {1e-300, -2.0 / 3.0, 1e6}, w.kind = "idler", w.angles = {3, 5e-324},
+  w.tags = {"a \"b\"\\\n"};
+  w.width = 7;
+  const Wheel back = read(wheelTable().write(w));
+  EXPECT_EQ(back.radius, w.radius);
+  EXPECT_EQ(back.centre, w.centre);
+  EXPECT_EQ(back.angles, w.angles);
+  EXPECT_EQ(back.tags, w.tags);
+  EXPECT_EQ(back.width, w.width);
+  EXPECT_EQ(back.step, w.step);
+}
+
+TEST(Table, DescriptionShowsUnitDefaultRangeAndHelp) {
+  const std::string text = describe(wheelTable());
+  EXPECT_NE(text.find("| `radius` | m | 0.2 | (0, 10] | rolling radius |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `step` | s | \"auto\" | (0, inf) | time step |"), std::string::npos) << text;
+}
+
+TEST(NearestWord, CountsSwapsAsOneEdit) {
+  EXPECT_EQ(editDistance("raduis", "radius"), 1);
+  EXPECT_EQ(editDistance("Radius", "radius"), 0);
+  EXPECT_EQ(editDistance("", "abc"), 3);
+  EXPECT_EQ(nearestWord("fricton", {"density", "friction", "fraction"}), "friction");
+}
+
+TEST(Document, MissingFileIsAnInputError) {
+  EXPECT_THROW(Document::load("/nonexistent/x.toml"), InputError);
+  EXPECT_THROW(Document::load("/"), InputError);
+}
+
+} // namespace
+} // namespace grouser::base
