@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grouser::runs {
+
+/// What the command line adds to a scene.
+struct RunOptions {
+  std::filesystem::path folder;      ///< of the results
+  bool force = false;                ///< overwrite what is there
+  bool hash = false;                 ///< print the state hash at the end
+  std::optional<std::int64_t> steps; ///< stop after so many steps instead of the scene's duration
+  std::string commandLine;           ///< for the manifest
+};
+
+/// Runs a scene to its end and writes its folder. Throws InputError, SimulationError or DeviceError.
+void runScene(const Scene& scene, const RunOptions& options);
+
+} // namespace grouser::runs
