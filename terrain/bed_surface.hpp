@@ -13,8 +13,10 @@ namespace grouser::terrain {
 /// On a grid of about one grain radius:
 ///  1. highest: the highest top (centre + radius) among grains whose centre lies within one diameter d in the plane;
 ///     the floor where there is none;
-///  2. lowest of that within d. Steps 1 and 2 are a morphological closing: without the second, a slope would
-///     raise the surface by d tan(slope), and a lone stone would be as wide as two diameters;
+///  2. the lowest value of step 1 within one radius. Step 1 raises a slope, by nearly a radius times its tangent
+///  (grains
+///     lie a diameter apart, so the highest is rarely at the rim), and makes a lone stone as wide as two diameters;
+///     step 2 takes both back to what they are;
 ///  3. one pass of the binomial kernel (1 2 1)/4 in x and y, linear at the border.
 /// Queries are bilinear between nodes and take the nearest border point outside.
 ///

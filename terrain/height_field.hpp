@@ -132,9 +132,10 @@ struct HeightFieldView {
   /// Its last term is left out where it would spoil positive definiteness (Gauss-Newton). A step that does not lower q
   /// is quartered. The error of `distance` is of second order in the error of the foot.
   GROUSER_HD FootPoint closestPoint(const Vec3d& p) const {
-    const double converged = 1e-9 * (dx < dy ? dx : dy);
+    const double converged = 1e-7 * (dx < dy ? dx : dy);
     double x = p.x, y = p.y, stepX = 0, stepY = 0;
     SurfaceJet s = jet(x, y);
+    const double side = p.z < s.h ? -1 : 1;
     bool fresh = true;
     for (int k = 0; k < kFootIterations; ++k) {
       const double e = s.h - p.z;
@@ -157,7 +158,15 @@ struct HeightFieldView {
     FootPoint foot;
     foot.point = {x, y, s.h};
     foot.normal = base::normalized(Vec3d{-s.hx, -s.hy, 1.0});
-    foot.distance = base::dot(p - foot.point, foot.normal);
+    const Vec3d gap = p - foot.point;
+    foot.distance = base::dot(gap, foot.normal);
+
+    // Not perpendicular, or on the wrong side: no foot point, but the nearest that was found.
+    const double length = base::norm(gap);
+    if (length > 10 * converged && side * foot.distance < 0.9 * length) {
+      foot.distance = side * length;
+      foot.normal = gap * (1 / foot.distance);
+    }
     return foot;
   }
 
@@ -206,6 +215,8 @@ public:
   int rows() const { return rows_; }
   const std::vector<double>& heights() const { return heights_; }
   const HeightFieldBounds& bounds() const { return bounds_; }
+  /// Bounds over the cells that `part` touches.
+  HeightFieldBounds boundsOver(const Rectangle& part) const;
 
   double height(double x, double y) const { return view().height(x, y); }
   FootPoint closestPoint(const Vec3d& p) const { return view().closestPoint(p); }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/math.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+/// The height-maps that come with the project, as functions: brightness in [0, 1] at (u, v), both in [0, 1]; u goes
+/// along x (the picture's left to right), v along y (the picture's bottom to top). What a brightness means in metres,
+/// and how large the picture is, the scene says. Figures in brackets hold for 20 m x 8 m and heights from 0 to 0.4 m.
+namespace grouser::heightmaps {
+
+/// Level ground at half height.
+inline double flat(double, double) { return 0.5; }
+
+/// Gentle hills: four waves with wavelengths of 4 to 13 m that run in different directions [slopes up to about 10 %].
+inline double hills(double u, double v) {
+  constexpr double k = 2 * base::kPi;
+  const double sum = 0.36 * base::sin(k * (1.5 * u + 0.3)) + 0.26 * base::sin(k * (2.6 * u + 0.7 * v)) +
+                     0.22 * base::sin(k * (0.9 * u - 1.3 * v + 0.15)) + 0.14 * base::sin(k * (4.3 * u + 1.1 * v + 0.6));
+  return 0.5 + 0.5 * sum;
+}
+
+/// A ditch across the way at u = 0.6: half a cosine wave, 0.16 wide [3.2 m wide, 0.28 m deep, slopes up to 28 %].
+inline double ditch(double u, double) {
+  const double along = (u - 0.6) / 0.16;
+  const double depth = std::fabs(along) < 0.5 ? 0.5 + 0.5 * base::cos(2 * base::kPi * along) : 0.0;
+  return 0.85 - 0.7 * depth;
+}
+
+/// Level at the start, then a slope across the way that grows over 0.2 < u < 0.4 [from 0 to 5 % to the left].
+inline double sideSlope(double u, double v) {
+  const double t = u < 0.2 ? 0.0 : u > 0.4 ? 1.0 : (u - 0.2) / 0.2;
+  return 0.5 + (v - 0.5) * t * t * (3 - 2 * t);
+}
+
+/// One picture: its name, its size in pixels, its depth in bits, and its shape.
+struct Picture {
+  std::string_view name;
+  int columns, rows, bits;
+  double (*shape)(double, double);
+
+  /// Value of a pixel, rounded to the nearest of 2^bits levels. Row 0 is the far edge, v = 1; pixels are points at the
+  /// corners.
+  std::uint16_t pixel(int column, int row) const {
+    const double u = double(column) / (columns - 1), v = 1 - double(row) / (rows - 1);
+    return static_cast<std::uint16_t>(std::floor(shape(u, v) * ((1 << bits) - 1) + 0.5));
+  }
+};
+
+inline constexpr std::array<Picture, 5> kPictures{{{"flat", 17, 9, 8, flat},
+                                                   {"hills", 257, 129, 16, hills},
+                                                   {"hills8", 257, 129, 8, hills},
+                                                   {"ditch", 257, 9, 16, ditch},
+                                                   {"side_slope", 129, 65, 16, sideSlope}}};
+
+} // namespace grouser::heightmaps

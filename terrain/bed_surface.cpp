@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/bed_surface.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace grouser::terrain {
+
+namespace {
+
+using base::InputError;
+
+/// Heights on a grid, and how far (in nodes) one grain diameter reaches.
+struct Grid {
+  int columns, rows;
+  double dx, dy, xMin, yMin;
+
+  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns + i; }
+  double x(int i) const { return xMin + i * dx; }
+  double y(int j) const { return yMin + j * dy; }
+
+  /// Calls f(node) for the nodes within `reach` of (px, py) in the plane.
+  template <class F> void forEachWithin(double px, double py, double reach, F&& f) const {
+    const int i0 = firstNode(px - reach, xMin, dx, columns), i1 = lastNode(px + reach, xMin, dx, columns);
+    const int j0 = firstNode(py - reach, yMin, dy, rows), j1 = lastNode(py + reach, yMin, dy, rows);
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i) {
+        const double ex = x(i) - px, ey = y(j) - py;
+        if (ex * ex + ey * ey <= reach * reach) f(index(i, j));
+      }
+  }
+
+private:
+  static int firstNode(double v, double from, double d, int n) {
+    return static_cast<int>(std::clamp(std::ceil((v - from) / d - 1e-9), 0.0, double(n)));
+  }
+  static int lastNode(double v, double from, double d, int n) {
+    return static_cast<int>(std::clamp(std::floor((v - from) / d + 1e-9), -1.0, double(n - 1)));
+  }
+};
+
+/// Highest top within `reach` of each node; minus infinity where there is none.
+std::vector<double> highestTops(const Grid& grid, std::span<const Seed> grains, double reach) {
+  std::vector<double> tops(static_cast<std::size_t>(grid.columns) * grid.rows,
+                           -std::numeric_limits<double>::infinity());
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const auto& [c, radius] = grains[g];
+    if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(radius)))
+      throw InputError("surface of the bed: grain " + std::to_string(g) + " is not at a finite place");
+    grid.forEachWithin(c.x, c.y, reach, [&](std::size_t node) { tops[node] = std::max(tops[node], c.z + radius); });
+  }
+  return tops;
+}
+
+/// Lowest value within `reach` of each node; what lies outside the grid does not count.
+std::vector<double> lowestWithin(const Grid& grid, const std::vector<double>& values, double reach) {
+  std::vector<double> result(values.size());
+  // A little more than the reach, so that round-off does not decide about nodes at exactly that distance.
+  const double slack = 1e-9 * reach;
+  for (int j = 0; j < grid.rows; ++j)
+    for (int i = 0; i < grid.columns; ++i) {
+      double lowest = values[grid.index(i, j)];
+      grid.forEachWithin(grid.x(i), grid.y(j), reach + slack,
+                         [&](std::size_t node) { lowest = std::min(lowest, values[node]); });
+      result[grid.index(i, j)] = lowest;
+    }
+  return result;
+}
+
+/// (1 2 1)/4 along one axis; the end nodes keep their value, as they would on a line.
+void smooth(std::vector<double>& values, std::size_t lines, std::size_t lineStride, int n, std::size_t stride) {
+  for (std::size_t l = 0; l < lines; ++l) {
+    double* v = values.data() + l * lineStride;
+    double before = v[0];
+    for (int k = 1; k + 1 < n; ++k) {
+      const double here = v[k * stride];
+      v[k * stride] = 0.25 * (before + v[(k + 1) * stride]) + 0.5 * here;
+      before = here;
+    }
+  }
+}
+
+} // namespace
+
+BedSurface::BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area,
+                       double diameter)
+    : area_(area) {
+  if (!(diameter > 0 && std::isfinite(diameter)))
+    throw InputError("surface of the bed: grain diameter " + std::to_string(diameter) + " m must be positive");
+  // Nodes a radius apart, or a little less so that they meet the border.
+  columns_ = 1 + std::max(1, static_cast<int>(std::ceil(area.width() / (diameter / 2))));
+  rows_ = 1 + std::max(1, static_cast<int>(std::ceil(area.length() / (diameter / 2))));
+  dx_ = area.width() / (columns_ - 1), dy_ = area.length() / (rows_ - 1);
+
+  const Grid grid{columns_, rows_, dx_, dy_, area.xMin, area.yMin};
+  std::vector<double> tops = highestTops(grid, grains, diameter);
+  for (int j = 0; j < rows_; ++j)
+    for (int i = 0; i < columns_; ++i) {
+      double& top = tops[grid.index(i, j)];
+      if (!std::isfinite(top)) top = floor.height(grid.x(i), grid.y(j));
+    }
+  heights_ = lowestWithin(grid, tops, diameter / 2);
+  smooth(heights_, rows_, columns_, columns_, 1);
+  smooth(heights_, columns_, 1, rows_, columns_);
+}
+
+double BedSurface::height(double x, double y) const {
+  // A NaN goes to the first node: the surface itself is defined everywhere.
+  const auto locate = [](double v, double from, double d, int n, int& i) {
+    const double u = (v - from) / d;
+    const double inside = u > 0 ? std::min(u, double(n - 1)) : 0.0;
+    i = std::min(static_cast<int>(inside), n - 2);
+    return inside - i;
+  };
+  int i, j;
+  const double s = locate(x, area_.xMin, dx_, columns_, i);
+  const double t = locate(y, area_.yMin, dy_, rows_, j);
+  const double* v = heights_.data() + static_cast<std::size_t>(j) * columns_ + i;
+  return (1 - t) * ((1 - s) * v[0] + s * v[1]) + t * ((1 - s) * v[columns_] + s * v[columns_ + 1]);
+}
+
+} // namespace grouser::terrain

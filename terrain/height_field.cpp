@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/height_field.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace grouser::terrain {
+
+namespace {
+
+using base::InputError;
+
+/// Control points of the cubic between the second and third of four nodes (Hermite to Bezier).
+std::array<double, 4> controlPoints(const std::array<double, 4>& h) {
+  return {h[1], h[1] + (h[2] - h[0]) / 6, h[2] - (h[3] - h[1]) / 6, h[2]};
+}
+
+using Net = std::array<std::array<double, 4>, 4>; ///< [along y][along x]
+
+/// Control net of the bicubic cell whose lower left node is (i, j); nodes beyond the border continue linearly.
+Net controlNet(const std::vector<double>& heights, int columns, int rows, int i, int j) {
+  const auto node = [&](int a, int b) { return heights[static_cast<std::size_t>(b) * columns + a]; };
+  const auto inRow = [&](int a, int b) {
+    if (a < 0) return 2 * node(0, b) - node(1, b);
+    if (a >= columns) return 2 * node(columns - 1, b) - node(columns - 2, b);
+    return node(a, b);
+  };
+  const auto anywhere = [&](int a, int b) {
+    if (b < 0) return 2 * inRow(a, 0) - inRow(a, 1);
+    if (b >= rows) return 2 * inRow(a, rows - 1) - inRow(a, rows - 2);
+    return inRow(a, b);
+  };
+  Net alongX;
+  for (int b = 0; b < 4; ++b)
+    alongX[b] = controlPoints(
+        {anywhere(i - 1, j - 1 + b), anywhere(i, j - 1 + b), anywhere(i + 1, j - 1 + b), anywhere(i + 2, j - 1 + b)});
+  Net net;
+  for (int a = 0; a < 4; ++a) {
+    const auto column = controlPoints({alongX[0][a], alongX[1][a], alongX[2][a], alongX[3][a]});
+    for (int b = 0; b < 4; ++b) net[b][a] = column[b];
+  }
+  return net;
+}
+
+/// Widens `bounds` by one cell. A Bezier patch and its derivatives stay within the range of their control nets.
+void include(HeightFieldBounds& bounds, const Net& net, double dx, double dy) {
+  double hx = 0, hy = 0, hxx = 0, hyy = 0, hxy = 0;
+  for (int b = 0; b < 4; ++b)
+    for (int a = 0; a < 4; ++a) {
+      bounds.lowest = std::min(bounds.lowest, net[b][a]);
+      bounds.highest = std::max(bounds.highest, net[b][a]);
+      if (a < 3) hx = std::max(hx, std::fabs(3 * (net[b][a + 1] - net[b][a]) / dx));
+      if (b < 3) hy = std::max(hy, std::fabs(3 * (net[b + 1][a] - net[b][a]) / dy));
+      if (a < 2) hxx = std::max(hxx, 6 * (net[b][a + 2] - 2 * net[b][a + 1] + net[b][a]) / (dx * dx));
+      if (b < 2) hyy = std::max(hyy, 6 * (net[b + 2][a] - 2 * net[b + 1][a] + net[b][a]) / (dy * dy));
+      if (a < 3 && b < 3)
+        hxy = std::max(hxy, std::fabs(9 * (net[b + 1][a + 1] - net[b + 1][a] - net[b][a + 1] + net[b][a]) / (dx * dy)));
+    }
+  bounds.slope = std::max(bounds.slope, std::sqrt(hx * hx + hy * hy));
+  // Gershgorin's bound of the Hessian's largest eigenvalue; the tilt of the surface only lowers a normal curvature.
+  bounds.valleyCurvature = std::max(bounds.valleyCurvature, std::max(hxx, hyy) + hxy);
+}
+
+} // namespace
+
+HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights)
+    : area_(area), columns_(columns), rows_(rows), heights_(std::move(heights)) {
+  if (columns < 2 || rows < 2 || heights_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))
+    throw InputError("height field: " + std::to_string(columns) + " x " + std::to_string(rows) + " nodes with " +
+                     std::to_string(heights_.size()) + " heights; at least 2 x 2 nodes and one height each are needed");
+  if (!(area.width() > 0 && area.length() > 0 && std::isfinite(area.width()) && std::isfinite(area.length())))
+    throw InputError("height field: size " + std::to_string(area.width()) + " x " + std::to_string(area.length()) +
+                     " m; both sides must be positive and finite");
+  const auto bad = std::find_if_not(heights_.begin(), heights_.end(), [](double h) { return std::isfinite(h); });
+  if (bad != heights_.end()) {
+    const auto index = static_cast<std::size_t>(bad - heights_.begin());
+    throw InputError("height field: the height of node column " + std::to_string(index % columns) + ", row " +
+                     std::to_string(index / columns) + " is not a finite number");
+  }
+  bounds_ = boundsOver(area);
+}
+
+HeightFieldBounds HeightField::boundsOver(const Rectangle& part) const {
+  const HeightFieldView v = view();
+  const auto cell = [](double p, double from, double d, int n) {
+    return static_cast<int>(std::clamp(std::floor((p - from) / d), 0.0, double(n - 2)));
+  };
+  const int i0 = cell(part.xMin, v.xMin, v.dx, columns_), i1 = cell(part.xMax, v.xMin, v.dx, columns_);
+  const int j0 = cell(part.yMin, v.yMin, v.dy, rows_), j1 = cell(part.yMax, v.yMin, v.dy, rows_);
+  HeightFieldBounds bounds;
+  bounds.lowest = bounds.highest = heights_[static_cast<std::size_t>(j0) * columns_ + i0];
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i) include(bounds, controlNet(heights_, columns_, rows_, i, j), v.dx, v.dy);
+  return bounds;
+}
+
+HeightField HeightField::flat(const Rectangle& area, double z) { return plane(area, z, 0, 0); }
+
+HeightField HeightField::plane(const Rectangle& area, double z, double slopeX, double slopeY) {
+  return sample(area, 2, 2, [=](double x, double y) { return z + slopeX * x + slopeY * y; });
+}
+
+HeightField HeightField::raised(double dz) const {
+  std::vector<double> heights = heights_;
+  for (double& h : heights) h += dz;
+  return HeightField(area_, columns_, rows_, std::move(heights));
+}
+
+HeightFieldView HeightField::view() const {
+  return {.heights = heights_.data(),
+          .columns = columns_,
+          .rows = rows_,
+          .xMin = area_.xMin,
+          .yMin = area_.yMin,
+          .dx = area_.width() / (columns_ - 1),
+          .dy = area_.length() / (rows_ - 1),
+          .slopeBound = bounds_.slope};
+}
+
+} // namespace grouser::terrain

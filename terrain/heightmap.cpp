@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/heightmap.hpp"
+
+#include "base/error.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+// The decoder is built into this file alone. No vector code: its JPEG transform would round differently.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_NO_SIMD
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_PNM
+#include <stb/stb_image.h>
+
+namespace grouser::terrain {
+
+namespace {
+
+using base::InputError;
+
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+std::vector<stbi_uc> readFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw InputError(file.string() + ": no such file; give the path of a PNG picture (8 or 16 bit)");
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(file.string() + " is a folder; give the path of a PNG picture (8 or 16 bit)");
+  std::ifstream in(file, std::ios::binary);
+  std::vector<stbi_uc> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in) throw InputError(file.string() + ": cannot be read; check its permissions");
+  return bytes;
+}
+
+/// The decoder fills what is missing of a JPEG with grey: its end mark must be there.
+bool isCutShort(const std::vector<stbi_uc>& bytes) {
+  const std::size_t n = bytes.size();
+  const bool jpeg = n >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;
+  return jpeg && !(bytes[n - 2] == 0xFF && bytes[n - 1] == 0xD9);
+}
+
+/// Brightness of one pixel; integers below 2^31, one correctly rounded division, and grey keeps its value exactly.
+template <class Channel> double brightness(const Channel* pixel, int channels, int white) {
+  const bool grey = channels <= 2;
+  const int r = pixel[0], g = grey ? r : pixel[1], b = grey ? r : pixel[2];
+  return static_cast<double>(2126 * r + 7152 * g + 722 * b) / (10000.0 * white);
+}
+
+template <class Channel>
+std::vector<double> brightnessOf(const Channel* pixels, std::size_t count, int channels, int white) {
+  std::vector<double> result(count);
+  for (std::size_t i = 0; i < count; ++i) result[i] = brightness(pixels + i * channels, channels, white);
+  return result;
+}
+
+struct FreePixels {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+} // namespace
+
+Heightmap loadHeightmap(const std::filesystem::path& file) {
+  const std::vector<stbi_uc> bytes = readFile(file);
+  const auto fail = [&](const std::string& cause) -> void { throw InputError(file.string() + ": " + cause); };
+  if (bytes.empty()) fail("the file is empty; give a PNG picture (8 or 16 bit)");
+  if (bytes.size() > 0x7FFFFFFF) fail("larger than 2 GiB; give a smaller picture");
+  const int size = static_cast<int>(bytes.size());
+
+  Heightmap map;
+  map.file = file;
+  int channels = 0;
+  if (!stbi_info_from_memory(bytes.data(), size, &map.columns, &map.rows, &channels))
+    fail("not a picture that can be read; give a PNG (8 or 16 bit), JPEG or PNM");
+  const std::string dimensions = std::to_string(map.columns) + " x " + std::to_string(map.rows) + " pixels";
+  if (map.columns < 2 || map.rows < 2)
+    fail(dimensions + "; a height-map needs at least 2 x 2, since pixels are points at the corners");
+  if (static_cast<std::int64_t>(map.columns) * map.rows > kMaxPixels)
+    fail(dimensions + "; at most 2^28 can be taken, give a smaller picture");
+
+  const std::size_t count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
+  const bool deep = stbi_is_16_bit_from_memory(bytes.data(), size);
+  const auto decode = [&](auto load, int white) {
+    const std::unique_ptr<
+        std::remove_pointer_t<decltype(load(bytes.data(), size, &map.columns, &map.rows, &channels, 0))>, FreePixels>
+        pixels(load(bytes.data(), size, &map.columns, &map.rows, &channels, 0));
+    if (!pixels || isCutShort(bytes))
+      fail(dimensions + " announced, but the picture is damaged or cut short" +
+           (pixels ? "" : std::string(" (") + stbi_failure_reason() + ")") + "; save or copy it again");
+    map.brightness = brightnessOf(pixels.get(), count, channels, white);
+  };
+  map.bits = deep ? 16 : 8;
+  if (deep)
+    decode(stbi_load_16_from_memory, 65535);
+  else
+    decode(stbi_load_from_memory, 255);
+  return map;
+}
+
+HeightField heightFieldOf(const Heightmap& map, const HeightmapPlacement& placement) {
+  const auto fail = [&](const std::string& cause) -> void { throw InputError(map.file.string() + ": " + cause); };
+  const auto& p = placement;
+  if (!(p.sizeX > 0 && p.sizeY > 0 && std::isfinite(p.sizeX) && std::isfinite(p.sizeY)))
+    fail("size = [" + std::to_string(p.sizeX) + ", " + std::to_string(p.sizeY) +
+         "] m; both must be positive and finite: the lengths that the picture covers along x and y");
+  if (!(std::isfinite(p.black) && std::isfinite(p.white)))
+    fail("height_range = [" + std::to_string(p.black) + ", " + std::to_string(p.white) +
+         "] m; both must be finite: the heights of black and of white");
+
+  std::vector<double> heights(map.brightness.size());
+  for (int row = 0; row < map.rows; ++row)
+    for (int column = 0; column < map.columns; ++column) {
+      const std::size_t node = static_cast<std::size_t>(map.rows - 1 - row) * map.columns + column;
+      const double b = map.at(column, row);
+      heights[node] = (1 - b) * p.black + b * p.white;
+    }
+  return HeightField({0, p.sizeX, -p.sizeY / 2, p.sizeY / 2}, map.columns, map.rows, std::move(heights));
+}
+
+} // namespace grouser::terrain

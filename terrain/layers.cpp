@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/layers.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "base/random.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace grouser::terrain {
+
+namespace {
+
+using base::InputError;
+
+constexpr std::uint64_t kJitter = base::purpose("terrain.layers.jitter");
+constexpr double kFloorGap = 0.05;    ///< between grain and floor or wall, in radii
+constexpr double kJitterReach = 0.49; ///< of the gap between two grains, each may use half, less a reserve
+
+void require(bool ok, const std::string& key, double value, const std::string& range) {
+  if (!ok) throw InputError("bed of grains: " + key + " = " + std::to_string(value) + " is outside " + range);
+}
+
+void check(const LayerOptions& o) {
+  require(o.radius > 0 && std::isfinite(o.radius), "radius [m]", o.radius, "(0, inf)");
+  require(o.layers >= 0, "layers", o.layers, "[1, inf), or 0 to use depth");
+  if (o.layers == 0)
+    require(o.depth > 0 && std::isfinite(o.depth), "depth [m]", o.depth, "(0, inf); give layers or depth");
+  require(o.spacingInRadii > 2 && o.spacingInRadii <= 10, "spacing [radii]", o.spacingInRadii, "(2, 10]");
+  require(o.jitter >= 0 && o.jitter <= 1, "jitter [-]", o.jitter, "[0, 1]");
+  require(o.packing >= 0.3 && o.packing <= 0.74, "packing [-]", o.packing, "[0.3, 0.74]");
+  require(o.wallMargin >= 0 && std::isfinite(o.wallMargin), "wall margin [m]", o.wallMargin, "[0, inf)");
+}
+
+/// Lattice points along one axis: `count[0]` in even layers, `count[1]` in odd ones, which start `offset` later.
+struct Axis {
+  double start{}, spacing{}, offset{};
+  int count[2]{};
+
+  double at(int i, int layer) const { return start + (layer & 1) * offset + i * spacing; }
+};
+
+/// As many points as fit between walls that leave `length` for grains' centres, centred; odd layers sit in between.
+Axis fit(double from, double length, double spacing) {
+  const int n = static_cast<int>(std::floor(length / spacing)) + 1;
+  const double left = length - (n - 1) * spacing;
+  if (left >= spacing / 2) return {from + (left - spacing / 2) / 2, spacing, spacing / 2, {n, n}};
+  if (n == 1) return {from + left / 2, spacing, 0, {1, 1}};
+  return {from + left / 2, spacing, spacing / 2, {n, n - 1}};
+}
+
+/// The sites of a bed: which lattice points bear a grain.
+class Lattice {
+public:
+  Lattice(const HeightField& surface, const LayerOptions& o) : options_(o) {
+    check(o);
+    spacing_ = o.spacingInRadii * o.radius;
+    jitter_ = o.jitter * kJitterReach * (spacing_ - 2 * o.radius);
+    const Rectangle& a = surface.area();
+    walls_ = {a.xMin + o.wallMargin, a.xMax - o.wallMargin, a.yMin + o.wallMargin, a.yMax - o.wallMargin};
+    const double inset = o.radius * (1 + kFloorGap) + jitter_;
+    const double roomX = walls_.width() - 2 * inset, roomY = walls_.length() - 2 * inset;
+    if (!(roomX >= 0 && roomY >= 0))
+      throw InputError("bed of grains: no grain of radius " + std::to_string(o.radius) + " m fits between walls " +
+                       std::to_string(walls_.width()) + " x " + std::to_string(walls_.length()) +
+                       " m apart; take smaller grains, a larger terrain or a smaller wall margin");
+    x_ = fit(walls_.xMin + inset, roomX, spacing_);
+    y_ = fit(walls_.yMin + inset, roomY, spacing_);
+
+    const double volume = 4.0 / 3.0 * base::kPi * o.radius * o.radius * o.radius;
+    const double mean = 0.5 * (double(x_.count[0]) * y_.count[0] + double(x_.count[1]) * y_.count[1]);
+    layerThickness_ = mean * volume / (o.packing * walls_.width() * walls_.length());
+    const double wanted = o.layers > 0 ? o.layers : std::floor(o.depth / layerThickness_ + 0.5);
+    require(wanted < 1e6, "layers", wanted, "[1, 1e6)");
+    layers_ = std::max(1, static_cast<int>(wanted));
+    fullLayers_ = layers_;
+    if (o.floor == FloorShape::flat) fillHills(surface);
+  }
+
+  const Axis& x() const { return x_; }
+  const Axis& y() const { return y_; }
+  const Rectangle& walls() const { return walls_; }
+  double spacing() const { return spacing_; }
+  double jitter() const { return jitter_; }
+  double thickness() const { return fullLayers_ * layerThickness_; }
+  int layers() const { return layers_; }
+  std::size_t index(int i, int j, int layer) const { return static_cast<std::size_t>(j) * x_.count[layer & 1] + i; }
+  std::size_t layerSize(int layer) const {
+    return static_cast<std::size_t>(x_.count[layer & 1]) * static_cast<std::size_t>(y_.count[layer & 1]);
+  }
+  /// A site bears a grain if its column is high enough and everything it would rest on is there.
+  bool occupied(int i, int j, int layer) const {
+    return height_[layer & 1].empty() || layer < height_[layer & 1][index(i, j, layer)];
+  }
+
+  HeightField floor(const HeightField& surface) const {
+    if (options_.floor == FloorShape::follow) return surface.raised(-thickness());
+    return HeightField::flat(surface.area(), lowest_ - thickness());
+  }
+
+  /// Calls f(i, j) for the sites of the layer below that the site (i, j) of `layer` rests on: one to four.
+  template <class F> void forEachSupport(int i, int j, int layer, F&& f) const {
+    const int below = layer - 1;
+    const auto [i0, i1] = supports(x_, i, layer);
+    const auto [j0, j1] = supports(y_, j, layer);
+    for (int b = j0; b <= j1; ++b)
+      for (int a = i0; a <= i1; ++a)
+        if (a >= 0 && b >= 0 && a < x_.count[below & 1] && b < y_.count[below & 1]) f(a, b);
+  }
+
+private:
+  static std::pair<int, int> supports(const Axis& axis, int i, int layer) {
+    if (axis.offset == 0) return {i, i};
+    return (layer & 1) ? std::pair{i, i + 1} : std::pair{i - 1, i};
+  }
+
+  /// Counts for every column how many layers lie below `surface` on a flat floor; a layer needs its supports.
+  void fillHills(const HeightField& surface) {
+    const HeightFieldView view = surface.view();
+    lowest_ = *std::min_element(surface.heights().begin(), surface.heights().end());
+    const double floorZ = lowest_ - thickness();
+    int most = 0;
+    for (int parity = 0; parity < 2; ++parity)
+      for (int j = 0; j < y_.count[parity]; ++j)
+        for (int i = 0; i < x_.count[parity]; ++i) {
+          const double depth = view.height(x_.at(i, parity), y_.at(j, parity)) - floorZ;
+          const double fits = std::floor(depth / layerThickness_ + 0.5);
+          require(fits < 1e6, "layers on the flat floor", fits, "[1, 1e6); take larger grains");
+          height_[parity].push_back(std::max(fullLayers_, static_cast<int>(fits)));
+          most = std::max(most, height_[parity].back());
+        }
+    for (layers_ = fullLayers_; layers_ < most && supportLayer(layers_);) ++layers_;
+  }
+
+  /// Takes away the sites of `layer` that lack a support; false when none is left.
+  bool supportLayer(int layer) {
+    bool any = false;
+    for (int j = 0; j < y_.count[layer & 1]; ++j)
+      for (int i = 0; i < x_.count[layer & 1]; ++i) {
+        int& height = height_[layer & 1][index(i, j, layer)];
+        if (height <= layer) continue;
+        bool carried = true;
+        forEachSupport(i, j, layer, [&](int a, int b) { carried = carried && occupied(a, b, layer - 1); });
+        if (!carried) height = layer;
+        any = any || carried;
+      }
+    return any;
+  }
+
+  LayerOptions options_;
+  Rectangle walls_;
+  Axis x_, y_;
+  double spacing_{}, jitter_{}, layerThickness_{}, lowest_{};
+  int layers_{}, fullLayers_{};
+  std::vector<int> height_[2]; ///< flat floor: layers in each column, for even and odd layers; empty: all of them
+};
+
+/// Height, at least `z`, at which a sphere of `radius` above (x, y) keeps clear of the floor.
+double clearHeight(const HeightField& floor, double x, double y, double z, double radius) {
+  const HeightFieldBounds around = floor.boundsOver({x - radius, x + radius, y - radius, y + radius});
+  const double safe = around.highest + radius;
+  if (z >= safe) return z;
+  // In a hollow tighter than the sphere the foot point is not unique: stay above all of it.
+  if (around.valleyCurvature * radius >= 1) return safe;
+
+  // Newton on the distance, whose derivative along z is the normal's z component.
+  const HeightFieldView view = floor.view();
+  const SurfaceJet s = view.jet(x, y);
+  double contact = s.h + radius * std::sqrt(1 + s.hx * s.hx + s.hy * s.hy);
+  for (int k = 0; k < 8; ++k) {
+    const FootPoint foot = view.closestPoint({x, y, contact});
+    const double lack = radius - foot.distance;
+    if (std::fabs(lack) <= 1e-9 * radius) return std::max(z, contact);
+    contact += lack / foot.normal.z;
+  }
+  return safe;
+}
+
+} // namespace
+
+BedPlan planBed(const HeightField& surface, const LayerOptions& options) {
+  const Lattice lattice(surface, options);
+  std::int64_t grains = 0;
+  for (int layer = 0; layer < lattice.layers(); ++layer)
+    for (int j = 0; j < lattice.y().count[layer & 1]; ++j)
+      for (int i = 0; i < lattice.x().count[layer & 1]; ++i) grains += lattice.occupied(i, j, layer);
+  return {.walls = lattice.walls(),
+          .floor = lattice.floor(surface),
+          .layers = lattice.layers(),
+          .thickness = lattice.thickness(),
+          .grains = grains};
+}
+
+std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& options) {
+  const Lattice lattice(surface, options);
+  const HeightField floor = lattice.floor(surface);
+  const double clear = options.radius * (1 + kFloorGap);
+  const double apart2 = 1.5 * lattice.spacing() * lattice.spacing();
+
+  std::vector<Seed> grains;
+  std::vector<Vec3d> below, here; // centres of two layers, by site
+  for (int layer = 0; layer < lattice.layers(); ++layer) {
+    here.assign(lattice.layerSize(layer), Vec3d{});
+    for (int j = 0; j < lattice.y().count[layer & 1]; ++j)
+      for (int i = 0; i < lattice.x().count[layer & 1]; ++i) {
+        if (!lattice.occupied(i, j, layer)) continue;
+        const auto shift = [&, id = grains.size()](int k) {
+          return lattice.jitter() * (2 * base::uniform(options.seed, kJitter, id, k) - 1);
+        };
+        Vec3d c{lattice.x().at(i, layer) + shift(0), lattice.y().at(j, layer) + shift(1), 0};
+
+        // As low as the supports and the floor allow, then up by the jitter.
+        c.z = floor.bounds().lowest;
+        if (layer > 0)
+          lattice.forEachSupport(i, j, layer, [&](int a, int b) {
+            const Vec3d& s = below[lattice.index(a, b, layer - 1)];
+            const double flat2 = (c.x - s.x) * (c.x - s.x) + (c.y - s.y) * (c.y - s.y);
+            c.z = std::max(c.z, s.z + std::sqrt(apart2 - flat2));
+          });
+        c.z = clearHeight(floor, c.x, c.y, c.z, clear);
+        c.z += shift(2) + lattice.jitter();
+        here[lattice.index(i, j, layer)] = c;
+        grains.push_back({c, options.radius});
+      }
+    std::swap(below, here);
+  }
+  return grains;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/heightmap.hpp"
+
+#include "assets/generator_heightmaps/shapes.hpp"
+#include "base/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace {
+
+using namespace grouser::terrain;
+using grouser::base::InputError;
+using Bytes = std::string;
+
+void append32(Bytes& to, std::uint32_t v) {
+  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<char>(v >> shift));
+}
+
+std::uint32_t crc32(const Bytes& bytes) {
+  std::uint32_t crc = 0xFFFFFFFFu;
+  for (const unsigned char byte : bytes) {
+    crc ^= byte;
+    for (int k = 0; k < 8; ++k) crc = (crc >> 1) ^ ((crc & 1) ? 0xEDB88320u : 0);
+  }
+  return ~crc;
+}
+
+void appendChunk(Bytes& png, const Bytes& type, const Bytes& data) {
+  append32(png, static_cast<std::uint32_t>(data.size()));
+  png += type + data;
+  append32(png, crc32(type + data));
+}
+
+enum ColourType { kGrey = 0, kRgb = 2, kGreyAlpha = 4, kRgba = 6 };
+
+/// A PNG by the letter of its specification (ISO/IEC 15948), uncompressed; `samples` row by row, channels side by side.
+Bytes png(int columns, int rows, int bits, ColourType colour, const std::vector<int>& samples) {
+  Bytes header;
+  append32(header, columns), append32(header, rows);
+  header += {static_cast<char>(bits), static_cast<char>(colour), 0, 0, 0};
+
+  Bytes scanlines;
+  const std::size_t perRow = samples.size() / rows;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    if (s % perRow == 0) scanlines.push_back(0); // no filter
+    if (bits == 16) scanlines.push_back(static_cast<char>(samples[s] >> 8));
+    scanlines.push_back(static_cast<char>(samples[s]));
+  }
+  const auto length = static_cast<std::uint16_t>(scanlines.size());
+  Bytes zlib{0x78,
+             0x01,
+             0x01,
+             static_cast<char>(length),
+             static_cast<char>(length >> 8),
+             static_cast<char>(~length),
+             static_cast<char>(~length >> 8)};
+  std::uint32_t a = 1, b = 0; // Adler-32
+  for (const unsigned char byte : scanlines) a = (a + byte) % 65521, b = (b + a) % 65521;
+  zlib += scanlines;
+  append32(zlib, b << 16 | a);
+
+  Bytes file = "\x89PNG\r\n\x1a\n";
+  appendChunk(file, "IHDR", header);
+  appendChunk(file, "IDAT", zlib);
+  appendChunk(file, "IEND", "");
+  return file;
+}
+
+class HeightmapFile : public testing::Test {
+protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    file_ = std::filesystem::temp_directory_path() / (std::string("grouser_") + info->name() + ".png");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  Heightmap load(const Bytes& bytes) {
+    std::ofstream(file_, std::ios::binary) << bytes;
+    return loadHeightmap(file_);
+  }
+  /// The error's message, or "no error".
+  std::string errorOf(const Bytes& bytes) {
+    try {
+      load(bytes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(HeightmapFile, EightBitGrey_SpansTheFullRangeOfEightBits) {
+  const Heightmap map = load(png(3, 2, 8, kGrey, {0, 51, 102, 153, 204, 255}));
+  EXPECT_EQ(map.bits, 8);
+  ASSERT_EQ(map.columns, 3);
+  ASSERT_EQ(map.rows, 2);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(map.at(i % 3, i / 3), i * 51 / 255.0) << i;
+}
+
+TEST_F(HeightmapFile, SixteenBitGrey_SpansTheFullRangeOfSixteenBits) {
+  const Heightmap map = load(png(2, 2, 16, kGrey, {0, 1, 12345, 65535}));
+  EXPECT_EQ(map.bits, 16);
+  EXPECT_EQ(map.at(0, 0), 0.0);
+  EXPECT_EQ(map.at(1, 0), 1 / 65535.0);
+  EXPECT_EQ(map.at(0, 1), 12345 / 65535.0);
+  EXPECT_EQ(map.at(1, 1), 1.0);
+}
+
+TEST_F(HeightmapFile, RangeIsTheFormats_NotThePictures) {
+  const Heightmap map = load(png(2, 2, 8, kGrey, {100, 100, 110, 110}));
+  EXPECT_EQ(map.at(0, 0), 100 / 255.0);
+  EXPECT_EQ(map.at(0, 1), 110 / 255.0);
+}
+
+TEST_F(HeightmapFile, Colour_BecomesLuminance_AndAlphaIsIgnored) {
+  const std::vector<double> pure{0.2126, 0.7152, 0.0722, 1.0};
+  const std::vector<int> rgb{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+  const std::vector<int> rgba{255, 0, 0, 0, 0, 255, 0, 77, 0, 0, 255, 255, 255, 255, 255, 1};
+  const Heightmap a = load(png(2, 2, 8, kRgb, rgb)), b = load(png(2, 2, 8, kRgba, rgba));
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(a.brightness[i], pure[i]) << i;
+    EXPECT_EQ(a.brightness[i], b.brightness[i]) << i;
+  }
+  std::vector<int> deep;
+  for (const int v : rgb) deep.push_back(v * 257);
+  const Heightmap c = load(png(2, 2, 16, kRgb, deep));
+  EXPECT_EQ(c.bits, 16);
+  for (int i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(c.brightness[i], pure[i]) << i;
+}
+
+TEST_F(HeightmapFile, GreyAsColour_EqualsGreyToTheBit) {
+  std::vector<int> grey, rgb, greyAlpha;
+  for (int v = 0; v < 256; ++v) {
+    grey.push_back(v), greyAlpha.insert(greyAlpha.end(), {v, 255 - v}), rgb.insert(rgb.end(), {v, v, v});
+  }
+  const auto expected = load(png(16, 16, 8, kGrey, grey)).brightness;
+  EXPECT_EQ(load(png(16, 16, 8, kRgb, rgb)).brightness, expected);
+  EXPECT_EQ(load(png(16, 16, 8, kGreyAlpha, greyAlpha)).brightness, expected);
+}
+
+TEST_F(HeightmapFile, PixelsAreCornerPoints_AndRowZeroIsTheFarEdge) {
+  const Heightmap map = load(png(3, 2, 8, kGrey, {0, 255, 0, 255, 0, 255}));
+  const HeightField field = heightFieldOf(map, {.sizeX = 20, .sizeY = 8, .black = -0.5, .white = 1.5});
+  EXPECT_EQ(field.area().xMin, 0.0);
+  EXPECT_EQ(field.area().xMax, 20.0);
+  EXPECT_EQ(field.area().yMin, -4.0);
+  EXPECT_EQ(field.area().yMax, 4.0);
+  EXPECT_EQ(field.height(0, 4), -0.5); // far left: first pixel, black
+  EXPECT_EQ(field.height(10, 4), 1.5);
+  EXPECT_EQ(field.height(0, -4), 1.5); // near left: first pixel of the second row, white
+  EXPECT_EQ(field.height(10, -4), -0.5);
+  EXPECT_EQ(field.height(20, -4), 1.5);
+}
+
+TEST_F(HeightmapFile, WhiteMayLieBelowBlack) {
+  const HeightField field = heightFieldOf(load(png(2, 2, 8, kGrey, {0, 255, 0, 255})),
+                                          {.sizeX = 1, .sizeY = 1, .black = 0.25, .white = -0.75});
+  EXPECT_EQ(field.height(0, 0), 0.25);
+  EXPECT_EQ(field.height(1, 0), -0.75);
+}
+
+TEST_F(HeightmapFile, BrokenFiles_GiveOneErrorThatNamesTheFile) {
+  const Bytes good = png(8, 8, 16, kGrey, std::vector<int>(64, 4660));
+  EXPECT_EQ(errorOf(good), "no error");
+  const std::vector<std::pair<Bytes, std::string>> cases{
+      {"", "the file is empty"},
+      {"version = 1\n[run]\nduration = 2\n", "not a picture"},
+      {good.substr(0, 20), "not a picture"},
+      {good.substr(0, good.size() / 2), "damaged or cut short"},
+      {good.substr(0, 60), "damaged or cut short"},
+      {png(1, 1, 8, kGrey, {7}), "1 x 1 pixels; a height-map needs at least 2 x 2"},
+      {png(1, 3, 8, kGrey, {7, 8, 9}), "1 x 3 pixels"},
+      {png(3, 1, 8, kGrey, {7, 8, 9}), "3 x 1 pixels"},
+  };
+  for (const auto& [bytes, cause] : cases) {
+    const std::string message = errorOf(bytes);
+    EXPECT_EQ(message.find(file_.string()), 0u) << message;
+    EXPECT_NE(message.find(cause), std::string::npos) << message << " instead of: " << cause;
+  }
+}
+
+TEST_F(HeightmapFile, EveryTruncation_IsAnError) {
+  const Bytes good = png(4, 4, 8, kGrey, std::vector<int>(16, 9));
+  // All of the image data lies before the last 12 + 4 + 4 bytes (end chunk, checksums).
+  for (std::size_t n = 0; n + 20 < good.size(); ++n) EXPECT_NE(errorOf(good.substr(0, n)), "no error") << n << " bytes";
+}
+
+TEST_F(HeightmapFile, MissingFileOrFolder_IsAnErrorWithTheRemedy) {
+  for (const std::string path : {"/nowhere/hills.png", "/"}) try {
+      loadHeightmap(path);
+      FAIL() << path;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find(path), 0u) << message;
+      EXPECT_NE(message.find("give the path of a PNG"), std::string::npos) << message;
+    }
+}
+
+TEST_F(HeightmapFile, PlacementOutOfRange_IsAnError) {
+  const Heightmap map = load(png(2, 2, 8, kGrey, {0, 0, 0, 0}));
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const HeightmapPlacement& p : std::vector<HeightmapPlacement>{
+           {0, 8, 0, 1}, {20, -8, 0, 1}, {nan, 8, 0, 1}, {20, inf, 0, 1}, {20, 8, nan, 1}, {20, 8, 0, inf}})
+    EXPECT_THROW(heightFieldOf(map, p), InputError);
+}
+
+TEST(Heightmaps, KeptPictures_AreWhatTheGeneratorDraws) {
+  for (const auto& picture : grouser::heightmaps::kPictures) {
+    SCOPED_TRACE(picture.name);
+    const auto file =
+        std::filesystem::path(GROUSER_SOURCE_DIR) / "assets" / "heightmaps" / (std::string(picture.name) + ".png");
+    const Heightmap map = loadHeightmap(file);
+    ASSERT_EQ(map.columns, picture.columns);
+    ASSERT_EQ(map.rows, picture.rows);
+    ASSERT_EQ(map.bits, picture.bits);
+    const double white = (1 << picture.bits) - 1;
+    for (int row = 0; row < map.rows; ++row)
+      for (int column = 0; column < map.columns; ++column)
+        ASSERT_EQ(map.at(column, row), picture.pixel(column, row) / white) << column << ", " << row;
+  }
+}
+
+TEST(Heightmaps, HillsInEightBits_AreTheSameHillsToHalfALevel) {
+  const std::filesystem::path folder = std::filesystem::path(GROUSER_SOURCE_DIR) / "assets" / "heightmaps";
+  const Heightmap deep = loadHeightmap(folder / "hills.png"), coarse = loadHeightmap(folder / "hills8.png");
+  ASSERT_EQ(deep.brightness.size(), coarse.brightness.size());
+  // Rounding to the nearest level: half a level of 8 bits and half a level of 16 bits.
+  for (std::size_t i = 0; i < deep.brightness.size(); ++i)
+    ASSERT_NEAR(deep.brightness[i], coarse.brightness[i], 0.5 / 255 + 0.5 / 65535);
+}
+
+} // namespace
