@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle/observation_table.hpp"
 
+#include <array>
+
 namespace grouser::vehicle {
 namespace {
 
@@ -18,18 +20,15 @@ struct VehicleField {
 };
 struct VectorField {
   const char *name, *unit, *help;
-  std::vector<std::string> columns;
+  std::array<const char*, 3> columns;
   base::Vec3d Observation::*member;
 };
 
-const std::vector<VectorField>& vectorFields() {
-  static const std::vector<VectorField> fields{
-      {"position", "m", "middle of the sprockets' axle line", {"x", "y", "z"}, &Observation::position},
-      {"velocity", "m/s", "of the chassis' centre of mass", {"x", "y", "z"}, &Observation::velocity},
-      {"ground_force", "N", "of the ground on all shoes", {"forward", "left", "up"}, &Observation::groundForce},
-  };
-  return fields;
-}
+constexpr VectorField kVectorFields[] = {
+    {"position", "m", "middle of the sprockets' axle line", {"x", "y", "z"}, &Observation::position},
+    {"velocity", "m/s", "of the chassis' centre of mass", {"x", "y", "z"}, &Observation::velocity},
+    {"ground_force", "N", "of the ground on all shoes", {"forward", "left", "up"}, &Observation::groundForce},
+};
 
 constexpr VehicleField kVehicleFields[] = {
     {"heading", "rad", "of the hull, from world x towards y", &Observation::heading},
@@ -68,8 +67,8 @@ constexpr ShoeField kShoeFields[] = {
 
 std::vector<Quantity> quantities(const Assembly& vehicle) {
   std::vector<Quantity> list;
-  for (const VectorField& f : vectorFields())
-    list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 3, f.columns});
+  for (const VectorField& f : kVectorFields)
+    list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 3, {f.columns.begin(), f.columns.end()}});
   for (const VehicleField& f : kVehicleFields)
     list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 1, {}});
   for (const Track& track : vehicle.tracks) {
@@ -83,7 +82,7 @@ std::vector<Quantity> quantities(const Assembly& vehicle) {
 
 std::vector<double> flatten(const Observation& observation) {
   std::vector<double> values;
-  for (const VectorField& f : vectorFields()) {
+  for (const VectorField& f : kVectorFields) {
     const base::Vec3d& v = observation.*f.member;
     values.insert(values.end(), {v.x, v.y, v.z});
   }

@@ -57,7 +57,11 @@ double sidewaysShift(const Assembly& vehicle, int track, const multibody::State&
   const Track& t = vehicle.tracks[track];
   const base::Pose pose_W = vehiclePose(vehicle, state);
   double worst = 0;
-  for (const int shoe : t.shoes) worst = std::max(worst, std::fabs(pose_W.toBody(state.pose[shoe].position).y - t.y));
+  for (const int shoe : t.shoes) {
+    const double shift = std::fabs(pose_W.toBody(state.pose[shoe].position).y - t.y);
+    if (!(shift <= worst)) worst = shift;
+    if (std::isnan(worst)) break;
+  }
   return worst;
 }
 
