@@ -11,37 +11,7 @@ namespace grouser::runs {
 
 namespace {
 const std::vector<std::string> kAxes = {"x", "y", "z"};
-const std::vector<std::string> kSides = {"left", "right"};
 } // namespace
-
-std::vector<std::string> shoeLabels(int shoesPerTrack) {
-  std::vector<std::string> labels;
-  for (const std::string& side : kSides)
-    for (int i = 0; i < shoesPerTrack; ++i) labels.push_back(fmt::format("{} {}", side, i));
-  return labels;
-}
-
-std::vector<Channel> vehicleChannels(int shoesPerTrack) {
-  const int shoes = 2 * shoesPerTrack;
-  return {
-      {kShoeSinkage, "m", "settled bed surface minus lowest point of the pad; NaN off the ground run", shoes, {}},
-      {kShoeHeight, "m", "lowest point of the pad", shoes, {}},
-      {kShoePosition, "m", "middle between the pins: x, y, z of each shoe in turn", 3 * shoes, {}},
-      {kShoeLoad, "N", "upward force of the ground", shoes, {}},
-      {kShoeTension, "N", "force in the joint to the next shoe", shoes, {}},
-      {"vehicle/body/position", "m", "chassis frame", 3, kAxes},
-      {"vehicle/body/velocity", "m/s", "chassis frame", 3, kAxes},
-      {"vehicle/body/pitch", "rad", "nose down is positive", 1, {}},
-      {"vehicle/body/roll", "rad", "right side down is positive", 1, {}},
-      {"vehicle/sprocket/angle", "rad", "turned since the start", 2, kSides},
-      {"vehicle/sprocket/speed", "rad/s", "angular speed", 2, kSides},
-      {"vehicle/sprocket/torque", "N m", "of the drive", 2, kSides},
-      {"vehicle/ground_force", "N", "of the ground on the vehicle", 3, kAxes},
-      {"vehicle/idler/slide", "m", "of the tensioner, forward", 2, kSides},
-      {"vehicle/track_tension", "N", "mean over the track's joints", 2, kSides},
-      {"vehicle/slip", "-", "1 - v / (omega pitch radius); NaN while the sprockets stand", 1, {}},
-  };
-}
 
 std::vector<Channel> terrainChannels() {
   return {
@@ -84,6 +54,14 @@ void RowBuilder::set(const std::string& path, const double* values, std::size_t 
   if (slot->second.width != count)
     throw std::logic_error(fmt::format("channel {} takes {} numbers, not {}", path, slot->second.width, count));
   std::copy(values, values + count, row_.values.begin() + static_cast<std::ptrdiff_t>(slot->second.first));
+}
+
+void RowBuilder::setFrom(const std::string& first, const std::vector<double>& values) {
+  const auto slot = slots_.find(first);
+  if (slot == slots_.end()) throw std::logic_error("no channel " + first);
+  if (slot->second.first + values.size() > row_.values.size())
+    throw std::logic_error("more numbers than channels from " + first);
+  std::copy(values.begin(), values.end(), row_.values.begin() + static_cast<std::ptrdiff_t>(slot->second.first));
 }
 
 } // namespace grouser::runs

@@ -9,16 +9,12 @@
 /// The quantities of a time series: one list for who writes results.h5 and who reads it.
 namespace grouser::runs {
 
-/// Per shoe, left track first; `labels(count)` names them "left 0" ... "right 45".
-inline constexpr const char* kShoeSinkage = "vehicle/shoes/sinkage";
-inline constexpr const char* kShoeHeight = "vehicle/shoes/height";
-inline constexpr const char* kShoePosition = "vehicle/shoes/position";
-inline constexpr const char* kShoeLoad = "vehicle/shoes/load";
-inline constexpr const char* kShoeTension = "vehicle/shoes/tension";
+/// One number a shoe, in the order of the wrap; `side` is "left" or "right".
+inline std::string shoeSinkage(const std::string& side) { return "vehicle/" + side + "/sinkage"; }
 
-std::vector<std::string> shoeLabels(int shoesPerTrack);
-/// Shoes, body, sprockets, tensioner and slip. Order: as in the list, 5 + 4 + 4 + 3 channels.
-std::vector<Channel> vehicleChannels(int shoesPerTrack);
+/// A quantity that another room describes (vehicle::Quantity has the same members).
+template <class Quantity> Channel channelOf(const Quantity& q) { return {q.path, q.unit, q.help, q.width, q.columns}; }
+
 /// State of the bed and its contacts.
 std::vector<Channel> terrainChannels();
 /// Energy and momentum.
@@ -33,6 +29,8 @@ public:
   void set(const std::string& path, double value) { set(path, &value, 1); }
   void set(const std::string& path, const base::Vec3d& v) { set(path, &v.x, 3); }
   void set(const std::string& path, const std::vector<double>& values) { set(path, values.data(), values.size()); }
+  /// Fills several channels in a row, of which `first` is the first.
+  void setFrom(const std::string& first, const std::vector<double>& values);
   const Row& row() const { return row_; }
 
 private:

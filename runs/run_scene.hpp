@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/output.hpp"
 #include "runs/scene.hpp"
 
 #include <cstdint>
@@ -14,12 +15,13 @@ namespace grouser::runs {
 struct RunOptions {
   std::filesystem::path folder;      ///< of the results
   bool force = false;                ///< overwrite what is there
-  bool hash = false;                 ///< print the state hash at the end
+  bool hash = false;                 ///< take the state hash at the end
   std::optional<std::int64_t> steps; ///< stop after so many steps instead of the scene's duration
   std::string commandLine;           ///< for the manifest
 };
 
-/// Runs a scene to its end and writes its folder. Throws InputError, SimulationError or DeviceError.
-void runScene(const Scene& scene, const RunOptions& options);
+/// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.
+/// With `hash` the summary holds the state hash. Throws InputError, SimulationError or DeviceError.
+Summary runScene(const Scene& scene, const RunOptions& options);
 
 } // namespace grouser::runs

@@ -97,7 +97,7 @@ struct Vehicle {
   std::optional<std::array<double, 2>> position; ///< [m] x, y of the point between the sprockets; empty: on the terrain
   double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
-  double sphereSpacing = 0.02;                   ///< [m] of the parts' sphere sets
+  double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
   std::string material;         ///< of the parts against the ground; empty: the contact data of the spec
   std::string chassis = "free"; ///< free | fixed
   bool operator==(const Vehicle&) const = default;

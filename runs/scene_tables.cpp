@@ -129,7 +129,7 @@ Table<Vehicle> vehicleTable() {
   t.add("clearance", &S::clearance, "m", "between lowest grouser and highest ground below at the start")
       .atLeast(0)
       .atMost(10);
-  t.add("sphere_spacing", &S::sphereSpacing, "m", "of the parts' sphere sets").above(0).atMost(1);
+  t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
   t.add("material", &S::material, "", "of the parts against the ground; the contact data of the spec where not given");
   t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench").oneOf({"free", "fixed"});
   return t;

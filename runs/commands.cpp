@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands.hpp"
+
+#include "base/error.hpp"
+#include "runs/output.hpp"
+#include "runs/plan.hpp"
+#include "runs/plots.hpp"
+#include "runs/run_scene.hpp"
+#include "runs/scene.hpp"
+#include "runs/sinkage.hpp"
+#include "spheredecomp/decompose.hpp"
+#include "spheredecomp/mesh.hpp"
+#include "spheredecomp/quality.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void drawAndName(const fs::path& results, const fs::path& folder, const std::vector<std::string>& names) {
+  std::string warning;
+  for (const fs::path& plot : drawPlots(results, folder, names, warning)) fmt::print("plot      {}\n", plot.string());
+  if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
+}
+
+void nameIfThere(const char* what, const fs::path& file) {
+  if (fs::exists(file)) fmt::print("{:<9} {}\n", what, file.string());
+}
+
+} // namespace
+
+void runCommand(const RunCommand& command) {
+  std::vector<std::string> overrides = command.overrides;
+  if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
+  if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
+  const Scene scene = loadScene(command.scene, overrides);
+
+  RunOptions options;
+  options.folder = !command.folder.empty()        ? fs::path(command.folder)
+                   : !scene.output.folder.empty() ? fs::path(scene.output.folder)
+                                                  : fs::path("out") / scene.name();
+  options.force = command.force, options.hash = command.hash, options.steps = command.steps;
+  options.commandLine = command.commandLine;
+  checkOutputFolder(options.folder, options.force);
+  const Summary summary = runScene(scene, options);
+
+  const fs::path results = options.folder / "results.h5";
+  nameIfThere("results", results);
+  nameIfThere("series", options.folder / "timeseries.csv");
+  if (scene.vehicle) fmt::print("sinkage   {}\n", writeSinkageCsv(results, options.folder).string());
+  if (scene.output.plots) drawAndName(results, options.folder, kAllPlots);
+  nameIfThere("picture", options.folder / "picture.png");
+  nameIfThere("frames", options.folder / "frames.xdmf");
+  if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
+}
+
+void sinkageCommand(const SinkageCommand& command) {
+  const fs::path results = command.results;
+  const fs::path folder = command.folder.empty() ? fs::absolute(results).parent_path() : fs::path(command.folder);
+  fmt::print("sinkage   {}\n", writeSinkageCsv(results, folder).string());
+  drawAndName(results, folder, {"sinkage"});
+}
+
+void planCommand(const PlanCommand& command) {
+  fmt::print("{}", planText(loadScene(command.scene, command.overrides)));
+}
+
+void spheresCommand(const SpheresCommand& command) {
+  spheredecomp::DecompositionOptions options;
+  options.radius = command.radius, options.targetCount = command.count;
+  const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
+  const base::SphereSet set = spheredecomp::decompose(mesh, fs::path(command.mesh).filename().string(), options);
+  fmt::print("{}", spheredecomp::report(set, spheredecomp::measure(mesh, set)));
+  if (command.csv.empty()) return;
+  std::ofstream file(command.csv, std::ios::binary);
+  file << "x [m],y [m],z [m],radius [m]\n";
+  for (const base::SetSphere& s : set.spheres)
+    file << fmt::format("{},{},{},{}\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
+  file.close();
+  if (!file) throw base::InputError(fmt::format("{}: cannot be written; name another file with --csv", command.csv));
+  fmt::print("spheres   {}\n", command.csv);
+}
+
+} // namespace grouser::runs

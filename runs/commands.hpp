@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What each command of the program does, once its words are parsed. All throw; `main` catches.
+namespace grouser::runs {
+
+struct RunCommand {
+  std::string scene;
+  std::vector<std::string> overrides;
+  std::string device;         ///< empty: as the scene says
+  std::optional<int> threads; ///< empty: as the scene says
+  std::string folder;         ///< empty: as the scene says
+  std::optional<std::int64_t> steps;
+  bool force = false;
+  bool hash = false;
+  std::string commandLine;
+};
+void runCommand(const RunCommand& command);
+
+struct SinkageCommand {
+  std::string results;
+  std::string folder; ///< empty: beside the results
+};
+void sinkageCommand(const SinkageCommand& command);
+
+struct PlanCommand {
+  std::string scene;
+  std::vector<std::string> overrides;
+};
+void planCommand(const PlanCommand& command);
+
+struct SpheresCommand {
+  std::string mesh;
+  double radius = 0;     ///< [m]; 0: from count
+  std::size_t count = 0; ///< 0: from radius
+  std::string csv;       ///< file for the spheres; empty: none
+};
+void spheresCommand(const SpheresCommand& command);
+
+} // namespace grouser::runs

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/plan.hpp"
+
+#include "base/math.hpp"
+#include "terrain/heightmap.hpp"
+#include "terrain/layers.hpp"
+#include "vehicle/spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::runs {
+
+namespace {
+
+/// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
+constexpr double kBytesPerGrain = 1200;
+
+double sphereMass(double density, double radius) { return density * 4.0 / 3.0 * base::kPi * radius * radius * radius; }
+
+/// Grains of the bed; reads the height-map, for hills may need more.
+std::int64_t bedGrains(const Scene& scene) {
+  const Terrain& t = *scene.terrain;
+  terrain::HeightmapPlacement placement;
+  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
+  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
+  terrain::LayerOptions options;
+  options.radius = *t.grainRadius, options.layers = t.layers.value_or(0), options.depth = t.depth.value_or(0);
+  options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
+  options.floor = t.floor == "flat" ? terrain::FloorShape::flat : terrain::FloorShape::follow;
+  options.seed = static_cast<std::uint64_t>(scene.run.seed);
+  return terrain::planBed(terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement), options).grains;
+}
+
+std::string onOff(bool on, const std::string& what, const std::string& why) {
+  return fmt::format("  {:<4} {:<26} {}\n", on ? "on" : "off", what, why);
+}
+
+std::string switches(const Scene& scene) {
+  const Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
+  const bool bed = t && t->granular(), grains = bed || !scene.grains.empty();
+  const bool friction =
+      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.friction > 0; });
+  std::string text = "switched on and off\n";
+  text += onOff(grains, "grains", grains ? "" : "no [[grain]], no granular [terrain]");
+  text += onOff(grains && friction, "friction history", grains && !friction ? "every friction is 0" : "");
+  text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
+  text +=
+      onOff(bed && t->settleTimeLimit > 0, "settling",
+            bed ? fmt::format("at most {} s, cache {}", t->settleTimeLimit, t->settleCache ? "on" : "off") : "no bed");
+  text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
+  text += onOff(scene.vehicle.has_value(), "vehicle",
+                scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
+  text += onOff(scene.output.frames, "frames",
+                scene.output.frames ? fmt::format("{:.0f}, one each {} s",
+                                                  std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,
+                                                  scene.run.frameInterval)
+                                    : "output.frames = false");
+  text += onOff(scene.output.picture, "picture", "");
+  text += onOff(scene.output.plots, "plots", "");
+  return text;
+}
+
+} // namespace
+
+double shortestContact(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Material& m, double radius) {
+    double stiffness = m.stiffness;
+    for (const ContactPair& c : scene.contacts)
+      if ((c.first == m.name || c.second == m.name) && c.stiffness) stiffness = std::max(stiffness, *c.stiffness);
+    // Two equal grains: m_eff is half the mass. Against a wall or a part it is the whole mass, which is gentler.
+    const double effective = 0.5 * sphereMass(m.density, radius);
+    shortest = std::min(shortest, base::kPi * std::sqrt(effective / stiffness));
+  };
+  for (const Grain& g : scene.grains) consider(scene.material(g.material), g.radius);
+  if (scene.terrain && scene.terrain->granular())
+    consider(scene.material(scene.terrain->material), *scene.terrain->grainRadius);
+  return std::isfinite(shortest) ? shortest : 0;
+}
+
+std::string planText(const Scene& scene) {
+  std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
+  std::int64_t grains = static_cast<std::int64_t>(scene.grains.size());
+  if (scene.terrain && scene.terrain->granular()) grains += bedGrains(scene);
+  text += fmt::format("  {:<24} {}\n", "grains", grains);
+  if (grains)
+    text += fmt::format("  {:<24} about {:.1f} MiB\n", "memory for grains",
+                        static_cast<double>(grains) * kBytesPerGrain / 1048576.0);
+  if (scene.vehicle) {
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
+                        spec.shoe.count, spec.pitchRadius());
+  }
+  text += "\ntime\n";
+  const double contact = shortestContact(scene);
+  const double resolved = contact / kStepsPerContact;
+  if (contact > 0) {
+    text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
+    text +=
+        fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, kStepsPerContact);
+  }
+  const double step = scene.run.timeStep.value_or(resolved);
+  if (step <= 0) return text + fmt::format("  {:<24} chosen when the vehicle is assembled\n", "time step");
+  const double steps = std::ceil(scene.run.duration / step);
+  text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
+                      contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
+  text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
+  if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
+  if (contact > 0 && step > resolved * 1.0000001)
+    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
+                        contact / step, resolved);
+  return text;
+}
+
+} // namespace grouser::runs

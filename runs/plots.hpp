@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// The plots that runs/plots/ can draw from a results.h5.
+inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage", "drive", "ledger"};
+
+/// Draws `names` as NAME.png into `folder` by Python and matplotlib, and returns the files drawn; a plot whose
+/// quantities the results lack is left out. Where Python or a package is missing nothing is drawn, and `warning` says
+/// what to install.
+std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
+                                             const std::vector<std::string>& names, std::string& warning);
+
+} // namespace grouser::runs
