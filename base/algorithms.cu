@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/algorithms.hpp"
 
+#if !defined(__CUDACC__)
+#define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_OMP // no CUDA headers on a machine without the toolkit
+#endif
+
 #include <omp.h>
 #include <thrust/execution_policy.h>
 #include <thrust/functional.h>

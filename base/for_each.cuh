@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/error.hpp"
 #include "base/exec.hpp"
 #include "base/host_device.hpp"
 
 #include <cstdint>
+#include <string>
 
 #if defined(__CUDACC__)
 #include "base/cuda_check.cuh"
@@ -39,7 +41,8 @@ template <class Body> void forEach(const Exec& exec, const char* name, std::int6
   detail::forEachKernel<<<blocks, kBlock, 0, static_cast<cudaStream_t>(exec.stream)>>>(body, count);
   checkCuda(cudaGetLastError(), std::string("launch of ") + name);
 #else
-  (void)name;
+  // Only files that nvcc compiles can launch.
+  throw DeviceError(std::string(name) + ": this file was not compiled for CUDA");
 #endif
 }
 

@@ -57,6 +57,12 @@ template <class T> GROUSER_HD Vec3<T> max(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 
+/// Four floats in one aligned 16-byte load; `w` is free for its user.
+struct alignas(16) Vec4f {
+  float x, y, z, w;
+  GROUSER_HD Vec3<float> xyz() const { return {x, y, z}; }
+};
+
 /// 3x3 matrix, row-major: m[row][column].
 template <class T> struct Mat3 {
   T m[3][3]{};

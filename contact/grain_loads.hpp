@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/fixed_point.hpp"
+#include "base/vec.hpp"
+
+#include <cstdint>
+
+namespace grouser::contact {
+
+/// What one rigid part does to one grain in one step: the force in quanta (exactly what the part receives with the
+/// opposite sign) and the torque about the grain's centre [N m].
+struct GrainLoad {
+  base::Vec3l force;
+  base::Vec3f torque;
+  float dissipated; ///< [J]
+};
+
+/// Loads from rigid parts as the grains' kernel sees them. `range[i]` packs first * 256 + count of the loads of slot i.
+struct GrainLoadsView {
+  const std::uint32_t* range{nullptr};
+  const GrainLoad* load{nullptr};
+  base::FixedPoint force; ///< quantum of the forces [N]
+};
+
+} // namespace grouser::contact

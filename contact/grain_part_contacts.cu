@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/grain_part_contacts.hpp"
+
+#include "base/algorithms.hpp"
+#include "base/error.hpp"
+#include "base/for_each.cuh"
+
+#include <cstring>
+
+namespace grouser::contact {
+
+using base::Position;
+using base::Vec3d;
+using base::Vec3f;
+
+namespace {
+
+constexpr float kSameNormal = 0.9f;  // cosine: touches within 26 degrees are one patch
+constexpr float kSameFace = 0.97f;   // cosine: discs of one face are one patch
+constexpr float kSamePatch = 0.8f;   // cosine: a patch is the one it was in the step before
+
+/// Squared distance from a point to a box, in the box' frame.
+GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double out = p[a] < low[a] ? low[a] - p[a] : p[a] > high[a] ? p[a] - high[a] : 0.0;
+    sum += out * out;
+  }
+  return sum;
+}
+
+/// Counts (where `key` is null) or lists the parts near one grain.
+struct ListParts {
+  base::PositionScale scale;
+  const Position* position;
+  const std::uint32_t* id;
+  const PartMotion* motion;
+  const GrainPart* parts;
+  int partCount;
+  double reach;
+  Vec3d low, high; ///< world box around all parts and their reach
+  std::uint32_t *count, *first;
+  std::uint64_t* key;
+  std::uint32_t* slot;
+
+  GROUSER_HD void operator()(int i) const {
+    const Vec3d x = scale.toMetres(position[i]);
+    std::uint32_t found = 0;
+    if (distance2ToBox(x, low, high) == 0) {
+      for (int p = 0; p < partCount; ++p) {
+        if (distance2ToBox(motion[p].toPart(x), parts[p].boxLow, parts[p].boxHigh) > reach * reach) continue;
+        if (key) {
+          key[first[i] + found] = static_cast<std::uint64_t>(id[i]) << 16 | static_cast<std::uint64_t>(p);
+          slot[first[i] + found] = static_cast<std::uint32_t>(i);
+        }
+        ++found;
+      }
+    }
+    if (!key) count[i] = found;
+    else first[i] = found == 0 ? 0 : first[i] << 8 | found;
+  }
+};
+
+/// Finds each pair in the sorted keys of the former list and takes its history.
+struct CarryMemory {
+  const std::uint64_t *key, *oldKey;
+  const std::uint32_t* oldIndex;
+  std::int64_t oldCount;
+  const PatchMemory* old;
+  PatchMemory* memory;
+  GROUSER_HD void operator()(int e) const {
+    std::int64_t low = 0, high = oldCount;
+    while (low < high) {
+      const std::int64_t middle = (low + high) / 2;
+      if (oldKey[middle] < key[e]) low = middle + 1;
+      else high = middle;
+    }
+    const bool found = low < oldCount && oldKey[low] == key[e];
+    for (int k = 0; k < kPatches; ++k)
+      memory[e * kPatches + k] = found ? old[static_cast<std::int64_t>(oldIndex[low]) * kPatches + k] : PatchMemory{};
+  }
+};
+
+/// One patch while it is being made out.
+struct Patch {
+  Vec3f normal; ///< outward from the part, in its frame
+  Vec3f face;   ///< plane normal of the disc that is deepest
+  float overlap;
+};
+
+struct Compute {
+  GrainPartModel model;
+  GrainPartContacts::GrainsView grains;
+  const PartMotion* motion;
+  const GrainPart* parts;
+  const SurfaceGridView* grids;
+  const std::uint64_t* key;
+  const std::uint32_t* slot;
+  PatchMemory* memory;
+  GrainLoad* load;
+  PartLoad* partLoad;
+  std::int64_t* sums;
+
+  GROUSER_HD void operator()(int e) const {
+    const int i = static_cast<int>(slot[e]);
+    const int p = static_cast<int>(key[e] & 0xFFFFu);
+    const PartMotion part = motion[p];
+    const Vec3d x = model.scale.toMetres(grains.position[i]);
+    const Vec3d c = part.toPart(x);
+    Patch patches[kPatches];
+    const int found = findPatches(grids[parts[p].surface], c, patches);
+    GrainLoad result{};
+    PatchMemory fresh[kPatches] = {};
+    PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
+    unsigned used = 0;
+    base::Vec3l torqueOnPart{};
+    double elastic = 0;
+    for (int k = 0; k < found; ++k) {
+      fresh[k] = {patches[k].normal, recall(held, patches[k].normal, used)};
+      apply(part, i, x, patches[k], fresh[k].shear, result, torqueOnPart);
+      elastic += storedEnergy(model.law, static_cast<double>(patches[k].overlap), fresh[k].shear);
+    }
+    for (int k = 0; k < kPatches; ++k) held[k] = fresh[k];
+    load[e] = result;
+    if (found == 0) return;
+    addTo(partLoad[p].force, -result.force);
+    addTo(partLoad[p].torque, torqueOnPart);
+    base::atomicAdd64(sums + 0, found);
+    base::atomicAdd64(sums + 1, model.energy.quantise(elastic));
+    base::atomicAdd64(sums + 2, model.energy.quantise(static_cast<double>(result.dissipated)));
+    for (int a = 0; a < 3; ++a) base::atomicAdd64(sums + 3 + a, result.force[a]);
+  }
+
+private:
+  GROUSER_HD static void addTo(base::Vec3l& target, const base::Vec3l& value) {
+    base::atomicAdd64(&target.x, value.x);
+    base::atomicAdd64(&target.y, value.y);
+    base::atomicAdd64(&target.z, value.z);
+  }
+
+  /// The deepest touch first, then the deepest that belongs to none of the patches so far.
+  GROUSER_HD int findPatches(const SurfaceGridView& grid, const Vec3d& c, Patch* patches) const {
+    const std::int64_t cell = grid.cellAt(c);
+    if (cell < 0) return 0;
+    const float radius = static_cast<float>(model.radius);
+    int found = 0;
+    for (; found < kPatches; ++found) {
+      Patch deepest{{}, {}, 0};
+      for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k) {
+        const Disc& disc = grid.disc[grid.entry[k]];
+        const DiscDistance at = distanceTo(disc, c);
+        const float overlap = radius + disc.radius - at.distance;
+        if (overlap <= deepest.overlap) continue;
+        bool taken = false;
+        for (int q = 0; q < found; ++q)
+          taken = taken || dot(at.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
+        if (!taken) deepest = {at.normal, disc.normal, overlap};
+      }
+      if (deepest.overlap <= 0) break;
+      patches[found] = deepest;
+    }
+    return found;
+  }
+
+  /// The spring of the patch whose normal lay closest in the last step.
+  GROUSER_HD static Vec3f recall(const PatchMemory* held, const Vec3f& normal, unsigned& used) {
+    int best = -1;
+    float alignment = kSamePatch;
+    for (int k = 0; k < kPatches; ++k) {
+      const float cosine = dot(held[k].normal, normal);
+      if (!(used >> k & 1) && cosine > alignment) best = k, alignment = cosine;
+    }
+    if (best < 0) return {};
+    used |= 1u << best;
+    return held[best].shear;
+  }
+
+  /// Force of one patch, in the part's frame as the history is, then quantised in the world.
+  GROUSER_HD void apply(const PartMotion& part, int i, const Vec3d& x, const Patch& patch, Vec3f& shear,
+                        GrainLoad& result, base::Vec3l& torqueOnPart) const {
+    const Vec3d outward = part.rotation * patch.normal.as<double>();
+    const Vec3d arm = outward * -(model.radius - static_cast<double>(patch.overlap));
+    const Vec3d point = x + arm;
+    const Vec3d relative = grains.velocity[i].xyz().as<double>() + cross(grains.spin[i].xyz().as<double>(), arm) -
+                           part.velocityAt(point);
+    const Touch touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).as<float>(),
+                      static_cast<float>(model.mass)};
+    const Reaction reaction = linearForce(model.law, touch, static_cast<float>(model.timeStep), shear);
+    const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.as<double>());
+    const Vec3d force = model.force.value(quanta);
+    result.force += quanta;
+    result.torque += cross(arm, force).as<float>();
+    result.dissipated += reaction.dissipated;
+    torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
+  }
+};
+
+} // namespace
+
+GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
+                                     const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts)
+    : exec_(exec), model_(model), partCount_(parts.size()) {
+  std::vector<SurfaceGridView> views;
+  for (const base::SphereSet* set : sets) {
+    const double edge = set->spacing > 0.006 ? 0.75 * set->spacing : 0.0045;
+    grids_.emplace_back(exec, *set, model.radius, edge);
+    views.push_back(grids_.back().view());
+  }
+  for (GrainPart& part : parts) {
+    Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    for (const base::SetSphere& s : sets[static_cast<std::size_t>(part.surface)]->spheres) {
+      const double r = s.radius + s.flat;
+      low = base::min(low, s.centre - Vec3d{r, r, r}), high = base::max(high, s.centre + Vec3d{r, r, r});
+    }
+    part.boxLow = low, part.boxHigh = high;
+  }
+  gridViews_ = base::Array<SurfaceGridView>(exec, views);
+  parts_ = base::Array<GrainPart>(exec, parts);
+  range_ = base::Array<std::uint32_t>(exec);
+  count_ = base::Array<std::uint32_t>(exec);
+  slot_ = base::Array<std::uint32_t>(exec);
+  oldIndex_ = base::Array<std::uint32_t>(exec);
+  key_ = base::Array<std::uint64_t>(exec);
+  oldKey_ = base::Array<std::uint64_t>(exec);
+  memory_ = base::Array<PatchMemory>(exec);
+  oldMemory_ = base::Array<PatchMemory>(exec);
+  load_ = base::Array<GrainLoad>(exec);
+  sums_ = base::Array<std::int64_t>(exec, 6);
+}
+
+void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<PartMotion>& motion) {
+  // The former list, sorted by key, to find history in.
+  const std::size_t oldPairs = pairs_;
+  key_.swap(oldKey_);
+  memory_.swap(oldMemory_);
+  oldIndex_.resize(oldPairs);
+  base::iota(exec_, oldIndex_.data(), oldPairs);
+  base::sortByKey(exec_, oldKey_.data(), oldIndex_.data(), oldPairs);
+
+  const auto n = static_cast<std::int64_t>(grains.count);
+  range_.resize(grains.count);
+  count_.resize(grains.count);
+  ListParts list{model_.scale, grains.position, grains.id,
+                 motion.data(), parts_.data(), static_cast<int>(partCount_),
+                 model_.radius + model_.margin, {1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300},
+                 count_.data(), range_.data(), nullptr,
+                 nullptr};
+  const std::vector<PartMotion> poses = motion.toHost();
+  const std::vector<GrainPart> parts = parts_.toHost();
+  for (std::size_t p = 0; p < partCount_; ++p)
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3d c{corner & 1 ? parts[p].boxHigh.x : parts[p].boxLow.x, corner & 2 ? parts[p].boxHigh.y : parts[p].boxLow.y,
+                    corner & 4 ? parts[p].boxHigh.z : parts[p].boxLow.z};
+      const Vec3d w = poses[p].toWorld(c);
+      list.low = base::min(list.low, w - Vec3d{list.reach, list.reach, list.reach});
+      list.high = base::max(list.high, w + Vec3d{list.reach, list.reach, list.reach});
+    }
+  base::forEach(exec_, "count parts near grains", n, list);
+  pairs_ = base::exclusiveScan(exec_, count_.data(), range_.data(), grains.count);
+  if (pairs_ >= 1u << 24)
+    throw base::SimulationError(std::to_string(pairs_) + " pairs of grains and parts; at most 16,777,215 are possible");
+  key_.resize(pairs_);
+  slot_.resize(pairs_);
+  memory_.resize(pairs_ * kPatches);
+  load_.resize(pairs_);
+  list.key = key_.data(), list.slot = slot_.data();
+  base::forEach(exec_, "list parts near grains", n, list);
+  base::forEach(exec_, "carry patch history", static_cast<std::int64_t>(pairs_),
+                CarryMemory{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
+                            oldMemory_.data(), memory_.data()});
+}
+
+void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion,
+                                base::Array<PartLoad>& loads) {
+  sums_.zero();
+  base::forEach(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
+                Compute{model_, grains, motion.data(), parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
+                        memory_.data(), load_.data(), loads.data(), sums_.data()});
+}
+
+GrainLoadsView GrainPartContacts::grainLoads() const { return {range_.data(), load_.data(), model_.force}; }
+
+GrainPartContacts::Ledger GrainPartContacts::ledger() const {
+  const std::vector<std::int64_t> q = sums_.toHost();
+  return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]), model_.force.value({q[3], q[4], q[5]})};
+}
+
+std::vector<std::uint32_t> GrainPartContacts::stateWords() const {
+  std::vector<std::uint64_t> key = key_.toHost();
+  key.resize(pairs_);
+  const std::vector<PatchMemory> memory = memory_.toHost();
+  std::vector<std::uint32_t> order(pairs_), words;
+  for (std::size_t e = 0; e < pairs_; ++e) order[e] = static_cast<std::uint32_t>(e);
+  base::sortByKey(base::cpuExec(1), key.data(), order.data(), pairs_);
+  for (std::size_t k = 0; k < pairs_; ++k)
+    for (int q = 0; q < kPatches; ++q) {
+      const PatchMemory& m = memory[static_cast<std::size_t>(order[k]) * kPatches + static_cast<std::size_t>(q)];
+      if (norm2(m.normal) == 0) continue;
+      std::uint32_t raw[8];
+      std::memcpy(raw, &key[k], 8);
+      std::memcpy(raw + 2, &m, sizeof m);
+      words.insert(words.end(), raw, raw + 8);
+    }
+  return words;
+}
+
+std::size_t GrainPartContacts::bytes() const {
+  std::size_t total = range_.bytes() + count_.bytes() + slot_.bytes() + key_.bytes() + oldKey_.bytes() +
+                      memory_.bytes() + oldMemory_.bytes() + load_.bytes();
+  for (const SurfaceGrid& grid : grids_) total += grid.bytes();
+  return total;
+}
+
+} // namespace grouser::contact

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/grain_loads.hpp"
+#include "contact/linear_law.hpp"
+#include "contact/part_motion.hpp"
+#include "contact/part_surface.hpp"
+#include "base/position.hpp"
+
+#include <vector>
+
+namespace grouser::contact {
+
+/// A grain's contact with one part merges into patches, one for each cluster of surface normals: one on a face, two in a
+/// corner or between two teeth.
+inline constexpr int kPatches = 3;
+
+/// Tangential spring of a patch, kept in the part's frame so that it turns with the part. A zero normal is a free place.
+struct PatchMemory {
+  base::Vec3f normal, shear;
+};
+
+/// A rigid part as the grains meet it.
+struct GrainPart {
+  int surface{};           ///< index of its unique sphere set
+  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]
+};
+
+/// Constants of the contacts between grains and parts.
+struct GrainPartModel {
+  double radius{}, mass{}; ///< of a grain [m], [kg]
+  double timeStep{};       ///< [s]
+  double margin{};         ///< parts may move this far relative to the grains before the pairs are looked for anew [m]
+  LinearLaw law;
+  base::PositionScale scale;
+  base::FixedPoint force, torque, energy; ///< quanta of the sums
+};
+
+/// Contacts of grains with rigid parts made of spheres.
+///
+/// Pairs of grain and part that may touch are listed with a margin; every step each listed pair looks up one cell of
+/// the part's table. The grains get their loads as integers, the parts exactly the opposite.
+class GrainPartContacts {
+public:
+  /// `sets`: the unique sphere sets; `parts`: instances of them.
+  GrainPartContacts(const base::Exec& exec, const GrainPartModel& model, const std::vector<const base::SphereSet*>& sets,
+                    std::vector<GrainPart> parts);
+
+  struct GrainsView {
+    const base::Position* position;
+    const base::Vec4f *velocity, *spin;
+    const std::uint32_t* id;
+    std::size_t count;
+  };
+  /// Lists the pairs for grains in their present slots; history is carried over by grain id and part.
+  void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
+
+  /// Contact loads of this step. `loads` (one a part) is added to.
+  void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads);
+
+  /// What the grains' step needs: valid until the next refresh.
+  GrainLoadsView grainLoads() const;
+
+  std::size_t pairs() const { return pairs_; }
+  /// Pairs in touch at the last compute, patches counted singly, and the energy held in their springs [J].
+  struct Ledger {
+    std::int64_t contacts{};
+    double elastic{}, dissipated{};
+    base::Vec3d forceOnGrains; ///< sum over all grains [N], from the same integers
+  };
+  Ledger ledger() const;
+  /// History by (grain id, part), in ascending order, without free places: for hashes and checkpoints.
+  std::vector<std::uint32_t> stateWords() const;
+  std::size_t bytes() const;
+
+private:
+  base::Exec exec_;
+  GrainPartModel model_;
+  std::vector<SurfaceGrid> grids_;
+  std::size_t partCount_;
+  base::Array<SurfaceGridView> gridViews_;
+  base::Array<GrainPart> parts_;
+  std::size_t pairs_{0};
+  base::Array<std::uint32_t> range_, count_, slot_, oldIndex_;
+  base::Array<std::uint64_t> key_, oldKey_;
+  base::Array<PatchMemory> memory_, oldMemory_;
+  base::Array<GrainLoad> load_;
+  base::Array<std::int64_t> sums_; ///< contacts, elastic, dissipated, force x, y, z
+};
+
+} // namespace grouser::contact

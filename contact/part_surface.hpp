@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "base/sphere_set.hpp"
+
+#include <cstdint>
+
+namespace grouser::contact {
+
+/// A surface sphere as contact sees it: a disc of radius `flat` through `centre` and across `normal`, swept by a ball of
+/// `radius`. On a face its top is the mesh's own plane, without the bumps between spheres; next to an edge `flat` is 0
+/// and the sphere rounds the edge.
+struct Disc {
+  base::Vec3f centre;
+  float radius;
+  base::Vec3f normal;
+  float flat;
+};
+
+/// Distance from a ball's centre to a disc's core, and the outward direction there.
+struct DiscDistance {
+  base::Vec3f normal; ///< from the part to the ball
+  float distance;     ///< [m]; a ball of radius R overlaps by R + radius - distance
+};
+
+GROUSER_HD DiscDistance distanceTo(const Disc& disc, const base::Vec3d& point) {
+  const base::Vec3f apart = (point - disc.centre.as<double>()).as<float>();
+  base::Vec3f core = apart;
+  if (disc.flat > 0) {
+    const base::Vec3f along = apart - disc.normal * dot(apart, disc.normal);
+    const float size = norm(along);
+    core = size <= disc.flat ? apart - along : apart - along * (disc.flat / size);
+  }
+  const float distance = norm(core);
+  return {distance > 0 ? core * (1.0f / distance) : disc.normal, distance};
+}
+
+/// Static look-up table of a part in its own frame: for each cell the discs that a ball centred in it may need.
+struct SurfaceGridView {
+  const Disc* disc{nullptr};
+  const std::uint32_t* start{nullptr}; ///< [cells + 1]
+  const std::uint32_t* entry{nullptr}; ///< disc indices, ascending within a cell
+  base::Vec3d low;
+  double perEdge{};
+  base::Vec3i cells;
+
+  /// Index of the cell that holds `p`; -1 outside the table, where nothing can touch.
+  GROUSER_HD std::int64_t cellAt(const base::Vec3d& p) const {
+    const base::Vec3d u = (p - low) * perEdge;
+    if (!(u.x >= 0 && u.y >= 0 && u.z >= 0 && u.x < cells.x && u.y < cells.y && u.z < cells.z)) return -1;
+    return (static_cast<std::int64_t>(u.x) * cells.y + static_cast<std::int64_t>(u.y)) * cells.z +
+           static_cast<std::int64_t>(u.z);
+  }
+};
+
+/// The table for balls of radius up to `ballRadius`.
+///
+/// A disc is left out of a cell when another disc of the same plane is nearer for every ball centre in that cell: only
+/// the nearest disc of a plane makes contact, so the result is the same as without the table.
+class SurfaceGrid {
+public:
+  SurfaceGrid() = default;
+  /// `cellEdge` [m] is widened where the table would have more than about 600,000 cells.
+  SurfaceGrid(const base::Exec& exec, const base::SphereSet& set, double ballRadius, double cellEdge);
+  SurfaceGridView view() const;
+  std::size_t bytes() const { return disc_.bytes() + start_.bytes() + entry_.bytes(); }
+  std::size_t entries() const { return entry_.size(); }
+
+private:
+  base::Array<Disc> disc_;
+  base::Array<std::uint32_t> start_, entry_;
+  base::Vec3d low_;
+  double perEdge_{};
+  base::Vec3i cells_;
+};
+
+/// Surface spheres of a part as probes that feel other surfaces: each stands for a share of the part's area.
+struct Probe {
+  base::Vec3f centre;
+  float radius; ///< [m]
+  float area;   ///< [m2]
+  std::uint32_t cluster; ///< which way its face looks in the part's frame: 0..5 = -x, +x, -y, +y, -z, +z
+};
+
+inline constexpr int kClusters = 6;
+
+/// Discs and probes of a sphere set, in its order.
+std::vector<Disc> discsOf(const base::SphereSet& set);
+std::vector<Probe> probesOf(const base::SphereSet& set);
+
+/// Radius about the frame's origin that encloses the set [m].
+double enclosingRadius(const base::SphereSet& set);
+
+} // namespace grouser::contact

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/patch_contacts.hpp"
+
+#include "contact/patch_steps.cuh"
+
+#include <algorithm>
+#include <cstring>
+
+namespace grouser::contact {
+
+PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::SphereSet*>& sets,
+                           const std::vector<int>& setOf, std::size_t pairCount)
+    : exec(e), pairs(pairCount), setOfPart(e, setOf), count(e, pairCount), first(e, pairCount), entry(e),
+      sums(e, pairCount * kClusters), states(e, pairCount * kClusters) {
+  std::vector<Probe> all;
+  std::vector<std::uint32_t> start{0};
+  for (const base::SphereSet* set : sets) {
+    const std::vector<Probe> probes = probesOf(*set);
+    all.insert(all.end(), probes.begin(), probes.end());
+    start.push_back(static_cast<std::uint32_t>(all.size()));
+  }
+  probe = base::Array<Probe>(e, all);
+  probeStart = base::Array<std::uint32_t>(e, start);
+}
+
+PatchBuffers::Ledger PatchBuffers::ledger(const PatchQuanta& quanta) const {
+  Ledger ledger;
+  std::int64_t elastic = 0;
+  for (const PatchSums& s : sums.toHost()) {
+    elastic += s.elastic;
+    ledger.patches += s.weight > 0;
+  }
+  ledger.elastic = quanta.energy.value(elastic);
+  for (const PatchState& s : states.toHost()) ledger.dissipated += s.dissipated;
+  return ledger;
+}
+
+std::vector<std::uint32_t> PatchBuffers::stateWords() const {
+  std::vector<std::uint32_t> words;
+  for (const PatchState& s : states.toHost()) {
+    std::uint32_t raw[6];
+    std::memcpy(raw, &s.shear, sizeof raw);
+    words.insert(words.end(), raw, raw + 6);
+  }
+  return words;
+}
+
+PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,
+                                   const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
+                                   const std::vector<PartPair>& pairs)
+    : model_(model), buffers_(exec, sets, setOfPart, pairs.size()), pairs_(exec, pairs) {
+  std::vector<bool> isTarget(sets.size());
+  double widest = 0;
+  for (const PartPair& pair : pairs) {
+    isTarget[static_cast<std::size_t>(setOfPart[static_cast<std::size_t>(pair.b)])] = true;
+    for (const base::SetSphere& s : sets[static_cast<std::size_t>(setOfPart[static_cast<std::size_t>(pair.a)])]->spheres)
+      widest = std::max(widest, s.radius);
+  }
+  std::vector<SurfaceGridView> views;
+  std::vector<double> reach;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const double edge = std::max(0.004, 0.75 * sets[s]->spacing);
+    grids_.push_back(isTarget[s] ? SurfaceGrid(exec, *sets[s], widest + model.margin, edge) : SurfaceGrid());
+    views.push_back(grids_.back().view());
+    reach.push_back(enclosingRadius(*sets[s]));
+  }
+  gridViews_ = base::Array<SurfaceGridView>(exec, views);
+  reach_ = base::Array<double>(exec, reach);
+}
+
+PartPartContacts::Target PartPartContacts::target() const {
+  return {pairs_.data(), gridViews_.data(), buffers_.setOfPart.data(), reach_.data(), model_.law,
+          static_cast<int>(pairs_.size())};
+}
+
+void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {
+  listProbes(buffers_, target(), motion, model_.margin);
+}
+
+void PartPartContacts::compute(const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads) {
+  pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, motion, loads);
+}
+
+} // namespace grouser::contact

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/part_motion.hpp"
+#include "contact/part_surface.hpp"
+#include "contact/patch_law.hpp"
+
+#include <vector>
+
+namespace grouser::contact {
+
+/// The lists and sums that contacts of extended surfaces share, whatever the other side is.
+struct PatchBuffers {
+  PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
+               std::size_t pairs);
+
+  base::Exec exec;
+  std::size_t pairs;
+  base::Array<Probe> probe;
+  base::Array<std::uint32_t> probeStart;
+  base::Array<int> setOfPart;
+  base::Array<std::uint32_t> count, first;
+  base::Array<std::uint64_t> entry;
+  std::size_t entries{0};
+  base::Array<PatchSums> sums;
+  base::Array<PatchState> states;
+
+  /// Energies [J] over all patches, and touching patches, from the last step.
+  struct Ledger {
+    double elastic{}, dissipated{};
+    std::int64_t patches{};
+  };
+  Ledger ledger(const PatchQuanta& quanta) const;
+  /// Springs of the patches by pair and cluster: for hashes and checkpoints.
+  std::vector<std::uint32_t> stateWords() const;
+};
+
+/// A pair of parts that may meet; `a` is felt by its probes, `b` by its table.
+struct PartPair {
+  int a{}, b{}; ///< parts
+};
+
+/// Contacts between rigid parts made of spheres: shoes against sprocket, wheels, rollers and idler.
+class PartPartContacts {
+public:
+  struct Model {
+    PatchLaw law;
+    PatchQuanta quanta;
+    double timeStep{};
+    double margin{}; ///< probes are listed this far before they touch [m]
+  };
+  /// `sets`: unique sphere sets; `setOfPart`: which one each part has.
+  PartPartContacts(const base::Exec& exec, const Model& model, const std::vector<const base::SphereSet*>& sets,
+                   const std::vector<int>& setOfPart, const std::vector<PartPair>& pairs);
+
+  /// Lists the probes within the margin, at the parts' present places.
+  void refresh(const base::Array<PartMotion>& motion);
+  /// Adds this step's contact loads to `loads` (one a part).
+  void compute(const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads);
+
+  std::size_t probesListed() const { return buffers_.entries; }
+  PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }
+  std::vector<std::uint32_t> stateWords() const { return buffers_.stateWords(); }
+
+  /// How pairs find their surfaces; plain data for kernels.
+  struct Target {
+    const PartPair* pair;
+    const SurfaceGridView* grids; ///< by set
+    const int* setOfPart;
+    const double* reach; ///< by set: enclosing radius [m]
+    PatchLaw patchLaw;
+    int pairs;
+
+    GROUSER_HD int partA(int p) const { return pair[p].a; }
+    GROUSER_HD int partB(int p) const { return pair[p].b; }
+    GROUSER_HD PatchLaw law(int) const { return patchLaw; }
+    GROUSER_HD bool near(int p, const PartMotion* motion, double margin) const {
+      const double r = reach[setOfPart[pair[p].a]] + reach[setOfPart[pair[p].b]] + margin;
+      return norm2(motion[pair[p].a].origin - motion[pair[p].b].origin) < r * r;
+    }
+    GROUSER_HD bool touch(int p, const PartMotion* motion, const base::Vec3d& x, double radius, base::Vec3d& normal,
+                          double& overlap) const {
+      const PartMotion& b = motion[pair[p].b];
+      const base::Vec3d local = b.toPart(x);
+      const SurfaceGridView& grid = grids[setOfPart[pair[p].b]];
+      const std::int64_t cell = grid.cellAt(local);
+      if (cell < 0) return false;
+      overlap = 0;
+      base::Vec3f outward{};
+      for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k) {
+        const Disc& disc = grid.disc[grid.entry[k]];
+        const DiscDistance at = distanceTo(disc, local);
+        const double depth = radius + static_cast<double>(disc.radius) - static_cast<double>(at.distance);
+        if (depth > overlap) overlap = depth, outward = at.normal;
+      }
+      if (overlap <= 0) return false;
+      normal = b.rotation * outward.as<double>();
+      return true;
+    }
+  };
+
+private:
+  Target target() const;
+
+  Model model_;
+  PatchBuffers buffers_;
+  std::vector<SurfaceGrid> grids_;
+  base::Array<SurfaceGridView> gridViews_;
+  base::Array<PartPair> pairs_;
+  base::Array<double> reach_;
+};
+
+} // namespace grouser::contact

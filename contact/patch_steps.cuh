@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/algorithms.hpp"
+#include "contact/patch_contacts.hpp"
+#include "contact/probe_kernels.cuh"
+
+namespace grouser::contact {
+
+/// Lists the probes of every pair that are within `margin` of touching the target.
+template <class Target>
+void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<PartMotion>& motion, double margin) {
+  const ProbeSets sets{buffers.probe.data(), buffers.probeStart.data(), buffers.setOfPart.data()};
+  ListProbes<Target> list{target, sets, motion.data(), margin, buffers.count.data(), buffers.first.data(), nullptr};
+  const auto pairs = static_cast<std::int64_t>(buffers.pairs);
+  base::forEach(buffers.exec, "count probes", pairs, list);
+  buffers.entries = base::exclusiveScan(buffers.exec, buffers.count.data(), buffers.first.data(), buffers.pairs);
+  buffers.entry.resize(buffers.entries);
+  list.entry = buffers.entry.data();
+  if (buffers.entries) base::forEach(buffers.exec, "list probes", pairs, list);
+}
+
+/// Pressure on every listed probe, then friction on every patch.
+template <class Target>
+void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta, double timeStep,
+                 const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads) {
+  const ProbeSets sets{buffers.probe.data(), buffers.probeStart.data(), buffers.setOfPart.data()};
+  buffers.sums.zero();
+  base::forEach(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
+                PressProbe<Target>{target, sets, quanta, motion.data(), buffers.entry.data(), buffers.sums.data(),
+                                   loads.data(), timeStep});
+  base::forEach(buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
+                RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads.data(),
+                                 timeStep});
+}
+
+} // namespace grouser::contact

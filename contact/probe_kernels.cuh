@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/for_each.cuh"
+#include "contact/part_motion.hpp"
+#include "contact/part_surface.hpp"
+#include "contact/patch_law.hpp"
+
+/// Kernel bodies of contacts between extended surfaces. Part A is felt by its probes; the other side is a Target: another
+/// part's table of discs, or the ground. A patch is all touching probes of one pair whose faces look the same way.
+///
+/// A Target offers
+///   int pairs                                   number of pairs
+///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: does not move
+///   bool near(pair, motion, margin)              may anything touch?
+///   bool touch(pair, motion, x, radius, normal, overlap)   world point x: outward normal of B, overlap > 0
+///   PatchLaw law(pair)
+namespace grouser::contact {
+
+/// Unique probe sets, one after another in one array.
+struct ProbeSets {
+  const Probe* probe;
+  const std::uint32_t* start; ///< [sets + 1]
+  const int* setOfPart;
+
+  GROUSER_HD std::uint32_t begin(int part) const { return start[setOfPart[part]]; }
+  GROUSER_HD std::uint32_t end(int part) const { return start[setOfPart[part] + 1]; }
+};
+
+/// Counts (where `entry` is null) or lists the probes of one pair that are within `margin` of touching.
+template <class Target> struct ListProbes {
+  Target target;
+  ProbeSets sets;
+  const PartMotion* motion;
+  double margin;
+  std::uint32_t *count, *first;
+  std::uint64_t* entry; ///< pair << 32 | probe
+
+  GROUSER_HD void operator()(int pair) const {
+    std::uint32_t found = 0;
+    if (target.near(pair, motion, margin)) {
+      const int a = target.partA(pair);
+      for (std::uint32_t k = sets.begin(a); k < sets.end(a); ++k) {
+        const Probe& probe = sets.probe[k];
+        base::Vec3d normal;
+        double overlap;
+        const base::Vec3d x = motion[a].toWorld(probe.centre.template as<double>());
+        if (!target.touch(pair, motion, x, static_cast<double>(probe.radius) + margin, normal, overlap)) continue;
+        if (entry) entry[first[pair] + found] = static_cast<std::uint64_t>(pair) << 32 | k;
+        ++found;
+      }
+    }
+    if (!entry) count[pair] = found;
+  }
+};
+
+GROUSER_HD void addTo(base::Vec3l& target, const base::Vec3l& value) {
+  base::atomicAdd64(&target.x, value.x);
+  base::atomicAdd64(&target.y, value.y);
+  base::atomicAdd64(&target.z, value.z);
+}
+
+/// Gives `force` (quanta) at world point x to A and its exact opposite to B, each about its own centre of mass.
+GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion, int a, int b, const base::Vec3d& x,
+                            const base::Vec3l& force, PartLoad* loads) {
+  const base::Vec3d f = quanta.force.value(force);
+  addTo(loads[a].force, force);
+  addTo(loads[a].torque, quanta.torque.quantise(cross(x - motion[a].centre, f)));
+  if (b < 0) return;
+  addTo(loads[b].force, -force);
+  addTo(loads[b].torque, quanta.torque.quantise(cross(x - motion[b].centre, -f)));
+}
+
+/// Pressure on one probe.
+template <class Target> struct PressProbe {
+  Target target;
+  ProbeSets sets;
+  PatchQuanta quanta;
+  const PartMotion* motion;
+  const std::uint64_t* entry;
+  PatchSums* patches; ///< [pair * kClusters + cluster]
+  PartLoad* loads;
+  double timeStep;
+
+  GROUSER_HD void operator()(int e) const {
+    const int pair = static_cast<int>(entry[e] >> 32);
+    const Probe probe = sets.probe[entry[e] & 0xFFFFFFFFu];
+    const int a = target.partA(pair), b = target.partB(pair);
+    const base::Vec3d centre = motion[a].toWorld(probe.centre.template as<double>());
+    base::Vec3d normal;
+    double overlap;
+    if (!target.touch(pair, motion, centre, static_cast<double>(probe.radius), normal, overlap)) return;
+    const base::Vec3d x = centre - normal * (static_cast<double>(probe.radius) - 0.5 * overlap);
+    base::Vec3d relative = motion[a].velocityAt(x);
+    if (b >= 0) relative -= motion[b].velocityAt(x);
+    const PatchLaw law = target.law(pair);
+    const double stiffness = law.modulus * static_cast<double>(probe.area);
+    const double opening = dot(relative, normal);
+    double size = stiffness * (overlap - law.relaxation * opening);
+    double dissipated = stiffness * law.relaxation * opening * opening * timeStep;
+    if (size < 0) {
+      dissipated = stiffness * overlap * opening * timeStep;
+      size = 0;
+    }
+    const base::Vec3l force = quanta.force.quantise(normal * size);
+    applyToBoth(quanta, motion, a, b, x, force, loads);
+    PatchSums& patch = patches[static_cast<std::int64_t>(pair) * kClusters + probe.cluster];
+    base::atomicAdd64(&patch.area, quanta.area.quantise(static_cast<double>(probe.area)));
+    base::atomicAdd64(&patch.weight, quanta.force.quantise(size));
+    addTo(patch.place, quanta.moment.quantise((x - motion[a].centre) * size));
+    addTo(patch.normalForce, force);
+    base::atomicAdd64(&patch.elastic, quanta.energy.quantise(0.5 * stiffness * overlap * overlap));
+    base::atomicAdd64(&patch.dissipated, quanta.energy.quantise(dissipated));
+  }
+};
+
+/// Friction of one patch, at the centre of its pressure.
+template <class Target> struct RubPatch {
+  Target target;
+  PatchQuanta quanta;
+  const PartMotion* motion;
+  PatchSums* patches;
+  PatchState* states;
+  PartLoad* loads;
+  double timeStep;
+
+  GROUSER_HD void operator()(int index) const {
+    PatchSums& sums = patches[index];
+    PatchState& state = states[index];
+    if (sums.weight <= 0) {
+      state.shear = {};
+      state.dissipated += quanta.energy.value(sums.dissipated);
+      return;
+    }
+    const int pair = index / kClusters;
+    const int a = target.partA(pair), b = target.partB(pair);
+    const PatchLaw law = target.law(pair);
+    const double weight = quanta.force.value(sums.weight);
+    const base::Vec3d normalForce = quanta.force.value(sums.normalForce);
+    const double pressing = norm(normalForce);
+    double dissipated = quanta.energy.value(sums.dissipated);
+    if (law.friction > 0 && pressing > 0) {
+      const base::Vec3d normal = normalForce * (1 / pressing);
+      const base::Vec3d x = motion[a].centre + quanta.moment.value(sums.place) * (1 / weight);
+      base::Vec3d relative = motion[a].velocityAt(x);
+      if (b >= 0) relative -= motion[b].velocityAt(x);
+      const base::Vec3d slip = relative - normal * dot(relative, normal);
+      base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
+      shear += slip * timeStep;
+      const double stiffness = law.tangentialRatio * law.modulus * quanta.area.value(sums.area);
+      const double dashpot = law.relaxation * stiffness;
+      base::Vec3d force = shear * -stiffness - slip * dashpot;
+      const double limit = law.friction * weight, size = norm(force);
+      if (size > limit) {
+        force *= limit / size;
+        const base::Vec3d kept = (force + slip * dashpot) * (-1 / stiffness);
+        dissipated -= dot(force, shear - kept);
+        shear = kept;
+      }
+      dissipated += dashpot * dot(slip, slip) * timeStep;
+      base::atomicAdd64(&sums.elastic, quanta.energy.quantise(0.5 * stiffness * dot(shear, shear)));
+      state.shear = shear;
+      applyToBoth(quanta, motion, a, b, x, quanta.force.quantise(force), loads);
+    }
+    state.dissipated += dissipated;
+  }
+};
+
+} // namespace grouser::contact

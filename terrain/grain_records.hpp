@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/kept_remainder.hpp"
+
+#include <cstdint>
+
+namespace grouser::terrain {
+
+using base::Vec4f;
+
+/// What stops a run; the smallest key (code, then grain id) is kept.
+enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, none = 255 };
+
+/// Written by the step, read by the host once a step.
+struct StepFlags {
+  std::uint64_t fault;   ///< Fault << 56 | grain id
+  std::uint32_t stale;   ///< a grain has used up its half of the skin
+  std::uint32_t padding;
+};
+
+} // namespace grouser::terrain

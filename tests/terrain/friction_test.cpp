@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Friction with history: oblique impact, sliding into rolling, inclines, the pyramid.
+#include "grain_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+/// Psi_2 = v_ct' / (mu v_n) for an elastic oblique impact with undamped springs, kappa = k_t / k_n.
+double obliqueImpact(double psi1, double kappa, int stepsPerContact) {
+  GrainModel m = ball(1);
+  const double mu = 0.3, vn = 0.05; // slow: overlap / radius = 0.12 %
+  m.law.friction = static_cast<float>(mu);
+  m.law.tangentialStiffness = static_cast<float>(kappa * m.law.stiffness);
+  const double omega0 = std::sqrt(m.law.stiffness / m.mass);
+  m.timeStep = base::kPi / omega0 / stepsPerContact;
+  m.maxOverlap = 1;
+  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
+                {{{0, 0, m.radius + 1.5 * m.timeStep * vn}, {psi1 * mu * vn, 0, -vn}, {}}});
+  advance(grains, 2 * stepsPerContact);
+  const auto s = grains.snapshot();
+  EXPECT_NEAR(s.velocity[0].z, vn, 0.01 * vn);
+  const double contactPoint = s.velocity[0].x - m.radius * s.spin[0].y; // v + w x (-R z)
+  return contactPoint / (mu * vn);
+}
+
+struct Oblique {
+  double psi1, kappa, psi2;
+};
+class ObliqueImpact : public ::testing::TestWithParam<Oblique> {};
+
+TEST_P(ObliqueImpact, MatchesEventDrivenSolution) {
+  const Oblique c = GetParam();
+  // Discretisation, 400 steps a contact; and the lever arm is R - overlap (momentum balances), the reference takes R.
+  EXPECT_NEAR(obliqueImpact(c.psi1, c.kappa, 400), c.psi2, 0.01 * (1 + c.psi1));
+}
+
+INSTANTIATE_TEST_SUITE_P(A2, ObliqueImpact,
+                         ::testing::Values(Oblique{0.5, 2.0 / 7, -0.5}, Oblique{1, 2.0 / 7, -1}, Oblique{2, 2.0 / 7, -2},
+                                           Oblique{3, 2.0 / 7, -3}, Oblique{4, 2.0 / 7, -3}, Oblique{5, 2.0 / 7, -2},
+                                           Oblique{7, 2.0 / 7, 0}, Oblique{10, 2.0 / 7, 3}, Oblique{1, 0.5, -0.66657899},
+                                           Oblique{3, 0.8, -1.41655461}, Oblique{5, 1.0, -1.52096970}));
+
+GrainModel roller(double mu) {
+  GrainModel m = ball(2e-6);
+  m.gravity = {0, 0, -9.81};
+  m.law.friction = static_cast<float>(mu);
+  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
+  m.law.damping = static_cast<float>(2 * 0.3 * std::sqrt(m.law.stiffness / m.mass));
+  m.law.tangentialDamping = m.law.damping / 2;
+  return m;
+}
+
+TEST(SlidingBall, RollsAtFiveSeventhsOfItsSpeed) {
+  const double mu = 0.3, v0 = 1;
+  const GrainModel m = roller(mu);
+  const double overlap = m.mass * 9.81 / m.law.stiffness;
+  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius - overlap}, {v0, 0, 0}, {}}});
+  const double tRoll = 2 * v0 / (7 * mu * 9.81); // 0.09708 s
+  advance(grains, static_cast<std::int64_t>(0.5 * tRoll / m.timeStep));
+  const double half = grains.snapshot().velocity[0].x;
+  EXPECT_NEAR(half, v0 - mu * 9.81 * 0.5 * tRoll, 1e-4) << "constant deceleration mu g";
+  advance(grains, static_cast<std::int64_t>(0.6 * tRoll / m.timeStep));
+  const auto s = grains.snapshot();
+  EXPECT_NEAR(s.velocity[0].x, 5 * v0 / 7, 1e-3 * 5 * v0 / 7);
+  EXPECT_NEAR(s.spin[0].y * m.radius, 5 * v0 / 7, 1e-3);
+}
+
+TEST(BallOnIncline, RollsOrSlidesAsCoulombSays) {
+  const double theta = base::kPi / 6, g = 9.81;
+  for (const bool rolls : {true, false}) {
+    const double mu = rolls ? 0.3 : 0.1; // critical: 0.16496
+    GrainModel m = roller(mu);
+    m.gravity = {g * base::sin(theta), 0, -g * base::cos(theta)};
+    Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
+                  {{{0, 0, m.radius - m.mass * g * base::cos(theta) / m.law.stiffness}, {}, {}}});
+    const int n = 50000;
+    advance(grains, n);
+    const auto s = grains.snapshot();
+    const double a = s.velocity[0].x / (n * m.timeStep), alpha = s.spin[0].y * m.radius / (n * m.timeStep);
+    EXPECT_NEAR(a, rolls ? 3.503571 : 4.055429, 4e-3) << "one spring period of tangential adjustment";
+    EXPECT_NEAR(alpha, rolls ? 3.503571 : 2.123927, 4e-3);
+  }
+}
+
+/// Three balls in a plane: two on the floor, one on top.
+double pyramidSinks(double muBall, double muFloor) {
+  GrainModel m = ball(5e-6);
+  m.radius = 0.05;
+  m.mass = 2600 * 4.0 / 3.0 * base::kPi * m.radius * m.radius * m.radius;
+  m.law.stiffness = 1e6f;
+  m.timeStep = 2e-5;
+  m.gravity = {0, 0, -9.81};
+  m.law.damping = static_cast<float>(2 * 0.3 * std::sqrt(m.law.stiffness / (m.mass / 2)));
+  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
+  m.law.tangentialDamping = m.law.damping / 2;
+  contact::LinearLaw onFloor = m.law;
+  m.law.friction = static_cast<float>(muBall);
+  onFloor.friction = static_cast<float>(muFloor);
+  const double r = m.radius;
+  Grains grains(base::cpuExec(1), m, {{floorPlane(onFloor)}, {}},
+                {{{-r, 0, r}, {}, {}}, {{r, 0, r}, {}, {}}, {{0, 0, r + std::sqrt(3.0) * r}, {}, {}}});
+  advance(grains, 25000); // 0.5 s
+  return r + std::sqrt(3.0) * r - grains.snapshot().position[2].z;
+}
+
+TEST(Pyramid, StandsJustAboveTheCriticalFriction) {
+  const double ballLimit = 0.267949, floorLimit = 0.089316; // tan(15 deg), a third of it
+  EXPECT_LT(pyramidSinks(1.05 * ballLimit, 1.2 * floorLimit), 1e-4);
+  EXPECT_LT(pyramidSinks(1.2 * ballLimit, 1.05 * floorLimit), 1e-4);
+  EXPECT_GT(pyramidSinks(0.95 * ballLimit, 1.2 * floorLimit), 1e-2);
+  EXPECT_GT(pyramidSinks(1.2 * ballLimit, 0.95 * floorLimit), 1e-2);
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
