@@ -23,7 +23,7 @@ struct StepReport {
   int singularRows = 0; ///< rows without a pivot in this step: a singular position is being passed
 };
 
-/// Advances a mechanism by constrained symplectic Euler; see integrator.hpp for the scheme. Deterministic, one thread,
+/// Advances a mechanism by constrained symplectic Euler; solver.cpp states the scheme. Deterministic, one thread,
 /// no allocation in step().
 class Solver {
 public:
@@ -39,6 +39,9 @@ public:
   void step(State& state, const Loads& loads, double dt);
 
   const StepReport& lastStep() const;
+  /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. The twist is the mean over the step that led there
+  /// and meets the constraints over that step to positionTolerance / dt; at its end it leaves them by O(dt |w|^2 size).
+  double velocityError(const State& state) const;
   /// Size of the problem, independent parts, fill of the factor, and what was done about redundant rows.
   const std::string& report() const;
   /// Rows dropped because others imply them.

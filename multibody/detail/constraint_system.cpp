@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/constraint_system.hpp"
+
+#include "multibody/detail/rotation.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+ConstraintKind kindOf(JointType type) {
+  switch (type) {
+  case JointType::kRevolute:
+    return ConstraintKind::kRevolute;
+  case JointType::kSpherical:
+    return ConstraintKind::kSpherical;
+  case JointType::kUniversal:
+    return ConstraintKind::kUniversal;
+  case JointType::kPrismatic:
+    return ConstraintKind::kPrismatic;
+  case JointType::kFixed:
+    return ConstraintKind::kFixed;
+  }
+  return ConstraintKind::kFixed;
+}
+
+} // namespace
+
+ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
+  const int worldFrame = static_cast<int>(model.bodies().size());
+  std::vector<int> nodeOf(at(worldFrame) + 1, -1);
+  for (int b = 0; b < worldFrame; ++b)
+    if (!model.bodies()[at(b)].fixed) {
+      nodeOf[at(b)] = static_cast<int>(movable_.size());
+      movable_.push_back(b);
+    }
+
+  std::vector<std::pair<int, int>> ends;
+  const auto add = [&](Constraint c) {
+    if (c.bodyA == kWorld) c.bodyA = worldFrame;
+    if (c.bodyB == kWorld) c.bodyB = worldFrame;
+    c.nodeA = nodeOf[at(c.bodyA)];
+    c.nodeB = nodeOf[at(c.bodyB)];
+    constraints_.push_back(c);
+    hard_.push_back(hardRows(c.kind));
+    ends.emplace_back(c.nodeA, c.nodeB);
+  };
+  for (int j = 0; j < static_cast<int>(model.joints().size()); ++j) {
+    const Joint& joint = model.joints()[at(j)];
+    add({kindOf(joint.type), joint.bodyA, joint.bodyB, -1, -1, j, joint.frame_A.orientation.matrix(),
+         joint.frame_B.orientation.matrix(), joint.frame_A.position, joint.frame_B.position});
+  }
+  for (int s = 0; s < static_cast<int>(model.pointSprings().size()); ++s) {
+    const PointSpring& spring = model.pointSprings()[at(s)];
+    add({ConstraintKind::kPointSpring, spring.bodyA, spring.bodyB, -1, -1, s, Mat3d::identity(), Mat3d::identity(),
+         spring.point_A, spring.point_B});
+  }
+
+  elimination_ = std::make_unique<Elimination>(movableBodies(), ends);
+  for (const auto& steps : elimination_->parts()) {
+    Part part;
+    part.steps = steps;
+    for (int k = steps.firstStep; k < steps.endStep; ++k) {
+      const int node = elimination_->order()[at(k)];
+      if (node < movableBodies())
+        part.bodies.push_back(node);
+      else
+        part.constraints.push_back(node - movableBodies());
+    }
+    parts_.push_back(std::move(part));
+  }
+  active_ = hard_;
+  rows_.resize(constraints_.size());
+  frames_.resize(constraints_.size());
+  inertia_.resize(movable_.size());
+  com_A_.resize(constraints_.size());
+  com_B_.resize(constraints_.size());
+}
+
+void ConstraintSystem::placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const {
+  frames[at(body)] = {pose.orientation.matrix(), pose.position};
+}
+
+void ConstraintSystem::place(const std::vector<Pose>& poses, std::vector<Frame>& frames) const {
+  frames.resize(poses.size() + 1);
+  for (std::size_t b = 0; b < poses.size(); ++b) placeBody(static_cast<int>(b), poses[b], frames);
+  frames.back() = {Mat3d::identity(), {}};
+}
+
+int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
+  for (const int node : part.bodies) {
+    const Body& body = model_->bodies()[at(movable_[at(node)])];
+    inertia_[at(node)] = rotatedInertia(frames[at(movable_[at(node)])].R, body.inertia_B);
+    elimination_->setBody(node, body.mass, inertia_[at(node)].m);
+  }
+  for (const int k : part.constraints) {
+    const Constraint& c = constraints_[at(k)];
+    const AxisLaw& law = laws[at(k)];
+    frames_[at(k)] = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
+    rows_[at(k)] = rowDirections(c, frames_[at(k)]);
+    com_A_[at(k)] = frames[at(c.bodyA)].p;
+    com_B_[at(k)] = frames[at(c.bodyB)].p;
+    double jacobianA[36], jacobianB[36];
+    rowBlocks(rows_[at(k)], frames_[at(k)].p_B, com_A_[at(k)], com_B_[at(k)], jacobianA, jacobianB);
+
+    // A soft row has compliance; a driven row is hard; a free axis and a dropped row are out of the system.
+    const int softRow = c.kind == ConstraintKind::kPointSpring ? 0 : kAxisRow;
+    double compliance[6] = {};
+    unsigned active = hard_[at(k)];
+    if (c.kind == ConstraintKind::kPointSpring || hasAxis(c.kind)) {
+      if (law.driven || law.softness > 0) active |= 1u << softRow;
+      if (!law.driven && law.softness > 0) compliance[softRow] = 1 / law.softness;
+    }
+    active_[at(k)] = active;
+
+    // Size of J M^-1 J^T of each row alone; the mean moment of inertia stands for the tensor.
+    double smallest[6] = {};
+    const auto addSize = [&](int node, const double* J) {
+      if (node < 0) return;
+      const double m = 1 / model_->bodies()[at(movable_[at(node)])].mass;
+      const Mat3d& I = inertia_[at(node)];
+      const double i = 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
+      for (int r = 0; r < 6; ++r)
+        smallest[r] += m * (J[r] * J[r] + J[6 + r] * J[6 + r] + J[12 + r] * J[12 + r]) +
+                       i * (J[18 + r] * J[18 + r] + J[24 + r] * J[24 + r] + J[30 + r] * J[30 + r]);
+    };
+    addSize(c.nodeA, jacobianA);
+    addSize(c.nodeB, jacobianB);
+    for (double& s : smallest) s *= Elimination::kPivotTolerance;
+    elimination_->setConstraint(k, jacobianA, jacobianB, compliance, smallest, active);
+  }
+  return elimination_->factor(part.steps);
+}
+
+void ConstraintSystem::solve(const Part& part, std::vector<double>& x) const {
+  elimination_->solve(part.steps, x.data());
+  // The symmetric system is solved for -dLambda.
+  for (const int k : part.constraints)
+    for (int r = 0; r < 6; ++r) x[at(6 * (movableBodies() + k) + r)] *= -1;
+}
+
+double ConstraintSystem::rate(int k, int row, const std::vector<Twist>& twist) const {
+  const Constraint& c = constraints_[at(k)];
+  const Vec3d &e = rows_[at(k)].force[at(row)], &t = rows_[at(k)].torque[at(row)];
+  double sum = 0;
+  if (c.nodeB >= 0) {
+    const Twist& V = twist[at(c.bodyB)];
+    sum += dot(e, V.v) + dot(cross(frames_[at(k)].p_B - com_B_[at(k)], e) + t, V.w);
+  }
+  if (c.nodeA >= 0) {
+    const Twist& V = twist[at(c.bodyA)];
+    sum -= dot(e, V.v) + dot(cross(frames_[at(k)].p_B - com_A_[at(k)], e) + t, V.w);
+  }
+  return sum;
+}
+
+std::string ConstraintSystem::describe(int k, int row) const {
+  const Constraint& c = constraints_[at(k)];
+  if (c.kind == ConstraintKind::kPointSpring) return "spring '" + model_->pointSprings()[at(c.source)].name + "'";
+  return "joint '" + model_->joints()[at(c.source)].name + "': " + rowName(c.kind, row);
+}
+
+} // namespace grouser::multibody::detail

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/elimination.hpp"
+
+#include "multibody/detail/block.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <tuple>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+Elimination::Elimination(int bodies, const std::vector<std::pair<int, int>>& ends)
+    : bodies_(bodies), nodes_(bodies + static_cast<int>(ends.size())) {
+  findOrder(ends);
+  findProgram(ends);
+  diagonal_.assign(at(nodes_), Block{});
+  dInverse_.assign(at(nodes_), {});
+  smallest_.assign(at(nodes_), {});
+  active_.assign(at(nodes_), 0x3fu);
+  kept_.assign(at(nodes_), 0x3fu);
+  w_.assign(slots_.size(), Block{});
+  v_.assign(slots_.size(), Block{});
+}
+
+void Elimination::findOrder(const std::vector<std::pair<int, int>>& ends) {
+  std::vector<std::set<int>> neighbours(at(nodes_));
+  for (std::size_t c = 0; c < ends.size(); ++c)
+    for (const int b : {ends[c].first, ends[c].second})
+      if (b >= 0) {
+        neighbours[at(b)].insert(bodies_ + static_cast<int>(c));
+        neighbours[at(bodies_) + c].insert(b);
+      }
+
+  // Minimum degree; among equals bodies first, then by index. A constraint waits for one of its bodies.
+  std::vector<char> eligible(at(nodes_), 0), done(at(nodes_), 0);
+  std::fill(eligible.begin(), eligible.begin() + bodies_, char{1});
+  std::set<std::tuple<std::size_t, bool, int>> queue;
+  const auto key = [&](int n) { return std::make_tuple(neighbours[at(n)].size(), n >= bodies_, n); };
+  for (int n = 0; n < bodies_; ++n) queue.insert(key(n));
+  std::vector<int> rough;
+  std::vector<int> rank(at(nodes_), 0);
+  laterNeighbours_.assign(at(nodes_), {});
+  while (!queue.empty()) {
+    const int p = std::get<2>(*queue.begin());
+    queue.erase(queue.begin());
+    done[at(p)] = 1;
+    rank[at(p)] = static_cast<int>(rough.size());
+    rough.push_back(p);
+    const std::vector<int> around(neighbours[at(p)].begin(), neighbours[at(p)].end());
+    laterNeighbours_[at(p)] = around;
+    for (const int i : around) {
+      if (eligible[at(i)]) queue.erase(key(i));
+      neighbours[at(i)].erase(p);
+      for (const int j : around)
+        if (j != i) neighbours[at(i)].insert(j);
+      if (p < bodies_ && i >= bodies_) eligible[at(i)] = 1;
+    }
+    for (const int i : around)
+      if (eligible[at(i)]) queue.insert(key(i));
+  }
+
+  // Postorder of the elimination tree: the same factor, walked along each branch; one root for each independent part.
+  std::vector<std::vector<int>> children(at(nodes_));
+  std::vector<int> roots;
+  for (const int p : rough) {
+    auto& later = laterNeighbours_[at(p)];
+    std::sort(later.begin(), later.end(), [&](int a, int b) { return rank[at(a)] < rank[at(b)]; });
+    if (later.empty())
+      roots.push_back(p);
+    else
+      children[at(later.front())].push_back(p);
+  }
+  for (const int root : roots) {
+    Part part;
+    part.firstStep = static_cast<int>(order_.size());
+    std::vector<std::pair<int, std::size_t>> stack{{root, 0}};
+    while (!stack.empty()) {
+      auto& [node, next] = stack.back();
+      if (next < children[at(node)].size()) {
+        const int child = children[at(node)][next++];
+        stack.emplace_back(child, 0);
+      } else {
+        order_.push_back(node);
+        stack.pop_back();
+      }
+    }
+    part.endStep = static_cast<int>(order_.size());
+    parts_.push_back(part);
+  }
+}
+
+void Elimination::findProgram(const std::vector<std::pair<int, int>>& ends) {
+  std::vector<int> position(at(nodes_), 0);
+  for (int k = 0; k < nodes_; ++k) position[at(order_[at(k)])] = k;
+  std::vector<std::vector<int>> slotOfColumn(at(nodes_)); // parallel to laterNeighbours_
+  for (const int p : order_) {
+    auto& later = laterNeighbours_[at(p)];
+    std::sort(later.begin(), later.end(), [&](int a, int b) { return position[at(a)] < position[at(b)]; });
+    for (const int i : later) {
+      slotOfColumn[at(p)].push_back(static_cast<int>(slots_.size()));
+      slots_.push_back({i, p});
+    }
+  }
+  const auto findSlot = [&](int row, int column) {
+    const auto& later = laterNeighbours_[at(column)];
+    const auto it = std::find(later.begin(), later.end(), row);
+    return slotOfColumn[at(column)][at(static_cast<int>(it - later.begin()))];
+  };
+
+  std::vector<char> touched(at(nodes_), 0);
+  for (const int p : order_) {
+    Step step;
+    step.node = p;
+    const auto& later = laterNeighbours_[at(p)];
+    step.firstSlot = later.empty() ? 0 : slotOfColumn[at(p)].front();
+    step.endSlot = step.firstSlot + static_cast<int>(later.size());
+    step.bodyAlone = p < bodies_ && !touched[at(p)];
+    step.firstUpdate = static_cast<int>(updates_.size());
+    for (std::size_t i = 0; i < later.size(); ++i) {
+      updates_.push_back({slotOfColumn[at(p)][i], slotOfColumn[at(p)][i], ~later[i]});
+      touched[at(later[i])] = 1;
+      for (std::size_t j = 0; j < i; ++j)
+        updates_.push_back({slotOfColumn[at(p)][i], slotOfColumn[at(p)][j], findSlot(later[i], later[j])});
+    }
+    step.endUpdate = static_cast<int>(updates_.size());
+    steps_.push_back(step);
+  }
+
+  isFill_.assign(slots_.size(), 1);
+  ends_.resize(ends.size());
+  for (std::size_t c = 0; c < ends.size(); ++c) {
+    const int node = bodies_ + static_cast<int>(c);
+    const auto place = [&](int body, int& slot, bool& transpose) {
+      if (body < 0) return;
+      transpose = position[at(node)] < position[at(body)];
+      slot = transpose ? findSlot(body, node) : findSlot(node, body);
+      isFill_[at(slot)] = 0;
+    };
+    place(ends[c].first, ends_[c].slotA, ends_[c].transposeA);
+    place(ends[c].second, ends_[c].slotB, ends_[c].transposeB);
+  }
+}
+
+void Elimination::setBody(int body, double mass, const double (&inertia)[3][3]) {
+  Block& D = diagonal_[at(body)];
+  D.fill(0);
+  for (int i = 0; i < 3; ++i) {
+    D[at(7 * i)] = mass;
+    for (int j = 0; j < 3; ++j) D[at(6 * (3 + j) + 3 + i)] = inertia[i][j];
+  }
+}
+
+void Elimination::setConstraint(int constraint, const double* jacobianA, const double* jacobianB,
+                                const double* compliance, const double* smallestPivot, unsigned active) {
+  const std::size_t node = at(bodies_ + constraint);
+  Block& D = diagonal_[node];
+  D.fill(0);
+  for (std::size_t i = 0; i < 6; ++i) D[7 * i] = -compliance[i], smallest_[node][i] = smallestPivot[i];
+  active_[node] = active;
+  const auto put = [&](int slot, bool transpose, const double* J) {
+    if (slot < 0) return;
+    Block& K = w_[at(slot)];
+    if (transpose)
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j) K[6 * i + j] = J[6 * j + i];
+    else
+      std::copy(J, J + 36, K.begin());
+  };
+  const Ends& e = ends_[at(constraint)];
+  put(e.slotA, e.transposeA, jacobianA);
+  put(e.slotB, e.transposeB, jacobianB);
+}
+
+int Elimination::factor(const Part& part) { return factorPart(part); }
+
+// AVX2 where the processor has it, chosen at load time. No fused multiply-add in either: the bits are equal.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+__attribute__((target_clones("avx2", "default")))
+#endif
+int Elimination::factorPart(const Part& part) {
+  int leftOut = 0;
+  for (int s = part.firstStep; s < part.endStep; ++s) {
+    const Step& step = steps_[at(s)];
+    for (int k = step.firstSlot; k < step.endSlot; ++k)
+      if (isFill_[at(k)]) w_[at(k)].fill(0);
+  }
+  for (int s = part.firstStep; s < part.endStep; ++s) {
+    const Step& step = steps_[at(s)];
+    const std::size_t p = at(step.node);
+    double* const L = diagonal_[p].data();
+    double* const d = dInverse_[p].data();
+    kept_[p] = factor6(L, d, smallest_[p].data(), active_[p]);
+    leftOut += __builtin_popcount(active_[p] & ~kept_[p]);
+    if (step.bodyAlone)
+      for (int k = step.firstSlot; k < step.endSlot; ++k) solveRightBody6(w_[at(k)].data(), v_[at(k)].data(), L, d);
+    else
+      for (int k = step.firstSlot; k < step.endSlot; ++k) solveRight6(w_[at(k)].data(), v_[at(k)].data(), L, d);
+    for (int k = step.firstUpdate; k < step.endUpdate; ++k) {
+      const Update& u = updates_[at(k)];
+      if (u.target < 0)
+        subtractSymmetric6(diagonal_[at(~u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
+      else
+        subtractProduct6(w_[at(u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
+    }
+  }
+  return leftOut;
+}
+
+void Elimination::solve(const Part& part, double* x) const {
+  for (int s = part.firstStep; s < part.endStep; ++s) {
+    const Step& step = steps_[at(s)];
+    double* const y = x + 6 * step.node;
+    forward6(y, diagonal_[at(step.node)].data());
+    for (int k = step.firstSlot; k < step.endSlot; ++k) subtractTimes6(x + 6 * slots_[at(k)].row, v_[at(k)].data(), y);
+  }
+  for (int s = part.endStep - 1; s >= part.firstStep; --s) {
+    const Step& step = steps_[at(s)];
+    double* const y = x + 6 * step.node;
+    for (int i = 0; i < 6; ++i) y[i] *= dInverse_[at(step.node)][at(i)];
+    for (int k = step.firstSlot; k < step.endSlot; ++k)
+      subtractTransposedTimes6(y, v_[at(k)].data(), x + 6 * slots_[at(k)].row);
+    backward6(y, diagonal_[at(step.node)].data());
+  }
+}
+
+} // namespace grouser::multibody::detail

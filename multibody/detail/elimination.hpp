@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+/// The symmetric saddle-point system of a mechanism, in 6x6 blocks,
+///
+///   [ M   J^T ] [ dv ]   [ rBody       ]        M      one block a body (mass, inertia in world axes)
+///   [ J  -G   ] [ mu ] = [ rConstraint ]        J      one block a constraint and body it acts on, up to 6 rows
+///                                               G      diagonal, >= 0: 0 on hard rows, compliance on soft rows
+///
+/// solved directly as P L D L^T P^T over the graph whose nodes are bodies and constraints. Nodes 0..bodies-1 are the
+/// bodies, then the constraints. The order of elimination is found once (minimum degree; a constraint only after one of
+/// its bodies, so that its block has a pivot), then postordered, so that independent parts are contiguous and a ring or
+/// chain is walked along: constant fill for each link, cost linear in the links.
+///
+/// After one of its bodies is eliminated a constraint's block is -(G + J M^-1 J^T), negative definite but for redundant
+/// rows, which show up as vanishing pivots: a row whose pivot is below kPivotTolerance of its own J M^-1 J^T is left
+/// out (its multiplier is 0).
+class Elimination {
+public:
+  /// Round-off leaves about 1e-15 of the diagonal where a pivot should be zero; honest pivots of chains with a mass
+  /// ratio of 1e6 and hundreds of links stay above 1e-9.
+  static constexpr double kPivotTolerance = 1e-11;
+
+  struct Part {
+    int firstStep = 0, endStep = 0; ///< range in the order of elimination
+  };
+
+  /// `ends[c]` are the bodies constraint c acts on, -1 where it is the world.
+  Elimination(int bodies, const std::vector<std::pair<int, int>>& ends);
+
+  const std::vector<Part>& parts() const { return parts_; }
+  const std::vector<int>& order() const { return order_; }       ///< node eliminated at each step
+  int blocks() const { return static_cast<int>(slots_.size()); } ///< off-diagonal blocks of the factor, fill included
+
+  /// Diagonal block of a body: mass and inertia in world axes (row-major 3x3).
+  void setBody(int body, double mass, const double (&inertia)[3][3]);
+  /// Row blocks of a constraint, column-major 6x6 (row = constraint row, column = v, w of the body); null for the
+  /// world. `compliance`: G. `smallestPivot`: J M^-1 J^T of each row alone times kPivotTolerance. `active`: bit mask of
+  /// rows.
+  void setConstraint(int constraint, const double* jacobianA, const double* jacobianB, const double* compliance,
+                     const double* smallestPivot, unsigned active);
+
+  /// Factors one part. Returns the number of active rows left out for want of a pivot.
+  int factor(const Part& part);
+  /// Solves in place: `x` holds 6 numbers a node, right-hand side in, solution out.
+  void solve(const Part& part, double* x) const;
+  /// Rows of a constraint kept by the last factorisation (bit mask).
+  unsigned keptRows(int constraint) const { return kept_[static_cast<std::size_t>(bodies_ + constraint)]; }
+
+private:
+  using Block = std::array<double, 36>;
+  struct Slot {
+    int row;    ///< node eliminated later
+    int column; ///< node eliminated earlier
+  };
+  struct Update {
+    int left, right; ///< slots of the same column: K[target] -= V[left] W[right]^T
+    int target;      ///< slot, or ~node for a diagonal block
+  };
+  struct Step {
+    int node;
+    int firstSlot, endSlot;
+    int firstUpdate, endUpdate;
+    bool bodyAlone; ///< a body whose block is still diag(m, m, m, I_W) when its turn comes
+  };
+  struct Ends {
+    int slotA = -1, slotB = -1; ///< where the row blocks go
+    bool transposeA = false, transposeB = false;
+  };
+
+  void findOrder(const std::vector<std::pair<int, int>>& ends);
+  void findProgram(const std::vector<std::pair<int, int>>& ends);
+  int factorPart(const Part& part);
+
+  int bodies_ = 0;
+  int nodes_ = 0;
+  std::vector<int> order_;
+  std::vector<std::vector<int>> laterNeighbours_;
+  std::vector<Part> parts_;
+  std::vector<Step> steps_;
+  std::vector<Slot> slots_;
+  std::vector<Update> updates_;
+  std::vector<Ends> ends_;
+  std::vector<char> isFill_; ///< of each slot: starts as zero
+
+  std::vector<Block> diagonal_; ///< one a node; becomes L
+  std::vector<std::array<double, 6>> dInverse_;
+  std::vector<std::array<double, 6>> smallest_;
+  std::vector<unsigned> active_, kept_;
+  std::vector<Block> w_, v_; ///< one a slot
+};
+
+} // namespace grouser::multibody::detail

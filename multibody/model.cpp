@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/model.hpp"
+
+#include "base/error.hpp"
+
+#include <cmath>
+#include <sstream>
+
+namespace grouser::multibody {
+
+namespace {
+
+const std::string kWorldName = "world";
+
+[[noreturn]] void refuse(const std::string& what, const std::string& why) { throw base::InputError(what + ": " + why); }
+
+std::string text(double x) {
+  std::ostringstream out;
+  out.precision(9);
+  out << x;
+  return out.str();
+}
+
+bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// A finite number >= 0, or refused by name.
+void checkNotNegative(const std::string& what, const char* key, double x, const char* unit) {
+  if (!(std::isfinite(x) && x >= 0))
+    refuse(what, std::string(key) + " = " + text(x) + " [" + unit + "] must be finite and >= 0");
+}
+
+void checkFinite(const std::string& what, const char* key, double x) {
+  if (!std::isfinite(x)) refuse(what, std::string(key) + " is not a finite number");
+}
+
+void checkPose(const std::string& what, const char* key, const Pose& X) {
+  const Quat& q = X.orientation;
+  const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (!finite(X.position) || !(std::fabs(n - 1) < 1e-9))
+    refuse(what, std::string(key) + " needs a finite position and a unit quaternion (its squared norm is " + text(n) +
+                     "); normalise it");
+}
+
+/// Leading minors: all positive exactly for a positive definite symmetric matrix (Sylvester).
+bool positiveDefinite(const Mat3d& a) {
+  const double d1 = a.m[0][0];
+  const double d2 = a.m[0][0] * a.m[1][1] - a.m[0][1] * a.m[1][0];
+  const double d3 = a.m[0][0] * (a.m[1][1] * a.m[2][2] - a.m[1][2] * a.m[2][1]) -
+                    a.m[0][1] * (a.m[1][0] * a.m[2][2] - a.m[1][2] * a.m[2][0]) +
+                    a.m[0][2] * (a.m[1][0] * a.m[2][1] - a.m[1][1] * a.m[2][0]);
+  return d1 > 0 && d2 > 0 && d3 > 0;
+}
+
+void checkInertia(const std::string& what, const Mat3d& I) {
+  const double trace = I.m[0][0] + I.m[1][1] + I.m[2][2];
+  for (const auto& row : I.m)
+    for (const double x : row) checkFinite(what, "inertia", x);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < i; ++j)
+      if (std::fabs(I.m[i][j] - I.m[j][i]) > 1e-9 * std::fabs(trace))
+        refuse(what, "inertia [kg m2] is not symmetric: entries (" + std::to_string(i) + ", " + std::to_string(j) +
+                         ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
+  if (!positiveDefinite(I))
+    refuse(what, "inertia [kg m2] is not positive definite; every principal moment must be > 0");
+  // Triangle inequality in any axes: the second moment of mass, tr(I)/2 - I, has no negative eigenvalue. A flat plate
+  // has a zero one: the allowance is for its round-off.
+  Mat3d second;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) second.m[i][j] = (i == j ? (0.5 + 1e-9) * trace : 0) - I.m[i][j];
+  if (!positiveDefinite(second))
+    refuse(what, "inertia [kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
+                 "two (diagonal " +
+                     text(I.m[0][0]) + ", " + text(I.m[1][1]) + ", " + text(I.m[2][2]) + ")");
+}
+
+Vec3d perpendicularTo(const Vec3d& z) {
+  // The coordinate axis least along z gives the best conditioned cross product.
+  const double ax = std::fabs(z.x), ay = std::fabs(z.y), az = std::fabs(z.z);
+  const Vec3d e = ax <= ay && ax <= az ? Vec3d{1, 0, 0} : ay <= az ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
+  return normalized(e - z * dot(e, z));
+}
+
+/// Unit quaternion of the rotation matrix with columns x, y, z, by the largest of its four components.
+Quat quaternionOf(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
+  const double tw = 1 + x.x + y.y + z.z, tx = 1 + x.x - y.y - z.z, ty = 1 - x.x + y.y - z.z, tz = 1 - x.x - y.y + z.z;
+  Quat q;
+  if (tw >= tx && tw >= ty && tw >= tz)
+    q = {tw, y.z - z.y, z.x - x.z, x.y - y.x};
+  else if (tx >= ty && tx >= tz)
+    q = {y.z - z.y, tx, y.x + x.y, z.x + x.z};
+  else if (ty >= tz)
+    q = {z.x - x.z, y.x + x.y, ty, z.y + y.z};
+  else
+    q = {x.y - y.x, z.x + x.z, z.y + y.z, tz};
+  return q.normalized();
+}
+
+template <class Named>
+int indexByName(const std::vector<Named>& parts, const std::string& kind, const std::string& name) {
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (parts[i].name == name) return static_cast<int>(i);
+  refuse(kind + " '" + name + "'", "there is none of this name");
+}
+
+template <class Named>
+void checkName(const std::vector<Named>& parts, const std::string& kind, const std::string& name) {
+  if (name.empty()) refuse(kind + " " + std::to_string(parts.size()), "has no name; every part needs one");
+  for (const auto& part : parts)
+    if (part.name == name) refuse(kind + " '" + name + "'", "the name is taken; names must differ");
+}
+
+} // namespace
+
+int Model::addBody(const Body& body) {
+  const std::string what = "body '" + body.name + "'";
+  checkName(bodies_, "body", body.name);
+  checkPose(what, "pose", body.pose);
+  if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity is not finite");
+  if (!body.fixed) {
+    if (!(std::isfinite(body.mass) && body.mass > 0)) refuse(what, "mass = " + text(body.mass) + " [kg] must be > 0");
+    checkInertia(what, body.inertia_B);
+  } else if (!(body.v_WB == Vec3d{}) || !(body.w_WB == Vec3d{})) {
+    refuse(what, "is fixed, but has a velocity; leave one of the two out");
+  }
+  bodies_.push_back(body);
+  bodies_.back().pose.orientation = body.pose.orientation.normalized();
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+void Model::checkBodies(const std::string& what, int bodyA, int bodyB) const {
+  const int count = static_cast<int>(bodies_.size());
+  for (const int b : {bodyA, bodyB})
+    if (b < kWorld || b >= count)
+      refuse(what, "body index " + std::to_string(b) + " is outside [-1, " + std::to_string(count - 1) +
+                       "] (-1 is the world); add the body first");
+  if (bodyA == bodyB) refuse(what, "joins '" + bodyName(bodyA) + "' to itself");
+  const auto immovable = [&](int b) { return b == kWorld || bodies_[static_cast<std::size_t>(b)].fixed; };
+  if (immovable(bodyA) && immovable(bodyB))
+    refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; leave it out");
+}
+
+void Model::checkAxis(const std::string& what, int joint) const {
+  if (joint < 0 || joint >= static_cast<int>(joints_.size()))
+    refuse(what, "joint index " + std::to_string(joint) + " is outside [0, " + std::to_string(joints_.size()) + ")");
+  const Joint& j = joints_[static_cast<std::size_t>(joint)];
+  if (j.type != JointType::kRevolute && j.type != JointType::kPrismatic)
+    refuse(what, "joint '" + j.name + "' has no single free axis; use a revolute or a prismatic joint");
+}
+
+int Model::addJoint(const Joint& joint) {
+  const std::string what = "joint '" + joint.name + "'";
+  checkName(joints_, "joint", joint.name);
+  checkBodies(what, joint.bodyA, joint.bodyB);
+  checkPose(what, "frame_A", joint.frame_A);
+  checkPose(what, "frame_B", joint.frame_B);
+  checkNotNegative(what, "damping", joint.damping, "N m s/rad or N s/m");
+  if (joint.damping > 0 && joint.type != JointType::kRevolute && joint.type != JointType::kPrismatic)
+    refuse(what, "damping acts on the free axis of a revolute or prismatic joint; set it to 0 here");
+  joints_.push_back(joint);
+  return static_cast<int>(joints_.size()) - 1;
+}
+
+int Model::addJointAt(const std::string& name, JointType type, int bodyA, int bodyB, const Pose& X_WJ, double damping) {
+  checkBodies("joint '" + name + "'", bodyA, bodyB);
+  const auto inBody = [&](int b) {
+    return b == kWorld ? X_WJ : compose(inverse(bodies_[static_cast<std::size_t>(b)].pose), X_WJ);
+  };
+  return addJoint({name, type, bodyA, bodyB, inBody(bodyA), inBody(bodyB), damping});
+}
+
+int Model::addAxisSpring(const AxisSpring& s) {
+  const std::string what = "spring '" + s.name + "'";
+  checkName(axisSprings_, "spring", s.name);
+  checkAxis(what, s.joint);
+  checkNotNegative(what, "stiffness", s.stiffness, "N/m or N m/rad");
+  checkNotNegative(what, "damping", s.damping, "N s/m or N m s/rad");
+  checkNotNegative(what, "stopStiffness", s.stopStiffness, "N/m or N m/rad");
+  checkNotNegative(what, "stopDamping", s.stopDamping, "N s/m or N m s/rad");
+  checkFinite(what, "freePosition", s.freePosition);
+  checkFinite(what, "preload", s.preload);
+  if (!(s.lowerLimit < s.upperLimit))
+    refuse(what, "lowerLimit = " + text(s.lowerLimit) + " must be below upperLimit = " + text(s.upperLimit));
+  if ((std::isfinite(s.lowerLimit) || std::isfinite(s.upperLimit)) && !(s.stopStiffness > 0))
+    refuse(what, "has end stops, but stopStiffness = 0; give one > 0");
+  axisSprings_.push_back(s);
+  return static_cast<int>(axisSprings_.size()) - 1;
+}
+
+int Model::addPointSpring(const PointSpring& s) {
+  const std::string what = "spring '" + s.name + "'";
+  checkName(pointSprings_, "spring", s.name);
+  checkBodies(what, s.bodyA, s.bodyB);
+  checkNotNegative(what, "stiffness", s.stiffness, "N/m");
+  checkNotNegative(what, "damping", s.damping, "N s/m");
+  checkNotNegative(what, "restLength", s.restLength, "m");
+  checkFinite(what, "preload", s.preload);
+  if (!finite(s.point_A) || !finite(s.point_B)) refuse(what, "its points are not finite");
+  pointSprings_.push_back(s);
+  return static_cast<int>(pointSprings_.size()) - 1;
+}
+
+int Model::addDrive(const Drive& drive) {
+  const std::string what = "drive '" + drive.name + "'";
+  checkName(drives_, "drive", drive.name);
+  checkAxis(what, drive.joint);
+  checkFinite(what, "speed", drive.speed);
+  for (const Drive& other : drives_)
+    if (other.joint == drive.joint) refuse(what, "its joint is already driven by '" + other.name + "'");
+  drives_.push_back(drive);
+  return static_cast<int>(drives_.size()) - 1;
+}
+
+int Model::bodyIndex(const std::string& name) const { return indexByName(bodies_, "body", name); }
+int Model::jointIndex(const std::string& name) const { return indexByName(joints_, "joint", name); }
+
+const std::string& Model::bodyName(int body) const {
+  return body == kWorld ? kWorldName : bodies_.at(static_cast<std::size_t>(body)).name;
+}
+
+Pose frameWithZ(const Vec3d& position, const Vec3d& axis) {
+  const Vec3d z = normalized(axis), x = perpendicularTo(z);
+  return {position, quaternionOf(x, cross(z, x), z)};
+}
+
+Pose frameWithZX(const Vec3d& position, const Vec3d& axis, const Vec3d& along) {
+  const Vec3d z = normalized(axis), x = normalized(along - z * dot(along, z));
+  return {position, quaternionOf(x, cross(z, x), z)};
+}
+
+Pose compose(const Pose& X_WB, const Pose& X_BC) {
+  return {X_WB.toWorld(X_BC.position), (X_WB.orientation * X_BC.orientation).normalized()};
+}
+
+Pose inverse(const Pose& X_WB) {
+  return {-transposedTimes(X_WB.orientation.matrix(), X_WB.position), X_WB.orientation.conjugate()};
+}
+
+} // namespace grouser::multibody

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/rotation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A number in [-1, 1) from a counter (SplitMix64, Steele, Lea and Flood 2014): generic, and the same everywhere.
+double generic(std::uint64_t counter) {
+  std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1;
+}
+
+/// Works on copies of the poses; all axes are free and no row is soft.
+class Explorer {
+public:
+  Explorer(ConstraintSystem& system, const Model& model)
+      : system_(system), model_(model), laws_(system.constraints().size()),
+        x_(6 * (at(system.movableBodies()) + system.constraints().size()), 0.0) {
+    for (const Body& body : model.bodies()) poses_.push_back(body.pose);
+    system_.place(poses_, frames_);
+  }
+
+  int factor(const ConstraintSystem::Part& part) { return system_.linearise(part, frames_, laws_); }
+
+  std::vector<std::pair<int, int>> rowsWithoutPivot(const ConstraintSystem::Part& part) const {
+    std::vector<std::pair<int, int>> rows;
+    for (const int k : part.constraints) {
+      const unsigned lost = system_.activeRows(k) & ~system_.elimination().keptRows(k);
+      for (int r = 0; r < 6; ++r)
+        if (lost >> r & 1u) rows.emplace_back(k, r);
+    }
+    return rows;
+  }
+
+  /// Turns the fastest link by about 0.05 rad along a generic velocity that the constraints allow.
+  void wander(const ConstraintSystem::Part& part) {
+    clear(part);
+    for (const int node : part.bodies) {
+      const auto counter = 6 * static_cast<std::uint64_t>(node);
+      const double m = model_.bodies()[at(system_.bodyOf(node))].mass;
+      const Vec3d turn{generic(counter), generic(counter + 1), generic(counter + 2)};
+      const Vec3d spin = system_.inertia(node) * turn;
+      for (int i = 0; i < 3; ++i) x_[at(6 * node + i)] = m * generic(counter + 3 + static_cast<std::uint64_t>(i));
+      for (int i = 0; i < 3; ++i) x_[at(6 * node + 3 + i)] = spin[i];
+    }
+    system_.solve(part, x_);
+    double fastest = 0;
+    for (const int node : part.bodies) {
+      const double* v = &x_[at(6 * node)];
+      fastest = std::max(fastest, v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
+      fastest = std::max(fastest, 1e-6 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    }
+    if (fastest > 0) move(part, 0.05 / std::sqrt(fastest));
+  }
+
+  /// Newton's method on C = 0, factored anew each time. Returns whether it arrived.
+  bool close(const ConstraintSystem::Part& part) {
+    for (int iteration = 0; iteration < 30; ++iteration) {
+      factor(part);
+      clear(part);
+      double worst = 0;
+      for (const int k : part.constraints) {
+        double error[6];
+        positionError(system_.constraints()[at(k)], system_.jointFrames(k), error);
+        for (int r = 0; r < 6; ++r) {
+          x_[at(6 * (system_.movableBodies() + k) + r)] = -error[r];
+          worst = std::max(worst, std::fabs(error[r]));
+        }
+      }
+      if (worst < 1e-12) return true;
+      system_.solve(part, x_);
+      move(part, 1);
+    }
+    return false;
+  }
+
+private:
+  void clear(const ConstraintSystem::Part& part) {
+    for (const int node : part.bodies) std::fill_n(x_.begin() + 6 * node, 6, 0.0);
+    for (const int k : part.constraints) std::fill_n(x_.begin() + 6 * (system_.movableBodies() + k), 6, 0.0);
+  }
+
+  void move(const ConstraintSystem::Part& part, double scale) {
+    for (const int node : part.bodies) {
+      const int b = system_.bodyOf(node);
+      const double* v = &x_[at(6 * node)];
+      Pose& X = poses_[at(b)];
+      X.position += scale * Vec3d{v[0], v[1], v[2]};
+      X.orientation = (rotationBy(scale * Vec3d{v[3], v[4], v[5]}) * X.orientation).normalized();
+      system_.placeBody(b, X, frames_);
+    }
+  }
+
+  ConstraintSystem& system_;
+  const Model& model_;
+  std::vector<AxisLaw> laws_;
+  std::vector<double> x_;
+  std::vector<Pose> poses_;
+  std::vector<Frame> frames_;
+};
+
+} // namespace
+
+Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
+  Redundancy found;
+  Explorer explorer(system, model);
+  for (const auto& part : system.parts()) {
+    const int atStart = explorer.factor(part);
+    if (atStart == 0) continue;
+    explorer.wander(part);
+    std::vector<std::pair<int, int>> rows;
+    if (explorer.close(part)) {
+      explorer.factor(part);
+      rows = explorer.rowsWithoutPivot(part);
+    }
+    found.singularAtStart += atStart - static_cast<int>(rows.size());
+    found.rows.insert(found.rows.end(), rows.begin(), rows.end());
+  }
+  std::sort(found.rows.begin(), found.rows.end());
+  for (const auto& [constraint, row] : found.rows) system.dropRow(constraint, row);
+  return found;
+}
+
+} // namespace grouser::multibody::detail

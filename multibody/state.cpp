@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/state.hpp"
+
+#include "base/error.hpp"
+#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/rotation.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace grouser::multibody {
+
+namespace {
+
+/// Hands every number of a state, in a fixed order, to `f`.
+template <class State_, class F> void forEachNumber(State_& s, F f) {
+  const auto vec = [&](auto& v) { f(v.x), f(v.y), f(v.z); };
+  f(s.time);
+  for (auto& X : s.pose) {
+    vec(X.position);
+    f(X.orientation.w), f(X.orientation.x), f(X.orientation.y), f(X.orientation.z);
+  }
+  for (auto& V : s.twist) vec(V.v), vec(V.w);
+  for (auto& P : s.spinMomentum) vec(P);
+  for (auto& j : s.joint) {
+    vec(j.force), vec(j.torque);
+    f(j.position), f(j.rate), f(j.axisForce), f(j.driveForce), f(j.springForce);
+  }
+  for (auto& p : s.spring) f(p.force), f(p.length);
+  f(s.ledger.gravityWork), f(s.ledger.externalWork), f(s.ledger.driveWork), f(s.ledger.springWork);
+  f(s.ledger.dissipated);
+}
+
+double axisRate(const detail::Constraint& c, const detail::JointFrames& f, const std::vector<detail::Frame>& frames,
+                const State& state) {
+  const detail::RowDirections rows = detail::rowDirections(c, f);
+  const Vec3d &e = rows.force[detail::kAxisRow], &t = rows.torque[detail::kAxisRow];
+  const auto share = [&](int node, int body) {
+    if (node < 0) return 0.0;
+    const auto b = static_cast<std::size_t>(body);
+    return dot(e, state.twist[b].v) + dot(cross(f.p_B - frames[b].p, e) + t, state.twist[b].w);
+  };
+  return share(c.nodeB, c.bodyB) - share(c.nodeA, c.bodyA);
+}
+
+/// Axis positions and rates of a state whose poses or twists were set from outside.
+void findAxes(const Model& model, State& state) {
+  const detail::ConstraintSystem system(model);
+  std::vector<detail::Frame> frames;
+  system.place(state.pose, frames);
+  for (const detail::Constraint& c : system.constraints()) {
+    const auto f =
+        detail::framesOf(c, frames[static_cast<std::size_t>(c.bodyA)], frames[static_cast<std::size_t>(c.bodyB)]);
+    const double x = detail::axisPosition(c, f);
+    if (c.kind == detail::ConstraintKind::kPointSpring)
+      state.spring[static_cast<std::size_t>(c.source)].length = x;
+    else
+      state.joint[static_cast<std::size_t>(c.source)].position = x;
+    if (detail::hasAxis(c.kind)) state.joint[static_cast<std::size_t>(c.source)].rate = axisRate(c, f, frames, state);
+  }
+}
+
+} // namespace
+
+std::vector<double> State::save() const {
+  std::vector<double> flat;
+  forEachNumber(*this, [&](const double& x) { flat.push_back(x); });
+  return flat;
+}
+
+void State::restore(const std::vector<double>& flat) {
+  std::size_t count = 0;
+  forEachNumber(*this, [&](double&) { ++count; });
+  if (count != flat.size())
+    throw base::InputError("multibody state: " + std::to_string(flat.size()) + " numbers stored, this model has " +
+                           std::to_string(count) + "; resume with the model that was saved");
+  std::size_t i = 0;
+  forEachNumber(*this, [&](double& x) { x = flat[i++]; });
+}
+
+State makeState(const Model& model) {
+  State s;
+  for (const Body& body : model.bodies()) {
+    s.pose.push_back(body.pose);
+    s.twist.push_back({});
+    s.spinMomentum.push_back({});
+  }
+  s.joint.resize(model.joints().size());
+  s.spring.resize(model.pointSprings().size());
+  for (std::size_t b = 0; b < s.pose.size(); ++b)
+    setTwist(model, s, static_cast<int>(b), {model.bodies()[b].v_WB, model.bodies()[b].w_WB});
+  findAxes(model, s);
+  return s;
+}
+
+Loads makeLoads(const Model& model) {
+  Loads loads;
+  loads.external.resize(model.bodies().size());
+  loads.axisSprings.resize(model.axisSprings().size());
+  loads.pointSprings.resize(model.pointSprings().size());
+  for (const Drive& drive : model.drives()) loads.drives.push_back({drive.on, drive.speed});
+  return loads;
+}
+
+void setTwist(const Model& model, State& state, int body, const Twist& twist) {
+  const auto b = static_cast<std::size_t>(body);
+  if (model.bodies()[b].fixed) return;
+  state.twist[b] = twist;
+  const Mat3d R = state.pose[b].orientation.matrix();
+  state.spinMomentum[b] = detail::rotatedInertia(R, model.bodies()[b].inertia_B) * twist.w;
+}
+
+void setPose(const Model& model, State& state, int body, const Pose& pose) {
+  state.pose[static_cast<std::size_t>(body)] = pose;
+  setTwist(model, state, body, state.twist[static_cast<std::size_t>(body)]);
+  findAxes(model, state);
+}
+
+Totals totals(const Model& model, const State& state, const Loads& loads) {
+  Totals t;
+  for (std::size_t b = 0; b < state.pose.size(); ++b) {
+    const Body& body = model.bodies()[b];
+    if (body.fixed) continue;
+    const Twist& V = state.twist[b];
+    const Vec3d& p = state.pose[b].position;
+    const Vec3d w_B = transposedTimes(state.pose[b].orientation.matrix(), V.w);
+    t.kinetic += 0.5 * body.mass * norm2(V.v) + 0.5 * dot(w_B, body.inertia_B * w_B);
+    t.gravity -= body.mass * dot(loads.gravity, p);
+    t.linearMomentum += body.mass * V.v;
+    t.angularMomentum += cross(p, body.mass * V.v) + state.spinMomentum[b];
+  }
+  for (std::size_t s = 0; s < model.axisSprings().size(); ++s) {
+    const AxisSpring& spring = model.axisSprings()[s];
+    const SpringControl& control = loads.axisSprings[s];
+    const double q = state.joint[static_cast<std::size_t>(spring.joint)].position, x = q - spring.freePosition;
+    t.elastic += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
+    const double over = q > spring.upperLimit   ? q - spring.upperLimit
+                        : q < spring.lowerLimit ? q - spring.lowerLimit
+                                                : 0;
+    t.elastic += 0.5 * spring.stopStiffness * over * over;
+  }
+  for (std::size_t s = 0; s < model.pointSprings().size(); ++s) {
+    const PointSpring& spring = model.pointSprings()[s];
+    const SpringControl& control = loads.pointSprings[s];
+    const double x = state.spring[s].length - spring.restLength;
+    t.elastic += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
+  }
+  return t;
+}
+
+} // namespace grouser::multibody
