@@ -8,6 +8,8 @@
 
 namespace grouser::spheredecomp {
 
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFu; ///< no triangle
+
 /// The point of a mesh nearest to a query point.
 struct ClosestPoint {
   Vec3d point;              ///< [m]
@@ -28,8 +30,9 @@ public:
   /// The mesh is copied. It needs to be closed for the winding number, not for distances.
   explicit MeshQuery(TriangleMesh mesh);
 
-  /// Nearest point of the surface; the mesh must have a triangle.
-  ClosestPoint closest(const Vec3d& p) const;
+  /// Nearest point of the surface within `limit` [m]; `triangle` is kNone and `distance` is `limit` where there is
+  /// none.
+  ClosestPoint closest(const Vec3d& p, double limit = 1e300) const;
 
   /// All crossings of the vertical line through (x, y), from above downwards, appended to `crossings` (cleared first).
   void column(double x, double y, std::vector<Crossing>& crossings) const;
@@ -59,6 +62,7 @@ private:
     std::uint32_t count{}; ///< triangles of a leaf, 0 for an inner node
   };
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+  template <class Visit> void visitColumn(double x, double y, double zMin, Visit&& visit) const;
 
   TriangleMesh mesh_;
   std::vector<Vec3d> normals_;

@@ -63,9 +63,8 @@ struct SprocketDims {
   double landRadius{0.2692};              ///< tooth tips
   double ringInner{0.150};                ///< toothed rings from this |y| ...
   double ringOuter{0.170};                ///< ... to this one
-  double boreRadius{0.120};               ///< inner radius of the rings, inside the hub
   double hubRadius{0.140};                ///< hub that joins them, clear of plates and horns
-  int seatSegments{24}, flankSegments{8}, landSegments{6};
+  int seatSegments{16}, flankSegments{6}, landSegments{4};
 };
 
 /// Gap k is centred at 360 k / teeth degrees in the x-z plane, measured from +x towards +z.

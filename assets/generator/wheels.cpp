@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assets/generator/parts.hpp"
+#include "assets/generator/solids.hpp"
+#include "base/math.hpp"
+
+namespace grouser::assets {
+namespace {
+
+/// A point of the gap profile in polar form about the axle, the angle from the gap's middle.
+struct Polar {
+  double angle, radius;
+};
+
+/// One period of the sprocket's outline: from the middle of a gap to the middle of the next.
+std::vector<Polar> toothPeriod(const SprocketDims& d) {
+  auto polar = [&](double x, double y) {
+    const double radial = d.pinRadius + y;
+    return Polar{base::atan2(x, radial), std::sqrt(x * x + radial * radial)};
+  };
+  // Half a gap from its bottom to the tip: the seat arc, then the flank arc.
+  std::vector<Polar> half;
+  const double seatEnd = d.seatHalfAngle * base::kPi / 180;
+  const int seat = d.seatSegments / 2;
+  for (int i = 0; i < seat; ++i) {
+    const double a = seatEnd * i / seat;
+    half.push_back(polar(d.seatRadius * base::sin(a), -d.seatRadius * base::cos(a)));
+  }
+  const double from =
+      base::atan2(-d.seatRadius * base::cos(seatEnd) - d.flankY, d.seatRadius * base::sin(seatEnd) - d.flankX);
+  const double to = base::atan2(d.tipY - d.flankY, d.tipX - d.flankX);
+  for (int i = 0; i <= d.flankSegments; ++i) {
+    const double a = from + (to - from) * i / d.flankSegments;
+    half.push_back(polar(d.flankX + d.flankRadius * base::cos(a), d.flankY + d.flankRadius * base::sin(a)));
+  }
+
+  std::vector<Polar> period(half);
+  const double pitchAngle = 2 * base::kPi / d.teeth, tip = half.back().angle;
+  for (int i = 1; i < d.landSegments; ++i)
+    period.push_back({tip + (pitchAngle - 2 * tip) * i / d.landSegments, d.landRadius});
+  for (std::size_t i = half.size(); i-- > 1;) period.push_back({pitchAngle - half[i].angle, half[i].radius});
+  return period;
+}
+
+} // namespace
+
+TriangleMesh wheel(const WheelDims& wheel, const TrackDims& dims) {
+  const double inner = dims.wheelGap / 2, outer = dims.plateOuter, r = wheel.radius, c = dims.chamfer;
+  TriangleMesh mesh;
+  lathe(mesh,
+        {{-outer, r - c},
+         {-outer + c, r},
+         {-inner - c, r},
+         {-inner, r - c},
+         {-inner, wheel.hubRadius},
+         {inner, wheel.hubRadius},
+         {inner, r - c},
+         {inner + c, r},
+         {outer - c, r},
+         {outer, r - c}},
+        0, 0, wheel.facets);
+  return mesh;
+}
+
+TriangleMesh sprocket(const SprocketDims& dims) {
+  const std::vector<Polar> period = toothPeriod(dims);
+  std::vector<double> angles, radii;
+  for (int k = 0; k < dims.teeth; ++k)
+    for (const Polar& p : period) {
+      angles.push_back(p.angle + 2 * base::kPi * k / dims.teeth);
+      radii.push_back(p.radius);
+    }
+  auto ring = [&](double y, double fixedRadius) {
+    Ring points;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      const double r = fixedRadius > 0 ? fixedRadius : radii[i];
+      points.push_back({r * base::cos(angles[i]), y, r * base::sin(angles[i])});
+    }
+    return points;
+  };
+
+  TriangleMesh mesh;
+  // The rings' sides are divided by a circle inside the hub, which spares long thin triangles.
+  const double inside = 0.9 * dims.hubRadius;
+  for (const auto& [y0, y1] : {std::pair{-dims.ringOuter, -dims.ringInner}, std::pair{dims.ringInner, dims.ringOuter}})
+    loft(mesh, {ring(y0, inside), ring(y0, 0), ring(y1, 0), ring(y1, inside)}, {0, y0, 0}, {0, y1, 0});
+  const double hubEnd = dims.ringOuter + 0.002;
+  lathe(mesh, {{-hubEnd, dims.hubRadius}, {hubEnd, dims.hubRadius}}, 0, 0, 96);
+  return mesh;
+}
+
+} // namespace grouser::assets

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spheredecomp/decompose.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "spheredecomp/detail/fit.hpp"
+#include "spheredecomp/detail/point_grid.hpp"
+#include "spheredecomp/detail/rounded_disc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace grouser::spheredecomp {
+namespace {
+
+using base::SetSphere;
+using base::Vec3d;
+using detail::OuterSurface;
+using detail::PointGrid;
+using detail::SurfaceSample;
+
+constexpr double kMaxLatticePoints = 5e7;
+/// A disc reaches a little over half the diagonal of a lattice square [spacing].
+constexpr double kFlatReach = 0.74;
+/// Spheres from the lattice whose centres come nearer than this after the move are one [spacing].
+constexpr double kMerge = 0.5;
+/// Surface samples lie about this far apart [spacing].
+constexpr double kSampleStep = 0.33;
+
+/// Runs body(i) for i in [0, count) on all threads; each i writes its own place, so the order does not matter.
+template <class Body> void parallel(std::size_t count, Body&& body) {
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) body(static_cast<std::size_t>(i));
+}
+
+/// Points of a cubic lattice, centred on the mesh's bounding box, its outer planes `radius` to `radius + spacing/2`
+/// deep.
+struct Lattice {
+  Vec3d first;
+  double spacing;
+  std::array<std::int64_t, 3> count;
+
+  Lattice(const TriangleMesh& mesh, double radius, double step) : spacing(step) {
+    const auto [low, high] = bounds(mesh);
+    for (int k = 0; k < 3; ++k) {
+      const double extent = high[k] - low[k], room = extent - 2 * radius;
+      // A billionth of a spacing absorbs the rounding of extents that are whole multiples.
+      const double intervals = room > 0 ? std::floor(room / step + 1e-9) : 0;
+      first[k] = low[k] + 0.5 * (extent - intervals * step);
+      count[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(intervals) + 1;
+    }
+  }
+  double points() const {
+    return static_cast<double>(count[0]) * static_cast<double>(count[1]) * static_cast<double>(count[2]);
+  }
+};
+
+/// A lattice point inside, with the nearest surface point where that is near.
+struct LatticePoint {
+  Vec3d point;
+  ClosestPoint near;
+};
+
+std::vector<LatticePoint> pointsInside(const OuterSurface& outer, const Lattice& lattice, double shell) {
+  const std::size_t columns = static_cast<std::size_t>(lattice.count[0] * lattice.count[1]);
+  std::vector<std::vector<LatticePoint>> found(columns);
+  parallel(columns, [&](std::size_t column) {
+    const auto i = static_cast<std::int64_t>(column) / lattice.count[1],
+               j = static_cast<std::int64_t>(column) % lattice.count[1];
+    Vec3d p = lattice.first + Vec3d{static_cast<double>(i), static_cast<double>(j), 0} * lattice.spacing;
+    std::vector<Crossing> crossings;
+    outer.solid().column(p.x, p.y, crossings);
+    for (std::int64_t k = 0; k < lattice.count[2]; ++k) {
+      p.z = lattice.first.z + static_cast<double>(k) * lattice.spacing;
+      int winding = 0;
+      for (const Crossing& c : crossings) winding += c.z > p.z ? c.step : 0;
+      if (winding != 0) found[column].push_back({p, outer.surface().closest(p, shell)});
+    }
+  });
+  std::vector<LatticePoint> points;
+  for (const auto& column : found) points.insert(points.end(), column.begin(), column.end());
+  return points;
+}
+
+/// Grows the surface spheres of a set, and knows where the surface is not yet covered.
+class SurfaceBuilder {
+public:
+  SurfaceBuilder(const OuterSurface& outer, double radius, double spacing, const DecompositionOptions& options)
+      : outer_(outer), radius_(radius), spacing_(spacing), options_(options), centres_(spacing) {}
+
+  /// One sphere for each lattice point of the shell, unless it falls onto one that is there.
+  void addLattice(const std::vector<LatticePoint>& points) {
+    std::vector<SetSphere> fitted(points.size());
+    parallel(points.size(), [&](std::size_t i) {
+      if (points[i].near.triangle != kNone)
+        fitted[i] = detail::fitSphere(outer_, points[i].near.point, outer_.normal(points[i].near.triangle), radius_);
+    });
+    for (const SetSphere& s : fitted)
+      if (s.radius > 0 && !centreWithin(s.centre, kMerge * spacing_)) add(s);
+    parallel(spheres_.size(), [&](std::size_t i) { setFlat(spheres_[i]); });
+  }
+
+  /// Spheres under those samples where the surface still dips too far.
+  void closeHoles(const std::vector<SurfaceSample>& samples) {
+    std::vector<SetSphere> fitted(samples.size());
+    parallel(samples.size(), [&](std::size_t i) {
+      if (!covered(samples[i].point))
+        fitted[i] = detail::fitSphere(outer_, samples[i].point, samples[i].normal, radius_);
+    });
+    for (SetSphere& s : fitted) {
+      // Near an edge the sphere cannot reach the sample: what counts is its own highest point.
+      if (s.radius == 0 || covered(s.centre + s.normal * s.radius)) continue;
+      setFlat(s);
+      add(s);
+    }
+  }
+
+  /// Gives each sample's area to the sphere that touches the surface nearest to it, of like normal where there is one.
+  void shareArea(const std::vector<SurfaceSample>& samples) {
+    std::vector<std::uint32_t> owner(samples.size());
+    parallel(samples.size(), [&](std::size_t i) { owner[i] = ownerOf(samples[i]); });
+    for (std::size_t i = 0; i < samples.size(); ++i) spheres_[owner[i]].area += samples[i].area;
+  }
+
+  std::vector<SetSphere>& spheres() { return spheres_; }
+
+private:
+  void add(const SetSphere& s) {
+    centres_.add(s.centre, static_cast<std::uint32_t>(spheres_.size()));
+    spheres_.push_back(s);
+  }
+  void setFlat(SetSphere& s) const {
+    s.flat = detail::flatRadius(outer_, s, kFlatReach * spacing_, options_.flatTolerance);
+  }
+  bool centreWithin(const Vec3d& p, double distance) const {
+    return centres_.any(p, distance,
+                        [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
+  }
+  bool covered(const Vec3d& p) const {
+    const double dip = options_.maxDip * radius_;
+    return centres_.any(p, radius_ + dip + kFlatReach * spacing_,
+                        [&](std::uint32_t i) { return detail::discDistance(spheres_[i], p) <= dip; });
+  }
+  std::uint32_t ownerOf(const SurfaceSample& sample) const {
+    std::uint32_t best = 0;
+    double bestScore = 1e300;
+    auto consider = [&](std::uint32_t i) {
+      const SetSphere& s = spheres_[i];
+      // Unlike normals come last: beyond any distance in the part.
+      const double unlike = dot(s.normal, sample.normal) < 0.5 ? 1e6 : 0;
+      const double score = norm2(s.centre + s.normal * s.radius - sample.point) + unlike;
+      if (score < bestScore || (score == bestScore && i < best)) bestScore = score, best = i;
+    };
+    centres_.each(sample.point, 2 * (radius_ + spacing_), consider);
+    if (bestScore == 1e300)
+      for (std::uint32_t i = 0; i < spheres_.size(); ++i) consider(i);
+    return best;
+  }
+
+  const OuterSurface& outer_;
+  double radius_, spacing_;
+  const DecompositionOptions& options_;
+  PointGrid centres_;
+  std::vector<SetSphere> spheres_;
+};
+
+SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options,
+                      double radius) {
+  const double spacing = radius * options.spacingRatio;
+  const Lattice lattice(mesh, radius, spacing);
+  if (!(lattice.points() <= kMaxLatticePoints))
+    throw base::InputError(
+        fmt::format("{}: radius = {:.3g} m needs {:.3g} lattice points, more than {:.0e}; take a larger radius", name,
+                    radius, lattice.points(), kMaxLatticePoints));
+  const OuterSurface outer(mesh, spacing / 6);
+  const double shell = radius + 0.5 * spacing;
+  const std::vector<LatticePoint> inside = pointsInside(outer, lattice, shell);
+  const std::vector<SurfaceSample> samples = outer.samples(kSampleStep * spacing);
+
+  SurfaceBuilder builder(outer, radius, spacing, options);
+  builder.addLattice(inside);
+  builder.closeHoles(samples);
+  builder.shareArea(samples);
+
+  SphereSet set;
+  set.name = name;
+  set.spheres = std::move(builder.spheres());
+  set.surfaceCount = set.spheres.size();
+  if (options.interior)
+    for (const LatticePoint& p : inside)
+      if (p.near.triangle == kNone) {
+        SetSphere s;
+        s.centre = p.point;
+        s.radius = radius;
+        set.spheres.push_back(s);
+      }
+  set.spacing = spacing;
+  set.radius = radius;
+  set.meshVolume = outer.volume();
+  set.meshArea = outer.area();
+  return set;
+}
+
+/// Looks for the largest radius that gives at least the wanted count: count grows about as radius^-2.5, then halving of
+/// the bracket in the logarithm. The count is not monotonic in the radius, so the result is within a few per cent.
+SphereSet decomposeToCount(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options) {
+  constexpr int kTrials = 12;
+  constexpr double kEnough = 1.02;
+  const auto wanted = static_cast<double>(options.targetCount);
+  double radius = base::pow(signedVolume(mesh) / wanted, 1.0 / 3) / options.spacingRatio;
+  double fine = 0, coarse = 0; // radii known to give enough, too few
+  SphereSet best;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    SphereSet set = decomposeAt(mesh, name, options, radius);
+    const auto count = static_cast<double>(set.spheres.size());
+    if (count >= wanted) {
+      fine = radius;
+      if (best.spheres.empty() || set.spheres.size() < best.spheres.size()) best = std::move(set);
+      if (count <= kEnough * wanted) break;
+    } else {
+      coarse = radius;
+    }
+    radius = fine > 0 && coarse > 0 ? std::sqrt(fine * coarse) : radius * base::pow(count / wanted, 0.4);
+  }
+  if (best.spheres.empty())
+    throw base::InputError(
+        fmt::format("{}: targetCount = {} cannot be reached; give a radius instead", name, options.targetCount));
+  return best;
+}
+
+void check(const std::string& name, const DecompositionOptions& o) {
+  auto range = [&](const char* key, double value, double low, double high, const char* unit) {
+    if (!(value >= low && value <= high))
+      throw base::InputError(fmt::format("{}: {} = {} {} is outside [{}, {}]", name, key, value, unit, low, high));
+  };
+  range("spacingRatio", o.spacingRatio, 0.2, 1.5, "[-]");
+  range("maxDip", o.maxDip, 0.001, 0.5, "[radius]");
+  range("flatTolerance", o.flatTolerance, 0.001, 0.2, "[radius]");
+  if (o.radius == 0 && o.targetCount == 0) throw base::InputError(name + ": give radius [m] or targetCount");
+  if (o.radius != 0) range("radius", o.radius, 1e-6, 1e3, "m");
+}
+
+} // namespace
+
+SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options) {
+  check(name, options);
+  checkClosed(mesh, name);
+  return options.radius > 0 ? decomposeAt(mesh, name, options, options.radius) : decomposeToCount(mesh, name, options);
+}
+
+} // namespace grouser::spheredecomp

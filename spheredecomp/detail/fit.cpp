@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spheredecomp/detail/fit.hpp"
+
+#include "base/math.hpp"
+
+namespace grouser::spheredecomp::detail {
+namespace {
+
+constexpr int kPushes = 12;
+constexpr int kHalvings = 5;
+constexpr double kSmallest = 0.2;
+constexpr int kDirections = 12;
+constexpr int kFlatSteps = 10;
+
+/// Moves `centre` to a place where a sphere of `radius` lies inside: away from the nearest surface point, again and
+/// again (projection onto the half-spaces in turn). False where that does not settle, as between two faces of a thin
+/// plate.
+bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double radius) {
+  for (int i = 0; i < kPushes; ++i) {
+    const bool inside = outer.solid().inside(centre);
+    const ClosestPoint near =
+        inside ? outer.surface().closest(centre, radius * (1 - kFitTolerance)) : outer.surface().closest(centre);
+    if (near.triangle == kNone) return true;
+    const Vec3d away = inside ? centre - near.point : near.point - centre;
+    const double length = norm(away);
+    centre = near.point + (length > 0 ? away * (radius / length) : normal * -radius);
+  }
+  return false;
+}
+
+} // namespace
+
+SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius) {
+  SetSphere sphere;
+  sphere.normal = normal;
+  sphere.offset = dot(normal, point);
+  auto fits = [&](double r) {
+    Vec3d centre = point - normal * r;
+    if (!push(outer, centre, normal, r)) return false;
+    sphere.centre = centre;
+    sphere.radius = r;
+    return true;
+  };
+  if (fits(radius)) return sphere;
+
+  // Too thin for the full sphere: the largest that fits, by halving.
+  double low = kSmallest * radius, high = radius;
+  if (!fits(low)) {
+    sphere.centre = point - normal * low;
+    sphere.radius = low;
+    return sphere;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (fits(middle) ? low : high) = middle;
+  }
+  return sphere;
+}
+
+double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double limit, double tolerance) {
+  const Vec3d& n = sphere.normal;
+  const Vec3d other = n.x * n.x < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d u = normalized(cross(n, other)), v = cross(n, u);
+  const double clearance = sphere.radius * (1 - tolerance);
+  auto stays = [&](double t) {
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2 * base::kPi * k / kDirections;
+      const Vec3d p = sphere.centre + u * (t * base::cos(angle)) + v * (t * base::sin(angle));
+      if (outer.surface().closest(p, clearance).triangle != kNone || !outer.solid().inside(p)) return false;
+    }
+    return true;
+  };
+  if (stays(limit)) return limit;
+  double flat = 0;
+  for (int i = 1; i < kFlatSteps; ++i) {
+    const double t = limit * i / kFlatSteps;
+    if (!stays(t)) break;
+    flat = t;
+  }
+  return flat;
+}
+
+} // namespace grouser::spheredecomp::detail

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spheredecomp/detail/outer_surface.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace grouser::spheredecomp::detail {
+namespace {
+
+using Corners = std::array<Vec3d, 3>;
+
+double triangleArea(const Corners& t) { return norm(cross(t[1] - t[0], t[2] - t[0])) / 2; }
+Vec3d centroid(const Corners& t) { return (t[0] + t[1] + t[2]) * (1.0 / 3); }
+
+/// Longest edge: its index k (from corner k to k + 1) and its length.
+std::pair<std::size_t, double> longestEdge(const Corners& t) {
+  std::size_t best = 0;
+  double best2 = -1;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const double l2 = norm2(t[(k + 1) % 3] - t[k]); l2 > best2) best2 = l2, best = k;
+  return {best, sqrt(best2)};
+}
+
+/// The two halves of a triangle cut through the middle of edge k; both keep its orientation.
+std::pair<Corners, Corners> bisect(const Corners& t, std::size_t k) {
+  const Vec3d middle = (t[k] + t[(k + 1) % 3]) * 0.5;
+  const Vec3d& apex = t[(k + 2) % 3];
+  return {Corners{t[k], middle, apex}, Corners{middle, t[(k + 1) % 3], apex}};
+}
+
+/// Whether two triangles come nearer than about `gap`: no separating axis among both normals and the nine cross
+/// products of edges. Coplanar triangles count as meeting when they might.
+bool meet(const Corners& a, const Corners& b, double gap) {
+  auto separated = [&](const Vec3d& axis) {
+    const double length2 = norm2(axis);
+    if (length2 == 0) return false;
+    double lowA = 1e300, highA = -1e300, lowB = 1e300, highB = -1e300;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double pa = dot(axis, a[k] - a[0]), pb = dot(axis, b[k] - a[0]);
+      lowA = pa < lowA ? pa : lowA, highA = pa > highA ? pa : highA;
+      lowB = pb < lowB ? pb : lowB, highB = pb > highB ? pb : highB;
+    }
+    const double margin = gap * sqrt(length2);
+    return lowA > highB + margin || lowB > highA + margin;
+  };
+  const Corners edgesA = {a[1] - a[0], a[2] - a[1], a[0] - a[2]}, edgesB = {b[1] - b[0], b[2] - b[1], b[0] - b[2]};
+  if (separated(cross(edgesA[0], edgesA[1])) || separated(cross(edgesB[0], edgesB[1]))) return false;
+  for (const Vec3d& u : edgesA)
+    for (const Vec3d& v : edgesB)
+      if (separated(cross(u, v))) return false;
+  return true;
+}
+
+/// Sorts the pieces of the mesh's triangles into outer surface and inside.
+struct Sorter {
+  const MeshQuery& solid;
+  double resolution, gap;
+  TriangleMesh outer{};
+  std::vector<std::uint32_t> parent{};
+  std::vector<double> weight{};
+  bool shellsMeet{false};
+
+  Corners corners(std::uint32_t t) const { return {solid.vertex(t, 0), solid.vertex(t, 1), solid.vertex(t, 2)}; }
+
+  bool sharesVertex(std::uint32_t s, std::uint32_t t) const {
+    const auto& index = solid.mesh().indices;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (index[3 * s + i] == index[3 * t + k]) return true;
+    return false;
+  }
+
+  void sortTriangle(std::uint32_t t) {
+    const Corners c = corners(t);
+    if (triangleArea(c) == 0) return;
+    const Vec3d margin{gap, gap, gap};
+    std::vector<std::uint32_t> near, cutters;
+    solid.overlapping(base::min(c[0], base::min(c[1], c[2])) - margin, base::max(c[0], base::max(c[1], c[2])) + margin,
+                      near);
+    for (const std::uint32_t s : near)
+      if (!sharesVertex(s, t) && meet(c, corners(s), gap)) cutters.push_back(s);
+    shellsMeet |= !cutters.empty();
+    sortPiece(c, t, cutters);
+  }
+
+  /// Divides a piece while another triangle cuts it, then keeps it if outside it lies the open air.
+  void sortPiece(const Corners& c, std::uint32_t t, const std::vector<std::uint32_t>& cutters) {
+    std::vector<std::uint32_t> still;
+    for (const std::uint32_t s : cutters)
+      if (meet(c, corners(s), gap)) still.push_back(s);
+    if (const auto [edge, length] = longestEdge(c); !still.empty() && length > resolution) {
+      const auto [left, right] = bisect(c, edge);
+      sortPiece(left, t, still);
+      sortPiece(right, t, still);
+      return;
+    }
+    const Vec3d middle = centroid(c), step = solid.normal(t) * gap;
+    if (solid.winding(middle + step) != 0) return;
+    // Faces that coincide raise the winding number together: each stands for its share.
+    const int within = std::abs(solid.winding(middle - step));
+    if (within == 0) return;
+    for (const Vec3d& v : c) {
+      outer.indices.push_back(static_cast<std::uint32_t>(outer.vertices.size()));
+      outer.vertices.push_back(v);
+    }
+    parent.push_back(t);
+    weight.push_back(1.0 / within);
+  }
+};
+
+/// Length of the columns' parts with winding number other than zero, times their cross-section.
+double volumeByColumns(const MeshQuery& solid, double step) {
+  const auto [low, high] = bounds(solid.mesh());
+  const auto nx = static_cast<int>(std::floor((high.x - low.x) / step)) + 1;
+  const auto ny = static_cast<int>(std::floor((high.y - low.y) / step)) + 1;
+  const double dx = (high.x - low.x) / nx, dy = (high.y - low.y) / ny;
+  double sum = 0;
+  std::vector<Crossing> crossings;
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j) {
+      solid.column(low.x + (i + 0.5) * dx, low.y + (j + 0.5) * dy, crossings);
+      int winding = 0;
+      double top = 0;
+      for (const Crossing& c : crossings) {
+        if (winding != 0) sum += top - c.z;
+        winding += c.step;
+        top = c.z;
+      }
+    }
+  return sum * dx * dy;
+}
+
+} // namespace
+
+OuterSurface::OuterSurface(const TriangleMesh& mesh, double resolution) : solid_(mesh), surface_(TriangleMesh{}) {
+  const auto [low, high] = bounds(mesh);
+  Sorter sorter{.solid = solid_, .resolution = resolution, .gap = 1e-6 * norm(high - low)};
+  for (std::uint32_t t = 0; t < mesh.indices.size() / 3; ++t) sorter.sortTriangle(t);
+  parent_ = std::move(sorter.parent);
+  weight_ = std::move(sorter.weight);
+  surface_ = MeshQuery(std::move(sorter.outer));
+  for (std::uint32_t t = 0; t < parent_.size(); ++t)
+    area_ += weight_[t] * triangleArea({surface_.vertex(t, 0), surface_.vertex(t, 1), surface_.vertex(t, 2)});
+  const double coarsest = (high.x - low.x + high.y - low.y) / 400;
+  volume_ =
+      sorter.shellsMeet ? volumeByColumns(solid_, resolution < coarsest ? resolution : coarsest) : signedVolume(mesh);
+}
+
+std::vector<SurfaceSample> OuterSurface::samples(double spacing) const {
+  // Halves of right-angled triangles with legs of `spacing` have that hypotenuse.
+  const double longest = 1.5 * spacing;
+  std::vector<SurfaceSample> result;
+  std::vector<Corners> stack;
+  for (std::uint32_t t = 0; t < parent_.size(); ++t) {
+    stack.push_back({surface_.vertex(t, 0), surface_.vertex(t, 1), surface_.vertex(t, 2)});
+    while (!stack.empty()) {
+      const Corners c = stack.back();
+      stack.pop_back();
+      if (const auto [edge, length] = longestEdge(c); length > longest) {
+        const auto [left, right] = bisect(c, edge);
+        stack.push_back(right);
+        stack.push_back(left);
+      } else {
+        result.push_back({centroid(c), normal(t), weight_[t] * triangleArea(c)});
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace grouser::spheredecomp::detail

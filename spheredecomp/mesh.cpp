@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spheredecomp/mesh.hpp"
+
+#include "base/error.hpp"
+
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+namespace grouser::spheredecomp {
+
+TriangleMesh weld(const TriangleMesh& mesh) {
+  TriangleMesh welded;
+  std::map<std::tuple<double, double, double>, std::uint32_t> seen;
+  std::vector<std::uint32_t> target;
+  target.reserve(mesh.vertices.size());
+  for (const Vec3d& v : mesh.vertices) {
+    // + 0.0 makes -0 and 0 one key.
+    const auto next = static_cast<std::uint32_t>(welded.vertices.size());
+    const auto [it, added] = seen.try_emplace({v.x + 0.0, v.y + 0.0, v.z + 0.0}, next);
+    if (added) welded.vertices.push_back(v);
+    target.push_back(it->second);
+  }
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::uint32_t a = target[mesh.indices[i]], b = target[mesh.indices[i + 1]], c = target[mesh.indices[i + 2]];
+    if (a != b && b != c && c != a) welded.indices.insert(welded.indices.end(), {a, b, c});
+  }
+  return welded;
+}
+
+void checkClosed(const TriangleMesh& mesh, const std::string& name) {
+  if (mesh.indices.size() < 3)
+    throw base::InputError(name + ": the mesh has no triangles; export it as a triangulated surface");
+  for (const Vec3d& v : mesh.vertices)
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+      throw base::InputError(name + ": the mesh has a vertex that is not finite; repair it in a mesh editor");
+
+  // Count directed edges; each must be met as often in the other direction.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.indices[i + k], b = mesh.indices[i + (k + 1) % 3];
+      edges.emplace_back(a, b);
+      opposite.emplace_back(b, a);
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(opposite.begin(), opposite.end());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+  std::set_difference(edges.begin(), edges.end(), opposite.begin(), opposite.end(), std::back_inserter(open));
+  if (!open.empty()) {
+    const Vec3d a = mesh.vertices[open.front().first], b = mesh.vertices[open.front().second];
+    throw base::InputError(
+        fmt::format("{}: the mesh is not watertight: {} open edges, one from ({:.6g}, {:.6g}, {:.6g}) to "
+                    "({:.6g}, {:.6g}, {:.6g}) m; close the holes and make all faces point outwards",
+                    name, open.size(), a.x, a.y, a.z, b.x, b.y, b.z));
+  }
+  if (const double volume = signedVolume(mesh); !(volume > 0))
+    throw base::InputError(
+        fmt::format("{}: the mesh encloses {:.3g} m3, its faces point inwards; flip them", name, volume));
+}
+
+TriangleMesh importMesh(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw base::InputError(path + ": no such mesh file; check the path");
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (!scene)
+    throw base::InputError(
+        fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path, importer.GetErrorString()));
+
+  TriangleMesh mesh;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v)
+      mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+      if (const aiFace& face = part.mFaces[f]; face.mNumIndices == 3)
+        for (unsigned k = 0; k < 3; ++k) mesh.indices.push_back(first + face.mIndices[k]);
+  }
+  mesh = weld(mesh);
+  checkClosed(mesh, path);
+  return mesh;
+}
+
+double signedVolume(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    sum += dot(mesh.vertices[mesh.indices[i]],
+               cross(mesh.vertices[mesh.indices[i + 1]], mesh.vertices[mesh.indices[i + 2]]));
+  return sum / 6;
+}
+
+double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3d& a = mesh.vertices[mesh.indices[i]];
+    sum += norm(cross(mesh.vertices[mesh.indices[i + 1]] - a, mesh.vertices[mesh.indices[i + 2]] - a)) / 2;
+  }
+  return sum;
+}
+
+std::pair<Vec3d, Vec3d> bounds(const TriangleMesh& mesh) {
+  Vec3d low = mesh.vertices.at(0), high = low;
+  for (const Vec3d& v : mesh.vertices) low = base::min(low, v), high = base::max(high, v);
+  return {low, high};
+}
+
+} // namespace grouser::spheredecomp
