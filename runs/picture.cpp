@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/picture.hpp"
+
+#include "runs/render.hpp"
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr double kAzimuth = -55, kElevation = 20; ///< [deg] of the camera, from the vehicle
+constexpr double kTight = 0.8;                    ///< a vehicle fills its bounding ball to this share only
+
+Colour partColour(const std::string& kind) {
+  if (kind == "chassis") return srgb(112, 122, 92);
+  if (kind == "shoe") return srgb(66, 68, 72);
+  if (kind == "sprocket") return srgb(214, 138, 48);
+  if (kind == "road wheel") return srgb(122, 146, 176);
+  if (kind == "roller") return srgb(150, 172, 150);
+  if (kind == "idler") return srgb(178, 96, 84);
+  return srgb(150, 150, 150);
+}
+
+struct Box {
+  Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  void take(const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); }
+  bool empty() const { return low.x > high.x; }
+  Vec3d middle() const { return (low + high) * 0.5; }
+  double radius() const { return 0.5 * norm(high - low); }
+};
+
+/// Heights between which the colours run: all but the lowest and highest hundredth, so that a thrown grain does not
+/// wash out the rest.
+std::pair<float, float> heightRange(const Frame& frame) {
+  std::vector<float> heights;
+  for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
+  std::sort(heights.begin(), heights.end());
+  const std::size_t cut = heights.size() / 100;
+  return {heights[cut], std::max(heights[heights.size() - 1 - cut], heights[cut] + 1e-6f)};
+}
+
+} // namespace
+
+Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width) {
+  RenderScene scene;
+  Box bed, vehicle;
+  if (!frame.positions.empty()) {
+    const auto [low, high] = heightRange(frame);
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+      const base::Vec3f& p = frame.positions[i];
+      scene.spheres.push_back({p, frame.radii[i], heightColour((p.z - low) / (high - low))});
+      bed.take(p.as<double>());
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind)});
+    for (const Vec3d& v : parts[i].mesh.vertices) vehicle.take(frame.partPoses[i].toWorld(v));
+  }
+  if (!ground.indices.empty()) {
+    scene.meshes.push_back({ground, {}, srgb(168, 152, 128)});
+    for (const Vec3d& v : ground.vertices) bed.take(v);
+  }
+  const int height = std::max(1, width * 9 / 16);
+  const Box& subject = vehicle.empty() ? bed : vehicle;
+  if (subject.empty()) return render(scene, {}, width, height);
+  const double radius = std::max(1e-3, subject.radius()) * (vehicle.empty() ? 1.0 : kTight);
+  return render(scene, cameraTowards(subject.middle(), radius, kAzimuth, kElevation, 16.0 / 9), width, height);
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/image.hpp"
+#include "runs/output.hpp"
+
+namespace grouser::runs {
+
+/// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle (or else the bed) filling the
+/// picture, seen from the front right above. Height of the picture: nine sixteenths of its width.
+Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width);
+
+} // namespace grouser::runs
