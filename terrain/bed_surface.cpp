@@ -3,9 +3,10 @@
 
 #include "base/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
-#include <string>
 
 namespace grouser::terrain {
 
@@ -49,7 +50,7 @@ std::vector<double> highestTops(const Grid& grid, std::span<const Seed> grains, 
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const auto& [c, radius] = grains[g];
     if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(radius)))
-      throw InputError("surface of the bed: grain " + std::to_string(g) + " is not at a finite place");
+      throw InputError(fmt::format("surface of the bed: grain {} is not at a finite place", g));
     grid.forEachWithin(c.x, c.y, reach, [&](std::size_t node) { tops[node] = std::max(tops[node], c.z + radius); });
   }
   return tops;
@@ -89,7 +90,7 @@ BedSurface::BedSurface(std::span<const Seed> grains, const HeightFieldView& floo
                        double diameter)
     : area_(area) {
   if (!(diameter > 0 && std::isfinite(diameter)))
-    throw InputError("surface of the bed: grain diameter " + std::to_string(diameter) + " m must be positive");
+    throw InputError(fmt::format("surface of the bed: grain diameter = {} m must be positive", diameter));
   // Nodes a radius apart, or a little less so that they meet the border.
   columns_ = 1 + std::max(1, static_cast<int>(std::ceil(area.width() / (diameter / 2))));
   rows_ = 1 + std::max(1, static_cast<int>(std::ceil(area.length() / (diameter / 2))));

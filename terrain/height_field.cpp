@@ -3,9 +3,10 @@
 
 #include "base/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <string>
 
 namespace grouser::terrain {
 
@@ -69,16 +70,17 @@ void include(HeightFieldBounds& bounds, const Net& net, double dx, double dy) {
 HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights)
     : area_(area), columns_(columns), rows_(rows), heights_(std::move(heights)) {
   if (columns < 2 || rows < 2 || heights_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))
-    throw InputError("height field: " + std::to_string(columns) + " x " + std::to_string(rows) + " nodes with " +
-                     std::to_string(heights_.size()) + " heights; at least 2 x 2 nodes and one height each are needed");
+    throw InputError(
+        fmt::format("height field: {} x {} nodes with {} heights; at least 2 x 2 nodes and one height each are needed",
+                    columns, rows, heights_.size()));
   if (!(area.width() > 0 && area.length() > 0 && std::isfinite(area.width()) && std::isfinite(area.length())))
-    throw InputError("height field: size " + std::to_string(area.width()) + " x " + std::to_string(area.length()) +
-                     " m; both sides must be positive and finite");
+    throw InputError(fmt::format("height field: size {} x {} m; both sides must be positive and finite", area.width(),
+                                 area.length()));
   const auto bad = std::find_if_not(heights_.begin(), heights_.end(), [](double h) { return std::isfinite(h); });
   if (bad != heights_.end()) {
-    const auto index = static_cast<std::size_t>(bad - heights_.begin());
-    throw InputError("height field: the height of node column " + std::to_string(index % columns) + ", row " +
-                     std::to_string(index / columns) + " is not a finite number");
+    const auto index = bad - heights_.begin();
+    throw InputError(fmt::format("height field: the height of node column {}, row {} is {}; it must be finite",
+                                 index % columns, index / columns, *bad));
   }
   bounds_ = boundsOver(area);
 }

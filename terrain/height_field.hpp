@@ -3,6 +3,8 @@
 
 #include "base/vec.hpp"
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace grouser::terrain {
@@ -87,7 +89,7 @@ struct HeightFieldView {
     const CubicWeights cy = cubicWeights((y - yMin) / dy, rows);
     SurfaceJet s;
     for (int b = 0; b < 4; ++b) {
-      const double* row = heights + static_cast<long>(clamp(cy.first + b, rows)) * columns;
+      const double* row = heights + static_cast<std::int64_t>(clamp(cy.first + b, rows)) * columns;
       double w = 0, d = 0, dd = 0;
       for (int a = 0; a < 4; ++a) {
         const double z = row[clamp(cx.first + a, columns)];
@@ -108,7 +110,7 @@ struct HeightFieldView {
     const CubicWeights cy = cubicWeights((y - yMin) / dy, rows);
     double h = 0;
     for (int b = 0; b < 4; ++b) {
-      const double* row = heights + static_cast<long>(clamp(cy.first + b, rows)) * columns;
+      const double* row = heights + static_cast<std::int64_t>(clamp(cy.first + b, rows)) * columns;
       double w = 0;
       for (int a = 0; a < 4; ++a) w += cx.w[a] * row[clamp(cx.first + a, columns)];
       h += cy.w[b] * w;

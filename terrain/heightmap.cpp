@@ -3,6 +3,8 @@
 
 #include "base/error.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -79,7 +81,7 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   int channels = 0;
   if (!stbi_info_from_memory(bytes.data(), size, &map.columns, &map.rows, &channels))
     fail("not a picture that can be read; give a PNG (8 or 16 bit), JPEG or PNM");
-  const std::string dimensions = std::to_string(map.columns) + " x " + std::to_string(map.rows) + " pixels";
+  const std::string dimensions = fmt::format("{} x {} pixels", map.columns, map.rows);
   if (map.columns < 2 || map.rows < 2)
     fail(dimensions + "; a height-map needs at least 2 x 2, since pixels are points at the corners");
   if (static_cast<std::int64_t>(map.columns) * map.rows > kMaxPixels)
@@ -88,12 +90,11 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   const std::size_t count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
   const bool deep = stbi_is_16_bit_from_memory(bytes.data(), size);
   const auto decode = [&](auto load, int white) {
-    const std::unique_ptr<
-        std::remove_pointer_t<decltype(load(bytes.data(), size, &map.columns, &map.rows, &channels, 0))>, FreePixels>
-        pixels(load(bytes.data(), size, &map.columns, &map.rows, &channels, 0));
+    auto* const decoded = load(bytes.data(), size, &map.columns, &map.rows, &channels, 0);
+    const std::unique_ptr<std::remove_pointer_t<decltype(decoded)>, FreePixels> pixels(decoded);
     if (!pixels || isCutShort(bytes))
-      fail(dimensions + " announced, but the picture is damaged or cut short" +
-           (pixels ? "" : std::string(" (") + stbi_failure_reason() + ")") + "; save or copy it again");
+      fail(fmt::format("{} announced, but the picture is damaged or cut short ({}); save or copy it again", dimensions,
+                       pixels ? "no end mark" : stbi_failure_reason()));
     map.brightness = brightnessOf(pixels.get(), count, channels, white);
   };
   map.bits = deep ? 16 : 8;
@@ -108,11 +109,12 @@ HeightField heightFieldOf(const Heightmap& map, const HeightmapPlacement& placem
   const auto fail = [&](const std::string& cause) -> void { throw InputError(map.file.string() + ": " + cause); };
   const auto& p = placement;
   if (!(p.sizeX > 0 && p.sizeY > 0 && std::isfinite(p.sizeX) && std::isfinite(p.sizeY)))
-    fail("size = [" + std::to_string(p.sizeX) + ", " + std::to_string(p.sizeY) +
-         "] m; both must be positive and finite: the lengths that the picture covers along x and y");
+    fail(fmt::format(
+        "size = [{}, {}] m; both must be positive and finite: the lengths that the picture covers in x and y", p.sizeX,
+        p.sizeY));
   if (!(std::isfinite(p.black) && std::isfinite(p.white)))
-    fail("height_range = [" + std::to_string(p.black) + ", " + std::to_string(p.white) +
-         "] m; both must be finite: the heights of black and of white");
+    fail(fmt::format("height_range = [{}, {}] m; both must be finite: the heights of black and of white", p.black,
+                     p.white));
 
   std::vector<double> heights(map.brightness.size());
   for (int row = 0; row < map.rows; ++row)

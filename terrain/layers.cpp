@@ -5,8 +5,10 @@
 #include "base/math.hpp"
 #include "base/random.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <string>
+#include <string_view>
 
 namespace grouser::terrain {
 
@@ -18,8 +20,8 @@ constexpr std::uint64_t kJitter = base::purpose("terrain.layers.jitter");
 constexpr double kFloorGap = 0.05;    ///< between grain and floor or wall, in radii
 constexpr double kJitterReach = 0.49; ///< of the gap between two grains, each may use half, less a reserve
 
-void require(bool ok, const std::string& key, double value, const std::string& range) {
-  if (!ok) throw InputError("bed of grains: " + key + " = " + std::to_string(value) + " is outside " + range);
+void require(bool ok, std::string_view key, double value, std::string_view range) {
+  if (!ok) throw InputError(fmt::format("bed of grains: {} = {} is outside {}", key, value, range));
 }
 
 void check(const LayerOptions& o) {
@@ -62,9 +64,10 @@ public:
     const double inset = o.radius * (1 + kFloorGap) + jitter_;
     const double roomX = walls_.width() - 2 * inset, roomY = walls_.length() - 2 * inset;
     if (!(roomX >= 0 && roomY >= 0))
-      throw InputError("bed of grains: no grain of radius " + std::to_string(o.radius) + " m fits between walls " +
-                       std::to_string(walls_.width()) + " x " + std::to_string(walls_.length()) +
-                       " m apart; take smaller grains, a larger terrain or a smaller wall margin");
+      throw InputError(
+          fmt::format("bed of grains: no grain of radius {} m fits between walls {} x {} m apart; take smaller "
+                      "grains, a larger terrain or a smaller wall margin",
+                      o.radius, walls_.width(), walls_.length()));
     x_ = fit(walls_.xMin + inset, roomX, spacing_);
     y_ = fit(walls_.yMin + inset, roomY, spacing_);
 

@@ -86,6 +86,18 @@ TEST(BedSurface, OfAScatteredBed_LiesAboveTheMeanOfItsTopsByLessThanTheirScatter
   EXPECT_LE(bias.most, 0.5 * kRadius);
 }
 
+TEST(BedSurface, TreatsXAndYAlike) {
+  std::vector<Seed> grains =
+      lattice([](double, double, std::size_t g) { return kRadius * (base::uniform(2, kTest, g) - 0.5); });
+  const BedSurface surface = surfaceOf(grains);
+  for (Seed& g : grains) std::swap(g.centre.x, g.centre.y);
+  const Rectangle turned{kArea.yMin, kArea.yMax, kArea.xMin, kArea.xMax};
+  const BedSurface mirrored(grains, HeightField::flat(turned, -1).view(), turned, 2 * kRadius);
+  // Round-off of the smoothing, whose two passes change places.
+  for (double x = 0; x < 3; x += 0.017)
+    for (double y = -1; y < 1; y += 0.19) ASSERT_NEAR(surface.height(x, y), mirrored.height(y, x), 10 * kEps);
+}
+
 TEST(BedSurface, FollowsARut) {
   // A rut of 0.6 m (ten diameters) and 0.1 m: its bottom and the banks are met exactly.
   const auto rut = [](double x, double, std::size_t) { return x > 1.2 && x < 1.8 ? -0.1 : 0.0; };

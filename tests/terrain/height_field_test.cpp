@@ -250,6 +250,12 @@ TEST(HeightFieldBounds, ContainTheSurface_AndAreOfItsSize) {
   EXPECT_NEAR(waved.valleyCurvature, a * k * k / 0.64, 0.2 * a * k * k / 0.64);
 }
 
+TEST(HeightFieldBounds, OfASaddle_CountTheTwist) {
+  // h = x y / 2 is straight along x and y, and a hollow of curvature 1/2 along the diagonal.
+  const HeightField saddle = HeightField::sample(kArea, 21, 11, [](double x, double y) { return 0.5 * x * y; });
+  EXPECT_NEAR(saddle.bounds().valleyCurvature, 0.5, 100 * kEps / (0.2 * 0.2));
+}
+
 TEST(HeightFieldBounds, OverAPart_AreThoseOfThatPart) {
   const HeightField field = HeightField::sample(kArea, 41, 21, [](double x, double) { return x < 2.01 ? 0.0 : x - 2; });
   const auto level = field.boundsOver({0.1, 1.5, -0.5, 0.5}), all = field.boundsOver({-9, 9, -9, 9});
