@@ -128,12 +128,13 @@ TEST(Assembly, RelaxedFreeFall_AllBodiesFallAlikeWithoutJointForces) {
   const double dt = 5e-5;
   for (int i = 0; i < steps; ++i) solver.step(state, loads, dt);
   for (std::size_t i = 0; i < state.twist.size(); ++i) {
-    // Round-off of 200 solves with weights of 4e4 N against bodies of 6 kg.
+    // Round-off of places 3 m from the origin, 4e-16 m over a step, some hundred times.
     EXPECT_LT(base::norm(state.twist[i].v - Vec3d{0.5, 0, -9.81 * steps * dt}), 1e-9) << v.model.bodies()[i].name;
     EXPECT_LT(base::norm(state.twist[i].w), 1e-9) << v.model.bodies()[i].name;
   }
   for (std::size_t i = 0; i < state.joint.size(); ++i)
-    EXPECT_LT(base::norm(state.joint[i].force), 1e-5) << v.model.joints()[i].name;
+    // The same round-off as an acceleration, 4e-16 m / dt^2 = 2e-7 m/s2, of a ring of 391 kg; the weight is 5e4 N.
+    EXPECT_LT(base::norm(state.joint[i].force), 1e-3) << v.model.joints()[i].name;
 }
 
 TEST(Assembly, PreloadsReleasedInFlight_KeepMomentum) {

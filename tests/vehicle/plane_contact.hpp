@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/math.hpp"
+#include "multibody/state.hpp"
+#include "vehicle/assembly.hpp"
+#include "vehicle/observers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::test {
+
+/// Analytic contact in the planes of the tracks: wheels are circles, shoes are plate segments with a boss on each pin
+/// and four points against a level ground, sprocket gaps are arcs. It drives the vehicle without meshes or sphere sets
+/// and is the yardstick for them. Spring and dashpot in parallel, friction regularised below `creep`.
+struct PlaneContactOptions {
+  double stiffness = 1e7;    ///< of both planes together [N/m]
+  double dampingRatio = 0.2; ///< of a shoe on that spring [-]
+  double frictionInside = 0.35, frictionGround = 0.8;
+  double creep = 0.01; ///< sliding speed of full friction [m/s]
+  double groundHeight = -std::numeric_limits<double>::infinity();
+};
+
+class PlaneContact {
+public:
+  PlaneContact(const vehicle::Assembly& vehicle, const PlaneContactOptions& options);
+
+  /// Sets the wrenches in `loads` from the state.
+  void apply(const multibody::State& state, multibody::Loads& loads);
+  const vehicle::GroundLoads& ground() const { return ground_; }
+
+private:
+  /// Contact on body `shoe` at p_W with unit normal towards the shoe; `other` is a body or multibody::kWorld.
+  void touch(int shoe, int other, const base::Vec3d& p_W, const base::Vec3d& normal, double overlap, double friction);
+  void push(int body, const base::Vec3d& p_W, const base::Vec3d& force);
+  void circleOnPlate(int shoe, int wheel, double radius);
+  void bossInGap(int shoe, int sprocket);
+  void pointsOnGround(int shoe);
+
+  const vehicle::Assembly& vehicle_;
+  PlaneContactOptions options_;
+  double damping_;
+  const multibody::State* state_ = nullptr;
+  multibody::Loads* loads_ = nullptr;
+  vehicle::GroundLoads ground_;
+};
+
+inline PlaneContact::PlaneContact(const vehicle::Assembly& vehicle, const PlaneContactOptions& options)
+    : vehicle_(vehicle), options_(options),
+      damping_(2 * options.dampingRatio * std::sqrt(options.stiffness * vehicle.spec.shoe.mass)) {}
+
+inline void PlaneContact::touch(int shoe, int other, const base::Vec3d& p_W, const base::Vec3d& normal, double overlap,
+                                double friction) {
+  const auto velocity = [&](int body) {
+    if (body == multibody::kWorld) return base::Vec3d{};
+    const multibody::Twist& t = state_->twist[body];
+    return t.v + base::cross(t.w, p_W - state_->pose[body].position);
+  };
+  const base::Vec3d v = velocity(shoe) - velocity(other);
+  const double normalSpeed = base::dot(v, normal);
+  const double force = 0.5 * (options_.stiffness * overlap - damping_ * normalSpeed);
+  if (force <= 0) return;
+  const base::Vec3d sliding = v - normal * normalSpeed;
+  const base::Vec3d total =
+      normal * force - sliding * (friction * force / std::max(base::norm(sliding), options_.creep));
+  push(shoe, p_W, total);
+  push(other, p_W, -total);
+  if (other == multibody::kWorld) ground_.force[shoe] += total;
+}
+
+inline void PlaneContact::push(int body, const base::Vec3d& p_W, const base::Vec3d& force) {
+  if (body == multibody::kWorld) return;
+  loads_->external[body].force += force;
+  loads_->external[body].torque += base::cross(p_W - state_->pose[body].position, force);
+}
+
+inline void PlaneContact::circleOnPlate(int shoe, int wheel, double radius) {
+  constexpr double kPlate = 0.07, kPlay = 0.012, kHornStiffness = 1e6;
+  const vehicle::ShoeSpec& s = vehicle_.spec.shoe;
+  const base::Pose& pose = state_->pose[shoe];
+  const double reach = radius + s.pitch;
+  if (base::norm2(state_->pose[wheel].position - pose.position) > reach * reach) return;
+  for (const double y : {-kPlate, kPlate}) {
+    const base::Vec3d c = pose.toBody(state_->pose[wheel].toWorld({0, y, 0}));
+    const base::Vec3d nearest{std::clamp(c.x, -s.halfLength, s.halfLength), c.y, s.plateTop};
+    const base::Vec3d gap{c.x - nearest.x, 0, c.z - nearest.z};
+    const double distance = base::norm(gap);
+    if (distance >= radius || distance == 0) continue;
+    const base::Vec3d normal = base::rotate(pose.orientation, gap * (-1 / distance));
+    touch(shoe, wheel, pose.toWorld(nearest), normal, radius - distance, options_.frictionInside);
+    // The horn between the two halves of the wheel.
+    const double shift = c.y - y, beyond = std::fabs(shift) - kPlay;
+    if (beyond <= 0) continue;
+    const base::Vec3d side = base::rotate(pose.orientation, {0, (shift > 0 ? 0.5 : -0.5) * kHornStiffness * beyond, 0});
+    push(shoe, pose.toWorld(nearest), side);
+    push(wheel, pose.toWorld(nearest), -side);
+  }
+}
+
+inline void PlaneContact::bossInGap(int shoe, int sprocket) {
+  // Gap of the default sprocket, from the pin: a seat arc over +-60 degrees, then a convex flank on either side.
+  constexpr double kBoss = 0.018, kSeat = 0.0185, kFlank = 0.06, kFlankX = 0.0680, kFlankY = -0.0393, kTip = 0.0162;
+  constexpr double kRing = 0.16;
+  const vehicle::VehicleSpec& spec = vehicle_.spec;
+  const base::Pose& wheel = state_->pose[sprocket];
+  const double reach = spec.sprocketPinRadius() + spec.shoe.pitch;
+  if (base::norm2(state_->pose[shoe].position - wheel.position) > reach * reach) return;
+  for (const double ring : {-kRing, kRing}) {
+    const base::Vec3d boss_W = state_->pose[shoe].toWorld({0.5 * spec.shoe.pitch, ring, 0});
+    const base::Vec3d p = wheel.toBody(boss_W);
+    const double r = std::sqrt(p.x * p.x + p.z * p.z);
+    if (r > spec.sprocketPinRadius() + 0.05) continue;
+    const double gap = 2 * base::kPi / spec.sprocket.teeth;
+    const double k = gap * std::floor(base::atan2(p.z, p.x) / gap + 0.5);
+    const base::Vec3d outward{base::cos(k), 0, base::sin(k)}, along{-base::sin(k), 0, base::cos(k)};
+    const double x = base::dot(p, along), y = base::dot(p, outward) - spec.sprocketPinRadius();
+    const double d = std::sqrt(x * x + y * y);
+
+    const auto seatOrFlank = [&](double nx, double ny, double overlap) {
+      if (overlap <= 0) return;
+      const base::Vec3d normal = base::rotate(wheel.orientation, along * nx + outward * ny);
+      touch(shoe, sprocket, boss_W - normal * kBoss, normal, overlap, options_.frictionInside);
+    };
+    if (d > 0 && -y >= 0.5 * d) {
+      seatOrFlank(-x / d, -y / d, d + kBoss - kSeat);
+      continue;
+    }
+    for (const double side : {-1.0, 1.0}) {
+      const double fx = x - side * kFlankX, fy = y - kFlankY, distance = std::sqrt(fx * fx + fy * fy);
+      if (kFlankY + fy * kFlank / distance < kTip) seatOrFlank(fx / distance, fy / distance, kFlank + kBoss - distance);
+    }
+  }
+}
+
+inline void PlaneContact::pointsOnGround(int shoe) {
+  const vehicle::ShoeSpec& s = vehicle_.spec.shoe;
+  const base::Pose& pose = state_->pose[shoe];
+  if (pose.position.z - s.pitch > options_.groundHeight) return;
+  for (const double x : {-0.045, 0.045})
+    for (const double y : {-0.1, 0.1}) {
+      const base::Vec3d tip = pose.toWorld({x, y, s.padBottom - s.grouserHeight});
+      const double overlap = options_.groundHeight - tip.z;
+      if (overlap > 0) touch(shoe, multibody::kWorld, tip, {0, 0, 1}, overlap, options_.frictionGround);
+    }
+}
+
+inline void PlaneContact::apply(const multibody::State& state, multibody::Loads& loads) {
+  state_ = &state, loads_ = &loads;
+  for (multibody::Wrench& wrench : loads.external) wrench = {};
+  ground_.force.assign(loads.external.size(), {});
+  for (const vehicle::Track& track : vehicle_.tracks)
+    for (const int shoe : track.shoes) {
+      for (const int wheel : track.wheels) circleOnPlate(shoe, wheel, vehicle_.spec.roadWheel.radius);
+      for (const int roller : track.rollers) circleOnPlate(shoe, roller, vehicle_.spec.roller.radius);
+      circleOnPlate(shoe, track.idler, vehicle_.spec.idler.radius);
+      bossInGap(shoe, track.sprocket);
+      pointsOnGround(shoe);
+    }
+}
+
+} // namespace grouser::test
