@@ -13,8 +13,8 @@
 #include <vector>
 
 /// What a run leaves in its folder: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
-/// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing of how a
-/// simulation computes it.
+/// picture.png, scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
+/// of how a simulation computes it.
 namespace grouser::runs {
 
 /// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
@@ -73,7 +73,7 @@ class RunWriter {
 public:
   struct Options {
     bool force = false;
-    bool frames = true;
+    bool frames = true; ///< frames.h5 and frames.xdmf; the picture is drawn from the last frame in any case
     std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
   };
   RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
@@ -91,7 +91,8 @@ public:
 
   void row(const Row& row);
   void frame(const Frame& frame);
-  /// Closes the files and completes the manifest. Without it the manifest says that the run did not end.
+  /// Draws picture.png of the last frame, closes the files and completes the manifest. Without it the manifest says
+  /// that the run did not end.
   void finish(const Summary& summary);
   /// Instead of finish: the run was stopped by an error, whose message goes into the manifest.
   void abandon(const std::string& reason);

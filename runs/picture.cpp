@@ -11,7 +11,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kAzimuth = -55, kElevation = 20; ///< [deg] of the camera, from the vehicle
+constexpr double kAzimuth = -55, kElevation = 14; ///< [deg] of the camera, from the vehicle
 constexpr double kTight = 0.8;                    ///< a vehicle fills its bounding ball to this share only
 
 Colour partColour(const std::string& kind) {

@@ -2,6 +2,8 @@
 #include "runs/plan.hpp"
 
 #include "base/math.hpp"
+#include "runs/bed.hpp"
+#include "runs/laws.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
@@ -19,20 +21,14 @@ namespace {
 /// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
 constexpr double kBytesPerGrain = 1200;
 
-double sphereMass(double density, double radius) { return density * 4.0 / 3.0 * base::kPi * radius * radius * radius; }
-
 /// Grains of the bed; reads the height-map, for hills may need more.
 std::int64_t bedGrains(const Scene& scene) {
   const Terrain& t = *scene.terrain;
   terrain::HeightmapPlacement placement;
   placement.sizeX = t.size[0], placement.sizeY = t.size[1];
   placement.black = t.heightRange[0], placement.white = t.heightRange[1];
-  terrain::LayerOptions options;
-  options.radius = *t.grainRadius, options.layers = t.layers.value_or(0), options.depth = t.depth.value_or(0);
-  options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
-  options.floor = t.floor == "flat" ? terrain::FloorShape::flat : terrain::FloorShape::follow;
-  options.seed = static_cast<std::uint64_t>(scene.run.seed);
-  return terrain::planBed(terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement), options).grains;
+  return terrain::planBed(terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement), layerOptions(scene))
+      .grains;
 }
 
 std::string onOff(bool on, const std::string& what, const std::string& why) {
@@ -68,17 +64,20 @@ std::string switches(const Scene& scene) {
 
 double shortestContact(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const Material& m, double radius) {
-    double stiffness = m.stiffness;
-    for (const ContactPair& c : scene.contacts)
-      if ((c.first == m.name || c.second == m.name) && c.stiffness) stiffness = std::max(stiffness, *c.stiffness);
-    // Two equal grains: m_eff is half the mass. Against a wall or a part it is the whole mass, which is gentler.
-    const double effective = 0.5 * sphereMass(m.density, radius);
-    shortest = std::min(shortest, base::kPi * std::sqrt(effective / stiffness));
+  const auto consider = [&](const std::string& name, double radius) {
+    const double mass = sphereMass(scene.material(name).density, radius);
+    const auto duration = [&](const std::string& other, double effective) {
+      return base::kPi * std::sqrt(effective / pairLaw(scene, name, other, effective).stiffness);
+    };
+    shortest = std::min(shortest, duration(name, 0.5 * mass));
+    // Against what does not give way the whole grain swings.
+    if (scene.terrain) shortest = std::min(shortest, duration(scene.terrain->groundMaterial, mass));
+    for (const Plane& p : scene.planes) shortest = std::min(shortest, duration(p.material, mass));
+    if (scene.vehicle && !scene.vehicle->material.empty())
+      shortest = std::min(shortest, duration(scene.vehicle->material, mass));
   };
-  for (const Grain& g : scene.grains) consider(scene.material(g.material), g.radius);
-  if (scene.terrain && scene.terrain->granular())
-    consider(scene.material(scene.terrain->material), *scene.terrain->grainRadius);
+  for (const Grain& g : scene.grains) consider(g.material, g.radius);
+  if (scene.terrain && scene.terrain->granular()) consider(scene.terrain->material, *scene.terrain->grainRadius);
   return std::isfinite(shortest) ? shortest : 0;
 }
 

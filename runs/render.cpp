@@ -133,7 +133,7 @@ Colour shade(const Colour& surface, const Vec3f& normal, const Vec3f& towardsEye
   const float facing = std::max(0.0f, dot(normal, light)) * sun;
   const float sky = 0.5f + 0.5f * normal.z;
   Colour c = times(surface,
-                   kSun * (1.35f * facing * (0.6f + 0.4f * open)) + (kSky * sky + kEarth * (1 - sky)) * (0.75f * open));
+                   kSun * (1.2f * facing * (0.6f + 0.4f * open)) + (kSky * sky + kEarth * (1 - sky)) * (0.75f * open));
   const Vec3f half = normalized(light + towardsEye);
   const float gloss = std::max(0.0f, dot(normal, half));
   const float g4 = gloss * gloss * gloss * gloss, g16 = g4 * g4 * g4 * g4;

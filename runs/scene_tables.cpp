@@ -57,7 +57,7 @@ Table<ContactPair> contactTable() {
   using S = ContactPair;
   Table<S> t("contact.\"a|b\"", "What materials a and b have against each other, otherwise than the mixing rule gives");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").above(0).atMost(1e12);
-  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(0).atMost(1);
+  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").above(0).atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
   t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
   return t;

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Vehicle speed beside what the sprockets ask for, track tension, drive torque."""
+import numpy
+from matplotlib.figure import Figure
+
+import series
+
+COLOURS = {"left": "tab:blue", "right": "tab:orange"}
+
+
+def plot(run):
+    speeds = {side: run.get(f"vehicle/{side}/sprocket_speed") for side in series.SIDES}
+    if all(values is None for values in speeds.values()):
+        return None
+    radius = run.get("vehicle/pitch_radius")
+    figure = Figure(figsize=(8.0, 8.0))
+    speed, tension, torque = figure.subplots(3, 1, sharex=True)
+    for side, omega in speeds.items():
+        if omega is None:
+            continue
+        colour = COLOURS[side]
+        hull = run.get(f"vehicle/{side}/speed")
+        if hull is not None:
+            speed.plot(run.time, hull, color=colour, label=f"hull at the {side} track")
+        if radius is not None:
+            speed.plot(run.time, omega * radius, color=colour, linestyle="--", linewidth=1.0,
+                       label=f"{side} sprocket speed x pitch radius")
+        joints = run.get(f"vehicle/{side}/tension")
+        if series.finite(joints):
+            tension.fill_between(run.time, joints.min(axis=1), joints.max(axis=1), color=colour, alpha=0.2, linewidth=0)
+            tension.plot(run.time, numpy.mean(joints, axis=1), color=colour, label=f"{side}: mean, least to largest")
+        drive_torque = run.get(f"vehicle/{side}/drive_torque")
+        if drive_torque is not None:
+            torque.plot(run.time, drive_torque, color=colour, label=side)
+    speed.set_ylabel("speed [m/s]")
+    tension.set_ylabel("track tension [N]")
+    torque.set_ylabel("drive torque [N m]")
+    torque.set_xlabel("time [s]")
+    for axis in (speed, tension, torque):
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(loc="upper left")
+    return figure

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reading a results.h5, and what all plots have in common."""
+import numpy
+
+SIDES = ("left", "right")
+
+STYLE = {
+    "figure.figsize": (8.0, 5.0),
+    "figure.constrained_layout.use": True,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.4,
+    "legend.frameon": False,
+    "font.size": 10,
+}
+
+
+class Run:
+    """The time series of one run. `get` gives None for a quantity that the run does not have."""
+
+    def __init__(self, file):
+        self._file = file
+        self.time = file["series/time"][:]
+
+    def get(self, path):
+        if path not in self._file or len(self.time) == 0:
+            return None
+        item = self._file[path]
+        values = item["value"][:] if "value" in item else item[:]
+        return values[: len(self.time)] if "value" in item else float(values[0])
+
+    def shoes(self, name):
+        """{side: [rows, shoes]} of a quantity that has one number a shoe."""
+        tracks = {side: self.get(f"vehicle/{side}/{name}") for side in SIDES}
+        return {side: values for side, values in tracks.items() if values is not None}
+
+
+def finite(values):
+    return values is not None and numpy.isfinite(values).any()
