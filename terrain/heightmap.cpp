@@ -12,14 +12,14 @@
 #include <memory>
 #include <string>
 
-// The decoder is built into this file alone. No vector code: its JPEG transform would round differently.
+// The decoder is built into this file alone. No vector code: its JPEG transform would round differently. Of its formats
+// only those whose truncation can be told.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
 #define STBI_NO_SIMD
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_PNM
 #include <stb/stb_image.h>
 
 namespace grouser::terrain {
@@ -80,7 +80,7 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   map.file = file;
   int channels = 0;
   if (!stbi_info_from_memory(bytes.data(), size, &map.columns, &map.rows, &channels))
-    fail("not a picture that can be read; give a PNG (8 or 16 bit), JPEG or PNM");
+    fail("not a picture that can be read; give a PNG (8 or 16 bit) or a JPEG");
   const std::string dimensions = fmt::format("{} x {} pixels", map.columns, map.rows);
   if (map.columns < 2 || map.rows < 2)
     fail(dimensions + "; a height-map needs at least 2 x 2, since pixels are points at the corners");

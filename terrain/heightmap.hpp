@@ -19,7 +19,8 @@ struct Heightmap {
   double at(int column, int row) const { return brightness[static_cast<std::size_t>(row) * columns + column]; }
 };
 
-/// Reads a picture: PNG with 8 or 16 bits (1, 2 and 4 bits and palettes are taken as 8), also JPEG and PNM.
+/// Reads a picture: PNG with 8 or 16 bits (1, 2 and 4 bits and palettes are taken as 8), also JPEG (8 bit,
+/// lossy: for lack of a better source).
 /// Colour becomes luminance Y = 0.2126 R + 0.7152 G + 0.0722 B of the stored values (weights of ITU-R BT.709); alpha is
 /// ignored. No gamma is applied: the value of a pixel is proportional to height.
 /// InputError: no such file, not a picture, cut short, fewer than 2 pixels a side, or more than 2^28 pixels.

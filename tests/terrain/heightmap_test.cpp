@@ -11,6 +11,10 @@
 #include <limits>
 #include <string>
 
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image_write.h>
+
 namespace {
 
 using namespace grouser::terrain;
@@ -189,6 +193,17 @@ TEST_F(HeightmapFile, EveryTruncation_IsAnError) {
   const Bytes good = png(4, 4, 8, kGrey, std::vector<int>(16, 9));
   // All of the image data lies before the last 12 + 4 + 4 bytes (end chunk, checksums).
   for (std::size_t n = 0; n + 20 < good.size(); ++n) EXPECT_NE(errorOf(good.substr(0, n)), "no error") << n << " bytes";
+}
+
+TEST_F(HeightmapFile, Jpeg_IsRead_AndCutShortIsAnError) {
+  const std::vector<unsigned char> grey(32 * 32, 100);
+  Bytes jpeg;
+  const auto append = [](void* to, void* data, int size) {
+    static_cast<Bytes*>(to)->append(static_cast<char*>(data), size);
+  };
+  ASSERT_TRUE(stbi_write_jpg_to_func(append, &jpeg, 32, 32, 1, grey.data(), 95));
+  EXPECT_NEAR(load(jpeg).at(7, 7), 100 / 255.0, 1 / 255.0); // lossy: a level
+  EXPECT_NE(errorOf(jpeg.substr(0, jpeg.size() - 40)).find("cut short"), std::string::npos);
 }
 
 TEST_F(HeightmapFile, MissingFileOrFolder_IsAnErrorWithTheRemedy) {
