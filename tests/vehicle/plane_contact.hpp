@@ -7,8 +7,10 @@
 #include "vehicle/observers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace grouser::test {
 
@@ -19,7 +21,8 @@ struct PlaneContactOptions {
   double stiffness = 1e7;    ///< of both planes together [N/m]
   double dampingRatio = 0.2; ///< of a shoe on that spring [-]
   double frictionInside = 0.35, frictionGround = 0.8;
-  double creep = 0.01; ///< sliding speed of full friction [m/s]
+  double creep = 0.01;          ///< sliding speed of full friction inside [m/s]
+  double tangentialRatio = 0.8; ///< on the ground [-]
   double groundHeight = -std::numeric_limits<double>::infinity();
 };
 
@@ -32,12 +35,18 @@ public:
   const vehicle::GroundLoads& ground() const { return ground_; }
 
 private:
-  /// Contact on body `shoe` at p_W with unit normal towards the shoe; `other` is a body or multibody::kWorld.
+  /// Contact on body `shoe` at p_W with unit normal towards the shoe.
   void touch(int shoe, int other, const base::Vec3d& p_W, const base::Vec3d& normal, double overlap, double friction);
   void push(int body, const base::Vec3d& p_W, const base::Vec3d& force);
   void circleOnPlate(int shoe, int wheel, double radius);
   void bossInGap(int shoe, int sprocket);
   void pointsOnGround(int shoe);
+
+  /// Tangential spring of one grouser tip.
+  struct Grip {
+    bool holds = false;
+    base::Vec3d anchor;
+  };
 
   const vehicle::Assembly& vehicle_;
   PlaneContactOptions options_;
@@ -45,16 +54,17 @@ private:
   const multibody::State* state_ = nullptr;
   multibody::Loads* loads_ = nullptr;
   vehicle::GroundLoads ground_;
+  std::vector<std::array<Grip, 4>> grips_; ///< one entry a body
 };
 
 inline PlaneContact::PlaneContact(const vehicle::Assembly& vehicle, const PlaneContactOptions& options)
     : vehicle_(vehicle), options_(options),
-      damping_(2 * options.dampingRatio * std::sqrt(options.stiffness * vehicle.spec.shoe.mass)) {}
+      damping_(2 * options.dampingRatio * std::sqrt(options.stiffness * vehicle.spec.shoe.mass)),
+      grips_(vehicle.model.bodies().size()) {}
 
 inline void PlaneContact::touch(int shoe, int other, const base::Vec3d& p_W, const base::Vec3d& normal, double overlap,
                                 double friction) {
   const auto velocity = [&](int body) {
-    if (body == multibody::kWorld) return base::Vec3d{};
     const multibody::Twist& t = state_->twist[body];
     return t.v + base::cross(t.w, p_W - state_->pose[body].position);
   };
@@ -67,11 +77,9 @@ inline void PlaneContact::touch(int shoe, int other, const base::Vec3d& p_W, con
       normal * force - sliding * (friction * force / std::max(base::norm(sliding), options_.creep));
   push(shoe, p_W, total);
   push(other, p_W, -total);
-  if (other == multibody::kWorld) ground_.force[shoe] += total;
 }
 
 inline void PlaneContact::push(int body, const base::Vec3d& p_W, const base::Vec3d& force) {
-  if (body == multibody::kWorld) return;
   loads_->external[body].force += force;
   loads_->external[body].torque += base::cross(p_W - state_->pose[body].position, force);
 }
@@ -137,12 +145,33 @@ inline void PlaneContact::bossInGap(int shoe, int sprocket) {
 inline void PlaneContact::pointsOnGround(int shoe) {
   const vehicle::ShoeSpec& s = vehicle_.spec.shoe;
   const base::Pose& pose = state_->pose[shoe];
+  const multibody::Twist& twist = state_->twist[shoe];
   if (pose.position.z - s.pitch > options_.groundHeight) return;
+  int corner = 0;
   for (const double x : {-0.045, 0.045})
     for (const double y : {-0.1, 0.1}) {
+      Grip& grip = grips_[shoe][corner++];
       const base::Vec3d tip = pose.toWorld({x, y, s.padBottom - s.grouserHeight});
-      const double overlap = options_.groundHeight - tip.z;
-      if (overlap > 0) touch(shoe, multibody::kWorld, tip, {0, 0, 1}, overlap, options_.frictionGround);
+      const base::Vec3d v = twist.v + base::cross(twist.w, tip - pose.position);
+      const double normal = 0.25 * (options_.stiffness * (options_.groundHeight - tip.z) - damping_ * v.z);
+      if (tip.z >= options_.groundHeight || normal <= 0) {
+        grip.holds = false;
+        continue;
+      }
+      // Cundall-Strack: the tip hangs on a spring from where it last held, which is dragged along when it slides.
+      const double stiffness = 0.25 * options_.tangentialRatio * options_.stiffness;
+      if (!grip.holds) grip = {true, tip};
+      base::Vec3d stretch{grip.anchor.x - tip.x, grip.anchor.y - tip.y, 0};
+      const double limit = options_.frictionGround * normal / stiffness, length = base::norm(stretch);
+      const bool slides = length > limit;
+      if (slides) {
+        stretch = stretch * (limit / length);
+        grip.anchor = tip + stretch;
+      }
+      const double drag = slides ? 0 : 0.25 * damping_;
+      const base::Vec3d force = stretch * stiffness - base::Vec3d{v.x, v.y, 0} * drag + base::Vec3d{0, 0, normal};
+      push(shoe, tip, force);
+      ground_.force[shoe] += force;
     }
 }
 

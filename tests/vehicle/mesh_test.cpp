@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The meshes are made by a generator of their own: here the spec and the meshes are held together.
+#include "base/math.hpp"
+#include "vehicle/spec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+using namespace grouser;
+using base::Vec3d;
+
+namespace {
+
+/// Meshes are cut from smooth shapes into facets with corners on the shape; coordinates are written to 0.1 mm or
+/// better.
+constexpr double kFacet = 1e-4;
+
+vehicle::VehicleSpec spec() {
+  return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+}
+
+std::vector<Vec3d> vertices(const std::string& mesh) {
+  std::ifstream file(spec().meshFolder + "/" + mesh);
+  std::vector<Vec3d> points;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string key;
+    Vec3d p;
+    if (words >> key && key == "v" && words >> p.x >> p.y >> p.z) points.push_back(p);
+  }
+  EXPECT_FALSE(points.empty()) << mesh;
+  return points;
+}
+
+double radius(const Vec3d& p) { return std::sqrt(p.x * p.x + p.z * p.z); }
+
+double largestRadius(const std::string& mesh) {
+  double r = 0;
+  for (const Vec3d& p : vertices(mesh)) r = std::max(r, radius(p));
+  return r;
+}
+
+} // namespace
+
+TEST(Meshes, Shoe_HasTheSpecsHeights) {
+  const vehicle::ShoeSpec shoe = spec().shoe;
+  Vec3d low{1, 1, 1}, high{-1, -1, -1};
+  for (const Vec3d& p : vertices(shoe.mesh)) low = base::min(low, p), high = base::max(high, p);
+  EXPECT_NEAR(low.z, shoe.padBottom - shoe.grouserHeight, kFacet);
+  EXPECT_NEAR(high.z, shoe.plateTop + shoe.hornHeight, kFacet);
+  EXPECT_NEAR(low.x, -shoe.halfLength, kFacet);
+  EXPECT_GT(high.x, 0.5 * shoe.pitch) << "the bosses sit at the front pin";
+  EXPECT_NEAR(low.y, -high.y, kFacet);
+  EXPECT_GE(high.y, shoe.padHalfWidth);
+}
+
+TEST(Meshes, Wheels_HaveTheSpecsRadii) {
+  const vehicle::VehicleSpec s = spec();
+  EXPECT_NEAR(largestRadius(s.roadWheel.mesh), s.roadWheel.radius, kFacet);
+  EXPECT_NEAR(largestRadius(s.roller.mesh), s.roller.radius, kFacet);
+  EXPECT_NEAR(largestRadius(s.idler.mesh), s.idler.radius, kFacet);
+}
+
+TEST(Meshes, Sprocket_HasItsGapsWhereTheWrapPutsThePins) {
+  const vehicle::VehicleSpec s = spec();
+  const double tooth = 2 * base::kPi / s.sprocket.teeth;
+  double rim = 0;
+  std::vector<double> bottom(s.sprocket.teeth, 1.0);
+  for (const Vec3d& p : vertices(s.sprocket.mesh)) {
+    const double r = radius(p), gaps = base::atan2(p.z, p.x) / tooth;
+    rim = std::max(rim, r);
+    const double nearest = std::floor(gaps + 0.5);
+    // Profile corners in the middle of a gap, off the hub and the axle.
+    if (std::fabs(gaps - nearest) > 0.01 || r < 0.9 * s.sprocketPinRadius()) continue;
+    const int k = (static_cast<int>(nearest) + s.sprocket.teeth) % s.sprocket.teeth;
+    bottom[k] = std::min(bottom[k], r);
+  }
+  // The seat arc of radius 18.5 mm about the pin; the tip 20 mm beyond it.
+  for (const double r : bottom) EXPECT_NEAR(r, s.sprocketPinRadius() - 0.0185, kFacet);
+  EXPECT_NEAR(rim, s.sprocketPinRadius() + 0.020, kFacet);
+}
