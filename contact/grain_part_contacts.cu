@@ -272,7 +272,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
 
 void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion,
                                 base::Array<PartLoad>& loads) {
-  sums_.zero();
+  base::setZero(exec_, sums_.data(), 2 * sizeof(std::int64_t));
   base::forEach(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
                 Compute{model_, grains, motion.data(), parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
                         memory_.data(), load_.data(), loads.data(), sums_.data()});
@@ -282,7 +282,7 @@ GrainLoadsView GrainPartContacts::grainLoads() const { return {range_.data(), lo
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = sums_.toHost();
-  return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]), model_.force.value({q[3], q[4], q[5]})};
+  return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]), model_.force.value({q[3], q[4], q[5]}) * model_.timeStep};
 }
 
 std::vector<std::uint32_t> GrainPartContacts::stateWords() const {

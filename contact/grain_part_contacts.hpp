@@ -62,11 +62,11 @@ public:
   GrainLoadsView grainLoads() const;
 
   std::size_t pairs() const { return pairs_; }
-  /// Pairs in touch at the last compute, patches counted singly, and the energy held in their springs [J].
   struct Ledger {
-    std::int64_t contacts{};
-    double elastic{}, dissipated{};
-    base::Vec3d forceOnGrains; ///< sum over all grains [N], from the same integers
+    std::int64_t contacts{};      ///< patches in touch at the last compute
+    double elastic{};             ///< held in their springs [J]
+    double dissipated{};          ///< since the start [J]
+    base::Vec3d impulseOnGrains;  ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const;
   /// History by (grain id, part), in ascending order, without free places: for hashes and checkpoints.
@@ -85,7 +85,7 @@ private:
   base::Array<std::uint64_t> key_, oldKey_;
   base::Array<PatchMemory> memory_, oldMemory_;
   base::Array<GrainLoad> load_;
-  base::Array<std::int64_t> sums_; ///< contacts, elastic, dissipated, force x, y, z
+  base::Array<std::int64_t> sums_; ///< of this step: contacts, elastic; since the start: dissipated, force x, y, z
 };
 
 } // namespace grouser::contact

@@ -39,6 +39,8 @@ struct GrainLedger {
   base::Vec3d momentum;            ///< [kg m/s]
   std::int64_t contacts{};         ///< pairs of grains in touch
   std::int64_t boundaryContacts{}; ///< grains in touch with walls and floor
+  double deepestOverlap{};         ///< [m]
+  double fastest{};                ///< [m/s]
 };
 
 } // namespace grouser::terrain

@@ -57,6 +57,7 @@ struct MeasureGrain {
   GrainKernelData d;
   base::FixedPoint energy, momentum;
   std::int64_t* sums; ///< kinetic, rotational, potential, elastic, dissipated, px, py, pz, 2 x contacts, boundary contacts
+  std::uint64_t* extremes; ///< complements of the deepest overlap [units] and the largest speed [um/s]
 
   GROUSER_HD void operator()(int i) const {
     const Vec3d v = d.velocity[i].xyz().as<double>(), w = d.spin[i].xyz().as<double>();
@@ -64,7 +65,7 @@ struct MeasureGrain {
     const Vec3d x = u.as<double>() * d.unitLength;
     const double m = static_cast<double>(d.mass);
     const double inertia = 0.4 * m * d.radius * d.radius;
-    double elastic = 0;
+    double elastic = 0, deepest = 0;
     std::int64_t touching = 0, boundary = 0;
     for (std::uint32_t k = 0; k < d.neighbours.count[i]; ++k) {
       const std::int64_t at = d.neighbours.at(i, k);
@@ -73,6 +74,7 @@ struct MeasureGrain {
       if (distance2 >= d.diameterUnits2) continue;
       const double distance = sqrt(static_cast<double>(distance2));
       const double overlap = static_cast<double>(d.diameterUnits2 - distance2) / (d.diameterUnits + distance) * d.unitLength;
+      deepest = overlap > deepest ? overlap : deepest;
       const bool held = d.neighbours.shear && (d.neighbours.touching[i] >> k & 1);
       elastic += 0.5 * contact::storedEnergy(d.law, overlap, held ? d.neighbours.shear[at] : Vec3f{});
       ++touching;
@@ -80,12 +82,14 @@ struct MeasureGrain {
     for (int b = 0; b < d.wallCount; ++b) {
       const double overlap = d.radius - (dot(d.walls[b].normal, x) - d.walls[b].offset);
       if (overlap <= 0) continue;
+      deepest = overlap > deepest ? overlap : deepest;
       elastic += contact::storedEnergy(d.walls[b].law, overlap, wallShear(i, b));
       ++boundary;
     }
     if (d.hasFloor && !d.floor.clearOf(x, d.radius)) {
       const double overlap = d.radius - d.floor.closestPoint(x).distance;
       if (overlap > 0) {
+        deepest = overlap > deepest ? overlap : deepest;
         elastic += contact::storedEnergy(d.floorLaw, overlap, wallShear(i, d.wallCount));
         ++boundary;
       }
@@ -99,6 +103,8 @@ struct MeasureGrain {
     for (int a = 0; a < 3; ++a) add(5 + a, momentum.quantise(m * v[a]));
     add(8, touching);
     add(9, boundary);
+    base::atomicMin64(extremes, ~static_cast<std::uint64_t>(deepest / d.unitLength));
+    base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e6));
   }
   GROUSER_HD Vec3f wallShear(int i, int b) const {
     return d.wallShear && (d.wallTouching[i] >> b & 1) ? d.wallShear[b * d.count + i] : Vec3f{};
@@ -226,7 +232,7 @@ void Grains::permute() {
   gatherOwn(dissipated_);
 }
 
-void Grains::step(const contact::GrainLoadsView* loads) {
+void Grains::beginStep(const contact::GrainLoadsView* loads) {
   const GrainKernelData d = kernelData(loads);
   const bool boundaries = boundaryCount_ > 0, withLoads = loads != nullptr;
   if (frictional_ && boundaries) runStep<true, true>(exec_, d, withLoads, model_.ledger);
@@ -236,6 +242,9 @@ void Grains::step(const contact::GrainLoadsView* loads) {
   position_[0].swap(position_[1]);
   velocity_[0].swap(velocity_[1]);
   spin_[0].swap(spin_[1]);
+}
+
+void Grains::endStep() {
   ++steps_;
   checkFlags();
 }
@@ -324,9 +333,11 @@ GrainLedger Grains::ledger() {
   if (rebuilds_ == 0) refreshNeighbours();
   const double scale = model_.law.stiffness * model_.radius * model_.radius;
   MeasureGrain measure{kernelData(nullptr), base::fixedPointFor(scale, 32), base::fixedPointFor(model_.mass * 10, 32),
-                       nullptr};
+                       nullptr, nullptr};
   base::Array<std::int64_t> sums(exec_, 10);
+  base::Array<std::uint64_t> extremes(exec_, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
   measure.sums = sums.data();
+  measure.extremes = extremes.data();
   base::forEach(exec_, "measure grains", static_cast<std::int64_t>(count_), measure);
   const std::vector<std::int64_t> q = sums.toHost();
   GrainLedger ledger;
@@ -338,6 +349,9 @@ GrainLedger Grains::ledger() {
   ledger.momentum = measure.momentum.value({q[5], q[6], q[7]});
   ledger.contacts = q[8] / 2;
   ledger.boundaryContacts = q[9];
+  const std::vector<std::uint64_t> most = extremes.toHost();
+  ledger.deepestOverlap = static_cast<double>(~most[0]) * scale_.unit;
+  ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
   return ledger;
 }
 

@@ -55,7 +55,13 @@ public:
 
   /// Forces and one advance. `loads` come from rigid parts; null without them. The list must be valid.
   /// Throws SimulationError at a fault, with step, time, grain, place and remedy.
-  void step(const contact::GrainLoadsView* loads = nullptr);
+  void step(const contact::GrainLoadsView* loads = nullptr) {
+    beginStep(loads);
+    endStep();
+  }
+  /// The step in two halves: the device works between them.
+  void beginStep(const contact::GrainLoadsView* loads);
+  void endStep();
 
   // For those who compute loads on grains: device arrays by slot, valid until the next refresh.
   const base::Position* positions() const { return position_[0].data(); }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "runs/scene.hpp"
+#include "terrain/bed_surface.hpp"
+#include "terrain/grains.hpp"
+#include "terrain/height_field.hpp"
+#include "terrain/layers.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace grouser::runs {
+
+/// The terrain of a scene as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone.
+struct Ground {
+  std::optional<terrain::HeightField> surface; ///< as the height-map says
+  std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
+  std::unique_ptr<terrain::Grains> grains;     ///< null without grains
+  std::optional<terrain::Rectangle> walls;     ///< around a bed
+};
+
+/// Called now and then while a bed settles: simulated time [s], kinetic energy a grain over m g radius [-].
+using SettleProgress = std::function<void(double time, double agitation)>;
+
+/// How settling ended.
+struct SettleReport {
+  double time{};      ///< simulated [s]
+  double agitation{}; ///< mean kinetic energy a grain over m g radius [-]
+  std::int64_t steps{};
+};
+
+/// Step of a vehicle on rigid ground, where no grain sets it [s].
+inline constexpr double kVehicleTimeStep = 1e-4;
+
+/// How the scene's bed is laid.
+terrain::LayerOptions layerOptions(const Scene& scene);
+
+/// Largest step at which a grain with twelve neighbours stays stable [s]; infinite without grains.
+double stableTimeStep(const Scene& scene);
+
+/// Step of the run [s]: as the scene says, checked against the stability limit, or the largest sound one.
+/// Throws InputError that names the limit.
+double chooseTimeStep(const Scene& scene);
+
+/// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
+Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep);
+
+/// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
+/// m g radius for a whole tenth of a second, but at least for the time a grain takes to fall the bed's looseness.
+/// Throws SimulationError when the scene's time limit passes first.
+SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress);
+
+/// Surface of the bed as it lies now, or of the rigid ground.
+std::function<double(double x, double y)> surfaceHeight(const Scene& scene, const Ground& ground);
+
+} // namespace grouser::runs

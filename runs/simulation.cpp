@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+namespace {
+constexpr std::int64_t kAlarmInterval = 50; // steps between looks at the track
+}
+
+Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress)
+    : scene_(scene), exec_(exec), timeStep_(chooseTimeStep(scene)), ground_(buildGround(scene, exec, timeStep_)) {
+  const bool bed = scene.terrain && scene.terrain->granular();
+  if (bed && scene.terrain->settleTimeLimit > 0) settled_ = settle(scene, ground_, progress);
+  surface_ = surfaceHeight(scene, ground_);
+  if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
+  if (ground_.grains) ground_.grains->setSteps(0);
+  energyAtStart_ = ledger().residual;
+}
+
+void Simulation::step() {
+  terrain::Grains* grains = ground_.grains.get();
+  if (vehicle_) vehicle_->placeSurfaces();
+  const bool slotsChanged = grains && grains->refreshNeighbours();
+  if (vehicle_) {
+    vehicle_->refreshLists(grains, slotsChanged);
+    vehicle_->touchTrack();
+    vehicle_->touchGround(grains);
+    vehicle_->collectLoads();
+  }
+  // The device works on the grains while the host solves the vehicle.
+  if (grains) grains->beginStep(vehicle_ ? vehicle_->grainLoads() : nullptr);
+  if (vehicle_) vehicle_->advance();
+  if (grains) grains->endStep();
+  ++steps_;
+  if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+}
+
+void Simulation::checkAlarm() const {
+  const std::string alarm = vehicle_->alarm();
+  if (!alarm.empty())
+    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
+}
+
+Simulation::Ledger Simulation::ledger() {
+  Ledger ledger;
+  if (ground_.grains) {
+    const terrain::GrainLedger g = ground_.grains->ledger();
+    ledger.kinetic = g.kinetic + g.rotational;
+    ledger.potential = g.potential;
+    ledger.elastic = g.elastic;
+    ledger.dissipated = g.dissipated;
+    ledger.grainContacts = g.contacts, ledger.boundaryContacts = g.boundaryContacts;
+    ledger.deepestOverlap = g.deepestOverlap, ledger.fastestGrain = g.fastest;
+  }
+  if (vehicle_) {
+    const VehicleRig::Ledger v = vehicle_->ledger();
+    ledger.driveWork = v.driveWork;
+    ledger.kinetic += v.kinetic;
+    ledger.potential += v.potentialGain;
+    ledger.elastic += v.elastic;
+    ledger.dissipated += v.dissipated;
+    ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
+    ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
+  }
+  ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork - energyAtStart_;
+  return ledger;
+}
+
+std::string Simulation::stateHash() const {
+  base::StateHash hash;
+  if (ground_.grains) hash.add(ground_.grains->stateWords());
+  if (vehicle_) hash.add(vehicle_->stateWords());
+  return hash.hex();
+}
+
+} // namespace grouser::runs

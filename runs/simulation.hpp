@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/bed.hpp"
+#include "runs/output.hpp"
+#include "runs/scene.hpp"
+#include "runs/vehicle_rig.hpp"
+
+#include <memory>
+#include <string>
+
+namespace grouser::runs {
+
+/// A scene that runs: grains, vehicle, or both. Built settled; `step()` is the whole of the physics.
+class Simulation {
+public:
+  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress);
+
+  /// One step of length timeStep(). Throws SimulationError at a fault.
+  void step();
+
+  double timeStep() const { return timeStep_; }
+  std::int64_t steps() const { return steps_; }
+  double time() const { return static_cast<double>(steps_) * timeStep_; } ///< since the bed has settled [s]
+
+  const Ground& ground() const { return ground_; }
+  const VehicleRig* vehicle() const { return vehicle_.get(); }
+  const SettleReport& settled() const { return settled_; }
+  const std::function<double(double, double)>& surface() const { return surface_; }
+
+  /// Energies [J] of everything, and what does not balance since the first step.
+  struct Ledger {
+    double driveWork{}, kinetic{}, potential{}, elastic{}, dissipated{}, residual{};
+    base::Vec3d impulseResidual; ///< on vehicle plus on bed [N s]
+    std::int64_t grainContacts{}, boundaryContacts{}, partContacts{}, patches{};
+    double deepestOverlap{}, fastestGrain{}; ///< [m], [m/s]
+  };
+  Ledger ledger();
+
+  /// Hash over the state sorted by id, as 16 hexadecimal digits: equal bits, equal hash.
+  std::string stateHash() const;
+
+private:
+  void checkAlarm() const;
+
+  const Scene scene_;
+  base::Exec exec_;
+  double timeStep_;
+  Ground ground_;
+  SettleReport settled_;
+  std::function<double(double, double)> surface_;
+  std::unique_ptr<VehicleRig> vehicle_;
+  std::int64_t steps_{0};
+  double energyAtStart_{0};
+};
+
+} // namespace grouser::runs

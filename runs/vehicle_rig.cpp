@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/vehicle_rig.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/laws.hpp"
+#include "spheredecomp/decompose.hpp"
+#include "spheredecomp/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr double kTrackMargin = 0.006; // [m] how far before touching a probe is listed
+constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their own skin
+
+vehicle::DriverOptions driverOptions(const Driver& d) {
+  vehicle::DriverOptions options;
+  options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
+  options.driveStart = d.driveBegins(), options.driveRamp = d.driveRamp;
+  const SpeedTable table = d.speeds();
+  options.speeds = {table.time, table.left, table.right};
+  return options;
+}
+
+/// Highest point of the ground under the tracks, for the vehicle to be set down on.
+double groundUnder(const vehicle::VehicleSpec& spec, double x, double y, double heading,
+                   const std::function<double(double, double)>& surfaceHeight) {
+  const double c = base::cos(heading), s = base::sin(heading), last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1);
+  double highest = -1e300;
+  for (const double side : {-1.0, 1.0})
+    for (int i = 0; i <= 40; ++i)
+      for (int j = -2; j <= 2; ++j) {
+        const double px = spec.roadWheel.firstX - 0.2 + (last - spec.roadWheel.firstX + 0.4) * i / 40.0;
+        const double py = side * spec.trackOffset + 0.5 * j * spec.shoe.padHalfWidth;
+        highest = std::max(highest, surfaceHeight(x + c * px - s * py, y + s * px + c * py));
+      }
+  return highest;
+}
+
+/// How far a shoe may reach from its middle, whichever way it points [m].
+double shoeReach(const vehicle::VehicleSpec& spec) { return 0.5 * spec.shoe.pitch + spec.shoe.padHalfWidth; }
+
+/// Where the vehicle's origin goes when the scene does not say: in the middle across, its rear at the near end.
+std::array<double, 2> defaultPlace(const Ground& ground, const vehicle::VehicleSpec& spec) {
+  const terrain::Rectangle& area = ground.walls ? *ground.walls : ground.surface->area();
+  return {area.xMin + spec.sprocketPinRadius() + shoeReach(spec) + 0.02, 0.5 * (area.yMin + area.yMax)};
+}
+
+vehicle::AssemblyOptions assemblyOptions(const Scene& scene, const vehicle::VehicleSpec& spec, const Ground& ground,
+                                         const std::function<double(double, double)>& surfaceHeight) {
+  vehicle::AssemblyOptions options;
+  options.fixChassis = scene.vehicle->chassis == "fixed";
+  const double heading = scene.vehicle->heading * base::kPi / 180;
+  if (!ground.surface) {
+    const auto place = scene.vehicle->position.value_or(std::array<double, 2>{0, 0});
+    options.pose_W = vehicle::placeOnGround(spec, place[0], place[1], 0, 0, heading);
+    return options;
+  }
+  const auto place = scene.vehicle->position.value_or(defaultPlace(ground, spec));
+  const double z = groundUnder(spec, place[0], place[1], heading, surfaceHeight);
+  options.pose_W = vehicle::placeOnGround(spec, place[0], place[1], z, scene.vehicle->clearance, heading);
+  return options;
+}
+
+/// Throws unless the whole vehicle stands between the walls.
+void checkPlace(const Scene& scene, const Ground& ground, const vehicle::Assembly& assembly) {
+  if (!ground.surface) return;
+  const terrain::Rectangle& area = ground.walls ? *ground.walls : ground.surface->area();
+  const double reach = shoeReach(assembly.spec);
+  for (const vehicle::Part& part : assembly.parts) {
+    if (part.kind != vehicle::PartKind::kShoe) continue;
+    const Vec3d p = assembly.model.bodies()[static_cast<std::size_t>(part.body)].pose.position;
+    if (p.x - reach < area.xMin || p.x + reach > area.xMax || p.y - reach < area.yMin || p.y + reach > area.yMax)
+      throw base::InputError(fmt::format("{}: vehicle.position: the {} would stand at ({:.2f}, {:.2f}) m, outside the terrain "
+                                         "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; move the vehicle or enlarge terrain.size",
+                                         scene.file.string(), part.name, p.x, p.y, area.xMin, area.xMax, area.yMin, area.yMax));
+  }
+}
+
+} // namespace
+
+VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeStep, const Ground& ground,
+                       const std::function<double(double, double)>& surfaceHeight)
+    : exec_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)), surfaceHeight_(surfaceHeight),
+      gravity_(scene.run.gravity) {
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  assembly_ = vehicle::assemble(spec, assemblyOptions(scene, spec, ground, surfaceHeight));
+  checkPlace(scene, ground, assembly_);
+  solver_ = std::make_unique<multibody::Solver>(assembly_.model);
+  state_ = multibody::makeState(assembly_.model);
+  loads_ = multibody::makeLoads(assembly_.model);
+  observer_ = std::make_unique<vehicle::Observer>(assembly_);
+  loadMeshes(scene);
+  buildContacts(scene, ground);
+}
+
+void VehicleRig::loadMeshes(const Scene& scene) {
+  std::map<std::string, std::size_t> indexOf;
+  spheredecomp::DecompositionOptions options;
+  options.radius = scene.vehicle->sphereRadius;
+  for (std::size_t p = 0; p < assembly_.parts.size(); ++p) {
+    const vehicle::Part& part = assembly_.parts[p];
+    const auto [at, fresh] = indexOf.emplace(part.mesh, meshes_.size());
+    if (fresh) {
+      meshes_.push_back(spheredecomp::importMesh((std::filesystem::path(assembly_.spec.meshFolder) / part.mesh).string()));
+      const bool touches = part.kind != vehicle::PartKind::kChassis;
+      sets_.push_back(touches ? spheredecomp::decompose(meshes_.back(), part.mesh, options) : base::SphereSet{});
+      setFigures_.push_back({part.mesh, sets_.back().spheres.size(), sets_.back().surfaceCount, 0});
+    }
+    meshOfPart_.push_back(at->second);
+    ++setFigures_[at->second].instances;
+    if (part.kind != vehicle::PartKind::kChassis) contactParts_.push_back(static_cast<int>(p));
+  }
+}
+
+void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
+  std::vector<const base::SphereSet*> sets;
+  for (const base::SphereSet& set : sets_) sets.push_back(&set);
+  std::vector<int> setOfPart, contactIndex(assembly_.parts.size(), -1);
+  for (std::size_t c = 0; c < contactParts_.size(); ++c) {
+    const auto p = static_cast<std::size_t>(contactParts_[c]);
+    contactIndex[p] = static_cast<int>(c);
+    setOfPart.push_back(static_cast<int>(meshOfPart_[p]));
+    partReach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[p]]) + norm(assembly_.parts[p].pose_B.position));
+  }
+  const std::size_t n = contactParts_.size();
+  motion_ = base::Array<contact::PartMotion>(exec_, n);
+  trackLoads_ = base::Array<contact::PartLoad>(exec_, n);
+  groundLoads_ = base::Array<contact::PartLoad>(exec_, n);
+
+  const vehicle::ContactSpec& spec = assembly_.spec.contact;
+  // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
+  const double largest = 1e4 * assembly_.mass * 9.81;
+  quanta_.force = base::fixedPointFor(largest, 46);
+  quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
+  quanta_.energy = base::fixedPointFor(largest, 46);
+  quanta_.area = base::fixedPointFor(1, 40);
+  groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
+
+  const contact::PatchLaw inside{spec.foundationModulus, spec.relaxationTime, spec.frictionInside, spec.tangentialRatio};
+  std::vector<contact::PartPair> pairs;
+  for (const vehicle::PartPair& pair : assembly_.pairs)
+    pairs.push_back({contactIndex[static_cast<std::size_t>(pair.shoe)], contactIndex[static_cast<std::size_t>(pair.other)]});
+  trackMargin_ = kTrackMargin;
+  track_ = std::make_unique<contact::PartPartContacts>(
+      exec_, contact::PartPartContacts::Model{inside, quanta_, timeStep_, trackMargin_}, sets, setOfPart, pairs);
+
+  if (ground.grains) {
+    const terrain::GrainModel& grains = ground.grains->model();
+    contact::GrainPartModel model;
+    model.radius = grains.radius, model.mass = grains.mass, model.timeStep = timeStep_;
+    groundMargin_ = kBedMargin;
+    model.margin = 0.5 * grains.skin * grains.radius + groundMargin_;
+    const std::string& soil = scene.terrain ? scene.terrain->material : scene.grains.front().material;
+    model.law = pairLaw(scene, soil, scene.vehicle->material.empty() ? soil : scene.vehicle->material, grains.mass);
+    if (scene.vehicle->material.empty()) model.law.friction = static_cast<float>(spec.frictionGround);
+    model.scale = ground.grains->scale();
+    // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
+    model.force = base::fixedPointFor(model.law.stiffness * grains.radius, 36);
+    model.torque = base::fixedPointFor(model.law.stiffness * grains.radius, 36);
+    model.energy = base::fixedPointFor(model.law.stiffness * grains.radius * grains.radius, 36);
+    groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
+    std::vector<contact::GrainPart> parts;
+    for (const int set : setOfPart) parts.push_back({set, {}, {}});
+    bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts);
+  } else if (ground.rigid) {
+    const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
+    std::vector<int> shoes;
+    for (const int part : assembly_.groundParts) shoes.push_back(contactIndex[static_cast<std::size_t>(part)]);
+    groundMargin_ = kBedMargin;
+    rigidGround_ = std::make_unique<terrain::GroundContacts>(
+        exec_, terrain::GroundContacts::Model{law, quanta_, timeStep_, groundMargin_}, *ground.rigid, sets, setOfPart, shoes);
+  }
+}
+
+contact::PartMotion VehicleRig::motionOf(std::size_t c) const {
+  const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
+  const base::Pose pose = vehicle::partPose(part, state_);
+  const auto body = static_cast<std::size_t>(part.body);
+  return {pose.position, pose.orientation.matrix(), state_.pose[body].position, state_.twist[body].v, state_.twist[body].w};
+}
+
+void VehicleRig::placeSurfaces() {
+  std::vector<contact::PartMotion> motion(contactParts_.size());
+  for (std::size_t c = 0; c < motion.size(); ++c) motion[c] = motionOf(c);
+  motion_.assign(motion);
+  trackLoads_.zero();
+  groundLoads_.zero();
+}
+
+void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
+  // Two parts approach each other at most as fast as both move relative to the hull.
+  if (2 * relativeTravel_ > trackMargin_) {
+    track_->refresh(motion_);
+    relativeTravel_ = 0;
+  }
+  if (absoluteTravel_ <= groundMargin_ && !slotsChanged) return;
+  if (bed_) bed_->refresh({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()}, motion_);
+  if (rigidGround_) rigidGround_->refresh(motion_);
+  absoluteTravel_ = 0;
+}
+
+void VehicleRig::touchTrack() { track_->compute(motion_, trackLoads_); }
+
+void VehicleRig::touchGround(const terrain::Grains* grains) {
+  if (bed_) {
+    bed_->compute({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()}, motion_,
+                  groundLoads_);
+    grainLoads_ = bed_->grainLoads();
+  }
+  if (rigidGround_) rigidGround_->compute(motion_, groundLoads_);
+}
+
+void VehicleRig::collectLoads() {
+  trackSums_ = trackLoads_.toHost();
+  groundSums_ = groundLoads_.toHost();
+  for (const contact::PartLoad& load : groundSums_) impulseOnParts_ += load.force;
+  for (multibody::Wrench& wrench : loads_.external) wrench = {};
+  for (std::size_t c = 0; c < contactParts_.size(); ++c) {
+    const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
+    multibody::Wrench& wrench = loads_.external[static_cast<std::size_t>(part.body)];
+    wrench.force += quanta_.force.value(trackSums_[c].force) + groundForceQuantum_.value(groundSums_[c].force);
+    wrench.torque += quanta_.torque.value(trackSums_[c].torque) + groundTorqueQuantum_.value(groundSums_[c].torque);
+  }
+}
+
+void VehicleRig::advance() {
+  vehicle::applyControls(assembly_, driver_.at(state_.time), gravity_, loads_);
+  solver_->step(state_, loads_, timeStep_);
+  observer_->update(state_, timeStep_);
+  trackTravel();
+}
+
+void VehicleRig::trackTravel() {
+  const auto hull = static_cast<std::size_t>(assembly_.chassis);
+  const Vec3d hullPosition = state_.pose[hull].position;
+  const multibody::Twist& hullTwist = state_.twist[hull];
+  double relative = 0, absolute = 0;
+  for (std::size_t c = 0; c < contactParts_.size(); ++c) {
+    const auto body = static_cast<std::size_t>(assembly_.parts[static_cast<std::size_t>(contactParts_[c])].body);
+    const multibody::Twist& twist = state_.twist[body];
+    const Vec3d carried = hullTwist.v + cross(hullTwist.w, state_.pose[body].position - hullPosition);
+    relative = std::max(relative, norm(twist.v - carried) + norm(twist.w - hullTwist.w) * partReach_[c]);
+    absolute = std::max(absolute, norm(twist.v) + norm(twist.w) * partReach_[c]);
+  }
+  relativeTravel_ += relative * timeStep_;
+  absoluteTravel_ += absolute * timeStep_;
+}
+
+namespace {
+
+vehicle::GroundLoads groundForces(const vehicle::Assembly& assembly, const std::vector<int>& contactParts,
+                                  const std::vector<contact::PartLoad>& sums, const base::FixedPoint& quantum) {
+  vehicle::GroundLoads loads;
+  loads.force.resize(assembly.model.bodies().size());
+  for (std::size_t c = 0; c < sums.size(); ++c)
+    loads.force[static_cast<std::size_t>(assembly.parts[static_cast<std::size_t>(contactParts[c])].body)] +=
+        quantum.value(sums[c].force);
+  return loads;
+}
+
+} // namespace
+
+vehicle::Observation VehicleRig::observe() const {
+  const bool onGround = bed_ || rigidGround_;
+  return observer_->observe(state_, onGround ? groundForces(assembly_, contactParts_, groundSums_, groundForceQuantum_)
+                                             : vehicle::GroundLoads{},
+                            surfaceHeight_);
+}
+
+std::string VehicleRig::alarm() const {
+  const bool onGround = bed_ || rigidGround_;
+  return observer_->alarm(state_, onGround ? groundForces(assembly_, contactParts_, groundSums_, groundForceQuantum_)
+                                           : vehicle::GroundLoads{});
+}
+
+VehicleRig::Ledger VehicleRig::ledger() const {
+  Ledger ledger;
+  ledger.kinetic = multibody::totals(assembly_.model, state_, loads_).kinetic;
+  ledger.driveWork = state_.ledger.driveWork;
+  ledger.potentialGain = -(state_.ledger.gravityWork + state_.ledger.springWork);
+  const contact::PatchBuffers::Ledger track = track_->ledger();
+  ledger.elastic = track.elastic;
+  ledger.dissipated = state_.ledger.dissipated + track.dissipated;
+  ledger.patches = track.patches;
+  if (rigidGround_) {
+    const contact::PatchBuffers::Ledger ground = rigidGround_->ledger();
+    ledger.elastic += ground.elastic, ledger.dissipated += ground.dissipated, ledger.patches += ground.patches;
+  }
+  if (bed_) {
+    const contact::GrainPartContacts::Ledger bed = bed_->ledger();
+    ledger.elastic += bed.elastic;
+    ledger.grainContacts = bed.contacts;
+    // Dissipation in contacts with grains is in the grains' own ledger.
+    ledger.impulseOnGrains = bed.impulseOnGrains;
+    ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
+  }
+  base::Vec3l sum{};
+  for (const contact::PartLoad& load : groundSums_) sum += load.force;
+  ledger.groundForce = groundForceQuantum_.value(sum);
+  return ledger;
+}
+
+std::size_t VehicleRig::totalSpheres() const {
+  std::size_t total = 0;
+  for (const SetFigures& f : setFigures_) total += f.spheres * static_cast<std::size_t>(f.instances);
+  return total;
+}
+
+std::vector<std::uint32_t> VehicleRig::stateWords() const {
+  std::vector<std::uint32_t> words;
+  for (const double v : state_.save()) {
+    std::uint32_t raw[2];
+    std::memcpy(raw, &v, sizeof raw);
+    words.insert(words.end(), raw, raw + 2);
+  }
+  const auto append = [&words](const std::vector<std::uint32_t>& more) { words.insert(words.end(), more.begin(), more.end()); };
+  append(track_->stateWords());
+  if (rigidGround_) append(rigidGround_->stateWords());
+  if (bed_) append(bed_->stateWords());
+  return words;
+}
+
+} // namespace grouser::runs

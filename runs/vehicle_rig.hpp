@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "contact/patch_contacts.hpp"
+#include "multibody/solver.hpp"
+#include "runs/bed.hpp"
+#include "runs/scene.hpp"
+#include "terrain/ground_contacts.hpp"
+#include "vehicle/assembly.hpp"
+#include "vehicle/driver.hpp"
+#include "vehicle/observers.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace grouser::runs {
+
+/// The vehicle of a scene: its bodies, its surfaces, and what they touch.
+class VehicleRig {
+public:
+  /// Reads spec and meshes, cuts the meshes into spheres, places the vehicle above the ground.
+  VehicleRig(const Scene& scene, const base::Exec& exec, double timeStep, const Ground& ground,
+             const std::function<double(double, double)>& surfaceHeight);
+
+  // One step, in this order.
+  void placeSurfaces();                         ///< poses of all parts to the device; sums of loads to zero
+  void refreshLists(const terrain::Grains* grains, bool slotsChanged);
+  void touchTrack();                            ///< shoes against sprocket, wheels, rollers, idler
+  void touchGround(const terrain::Grains* grains); ///< shoes and all other parts against the bed, or shoes against rigid ground
+  void collectLoads();                          ///< sums to the host: one small transfer
+  void advance();                               ///< multibody step
+
+  /// For the grains' step; null on rigid ground.
+  const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
+
+  double time() const { return state_.time; }
+  const vehicle::Assembly& assembly() const { return assembly_; }
+  const multibody::State& state() const { return state_; }
+  const multibody::Solver& solver() const { return *solver_; }
+  const vehicle::Driver& driver() const { return driver_; }
+
+  vehicle::Observation observe() const;
+  /// A thrown or skipped track, in words; empty while all is well.
+  std::string alarm() const;
+
+  /// Energies of the contacts of parts with parts and ground, and of the bodies [J].
+  struct Ledger {
+    double kinetic{};      ///< of the bodies
+    double driveWork{};    ///< since the start
+    double potentialGain{}; ///< -(work of gravity and springs, ramps included)
+    double elastic{};      ///< held in contacts now
+    double dissipated{};   ///< in contacts, joints and dampers since the start
+    std::int64_t patches{}; ///< of parts on parts and on ground
+    std::int64_t grainContacts{};
+    base::Vec3d impulseOnParts; ///< from the grains since the start [N s]
+    base::Vec3d impulseOnGrains;
+    base::Vec3d groundForce; ///< sum over all parts in the last step [N]
+  };
+  Ledger ledger() const;
+
+  struct SetFigures {
+    std::string mesh;
+    std::size_t spheres{}, surface{};
+    int instances{};
+  };
+  const std::vector<SetFigures>& sphereSets() const { return setFigures_; }
+  std::size_t totalSpheres() const;
+
+  /// Bodies and contact history, for the hash.
+  std::vector<std::uint32_t> stateWords() const;
+
+  /// Pose of part `i` of the assembly in the world.
+  base::Pose partPose(std::size_t i) const { return vehicle::partPose(assembly_.parts[i], state_); }
+  const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a part kind, see meshOfPart
+  std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
+
+private:
+  void loadMeshes(const Scene& scene);
+  void buildContacts(const Scene& scene, const Ground& ground);
+  contact::PartMotion motionOf(std::size_t contactPart) const;
+  /// Bound of how far any point of a part may have moved [m] in this step: absolute, and relative to the hull.
+  void trackTravel();
+
+  base::Exec exec_;
+  double timeStep_;
+  vehicle::Assembly assembly_;
+  std::unique_ptr<multibody::Solver> solver_;
+  multibody::State state_;
+  multibody::Loads loads_;
+  vehicle::Driver driver_;
+  std::unique_ptr<vehicle::Observer> observer_;
+  std::function<double(double, double)> surfaceHeight_;
+  base::Vec3d gravity_;
+
+  std::vector<base::TriangleMesh> meshes_;
+  std::vector<std::size_t> meshOfPart_;
+  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for the hull
+  std::vector<SetFigures> setFigures_;
+  std::vector<int> contactParts_; ///< indices into assembly_.parts of those with a surface
+  std::vector<double> partReach_; ///< of each contact part about its centre of mass [m]
+
+  contact::PatchQuanta quanta_;
+  base::Array<contact::PartMotion> motion_;
+  base::Array<contact::PartLoad> trackLoads_, groundLoads_;
+  std::vector<contact::PartLoad> trackSums_, groundSums_;
+  base::FixedPoint groundForceQuantum_, groundTorqueQuantum_;
+  std::unique_ptr<contact::PartPartContacts> track_;
+  std::unique_ptr<terrain::GroundContacts> rigidGround_;
+  std::unique_ptr<contact::GrainPartContacts> bed_;
+  contact::GrainLoadsView grainLoads_;
+  double trackMargin_{}, groundMargin_{};
+  double relativeTravel_{1e9}, absoluteTravel_{1e9};
+  base::Vec3l impulseOnParts_{};
+  double bedDissipated_{0};
+};
+
+} // namespace grouser::runs
