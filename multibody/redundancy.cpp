@@ -44,16 +44,17 @@ public:
     return rows;
   }
 
-  /// Turns the fastest link by about 0.05 rad along a generic velocity that the constraints allow.
-  void wander(const ConstraintSystem::Part& part) {
+  /// Turns the fastest link by `angle` [rad] along a velocity that the constraints allow: the starting twists made
+  /// compatible in attempt 0, a generic one in the others. Returns false if nothing moves.
+  bool wander(const ConstraintSystem::Part& part, int attempt, double angle) {
     clear(part);
     for (const int node : part.bodies) {
-      const auto counter = 6 * static_cast<std::uint64_t>(node);
-      const double m = model_.bodies()[at(system_.bodyOf(node))].mass;
-      const Vec3d turn{generic(counter), generic(counter + 1), generic(counter + 2)};
-      const Vec3d spin = system_.inertia(node) * turn;
-      for (int i = 0; i < 3; ++i) x_[at(6 * node + i)] = m * generic(counter + 3 + static_cast<std::uint64_t>(i));
-      for (int i = 0; i < 3; ++i) x_[at(6 * node + 3 + i)] = spin[i];
+      const Body& body = model_.bodies()[at(system_.bodyOf(node))];
+      const auto counter = 6 * (static_cast<std::uint64_t>(node) + 1000003 * static_cast<std::uint64_t>(attempt));
+      const Vec3d spin{generic(counter), generic(counter + 1), generic(counter + 2)};
+      const Vec3d drift{generic(counter + 3), generic(counter + 4), generic(counter + 5)};
+      set(node, body.mass * (attempt == 0 ? body.v_WB : drift),
+          system_.inertia(node) * (attempt == 0 ? body.w_WB : spin));
     }
     system_.solve(part, x_);
     double fastest = 0;
@@ -62,7 +63,9 @@ public:
       fastest = std::max(fastest, v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
       fastest = std::max(fastest, 1e-6 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     }
-    if (fastest > 0) move(part, 0.05 / std::sqrt(fastest));
+    if (!(fastest > 1e-12)) return false;
+    move(part, angle / std::sqrt(fastest));
+    return true;
   }
 
   /// Newton's method on C = 0, factored anew each time. Returns whether it arrived.
@@ -86,7 +89,16 @@ public:
     return false;
   }
 
+  void reset() {
+    for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = model_.bodies()[b].pose;
+    system_.place(poses_, frames_);
+  }
+
 private:
+  void set(int node, const Vec3d& linear, const Vec3d& angular) {
+    for (int i = 0; i < 3; ++i) x_[at(6 * node + i)] = linear[i], x_[at(6 * node + 3 + i)] = angular[i];
+  }
+
   void clear(const ConstraintSystem::Part& part) {
     for (const int node : part.bodies) std::fill_n(x_.begin() + 6 * node, 6, 0.0);
     for (const int k : part.constraints) std::fill_n(x_.begin() + 6 * (system_.movableBodies() + k), 6, 0.0);
@@ -119,11 +131,17 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
   for (const auto& part : system.parts()) {
     const int atStart = explorer.factor(part);
     if (atStart == 0) continue;
-    explorer.wander(part);
+    // A singular start has branches, and a motion may stay on a singular one: the fewest rows found are the truth.
+    bool explored = false;
     std::vector<std::pair<int, int>> rows;
-    if (explorer.close(part)) {
+    for (int attempt = 0; attempt < 4; ++attempt) {
+      explorer.reset();
       explorer.factor(part);
-      rows = explorer.rowsWithoutPivot(part);
+      if (!explorer.wander(part, attempt, 0.05 * (1 + attempt)) || !explorer.close(part)) continue;
+      explorer.factor(part);
+      const auto lost = explorer.rowsWithoutPivot(part);
+      if (!explored || lost.size() < rows.size()) rows = lost;
+      explored = true;
     }
     found.singularAtStart += atStart - static_cast<int>(rows.size());
     found.rows.insert(found.rows.end(), rows.begin(), rows.end());

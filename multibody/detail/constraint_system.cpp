@@ -39,7 +39,7 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
       movable_.push_back(b);
     }
 
-  std::vector<std::pair<int, int>> ends;
+  std::vector<Elimination::Edge> edges;
   const auto add = [&](Constraint c) {
     if (c.bodyA == kWorld) c.bodyA = worldFrame;
     if (c.bodyB == kWorld) c.bodyB = worldFrame;
@@ -47,7 +47,7 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
     c.nodeB = nodeOf[at(c.bodyB)];
     constraints_.push_back(c);
     hard_.push_back(hardRows(c.kind));
-    ends.emplace_back(c.nodeA, c.nodeB);
+    edges.push_back({c.nodeA, c.nodeB, c.kind == ConstraintKind::kPointSpring});
   };
   for (int j = 0; j < static_cast<int>(model.joints().size()); ++j) {
     const Joint& joint = model.joints()[at(j)];
@@ -60,7 +60,7 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
          spring.point_A, spring.point_B});
   }
 
-  elimination_ = std::make_unique<Elimination>(movableBodies(), ends);
+  elimination_ = std::make_unique<Elimination>(movableBodies(), edges);
   for (const auto& steps : elimination_->parts()) {
     Part part;
     part.steps = steps;

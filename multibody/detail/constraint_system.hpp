@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grouser::multibody::detail {
@@ -86,9 +87,9 @@ struct Redundancy {
   int singularAtStart = 0;               ///< rows without pivot only at the starting poses: a singular position
 };
 
-/// Finds the hard rows that others imply wherever the mechanism goes: moves it a little along a generic motion its
-/// constraints allow, closes the constraints again by Newton's method, and takes the rows without pivot there. A row
-/// that is dependent only at the starting poses (a folded four-bar) is kept.
+/// Finds the hard rows that others imply wherever the mechanism goes: moves it a little along motions its
+/// constraints allow (the starting velocities, then generic ones), closes the constraints again by Newton's method, and
+/// takes the rows without pivot there. A row that is dependent only at the starting poses (a folded four-bar) is kept.
 Redundancy findRedundantRows(ConstraintSystem& system, const Model& model);
 
 } // namespace grouser::multibody::detail

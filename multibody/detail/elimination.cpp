@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace grouser::multibody::detail {
 
@@ -14,12 +15,78 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// For each constraint the bodies that must be eliminated before it, and how many of them.
+struct Waiting {
+  std::vector<std::vector<int>> constraintsOf; ///< one a body: those that wait for it
+  std::vector<int> count;                      ///< one a constraint
+};
+
+Waiting findWaiting(int bodies, const std::vector<Elimination::Edge>& edges) {
+  std::vector<std::vector<int>> jointsOf(at(bodies));
+  std::vector<int> worldJoints;
+  for (int c = 0; c < static_cast<int>(edges.size()); ++c) {
+    if (edges[at(c)].soft) continue;
+    for (const int b : {edges[at(c)].bodyA, edges[at(c)].bodyB})
+      if (b >= 0)
+        jointsOf[at(b)].push_back(c);
+      else
+        worldJoints.push_back(c);
+  }
+
+  // Spanning forest, breadth first: from the world, then from the body with the most joints of what is left.
+  std::vector<int> treeOf(at(bodies), -1), child(edges.size(), -1);
+  std::vector<int> queue;
+  const auto take = [&](int body, int constraint, int tree) {
+    if (body < 0 || treeOf[at(body)] >= 0) return;
+    treeOf[at(body)] = tree;
+    if (constraint >= 0) child[at(constraint)] = body;
+    queue.push_back(body);
+  };
+  const auto spread = [&](int tree) {
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      for (const int c : jointsOf[at(queue[next])]) {
+        take(edges[at(c)].bodyA, c, tree);
+        take(edges[at(c)].bodyB, c, tree);
+      }
+    queue.clear();
+  };
+  for (const int c : worldJoints) take(edges[at(c)].bodyA, c, 0), take(edges[at(c)].bodyB, c, 0);
+  spread(0);
+  for (int tree = 1;; ++tree) {
+    int root = -1;
+    for (int b = 0; b < bodies; ++b)
+      if (treeOf[at(b)] < 0 && (root < 0 || jointsOf[at(b)].size() > jointsOf[at(root)].size())) root = b;
+    if (root < 0) break;
+    take(root, -1, tree);
+    spread(tree);
+  }
+
+  Waiting waiting{std::vector<std::vector<int>>(at(bodies)), std::vector<int>(edges.size(), 0)};
+  const auto wait = [&](int constraint, int body) {
+    waiting.constraintsOf[at(body)].push_back(constraint);
+    ++waiting.count[at(constraint)];
+  };
+  for (int c = 0; c < static_cast<int>(edges.size()); ++c) {
+    const auto [a, b, soft] = edges[at(c)];
+    if (soft) {
+      wait(c, a >= 0 ? a : b);
+    } else if (child[at(c)] >= 0) {
+      wait(c, child[at(c)]);
+    } else {
+      const int tree = treeOf[at(a >= 0 ? a : b)];
+      for (int body = 0; body < bodies; ++body)
+        if (treeOf[at(body)] == tree) wait(c, body);
+    }
+  }
+  return waiting;
+}
+
 } // namespace
 
-Elimination::Elimination(int bodies, const std::vector<std::pair<int, int>>& ends)
-    : bodies_(bodies), nodes_(bodies + static_cast<int>(ends.size())) {
-  findOrder(ends);
-  findProgram(ends);
+Elimination::Elimination(int bodies, const std::vector<Edge>& edges)
+    : bodies_(bodies), nodes_(bodies + static_cast<int>(edges.size())) {
+  findOrder(edges);
+  findProgram(edges);
   diagonal_.assign(at(nodes_), Block{});
   dInverse_.assign(at(nodes_), {});
   smallest_.assign(at(nodes_), {});
@@ -29,53 +96,58 @@ Elimination::Elimination(int bodies, const std::vector<std::pair<int, int>>& end
   v_.assign(slots_.size(), Block{});
 }
 
-void Elimination::findOrder(const std::vector<std::pair<int, int>>& ends) {
+void Elimination::findOrder(const std::vector<Edge>& edges) {
   std::vector<std::set<int>> neighbours(at(nodes_));
-  for (std::size_t c = 0; c < ends.size(); ++c)
-    for (const int b : {ends[c].first, ends[c].second})
+  for (std::size_t c = 0; c < edges.size(); ++c)
+    for (const int b : {edges[c].bodyA, edges[c].bodyB})
       if (b >= 0) {
         neighbours[at(b)].insert(bodies_ + static_cast<int>(c));
         neighbours[at(bodies_) + c].insert(b);
       }
 
-  // Minimum degree; among equals bodies first, then by index. A constraint waits for one of its bodies.
-  std::vector<char> eligible(at(nodes_), 0), done(at(nodes_), 0);
-  std::fill(eligible.begin(), eligible.begin() + bodies_, char{1});
+  // Minimum degree; among equals bodies first, then by index.
+  Waiting waiting = findWaiting(bodies_, edges);
   std::set<std::tuple<std::size_t, bool, int>> queue;
   const auto key = [&](int n) { return std::make_tuple(neighbours[at(n)].size(), n >= bodies_, n); };
+  const auto eligible = [&](int n) { return n < bodies_ || waiting.count[at(n - bodies_)] == 0; };
   for (int n = 0; n < bodies_; ++n) queue.insert(key(n));
   std::vector<int> rough;
-  std::vector<int> rank(at(nodes_), 0);
   laterNeighbours_.assign(at(nodes_), {});
   while (!queue.empty()) {
     const int p = std::get<2>(*queue.begin());
     queue.erase(queue.begin());
-    done[at(p)] = 1;
-    rank[at(p)] = static_cast<int>(rough.size());
     rough.push_back(p);
     const std::vector<int> around(neighbours[at(p)].begin(), neighbours[at(p)].end());
     laterNeighbours_[at(p)] = around;
     for (const int i : around) {
-      if (eligible[at(i)]) queue.erase(key(i));
+      if (eligible(i)) queue.erase(key(i));
       neighbours[at(i)].erase(p);
       for (const int j : around)
         if (j != i) neighbours[at(i)].insert(j);
-      if (p < bodies_ && i >= bodies_) eligible[at(i)] = 1;
     }
     for (const int i : around)
-      if (eligible[at(i)]) queue.insert(key(i));
+      if (eligible(i)) queue.insert(key(i));
+    if (p < bodies_)
+      for (const int c : waiting.constraintsOf[at(p)])
+        if (--waiting.count[at(c)] == 0) queue.insert(key(bodies_ + c));
   }
+  postorder(rough);
+}
 
-  // Postorder of the elimination tree: the same factor, walked along each branch; one root for each independent part.
+/// Postorder of the elimination tree: the same factor, walked along each branch; one root for each independent part.
+void Elimination::postorder(const std::vector<int>& rough) {
+  std::vector<int> rank(at(nodes_), 0);
+  for (std::size_t k = 0; k < rough.size(); ++k) rank[at(rough[k])] = static_cast<int>(k);
   std::vector<std::vector<int>> children(at(nodes_));
   std::vector<int> roots;
   for (const int p : rough) {
-    auto& later = laterNeighbours_[at(p)];
-    std::sort(later.begin(), later.end(), [&](int a, int b) { return rank[at(a)] < rank[at(b)]; });
+    const auto& later = laterNeighbours_[at(p)];
     if (later.empty())
       roots.push_back(p);
     else
-      children[at(later.front())].push_back(p);
+      children[at(*std::min_element(later.begin(), later.end(), [&](int a, int b) {
+        return rank[at(a)] < rank[at(b)];
+      }))].push_back(p);
   }
   for (const int root : roots) {
     Part part;
@@ -96,7 +168,7 @@ void Elimination::findOrder(const std::vector<std::pair<int, int>>& ends) {
   }
 }
 
-void Elimination::findProgram(const std::vector<std::pair<int, int>>& ends) {
+void Elimination::findProgram(const std::vector<Edge>& edges) {
   std::vector<int> position(at(nodes_), 0);
   for (int k = 0; k < nodes_; ++k) position[at(order_[at(k)])] = k;
   std::vector<std::vector<int>> slotOfColumn(at(nodes_)); // parallel to laterNeighbours_
@@ -134,8 +206,8 @@ void Elimination::findProgram(const std::vector<std::pair<int, int>>& ends) {
   }
 
   isFill_.assign(slots_.size(), 1);
-  ends_.resize(ends.size());
-  for (std::size_t c = 0; c < ends.size(); ++c) {
+  ends_.resize(edges.size());
+  for (std::size_t c = 0; c < edges.size(); ++c) {
     const int node = bodies_ + static_cast<int>(c);
     const auto place = [&](int body, int& slot, bool& transpose) {
       if (body < 0) return;
@@ -143,8 +215,8 @@ void Elimination::findProgram(const std::vector<std::pair<int, int>>& ends) {
       slot = transpose ? findSlot(body, node) : findSlot(node, body);
       isFill_[at(slot)] = 0;
     };
-    place(ends[c].first, ends_[c].slotA, ends_[c].transposeA);
-    place(ends[c].second, ends_[c].slotB, ends_[c].transposeB);
+    place(edges[c].bodyA, ends_[c].slotA, ends_[c].transposeA);
+    place(edges[c].bodyB, ends_[c].slotB, ends_[c].transposeB);
   }
 }
 

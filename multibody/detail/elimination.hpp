@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <utility>
 #include <vector>
 
 namespace grouser::multibody::detail {
@@ -14,25 +13,32 @@ namespace grouser::multibody::detail {
 ///                                               G      diagonal, >= 0: 0 on hard rows, compliance on soft rows
 ///
 /// solved directly as P L D L^T P^T over the graph whose nodes are bodies and constraints. Nodes 0..bodies-1 are the
-/// bodies, then the constraints. The order of elimination is found once (minimum degree; a constraint only after one of
-/// its bodies, so that its block has a pivot), then postordered, so that independent parts are contiguous and a ring or
-/// chain is walked along: constant fill for each link, cost linear in the links.
+/// bodies, then the constraints. The order of elimination is found once (minimum degree under the rule below), then
+/// postordered, so that independent parts are contiguous and a ring or chain is walked along: constant fill for each
+/// link, cost linear in the links.
 ///
-/// After one of its bodies is eliminated a constraint's block is -(G + J M^-1 J^T), negative definite but for redundant
-/// rows, which show up as vanishing pivots: a row whose pivot is below kPivotTolerance of its own J M^-1 J^T is left
-/// out (its multiplier is 0).
+/// The rule that keeps the pivots from vanishing: along a spanning tree of bodies (from the world, or from the body
+/// with the most joints) each joint has a child body. A joint of the tree is eliminated after its child; one that
+/// closes a loop after all bodies it is connected with. Then the rows eliminated so far are always independent on the
+/// bodies eliminated so far, unless constraints are truly redundant; that shows up as a vanishing pivot in a joint that
+/// closes a loop. A row whose pivot is below kPivotTolerance of its own J M^-1 J^T is left out (its multiplier is 0).
 class Elimination {
 public:
   /// Round-off leaves about 1e-15 of the diagonal where a pivot should be zero; honest pivots of chains with a mass
   /// ratio of 1e6 and hundreds of links stay above 1e-9.
   static constexpr double kPivotTolerance = 1e-11;
 
+  /// A constraint and the bodies it acts on, -1 where that is the world.
+  struct Edge {
+    int bodyA, bodyB;
+    bool soft = false; ///< has no hard rows (a spring): needs no place in the tree
+  };
+
   struct Part {
     int firstStep = 0, endStep = 0; ///< range in the order of elimination
   };
 
-  /// `ends[c]` are the bodies constraint c acts on, -1 where it is the world.
-  Elimination(int bodies, const std::vector<std::pair<int, int>>& ends);
+  Elimination(int bodies, const std::vector<Edge>& edges);
 
   const std::vector<Part>& parts() const { return parts_; }
   const std::vector<int>& order() const { return order_; }       ///< node eliminated at each step
@@ -74,8 +80,9 @@ private:
     bool transposeA = false, transposeB = false;
   };
 
-  void findOrder(const std::vector<std::pair<int, int>>& ends);
-  void findProgram(const std::vector<std::pair<int, int>>& ends);
+  void findOrder(const std::vector<Edge>& edges);
+  void postorder(const std::vector<int>& rough);
+  void findProgram(const std::vector<Edge>& edges);
   int factorPart(const Part& part);
 
   int bodies_ = 0;

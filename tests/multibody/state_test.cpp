@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.hpp"
+#include "mechanisms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace grouser::multibody::test {
+namespace {
+
+const Mat3d kInertia = Mat3d::diagonal({0.4, 0.7, 0.5});
+
+/// A bit of everything: ring, chassis with sprung arms and wheels, slide with stops, drive, point spring.
+Mechanism vehicleLike() {
+  Mechanism m;
+  RingSpec ring;
+  ring.links = 12, ring.spin = 2, ring.damping = 5, ring.centre = {0, 2, 0};
+  addRing(m.model, ring);
+  const int chassis = m.model.addBody(makeBody("chassis", 100, Mat3d::diagonal({20, 30, 25}), {}));
+  for (int i = 0; i < 3; ++i) {
+    const std::string n = std::to_string(i);
+    const int arm = m.model.addBody(makeBody("arm " + n, 5, kInertia, {{i + 0.2, 0, -0.1}, {}}));
+    const int wheel = m.model.addBody(makeBody("wheel " + n, 8, kInertia, {{i + 0.4, 0, -0.2}, {}}));
+    const int pivot =
+        m.model.addJointAt("pivot " + n, JointType::kRevolute, chassis, arm, frameWithZ({1.0 * i, 0, 0}, kY));
+    m.model.addJointAt("axle " + n, JointType::kRevolute, arm, wheel, frameWithZ({i + 0.4, 0, -0.2}, kY), 0.1);
+    m.model.addAxisSpring({"torsion " + n, pivot, 7700, 300, 0, -60});
+  }
+  m.model.addDrive({"motor", m.model.jointIndex("axle 0"), 3, true});
+  const int idler = m.model.addBody(makeBody("idler", 8, kInertia, {{3, 0, 0}, {}}));
+  const int slide =
+      m.model.addJointAt("slide", JointType::kPrismatic, chassis, idler, frameWithZ({3, 0, 0}, {1, 0, 0}));
+  AxisSpring tensioner;
+  tensioner.name = "tensioner", tensioner.joint = slide, tensioner.stiffness = 3e5, tensioner.damping = 4000;
+  tensioner.preload = 9200, tensioner.lowerLimit = -0.015, tensioner.upperLimit = 0.02, tensioner.stopStiffness = 5e6;
+  m.model.addAxisSpring(tensioner);
+  PointSpring rope;
+  rope.name = "rope", rope.bodyB = chassis, rope.point_A = {0, 0, 3}, rope.point_B = {1, 0, 0.2};
+  rope.stiffness = 2e4, rope.damping = 100, rope.restLength = 2.9;
+  m.model.addPointSpring(rope);
+  m.start();
+  return m;
+}
+
+void runSteps(Mechanism& m, Solver& solver, int from, int to) {
+  for (int i = from; i < to; ++i) {
+    m.loads.drives[0].speed = 3 + 0.001 * i;
+    m.loads.external[2].force = {0.01 * i, 1, 0};
+    solver.step(m.state, m.loads, 1e-3);
+  }
+}
+
+TEST(MultibodyState, ResumedRunEqualsTheStraightRunToTheLastBit) {
+  Mechanism straight = vehicleLike();
+  Solver solver(straight.model);
+  runSteps(straight, solver, 0, 150);
+  const std::vector<double> saved = straight.state.save();
+  runSteps(straight, solver, 150, 300);
+
+  Mechanism resumed = vehicleLike();
+  resumed.state.restore(saved);
+  Solver another(resumed.model);
+  runSteps(resumed, another, 150, 300);
+  const std::vector<double> a = straight.state.save(), b = resumed.state.save();
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
+}
+
+TEST(MultibodyState, RestoreRefusesAnotherModelsState) {
+  Mechanism m = vehicleLike();
+  std::vector<double> flat = m.state.save();
+  flat.pop_back();
+  EXPECT_THROW(m.state.restore(flat), base::InputError);
+}
+
+TEST(MultibodyState, LedgerOfAVehicleClosesWithTheStep) {
+  const auto residual = [](double dt) {
+    Mechanism m = vehicleLike();
+    Solver solver(m.model);
+    const double start = totals(m.model, m.state, m.loads).kinetic;
+    const int steps = static_cast<int>(0.5 / dt + 0.5);
+    for (int i = 0; i < steps; ++i) solver.step(m.state, m.loads, dt);
+    const Ledger& l = m.state.ledger;
+    return std::fabs(totals(m.model, m.state, m.loads).kinetic - start - l.gravityWork - l.externalWork - l.driveWork -
+                     l.springWork + l.dissipated);
+  };
+  const double coarse = residual(1e-3), fine = residual(2.5e-4);
+  EXPECT_LT(coarse, 1);
+  EXPECT_LT(fine, 0.4 * coarse);
+}
+
+TEST(MultibodyState, IndependentPartsDoNotInfluenceEachOther) {
+  // The ring of the vehicle-like model alone moves exactly as beside the rest.
+  Mechanism both = vehicleLike(), alone;
+  RingSpec ring;
+  ring.links = 12, ring.spin = 2, ring.damping = 5, ring.centre = {0, 2, 0};
+  addRing(alone.model, ring);
+  alone.start();
+  Solver a(both.model), b(alone.model);
+  for (int i = 0; i < 200; ++i) a.step(both.state, both.loads, 1e-3), b.step(alone.state, alone.loads, 1e-3);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(both.state.pose[i].position, alone.state.pose[i].position);
+}
+
+/// The message of the InputError that `f` throws; empty if it throws none.
+std::string errorOf(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const base::InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
+  const auto expectMessage = [](const std::function<void()>& f, const std::string& part, const std::string& why) {
+    const std::string message = errorOf(f);
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+  };
+  Model model;
+  const auto body = [&](double mass, const Mat3d& I) { model.addBody(makeBody("shoe 3", mass, I, {})); };
+  expectMessage([&] { body(0, kInertia); }, "shoe 3", "mass");
+  expectMessage([&] { body(std::numeric_limits<double>::quiet_NaN(), kInertia); }, "shoe 3", "mass");
+  expectMessage([&] { body(1, Mat3d::diagonal({1, -1, 1})); }, "shoe 3", "positive definite");
+  expectMessage([&] { body(1, Mat3d::diagonal({1, 1, 2.1})); }, "shoe 3", "triangle");
+  expectMessage([&] { body(1, {{{1, 0.1, 0}, {0, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "symmetric");
+  body(1, Mat3d::diagonal({1, 1, 2})); // a flat plate is allowed
+  expectMessage([&] { body(1, kInertia); }, "shoe 3", "taken");
+  Body ground = makeBody("ground", 1, kInertia, {});
+  ground.fixed = true;
+  model.addBody(ground);
+  expectMessage([&] { model.addJointAt("a", JointType::kRevolute, kWorld, 1, {}); }, "joint 'a'", "fixed");
+  expectMessage([&] { model.addJointAt("a", JointType::kRevolute, 0, 7, {}); }, "joint 'a'", "outside");
+  expectMessage([&] { model.addJointAt("a", JointType::kRevolute, 0, 0, {}); }, "joint 'a'", "itself");
+  expectMessage([&] { model.addJointAt("a", JointType::kSpherical, 1, 0, {}, 1); }, "joint 'a'", "damping");
+  expectMessage([&] { model.addJointAt("a", JointType::kRevolute, 1, 0, {}, -1); }, "joint 'a'", "damping");
+  const int ball = model.addJointAt("ball", JointType::kSpherical, 1, 0, {});
+  expectMessage([&] { model.addDrive({"motor", ball, 1, true}); }, "motor", "free axis");
+  expectMessage([&] { model.addAxisSpring({"torsion", 9, 1, 0, 0, 0}); }, "torsion", "joint index");
+  expectMessage([&] { model.bodyIndex("sho 3"); }, "sho 3", "none");
+  Model open;
+  open.addBody(makeBody("link", 1, kInertia, {}));
+  open.addJoint({"pin", JointType::kRevolute, kWorld, 0, {{0, 0, 0.01}, {}}, {}, 0});
+  expectMessage([&] { const Solver solver(open); }, "joint 'pin'", "open");
+}
+
+TEST(MultibodyErrors, AStepTooLongForTheMotionIsRefusedWithTheJointsName) {
+  Mechanism m;
+  m.model.addBody(makeBody("rod", 1, kInertia, {{1, 0, 0}, {}}));
+  m.model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
+  m.start();
+  m.loads.external[0].force = {0, 0, 1e9};
+  Solver solver(m.model);
+  try {
+    for (int i = 0; i < 10; ++i) solver.step(m.state, m.loads, 1e-2);
+    FAIL() << "no error";
+  } catch (const base::SimulationError& e) {
+    EXPECT_NE(std::string(e.what()).find("joint 'pin'"), std::string::npos) << e.what();
+  }
+}
+
+TEST(MultibodyErrors, NotANumberIsReportedWithItsPlace) {
+  Mechanism m;
+  m.model.addBody(makeBody("free", 1, kInertia, {}));
+  m.start();
+  m.loads.external[0].force = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  Solver solver(m.model);
+  EXPECT_THROW(solver.step(m.state, m.loads, 1e-3), base::SimulationError);
+}
+
+} // namespace
+} // namespace grouser::multibody::test
