@@ -6,7 +6,6 @@
 #include "runs/frames_file.hpp"
 #include "runs/hdf5_file.hpp"
 #include "runs/manifest.hpp"
-#include "runs/picture.hpp"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -76,18 +75,12 @@ struct RunWriter::Impl {
   GrowingDataset steps, times;
   std::ofstream csv;
   std::optional<FramesFile> frames;
-  bool wantsPicture;
-  int pictureWidth;
-  std::vector<FramePart> parts; ///< for the picture
-  base::TriangleMesh ground;
-  std::optional<Frame> last;
   Manifest manifest;
   std::size_t width = 0;
 
   Impl(const fs::path& where, const Scene& scene, std::vector<Channel> list, Options given)
       : folder(prepared(where, given.force)), options(std::move(given)), channels(std::move(list)),
         results(Hdf5File::create(folder / "results.h5")), csv(folder / "timeseries.csv", std::ios::binary),
-        wantsPicture(scene.output.picture), pictureWidth(scene.output.pictureWidth),
         manifest(folder / "manifest.json", scene, options.metadata) {
     const std::string resolved = resolvedToml(scene);
     writeText(folder / "scene.toml", resolved);
@@ -166,9 +159,7 @@ void RunWriter::constant(const std::string& path, const std::string& unit, doubl
 }
 
 void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground) {
-  Impl& w = *impl_;
-  if (w.options.frames) w.frames.emplace(w.folder, parts, ground);
-  w.parts = std::move(parts), w.ground = std::move(ground);
+  if (impl_->options.frames) impl_->frames.emplace(impl_->folder, std::move(parts), ground);
 }
 
 void RunWriter::row(const Row& row) {
@@ -189,7 +180,6 @@ void RunWriter::frame(const Frame& frame) {
   Impl& w = *impl_;
   if (w.options.frames && !w.frames) setParts({}, {});
   if (w.frames) w.frames->add(frame);
-  if (w.wantsPicture) w.last = frame;
 }
 
 void RunWriter::finish(const Summary& summary) {
@@ -197,7 +187,6 @@ void RunWriter::finish(const Summary& summary) {
   w.results.attribute("/", "state_hash", summary.stateHash);
   w.results.flush();
   w.frames.reset();
-  if (w.last) writePng(drawFrame(*w.last, w.parts, w.ground, w.pictureWidth), w.folder / "picture.png");
   w.manifest.add(summary);
   w.manifest.write("finished");
 }

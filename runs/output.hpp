@@ -13,7 +13,7 @@
 #include <vector>
 
 /// What a run leaves in its folder: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
-/// picture.png, scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
+/// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
 /// of how a simulation computes it.
 namespace grouser::runs {
 
@@ -38,7 +38,7 @@ struct Row {
 /// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
 struct FramePart {
   std::string name;        ///< "left shoe 12"
-  std::string kind;        ///< "shoe", "sprocket", ...: decides the colour
+  std::string kind;        ///< "chassis", "shoe", "sprocket", "road_wheel", "roller", "idler": decides the colour
   base::TriangleMesh mesh; ///< body frame
 };
 
@@ -73,7 +73,7 @@ class RunWriter {
 public:
   struct Options {
     bool force = false;
-    bool frames = true; ///< frames.h5 and frames.xdmf; the picture is drawn from the last frame in any case
+    bool frames = true;                          ///< frames.h5 and frames.xdmf
     std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
   };
   RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
@@ -91,7 +91,7 @@ public:
 
   void row(const Row& row);
   void frame(const Frame& frame);
-  /// Draws picture.png of the last frame, closes the files and completes the manifest. Without it the manifest says
+  /// Closes the files and completes the manifest. Without it the manifest says
   /// that the run did not end.
   void finish(const Summary& summary);
   /// Instead of finish: the run was stopped by an error, whose message goes into the manifest.

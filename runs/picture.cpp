@@ -18,7 +18,7 @@ Colour partColour(const std::string& kind) {
   if (kind == "chassis") return srgb(112, 122, 92);
   if (kind == "shoe") return srgb(66, 68, 72);
   if (kind == "sprocket") return srgb(214, 138, 48);
-  if (kind == "road wheel") return srgb(122, 146, 176);
+  if (kind == "road_wheel") return srgb(122, 146, 176);
   if (kind == "roller") return srgb(150, 172, 150);
   if (kind == "idler") return srgb(178, 96, 84);
   return srgb(150, 150, 150);

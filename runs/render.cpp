@@ -42,7 +42,10 @@ struct Ball {
 Ball around(const RenderScene& scene) {
   Vec3d low{1e300, 1e300, 1e300}, high = low * -1.0;
   const auto take = [&](const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
-  for (const RenderSphere& s : scene.spheres) take(s.centre.as<double>());
+  for (const RenderSphere& s : scene.spheres) {
+    const Vec3d reach{s.radius, s.radius, s.radius};
+    take(s.centre.as<double>() - reach), take(s.centre.as<double>() + reach);
+  }
   for (const RenderMesh& m : scene.meshes)
     for (const Vec3d& v : m.mesh.vertices) take(m.pose.toWorld(v));
   if (low.x > high.x) return {{}, 1};

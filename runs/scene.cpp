@@ -49,12 +49,9 @@ std::vector<std::string> materialNames(const Scene& scene) {
 void checkMaterial(const Scene& scene, const Section& section, const std::string& key, const std::string& name) {
   const std::vector<std::string> names = materialNames(scene);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  if (names.empty())
-    section.fail(key, fmt::format("names no material of this scene (\"{0}\"); add a section [material.{0}]", name));
-  section.fail(
-      key,
-      fmt::format("names no material of this scene (\"{0}\"); did you mean \"{1}\"? Or add a section [material.{0}]",
-                  name, base::nearestWord(name, names)));
+  const std::string known = names.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, names));
+  section.fail(key, fmt::format("names no material of this scene{}; {}add a section [material.{}]",
+                                key.empty() ? fmt::format(" (\"{}\")", name) : "", known, name));
 }
 
 void readContacts(const Section& root, Scene& scene) {

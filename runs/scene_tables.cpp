@@ -37,7 +37,7 @@ Table<Material> materialTable() {
   t.add("law", &S::law, "", "contact law: linear spring and dashpot with Coulomb friction").oneOf({"linear"});
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness k of a contact").above(0).atMost(1e12);
   t.add("restitution", &S::restitution, "-", "rebound over impact speed; 0.5 where damping is not given either")
-      .atLeast(0)
+      .above(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
       .atLeast(0)
