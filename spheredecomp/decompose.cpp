@@ -30,9 +30,12 @@ constexpr double kMerge = 0.5;
 /// Surface samples lie about this far apart [spacing].
 constexpr double kSampleStep = 0.33;
 
+/// Samples whose spheres are fitted side by side.
+constexpr std::size_t kBlock = 2048;
+
 /// Runs body(i) for i in [0, count) on all threads; each i writes its own place, so the order does not matter.
 template <class Body> void parallel(std::size_t count, Body&& body) {
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 32)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) body(static_cast<std::size_t>(i));
 }
 
@@ -103,18 +106,24 @@ public:
     parallel(spheres_.size(), [&](std::size_t i) { setFlat(spheres_[i]); });
   }
 
-  /// Spheres under those samples where the surface still dips too far.
+  /// Spheres under those samples where the surface still dips too far. Works in blocks of fixed size: the fits of a
+  /// block run side by side, then its spheres are added in order and spare the next block's fits.
   void closeHoles(const std::vector<SurfaceSample>& samples) {
-    std::vector<SetSphere> fitted(samples.size());
-    parallel(samples.size(), [&](std::size_t i) {
-      if (!covered(samples[i].point))
-        fitted[i] = detail::fitSphere(outer_, samples[i].point, samples[i].normal, radius_);
-    });
-    for (SetSphere& s : fitted) {
-      // Near an edge the sphere cannot reach the sample: what counts is its own highest point.
-      if (s.radius == 0 || covered(s.centre + s.normal * s.radius)) continue;
-      setFlat(s);
-      add(s);
+    std::vector<SetSphere> fitted;
+    for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
+      const std::size_t count = std::min(kBlock, samples.size() - begin);
+      fitted.assign(count, SetSphere{});
+      parallel(count, [&](std::size_t i) {
+        const SurfaceSample& sample = samples[begin + i];
+        if (!coveredBeneath(sample) && !covered(sample.point))
+          fitted[i] = detail::fitSphere(outer_, sample.point, sample.normal, radius_);
+      });
+      for (SetSphere& s : fitted) {
+        // Near an edge the sphere cannot reach the sample: what counts is its own highest point.
+        if (s.radius == 0 || covered(s.centre + s.normal * s.radius)) continue;
+        setFlat(s);
+        add(s);
+      }
     }
   }
 
@@ -139,6 +148,12 @@ private:
     return centres_.any(p, distance,
                         [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
   }
+  /// Asks only the spheres about the place where one would be: the common case, at a fraction of the cost.
+  bool coveredBeneath(const SurfaceSample& sample) const {
+    return centres_.any(sample.point - sample.normal * radius_, 0.5 * spacing_, [&](std::uint32_t i) {
+      return detail::discDistance(spheres_[i], sample.point) <= options_.maxDip * radius_;
+    });
+  }
   bool covered(const Vec3d& p) const {
     const double dip = options_.maxDip * radius_;
     return centres_.any(p, radius_ + dip + kFlatReach * spacing_,
@@ -154,7 +169,12 @@ private:
       const double score = norm2(s.centre + s.normal * s.radius - sample.point) + unlike;
       if (score < bestScore || (score == bestScore && i < best)) bestScore = score, best = i;
     };
-    centres_.each(sample.point, 2 * (radius_ + spacing_), consider);
+    // The search widens until a sphere of like normal is found.
+    const Vec3d beneath = sample.point - sample.normal * radius_;
+    for (const double reach : {0.75 * spacing_, 2 * spacing_, 2 * (radius_ + spacing_)}) {
+      centres_.each(beneath, reach, consider);
+      if (bestScore < 1e6) return best;
+    }
     if (bestScore == 1e300)
       for (std::uint32_t i = 0; i < spheres_.size(); ++i) consider(i);
     return best;

@@ -134,6 +134,27 @@ ClosestPoint MeshQuery::closest(const Vec3d& p, double limit) const {
   return best;
 }
 
+bool MeshQuery::within(const Vec3d& p, double distance) const {
+  const double limit2 = distance * distance;
+  std::array<std::uint32_t, kStack> stack;
+  std::size_t depth = 0;
+  if (!nodes_.empty()) stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (boxDistance2(node.low, node.high, p) >= limit2) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const std::uint32_t t = order_[i];
+      if (norm2(closestOnTriangle(vertex(t, 0), vertex(t, 1), vertex(t, 2), p) - p) < limit2) return true;
+    }
+  }
+  return false;
+}
+
 namespace {
 /// Where the vertical line through (x, y) meets a triangle; false where it does not.
 bool crossTriangle(const MeshQuery& query, std::uint32_t t, double x, double y, Crossing& crossing) {

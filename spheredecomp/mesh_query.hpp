@@ -34,6 +34,9 @@ public:
   /// none.
   ClosestPoint closest(const Vec3d& p, double limit = 1e300) const;
 
+  /// Whether any point of the surface is nearer than `distance` [m]; stops at the first found.
+  bool within(const Vec3d& p, double distance) const;
+
   /// All crossings of the vertical line through (x, y), from above downwards, appended to `crossings` (cleared first).
   void column(double x, double y, std::vector<Crossing>& crossings) const;
 

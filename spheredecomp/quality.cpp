@@ -46,7 +46,7 @@ struct Shape {
   }
   /// Distance from p to the union [m], negative inside. The search widens until the nearest is sure.
   double distance(const Vec3d& p) const {
-    for (double range = set.radius;; range *= 2) {
+    for (double range = 0.125 * set.radius;; range *= 4) {
       double best = 1e300;
       grid.each(p, reach + range, [&](std::uint32_t i) {
         const double d = distance(i, p);

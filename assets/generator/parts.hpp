@@ -64,7 +64,7 @@ struct SprocketDims {
   double ringInner{0.150};                ///< toothed rings from this |y| ...
   double ringOuter{0.170};                ///< ... to this one
   double hubRadius{0.140};                ///< hub that joins them, clear of plates and horns
-  int seatSegments{16}, flankSegments{6}, landSegments{4};
+  int seatSegments{16}, flankSegments{5}, landSegments{3};
 };
 
 /// Gap k is centred at 360 k / teeth degrees in the x-z plane, measured from +x towards +z.

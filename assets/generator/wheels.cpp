@@ -69,6 +69,7 @@ TriangleMesh sprocket(const SprocketDims& dims) {
       angles.push_back(p.angle + 2 * base::kPi * k / dims.teeth);
       radii.push_back(p.radius);
     }
+  // Fixed radius, or 0 for the outline of the teeth.
   auto ring = [&](double y, double fixedRadius) {
     Ring points;
     for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -78,13 +79,14 @@ TriangleMesh sprocket(const SprocketDims& dims) {
     return points;
   };
 
+  // One shell: the hub, which stands 2 mm out of the rings, and the two rings grown from it.
+  const double hub = dims.hubRadius, end = dims.ringOuter + 0.002;
   TriangleMesh mesh;
-  // The rings' sides are divided by a circle inside the hub, which spares long thin triangles.
-  const double inside = 0.9 * dims.hubRadius;
-  for (const auto& [y0, y1] : {std::pair{-dims.ringOuter, -dims.ringInner}, std::pair{dims.ringInner, dims.ringOuter}})
-    loft(mesh, {ring(y0, inside), ring(y0, 0), ring(y1, 0), ring(y1, inside)}, {0, y0, 0}, {0, y1, 0});
-  const double hubEnd = dims.ringOuter + 0.002;
-  lathe(mesh, {{-hubEnd, dims.hubRadius}, {hubEnd, dims.hubRadius}}, 0, 0, 96);
+  loft(mesh,
+       {ring(-end, hub), ring(-dims.ringOuter, hub), ring(-dims.ringOuter, 0), ring(-dims.ringInner, 0),
+        ring(-dims.ringInner, hub), ring(dims.ringInner, hub), ring(dims.ringInner, 0), ring(dims.ringOuter, 0),
+        ring(dims.ringOuter, hub), ring(end, hub)},
+       {0, -end, 0}, {0, end, 0});
   return mesh;
 }
 

@@ -12,10 +12,14 @@ constexpr double kSmallest = 0.2;
 constexpr int kDirections = 12;
 constexpr int kFlatSteps = 10;
 
+/// Two pushes that lead back to within this, while one does not, are a cycle [radius].
+constexpr double kCycle = 0.01;
+
 /// Moves `centre` to a place where a sphere of `radius` lies inside: away from the nearest surface point, again and
 /// again (projection onto the half-spaces in turn). False where that does not settle, as between two faces of a thin
 /// plate.
 bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double radius) {
+  Vec3d before = centre, beforeThat = centre + normal * radius;
   for (int i = 0; i < kPushes; ++i) {
     const bool inside = outer.solid().inside(centre);
     const ClosestPoint near =
@@ -24,6 +28,10 @@ bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double 
     const Vec3d away = inside ? centre - near.point : near.point - centre;
     const double length = norm(away);
     centre = near.point + (length > 0 ? away * (radius / length) : normal * -radius);
+    const double back2 = kCycle * kCycle * radius * radius;
+    if (i > 1 && norm2(centre - beforeThat) < back2 && norm2(centre - before) > 25 * back2) return false;
+    beforeThat = before;
+    before = centre;
   }
   return false;
 }
@@ -66,7 +74,7 @@ double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double lim
     for (int k = 0; k < kDirections; ++k) {
       const double angle = 2 * base::kPi * k / kDirections;
       const Vec3d p = sphere.centre + u * (t * base::cos(angle)) + v * (t * base::sin(angle));
-      if (outer.surface().closest(p, clearance).triangle != kNone || !outer.solid().inside(p)) return false;
+      if (outer.surface().within(p, clearance) || !outer.solid().inside(p)) return false;
     }
     return true;
   };

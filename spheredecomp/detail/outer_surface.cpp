@@ -29,8 +29,8 @@ std::pair<Corners, Corners> bisect(const Corners& t, std::size_t k) {
   return {Corners{t[k], middle, apex}, Corners{middle, t[(k + 1) % 3], apex}};
 }
 
-/// Whether two triangles come nearer than about `gap`: no separating axis among both normals and the nine cross
-/// products of edges. Coplanar triangles count as meeting when they might.
+/// Whether two triangles come nearer than about `gap`: no separating axis among both normals, the nine cross products
+/// of edges and, for triangles in one plane, the normals of the edges within it.
 bool meet(const Corners& a, const Corners& b, double gap) {
   auto separated = [&](const Vec3d& axis) {
     const double length2 = norm2(axis);
@@ -45,7 +45,10 @@ bool meet(const Corners& a, const Corners& b, double gap) {
     return lowA > highB + margin || lowB > highA + margin;
   };
   const Corners edgesA = {a[1] - a[0], a[2] - a[1], a[0] - a[2]}, edgesB = {b[1] - b[0], b[2] - b[1], b[0] - b[2]};
-  if (separated(cross(edgesA[0], edgesA[1])) || separated(cross(edgesB[0], edgesB[1]))) return false;
+  const Vec3d normalA = cross(edgesA[0], edgesA[1]), normalB = cross(edgesB[0], edgesB[1]);
+  if (separated(normalA) || separated(normalB)) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (separated(cross(edgesA[k], normalA)) || separated(cross(edgesB[k], normalB))) return false;
   for (const Vec3d& u : edgesA)
     for (const Vec3d& v : edgesB)
       if (separated(cross(u, v))) return false;
@@ -59,7 +62,6 @@ struct Sorter {
   TriangleMesh outer{};
   std::vector<std::uint32_t> parent{};
   std::vector<double> weight{};
-  bool shellsMeet{false};
 
   Corners corners(std::uint32_t t) const { return {solid.vertex(t, 0), solid.vertex(t, 1), solid.vertex(t, 2)}; }
 
@@ -80,7 +82,6 @@ struct Sorter {
                       near);
     for (const std::uint32_t s : near)
       if (!sharesVertex(s, t) && meet(c, corners(s), gap)) cutters.push_back(s);
-    shellsMeet |= !cutters.empty();
     sortPiece(c, t, cutters);
   }
 
@@ -109,28 +110,6 @@ struct Sorter {
   }
 };
 
-/// Length of the columns' parts with winding number other than zero, times their cross-section.
-double volumeByColumns(const MeshQuery& solid, double step) {
-  const auto [low, high] = bounds(solid.mesh());
-  const auto nx = static_cast<int>(std::floor((high.x - low.x) / step)) + 1;
-  const auto ny = static_cast<int>(std::floor((high.y - low.y) / step)) + 1;
-  const double dx = (high.x - low.x) / nx, dy = (high.y - low.y) / ny;
-  double sum = 0;
-  std::vector<Crossing> crossings;
-  for (int i = 0; i < nx; ++i)
-    for (int j = 0; j < ny; ++j) {
-      solid.column(low.x + (i + 0.5) * dx, low.y + (j + 0.5) * dy, crossings);
-      int winding = 0;
-      double top = 0;
-      for (const Crossing& c : crossings) {
-        if (winding != 0) sum += top - c.z;
-        winding += c.step;
-        top = c.z;
-      }
-    }
-  return sum * dx * dy;
-}
-
 } // namespace
 
 OuterSurface::OuterSurface(const TriangleMesh& mesh, double resolution) : solid_(mesh), surface_(TriangleMesh{}) {
@@ -140,16 +119,19 @@ OuterSurface::OuterSurface(const TriangleMesh& mesh, double resolution) : solid_
   parent_ = std::move(sorter.parent);
   weight_ = std::move(sorter.weight);
   surface_ = MeshQuery(std::move(sorter.outer));
-  for (std::uint32_t t = 0; t < parent_.size(); ++t)
-    area_ += weight_[t] * triangleArea({surface_.vertex(t, 0), surface_.vertex(t, 1), surface_.vertex(t, 2)});
-  const double coarsest = (high.x - low.x + high.y - low.y) / 400;
-  volume_ =
-      sorter.shellsMeet ? volumeByColumns(solid_, resolution < coarsest ? resolution : coarsest) : signedVolume(mesh);
+  // Divergence theorem over the outer surface: 3 V = integral of normal . (x - origin).
+  const Vec3d origin = (low + high) * 0.5;
+  for (std::uint32_t t = 0; t < parent_.size(); ++t) {
+    const double piece =
+        weight_[t] * triangleArea({surface_.vertex(t, 0), surface_.vertex(t, 1), surface_.vertex(t, 2)});
+    area_ += piece;
+    volume_ += piece * dot(normal(t), surface_.vertex(t, 0) - origin) / 3;
+  }
 }
 
 std::vector<SurfaceSample> OuterSurface::samples(double spacing) const {
-  // Halves of right-angled triangles with legs of `spacing` have that hypotenuse.
-  const double longest = 1.5 * spacing;
+  // The last halving leaves pieces between half this and this long; their area is about spacing^2 on average.
+  const double longest = 2 * spacing;
   std::vector<SurfaceSample> result;
   std::vector<Corners> stack;
   for (std::uint32_t t = 0; t < parent_.size(); ++t) {

@@ -30,7 +30,7 @@ public:
   /// Area of the outer surface [m2]. Faces that coincide count once.
   double area() const { return area_; }
 
-  /// Volume of the union of the shells [m3]: exact where no two shells meet, else by columns `resolution` apart.
+  /// Volume of the union of the shells [m3]; where shells meet, to the resolution of their curves of intersection.
   double volume() const { return volume_; }
 
   /// Points about `spacing` [m] apart, whose areas add up to area(). The order follows the mesh.

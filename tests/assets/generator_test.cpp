@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assets/generator/parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace grouser::assets {
+namespace {
+
+TEST(VehicleMeshes, Generator_ReproducesCommittedFilesByteForByte) {
+  for (const NamedMesh& part : vehicleParts()) {
+    const std::string path = std::string(GROUSER_SOURCE_DIR) + "/assets/meshes/" + part.name + ".obj";
+    std::ifstream file(path, std::ios::binary);
+    ASSERT_TRUE(file) << path;
+    std::stringstream committed;
+    committed << file.rdbuf();
+    const std::string made = toObj(part);
+    // Compared as one boolean: a failed comparison of texts would print 100 kB.
+    EXPECT_TRUE(made == committed.str()) << part.name << ".obj differs; if meant, run grouser_assets assets/meshes";
+    EXPECT_LT(made.size(), 200000u) << part.name;
+  }
+}
+
+TEST(VehicleMeshes, EveryEdge_HasExactlyTwoTrianglesInOppositeDirections) {
+  for (const NamedMesh& part : vehicleParts()) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    const auto& index = part.mesh.indices;
+    for (std::size_t t = 0; t < index.size(); t += 3)
+      for (std::size_t k = 0; k < 3; ++k) ++edges[{index[t + k], index[t + (k + 1) % 3]}];
+    for (const auto& [edge, count] : edges) {
+      ASSERT_EQ(count, 1) << part.name;
+      ASSERT_TRUE(edges.count({edge.second, edge.first})) << part.name;
+    }
+  }
+}
+
+TEST(VehicleMeshes, WheelRim_HasTheMeanRadiusAsked) {
+  const WheelDims dims{0.19, 0.10, 128};
+  const TriangleMesh mesh = wheel(dims);
+  double rim = 0;
+  for (const auto& v : mesh.vertices) rim = std::max(rim, std::sqrt(v.x * v.x + v.z * v.z));
+  // Mean over the angle of the polygon's radius, by the midpoint rule within one facet; the rule's own error is
+  // d^2/24n^2.
+  const double d = 3.14159265358979 / dims.facets;
+  double mean = 0;
+  const int n = 1000;
+  for (int i = 0; i < n; ++i) mean += rim * std::cos(d) / std::cos(d * (i + 0.5) / n) / n;
+  EXPECT_NEAR(mean, dims.radius, 1e-9);
+}
+
+TEST(VehicleMeshes, SprocketProfile_HasTenTeethAtTheirRadii) {
+  const SprocketDims dims;
+  double tip = 0, bottom = 1;
+  for (const auto& v : sprocket(dims).vertices) {
+    const double r = std::sqrt(v.x * v.x + v.z * v.z);
+    tip = std::max(tip, r);
+    if (r > dims.hubRadius + 1e-6) bottom = std::min(bottom, r);
+  }
+  // The tip's coordinates are rounded to 0.1 mm in the table that gives them.
+  EXPECT_NEAR(tip, dims.landRadius, 1e-4);
+  EXPECT_NEAR(bottom, dims.pinRadius - dims.seatRadius, 1e-12);
+}
+
+} // namespace
+} // namespace grouser::assets

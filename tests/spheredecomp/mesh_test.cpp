@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spheredecomp/mesh.hpp"
+
+#include "base/error.hpp"
+#include "shapes.hpp"
+#include "spheredecomp/detail/outer_surface.hpp"
+#include "spheredecomp/mesh_query.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace grouser::spheredecomp {
+namespace {
+
+/// Points of a deterministic spread within [-1, 1]^3: additive recurrence by irrational steps.
+Vec3d spread(int i) {
+  auto part = [&](double step) { return 2 * (step * i - std::floor(step * i)) - 1; };
+  return {part(0.8191725133961645), part(0.6710436067037893), part(0.5497004779019703)};
+}
+
+/// A file that is gone with the test.
+struct File {
+  std::string path;
+  File(const std::string& name, const std::string& text) : path(testing::TempDir() + name) {
+    std::ofstream(path) << text;
+  }
+  ~File() { std::filesystem::remove(path); }
+};
+
+std::string messageOf(const std::string& path) {
+  try {
+    importMesh(path);
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+constexpr const char* kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+
+TEST(ImportMesh, Tetrahedron_KeepsVolumeAndWeldsVertices) {
+  const File file("grouser_tetra.obj", std::string(kTetrahedron) + "f 2 3 4\n");
+  const TriangleMesh mesh = importMesh(file.path);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.indices.size(), 12u);
+  EXPECT_NEAR(signedVolume(mesh), 1.0 / 6, 1e-15);
+}
+
+TEST(ImportMesh, BinaryAndTextFormatsOfAssimp_AreRead) {
+  const File file("grouser_tetra.stl",
+                  "solid t\n"
+                  "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
+                  "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+                  "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
+                  "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
+                  "endsolid t\n");
+  EXPECT_NEAR(signedVolume(importMesh(file.path)), 1.0 / 6, 1e-15);
+}
+
+TEST(ImportMesh, BadFiles_GiveOneClearError) {
+  EXPECT_NE(messageOf("/no/such/mesh.obj").find("/no/such/mesh.obj: no such mesh file"), std::string::npos);
+  const File open("grouser_open.obj", kTetrahedron);
+  EXPECT_NE(messageOf(open.path).find("not watertight: 3 open edges"), std::string::npos) << messageOf(open.path);
+  const File text("grouser_text.obj", "this is no mesh\n");
+  EXPECT_NE(messageOf(text.path).find(text.path), std::string::npos);
+  const File inward("grouser_inward.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  EXPECT_NE(messageOf(inward.path).find("inwards"), std::string::npos) << messageOf(inward.path);
+}
+
+TEST(Winding, Cube_IsOneInsideAndZeroOutside) {
+  const MeshQuery query(shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+  for (int i = 1; i < 1000; ++i) {
+    const Vec3d p = spread(i);
+    const bool in = std::abs(p.x) < 0.5 && std::abs(p.y) < 0.5 && std::abs(p.z) < 0.5;
+    ASSERT_EQ(query.winding(p), in ? 1 : 0) << i;
+  }
+}
+
+TEST(Winding, VerticalLineThroughEdgesAndVertices_CountsEachShellOnce) {
+  const MeshQuery cube(shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+  EXPECT_EQ(cube.winding({0, 0, 0}), 1); // through the diagonals of top and bottom
+  EXPECT_EQ(cube.winding({0.25, -0.25, 0}), 1);
+  const MeshQuery ball(shapes::ball(1, 24)); // through the poles
+  EXPECT_EQ(ball.winding({0, 0, 0}), 1);
+  EXPECT_EQ(ball.winding({0, 0, 2}), 0);
+  EXPECT_EQ(ball.winding({0, 0, -2}), 0);
+  EXPECT_EQ(ball.winding({0.5, 0, 0}), 1); // along a meridian
+}
+
+TEST(Winding, OverlappingShells_AddUpAndAgreeWithTheSolidAngle) {
+  TriangleMesh mesh = shapes::box({-0.6, -0.5, -0.5}, {0.2, 0.5, 0.5});
+  mesh = shapes::box({-0.2, -0.7, -0.3}, {0.8, 0.3, 0.6}, mesh);
+  const MeshQuery query(mesh);
+  EXPECT_EQ(query.winding({0, 0, 0}), 2);
+  for (int i = 1; i < 500; ++i) {
+    const Vec3d p = spread(i);
+    // Round-off of 24 solid angles, each within a few 1e-16 of 4 pi, magnified near edges.
+    ASSERT_NEAR(solidAngleWinding(mesh, p), query.winding(p), 1e-10) << i;
+  }
+}
+
+TEST(ClosestPoint, Box_MatchesTheClosedForm) {
+  const MeshQuery query(shapes::box({-0.5, -0.4, -0.3}, {0.5, 0.4, 0.3}));
+  for (int i = 1; i < 1000; ++i) {
+    const Vec3d p = spread(i);
+    const Vec3d q{std::abs(p.x) - 0.5, std::abs(p.y) - 0.4, std::abs(p.z) - 0.3};
+    const double outside = norm(base::max(q, Vec3d{}));
+    const double expected = outside > 0 ? outside : std::max({q.x, q.y, q.z});
+    ASSERT_NEAR(query.signedDistance(p), expected, 4e-16) << i;
+    const double d = std::abs(expected);
+    ASSERT_TRUE(query.within(p, d * 1.000001));
+    ASSERT_FALSE(query.within(p, d * 0.999999));
+    ASSERT_EQ(query.closest(p, d * 0.999999).triangle, kNone);
+  }
+}
+
+TEST(OuterSurface, OverlappingBoxes_HaveTheUnionsAreaAndVolume) {
+  // Two unit cubes that share a quarter of a unit in x, shifted sideways: union 2 - 0.25 * 0.5 * 0.75.
+  TriangleMesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
+  mesh = shapes::box({0.75, 0.5, 0.25}, {1.75, 1.5, 1.25}, mesh);
+  const double resolution = 0.005;
+  const detail::OuterSurface outer(mesh, resolution);
+  const double lens = 0.25 * 0.5 + 0.5 * 0.75 + 0.75 * 0.25; // half the surface of the common box
+  // Pieces along the curves of intersection (total length 4 (0.25 + 0.5 + 0.75) / 2, both sides) are kept or dropped
+  // whole.
+  EXPECT_NEAR(outer.area(), 12 - 2 * lens, resolution * 6 * 0.2);
+  EXPECT_NEAR(outer.volume(), 2 - 0.25 * 0.5 * 0.75, resolution * 6 * 0.2);
+  for (const auto& sample : outer.samples(0.05)) {
+    const Vec3d p = sample.point - sample.normal * 1e-9;
+    const bool inFirst = p.x < 0.75 || p.y < 0.5 || p.z<0.25, inSecond = p.x> 1 || p.y > 1 || p.z > 1;
+    EXPECT_TRUE(inFirst || inSecond || outer.surface().closest(p).distance < resolution);
+  }
+}
+
+TEST(OuterSurface, ShellsThatTouch_LoseTheirCommonFace) {
+  TriangleMesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
+  mesh = shapes::box({1, 0, 0}, {2, 1, 1}, mesh);
+  const detail::OuterSurface outer(mesh, 0.02);
+  EXPECT_NEAR(outer.area(), 10, 1e-12);
+  EXPECT_NEAR(outer.volume(), 2, 1e-12);
+  // The same box twice is one box.
+  const TriangleMesh twice = shapes::box({0, 0, 0}, {1, 1, 1}, shapes::box({0, 0, 0}, {1, 1, 1}));
+  EXPECT_NEAR(detail::OuterSurface(twice, 0.05).area(), 6, 1e-12);
+}
+
+} // namespace
+} // namespace grouser::spheredecomp
