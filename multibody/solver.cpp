@@ -173,7 +173,7 @@ double Solver::Impl::setGapResidual(const ConstraintSystem::Part& part, double d
   const double scale = -1 / dt;
   for (const int k : part.constraints) {
     const Constraint& c = system.constraints()[at(k)];
-    trialFrames[at(k)] = framesOf(c, trial[at(c.bodyA)], trial[at(c.bodyB)]);
+    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
     double error[6];
     positionError(c, trialFrames[at(k)], error);
     double* const residual = &x[at(rowNode(k))];

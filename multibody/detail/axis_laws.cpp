@@ -22,10 +22,7 @@ void add(AxisLaw& law, double force, double stiffness, double damping, double dt
 
 AxisLaws::AxisLaws(const Model& model, const std::vector<Constraint>& constraints)
     : model_(&model), row_(constraints.size(), -1) {
-  for (std::size_t k = 0; k < constraints.size(); ++k) {
-    if (constraints[k].kind == ConstraintKind::kPointSpring) row_[k] = 0;
-    if (hasAxis(constraints[k].kind)) row_[k] = kAxisRow;
-  }
+  for (std::size_t k = 0; k < constraints.size(); ++k) row_[k] = softRow(constraints[k].kind);
 }
 
 void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,

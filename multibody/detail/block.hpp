@@ -2,12 +2,37 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
-/// Kernels on 6x6 blocks, column-major (entry (row, column) at [6 column + row]), and on vectors of 6. Written as plain
-/// loops of fixed length in a fixed order of operations: the compiler may use wider vectors, the bits stay the same.
+/// Kernels on 6x6 blocks, column-major (entry (row, column) at [6 column + row]), and on vectors of 6. A column is
+/// handled as a vector of 4 and one of 2 (compiler vector types: whatever registers the target has, the same operations
+/// in the same order on each number, hence the same bits).
 namespace grouser::multibody::detail {
 
 #define GROUSER_KERNEL inline __attribute__((always_inline))
+
+using Lanes4 = double __attribute__((vector_size(32)));
+using Lanes2 = double __attribute__((vector_size(16)));
+
+/// Six numbers of a column. Passed by reference only, so that no calling convention depends on the target.
+struct Column {
+  Lanes4 a; ///< rows 0..3
+  Lanes2 b; ///< rows 4, 5
+};
+
+GROUSER_KERNEL void load(Column& c, const double* p) {
+  std::memcpy(&c.a, p, sizeof c.a);
+  std::memcpy(&c.b, p + 4, sizeof c.b);
+}
+GROUSER_KERNEL void store(double* p, const Column& c) {
+  std::memcpy(p, &c.a, sizeof c.a);
+  std::memcpy(p + 4, &c.b, sizeof c.b);
+}
+/// y -= x s
+GROUSER_KERNEL void subtract(Column& y, const Column& x, double s) {
+  y.a -= x.a * s;
+  y.b -= x.b * s;
+}
 
 /// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. A row that is not in the bit mask
 /// `active`, or whose pivot does not exceed its entry of `smallest` in size, is left out: its 1/d is 0. Returns the
@@ -39,73 +64,107 @@ GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInvers
 /// W <- W L^-T, and V = W diag(1/d).
 GROUSER_KERNEL void solveRight6(double* __restrict W, double* __restrict V, const double* __restrict L,
                                 const double* __restrict dInverse) {
+  Column w[6];
   for (int j = 0; j < 6; ++j) {
-    double w[6];
-    for (int i = 0; i < 6; ++i) w[i] = W[6 * j + i];
-    for (int k = 0; k < j; ++k) {
-      const double l = L[6 * k + j];
-      for (int i = 0; i < 6; ++i) w[i] -= W[6 * k + i] * l;
-    }
-    for (int i = 0; i < 6; ++i) W[6 * j + i] = w[i];
-    for (int i = 0; i < 6; ++i) V[6 * j + i] = w[i] * dInverse[j];
+    load(w[j], W + 6 * j);
+    for (int k = 0; k < j; ++k) subtract(w[j], w[k], L[6 * k + j]);
+    store(W + 6 * j, w[j]);
+    const Column v{w[j].a * dInverse[j], w[j].b * dInverse[j]};
+    store(V + 6 * j, v);
   }
 }
 
-/// The same for a body alone, whose block is diag(m, m, m, I_W): only the last three columns mix.
-GROUSER_KERNEL void solveRightBody6(double* __restrict W, double* __restrict V, const double* __restrict L,
-                                    const double* __restrict dInverse) {
-  const double l43 = L[22], l53 = L[23], l54 = L[29];
-  for (int i = 0; i < 6; ++i) {
-    W[24 + i] -= W[18 + i] * l43;
-    W[30 + i] = (W[30 + i] - W[18 + i] * l53) - W[24 + i] * l54;
+/// V = W M^-1 for a body alone; `inverse` holds 1/m and the inverse inertia on its diagonal blocks.
+GROUSER_KERNEL void timesBodyInverse6(double* __restrict V, const double* __restrict W,
+                                      const double* __restrict inverse) {
+  Column w[6];
+  for (int j = 0; j < 6; ++j) load(w[j], W + 6 * j);
+  for (int j = 0; j < 3; ++j) {
+    const Column v{w[j].a * inverse[0], w[j].b * inverse[0]};
+    store(V + 6 * j, v);
   }
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 6; ++i) V[6 * j + i] = W[6 * j + i] * dInverse[j];
+  for (int j = 3; j < 6; ++j) {
+    const double x = inverse[6 * j + 3], y = inverse[6 * j + 4], z = inverse[6 * j + 5];
+    const Column v{w[3].a * x + w[4].a * y + w[5].a * z, w[3].b * x + w[4].b * y + w[5].b * z};
+    store(V + 6 * j, v);
+  }
 }
 
 /// K -= V W^T.
 GROUSER_KERNEL void subtractProduct6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
+  Column v[6];
+  for (int j = 0; j < 6; ++j) load(v[j], V + 6 * j);
   for (int c = 0; c < 6; ++c) {
-    double k[6];
-    for (int i = 0; i < 6; ++i) k[i] = K[6 * c + i];
-    for (int j = 0; j < 6; ++j) {
-      const double w = W[6 * j + c];
-      for (int i = 0; i < 6; ++i) k[i] -= V[6 * j + i] * w;
-    }
-    for (int i = 0; i < 6; ++i) K[6 * c + i] = k[i];
+    Column k;
+    load(k, K + 6 * c);
+    for (int j = 0; j < 6; ++j) subtract(k, v[j], W[6 * j + c]);
+    store(K + 6 * c, k);
   }
 }
 
-/// Lower triangle (in pairs of rows) of K -= V W^T, where the product is symmetric.
+/// Lower triangle (and the few entries above it that come along) of K -= V W^T, where the product is symmetric.
 GROUSER_KERNEL void subtractSymmetric6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
-  for (int c = 0; c < 6; c += 2) {
-    double k[6], m[6];
-    for (int i = c; i < 6; ++i) k[i] = K[6 * c + i], m[i] = K[6 * c + 6 + i];
+  for (int c = 0; c < 2; ++c) { // rows 0..5
+    Column k, v;
+    load(k, K + 6 * c);
     for (int j = 0; j < 6; ++j) {
-      const double w = W[6 * j + c], u = W[6 * j + c + 1];
-      for (int i = c; i < 6; ++i) k[i] -= V[6 * j + i] * w;
-      for (int i = c; i < 6; ++i) m[i] -= V[6 * j + i] * u;
+      load(v, V + 6 * j);
+      subtract(k, v, W[6 * j + c]);
     }
-    for (int i = c; i < 6; ++i) K[6 * c + i] = k[i], K[6 * c + 6 + i] = m[i];
+    store(K + 6 * c, k);
+  }
+  for (int c = 2; c < 4; ++c) { // rows 2..5
+    Lanes4 k, v;
+    std::memcpy(&k, K + 6 * c + 2, sizeof k);
+    for (int j = 0; j < 6; ++j) {
+      std::memcpy(&v, V + 6 * j + 2, sizeof v);
+      k -= v * W[6 * j + c];
+    }
+    std::memcpy(K + 6 * c + 2, &k, sizeof k);
+  }
+  for (int c = 4; c < 6; ++c) { // rows 4, 5
+    Lanes2 k, v;
+    std::memcpy(&k, K + 6 * c + 4, sizeof k);
+    for (int j = 0; j < 6; ++j) {
+      std::memcpy(&v, V + 6 * j + 4, sizeof v);
+      k -= v * W[6 * j + c];
+    }
+    std::memcpy(K + 6 * c + 4, &k, sizeof k);
   }
 }
 
 /// y -= V x.
 GROUSER_KERNEL void subtractTimes6(double* __restrict y, const double* __restrict V, const double* __restrict x) {
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 6; ++i) y[i] -= V[6 * j + i] * x[j];
+  Column sum, v;
+  load(sum, y);
+  for (int j = 0; j < 6; ++j) {
+    load(v, V + 6 * j);
+    subtract(sum, v, x[j]);
+  }
+  store(y, sum);
 }
 
 /// y -= V^T x.
 GROUSER_KERNEL void subtractTransposedTimes6(double* __restrict y, const double* __restrict V,
                                              const double* __restrict x) {
+  Column s, v;
+  load(s, x);
   for (int j = 0; j < 6; ++j) {
-    const double* v = V + 6 * j;
-    // Two lanes and one sum: the order a pair of vector registers gives.
-    const double even = v[0] * x[0] + v[2] * x[2] + v[4] * x[4];
-    const double odd = v[1] * x[1] + v[3] * x[3] + v[5] * x[5];
-    y[j] -= even + odd;
+    load(v, V + 6 * j);
+    const Lanes4 p = v.a * s.a;
+    const Lanes2 q = v.b * s.b;
+    // Pairs first, as the halves of a register: ((0 + 4) + 2) + ((1 + 5) + 3).
+    const Lanes2 low = {p[0], p[1]}, high = {p[2], p[3]};
+    const Lanes2 t = low + q + high;
+    y[j] -= t[0] + t[1];
   }
+}
+
+/// y <- M^-1 y for a body alone.
+GROUSER_KERNEL void applyBodyInverse6(double* __restrict y, const double* __restrict inverse) {
+  for (int i = 0; i < 3; ++i) y[i] *= inverse[0];
+  const double a = y[3], b = y[4], c = y[5];
+  for (int i = 3; i < 6; ++i) y[i] = inverse[18 + i] * a + inverse[24 + i] * b + inverse[30 + i] * c;
 }
 
 /// y <- L^-1 y.

@@ -19,16 +19,20 @@ void cosSin(const JointFrames& f, double& c, double& s) {
 
 } // namespace
 
-JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B) {
-  JointFrames f;
+void placeFrames(const Constraint& c, const Frame& A, const Frame& B, JointFrames& f) {
   f.p_A = A.p + A.R * c.point_A;
   f.p_B = B.p + B.R * c.point_B;
-  if (c.kind == ConstraintKind::kPointSpring) return f;
+  if (c.kind == ConstraintKind::kPointSpring) return;
   f.x_A = A.R * column(c.axes_A, 0);
   f.z_A = A.R * column(c.axes_A, 2);
   f.y_A = cross(f.z_A, f.x_A);
   f.x_B = B.R * column(c.axes_B, 0);
   f.z_B = B.R * column(c.axes_B, 2);
+}
+
+JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B) {
+  JointFrames f;
+  placeFrames(c, A, B, f);
   return f;
 }
 
@@ -65,13 +69,19 @@ void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]
 
 RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
   RowDirections rows;
+  setRowDirections(c, f, rows);
+  return rows;
+}
+
+/// Writes the rows that the kind has; the others stay zero.
+void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows) {
   switch (c.kind) {
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
     // Coinciding points: the spring has no direction, and pulls nowhere.
-    if (l > 1e-12) rows.force[0] = d * (1 / l);
-    return rows;
+    rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
+    return;
   }
   case ConstraintKind::kPrismatic:
     rows.force[0] = f.x_A;
@@ -80,7 +90,7 @@ RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
     rows.torque[3] = cross(f.z_B, f.y_A);
     rows.torque[4] = cross(f.x_B, f.y_A);
     rows.force[kAxisRow] = f.z_A;
-    return rows;
+    return;
   case ConstraintKind::kFixed:
     rows.torque[3] = cross(f.z_B, f.x_A);
     rows.torque[4] = cross(f.z_B, f.y_A);
@@ -100,7 +110,6 @@ RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
   rows.force[0] = f.x_A;
   rows.force[1] = f.y_A;
   rows.force[2] = f.z_A;
-  return rows;
 }
 
 void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, double* jacobianA,

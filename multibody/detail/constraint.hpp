@@ -76,16 +76,32 @@ constexpr unsigned hardRows(ConstraintKind kind) {
   return 0;
 }
 
+/// Row that springs, dampers and drives may use; -1 if the kind has none.
+constexpr int softRow(ConstraintKind kind) {
+  switch (kind) {
+  case ConstraintKind::kRevolute:
+  case ConstraintKind::kPrismatic:
+    return kAxisRow;
+  case ConstraintKind::kPointSpring:
+    return 0;
+  default:
+    return -1;
+  }
+}
+
 constexpr bool hasAxis(ConstraintKind kind) {
   return kind == ConstraintKind::kRevolute || kind == ConstraintKind::kPrismatic;
 }
 
+/// Writes the joint frames at the bodies' frames A and B.
+void placeFrames(const Constraint& c, const Frame& A, const Frame& B, JointFrames& f);
 JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B);
 
 /// C of the hard rows [m, rad]; 0 in the others.
 void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]);
 
-/// Directions of all rows, axis row or spring direction included.
+/// Directions of all rows, axis row or spring direction included; rows the kind has not are left as they are (zero).
+void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows);
 RowDirections rowDirections(const Constraint& c, const JointFrames& f);
 
 /// The rows' blocks, column-major 6x6: row r times (v, w) of A (of B) gives its share of C'.

@@ -28,6 +28,20 @@ ConstraintKind kindOf(JointType type) {
   return ConstraintKind::kFixed;
 }
 
+/// Inverse of a symmetric positive definite matrix, by cofactors.
+Mat3d inverseOf(const Mat3d& a) {
+  Mat3d c;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      c.m[j][i] = a.m[i1][j1] * a.m[i2][j2] - a.m[i1][j2] * a.m[i2][j1];
+    }
+  const double inverse = 1 / (a.m[0][0] * c.m[0][0] + a.m[0][1] * c.m[1][0] + a.m[0][2] * c.m[2][0]);
+  for (auto& row : c.m)
+    for (double& x : row) x *= inverse;
+  return c;
+}
+
 } // namespace
 
 ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
@@ -77,6 +91,8 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
   rows_.resize(constraints_.size());
   frames_.resize(constraints_.size());
   inertia_.resize(movable_.size());
+  for (const int b : movable_) inverseInertia_.push_back(inverseOf(model.bodies()[at(b)].inertia_B));
+  sized_.assign(constraints_.size(), 0);
   com_A_.resize(constraints_.size());
   com_B_.resize(constraints_.size());
 }
@@ -91,47 +107,56 @@ void ConstraintSystem::place(const std::vector<Pose>& poses, std::vector<Frame>&
   frames.back() = {Mat3d::identity(), {}};
 }
 
+/// Size of J M^-1 J^T of each row alone, taken once; the mean moment of inertia stands for the tensor.
+void ConstraintSystem::setSize(int k, const double* jacobianA, const double* jacobianB) {
+  double smallest[6] = {};
+  const auto add = [&](int node, const double* J) {
+    if (node < 0) return;
+    const double m = 1 / model_->bodies()[at(movable_[at(node)])].mass;
+    const Mat3d& I = inertia_[at(node)];
+    const double i = 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
+    for (int r = 0; r < 6; ++r)
+      smallest[r] += m * (J[r] * J[r] + J[6 + r] * J[6 + r] + J[12 + r] * J[12 + r]) +
+                     i * (J[18 + r] * J[18 + r] + J[24 + r] * J[24 + r] + J[30 + r] * J[30 + r]);
+  };
+  add(constraints_[at(k)].nodeA, jacobianA);
+  add(constraints_[at(k)].nodeB, jacobianB);
+  for (double& s : smallest) s *= Elimination::kPivotTolerance;
+  elimination_->setSmallestPivots(k, smallest);
+  sized_[at(k)] = 1;
+}
+
 int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
   for (const int node : part.bodies) {
     const Body& body = model_->bodies()[at(movable_[at(node)])];
-    inertia_[at(node)] = rotatedInertia(frames[at(movable_[at(node)])].R, body.inertia_B);
-    elimination_->setBody(node, body.mass, inertia_[at(node)].m);
+    const Mat3d& R = frames[at(movable_[at(node)])].R;
+    inertia_[at(node)] = rotatedInertia(R, body.inertia_B);
+    if (elimination_->bodyAlone(node))
+      elimination_->setBodyInverse(node, 1 / body.mass, rotatedInertia(R, inverseInertia_[at(node)]).m);
+    else
+      elimination_->setBody(node, body.mass, inertia_[at(node)].m);
   }
   for (const int k : part.constraints) {
     const Constraint& c = constraints_[at(k)];
     const AxisLaw& law = laws[at(k)];
-    frames_[at(k)] = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
-    rows_[at(k)] = rowDirections(c, frames_[at(k)]);
+    placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], frames_[at(k)]);
+    setRowDirections(c, frames_[at(k)], rows_[at(k)]);
     com_A_[at(k)] = frames[at(c.bodyA)].p;
     com_B_[at(k)] = frames[at(c.bodyB)].p;
-    double jacobianA[36], jacobianB[36];
-    rowBlocks(rows_[at(k)], frames_[at(k)].p_B, com_A_[at(k)], com_B_[at(k)], jacobianA, jacobianB);
 
     // A soft row has compliance; a driven row is hard; a free axis and a dropped row are out of the system.
-    const int softRow = c.kind == ConstraintKind::kPointSpring ? 0 : kAxisRow;
     double compliance[6] = {};
     unsigned active = hard_[at(k)];
-    if (c.kind == ConstraintKind::kPointSpring || hasAxis(c.kind)) {
-      if (law.driven || law.softness > 0) active |= 1u << softRow;
-      if (!law.driven && law.softness > 0) compliance[softRow] = 1 / law.softness;
+    if (const int row = softRow(c.kind); row >= 0) {
+      if (law.driven || law.softness > 0) active |= 1u << row;
+      if (!law.driven && law.softness > 0) compliance[row] = 1 / law.softness;
     }
     active_[at(k)] = active;
 
-    // Size of J M^-1 J^T of each row alone; the mean moment of inertia stands for the tensor.
-    double smallest[6] = {};
-    const auto addSize = [&](int node, const double* J) {
-      if (node < 0) return;
-      const double m = 1 / model_->bodies()[at(movable_[at(node)])].mass;
-      const Mat3d& I = inertia_[at(node)];
-      const double i = 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
-      for (int r = 0; r < 6; ++r)
-        smallest[r] += m * (J[r] * J[r] + J[6 + r] * J[6 + r] + J[12 + r] * J[12 + r]) +
-                       i * (J[18 + r] * J[18 + r] + J[24 + r] * J[24 + r] + J[30 + r] * J[30 + r]);
-    };
-    addSize(c.nodeA, jacobianA);
-    addSize(c.nodeB, jacobianB);
-    for (double& s : smallest) s *= Elimination::kPivotTolerance;
-    elimination_->setConstraint(k, jacobianA, jacobianB, compliance, smallest, active);
+    double jacobianA[36], jacobianB[36];
+    rowBlocks(rows_[at(k)], frames_[at(k)].p_B, com_A_[at(k)], com_B_[at(k)], jacobianA, jacobianB);
+    if (!sized_[at(k)]) setSize(k, jacobianA, jacobianB);
+    elimination_->setConstraint(k, jacobianA, jacobianB, compliance, active);
   }
   return elimination_->factor(part.steps);
 }

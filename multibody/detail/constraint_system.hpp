@@ -69,6 +69,8 @@ public:
   std::string describe(int constraint, int row) const;
 
 private:
+  void setSize(int constraint, const double* jacobianA, const double* jacobianB);
+
   const Model* model_;
   std::vector<int> movable_;
   std::vector<Constraint> constraints_;
@@ -77,7 +79,8 @@ private:
   std::vector<unsigned> hard_, active_;
   std::vector<RowDirections> rows_;
   std::vector<JointFrames> frames_;
-  std::vector<Mat3d> inertia_;
+  std::vector<Mat3d> inertia_, inverseInertia_; ///< in world axes; inverse in the body's own
+  std::vector<char> sized_;                     ///< of each constraint: its smallest pivots are set
   std::vector<Vec3d> com_A_, com_B_;
 };
 

@@ -186,6 +186,7 @@ void Elimination::findProgram(const std::vector<Edge>& edges) {
     return slotOfColumn[at(column)][at(static_cast<int>(it - later.begin()))];
   };
 
+  alone_.assign(at(bodies_), 0);
   std::vector<char> touched(at(nodes_), 0);
   for (const int p : order_) {
     Step step;
@@ -194,6 +195,7 @@ void Elimination::findProgram(const std::vector<Edge>& edges) {
     step.firstSlot = later.empty() ? 0 : slotOfColumn[at(p)].front();
     step.endSlot = step.firstSlot + static_cast<int>(later.size());
     step.bodyAlone = p < bodies_ && !touched[at(p)];
+    if (step.bodyAlone) alone_[at(p)] = 1;
     step.firstUpdate = static_cast<int>(updates_.size());
     for (std::size_t i = 0; i < later.size(); ++i) {
       updates_.push_back({slotOfColumn[at(p)][i], slotOfColumn[at(p)][i], ~later[i]});
@@ -230,11 +232,11 @@ void Elimination::setBody(int body, double mass, const double (&inertia)[3][3]) 
 }
 
 void Elimination::setConstraint(int constraint, const double* jacobianA, const double* jacobianB,
-                                const double* compliance, const double* smallestPivot, unsigned active) {
+                                const double* compliance, unsigned active) {
   const std::size_t node = at(bodies_ + constraint);
   Block& D = diagonal_[node];
   D.fill(0);
-  for (std::size_t i = 0; i < 6; ++i) D[7 * i] = -compliance[i], smallest_[node][i] = smallestPivot[i];
+  for (std::size_t i = 0; i < 6; ++i) D[7 * i] = -compliance[i];
   active_[node] = active;
   const auto put = [&](int slot, bool transpose, const double* J) {
     if (slot < 0) return;
@@ -248,6 +250,14 @@ void Elimination::setConstraint(int constraint, const double* jacobianA, const d
   const Ends& e = ends_[at(constraint)];
   put(e.slotA, e.transposeA, jacobianA);
   put(e.slotB, e.transposeB, jacobianB);
+}
+
+void Elimination::setBodyInverse(int body, double inverseMass, const double (&inverseInertia)[3][3]) {
+  setBody(body, inverseMass, inverseInertia);
+}
+
+void Elimination::setSmallestPivots(int constraint, const double (&smallest)[6]) {
+  std::copy(smallest, smallest + 6, smallest_[at(bodies_ + constraint)].begin());
 }
 
 int Elimination::factor(const Part& part) { return factorPart(part); }
@@ -268,12 +278,13 @@ int Elimination::factorPart(const Part& part) {
     const std::size_t p = at(step.node);
     double* const L = diagonal_[p].data();
     double* const d = dInverse_[p].data();
-    kept_[p] = factor6(L, d, smallest_[p].data(), active_[p]);
-    leftOut += __builtin_popcount(active_[p] & ~kept_[p]);
-    if (step.bodyAlone)
-      for (int k = step.firstSlot; k < step.endSlot; ++k) solveRightBody6(w_[at(k)].data(), v_[at(k)].data(), L, d);
-    else
+    if (step.bodyAlone) {
+      for (int k = step.firstSlot; k < step.endSlot; ++k) timesBodyInverse6(v_[at(k)].data(), w_[at(k)].data(), L);
+    } else {
+      kept_[p] = factor6(L, d, smallest_[p].data(), active_[p]);
+      leftOut += __builtin_popcount(active_[p] & ~kept_[p]);
       for (int k = step.firstSlot; k < step.endSlot; ++k) solveRight6(w_[at(k)].data(), v_[at(k)].data(), L, d);
+    }
     for (int k = step.firstUpdate; k < step.endUpdate; ++k) {
       const Update& u = updates_[at(k)];
       if (u.target < 0)
@@ -285,21 +296,30 @@ int Elimination::factorPart(const Part& part) {
   return leftOut;
 }
 
-void Elimination::solve(const Part& part, double* x) const {
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+__attribute__((target_clones("avx2", "default")))
+#endif
+void Elimination::solvePart(const Part& part, double* x) const {
   for (int s = part.firstStep; s < part.endStep; ++s) {
     const Step& step = steps_[at(s)];
     double* const y = x + 6 * step.node;
-    forward6(y, diagonal_[at(step.node)].data());
+    if (!step.bodyAlone) forward6(y, diagonal_[at(step.node)].data());
     for (int k = step.firstSlot; k < step.endSlot; ++k) subtractTimes6(x + 6 * slots_[at(k)].row, v_[at(k)].data(), y);
   }
   for (int s = part.endStep - 1; s >= part.firstStep; --s) {
     const Step& step = steps_[at(s)];
     double* const y = x + 6 * step.node;
-    for (int i = 0; i < 6; ++i) y[i] *= dInverse_[at(step.node)][at(i)];
+    const double* const L = diagonal_[at(step.node)].data();
+    if (step.bodyAlone)
+      applyBodyInverse6(y, L);
+    else
+      for (int i = 0; i < 6; ++i) y[i] *= dInverse_[at(step.node)][at(i)];
     for (int k = step.firstSlot; k < step.endSlot; ++k)
       subtractTransposedTimes6(y, v_[at(k)].data(), x + 6 * slots_[at(k)].row);
-    backward6(y, diagonal_[at(step.node)].data());
+    if (!step.bodyAlone) backward6(y, L);
   }
 }
+
+void Elimination::solve(const Part& part, double* x) const { solvePart(part, x); }
 
 } // namespace grouser::multibody::detail

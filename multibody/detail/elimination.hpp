@@ -44,13 +44,17 @@ public:
   const std::vector<int>& order() const { return order_; }       ///< node eliminated at each step
   int blocks() const { return static_cast<int>(slots_.size()); } ///< off-diagonal blocks of the factor, fill included
 
-  /// Diagonal block of a body: mass and inertia in world axes (row-major 3x3).
+  /// Whether a body's block is still diag(m, m, m, I) when its turn comes: then it is set by its inverse, the others by
+  /// mass and inertia. Inertias in world axes, row-major 3x3.
+  bool bodyAlone(int body) const { return alone_[static_cast<std::size_t>(body)]; }
   void setBody(int body, double mass, const double (&inertia)[3][3]);
+  void setBodyInverse(int body, double inverseMass, const double (&inverseInertia)[3][3]);
   /// Row blocks of a constraint, column-major 6x6 (row = constraint row, column = v, w of the body); null for the
-  /// world. `compliance`: G. `smallestPivot`: J M^-1 J^T of each row alone times kPivotTolerance. `active`: bit mask of
-  /// rows.
+  /// world. `compliance`: G. `active`: bit mask of rows.
   void setConstraint(int constraint, const double* jacobianA, const double* jacobianB, const double* compliance,
-                     const double* smallestPivot, unsigned active);
+                     unsigned active);
+  /// J M^-1 J^T of each row of a constraint alone, times kPivotTolerance; 0 before it is set.
+  void setSmallestPivots(int constraint, const double (&smallest)[6]);
 
   /// Factors one part. Returns the number of active rows left out for want of a pivot.
   int factor(const Part& part);
@@ -73,7 +77,7 @@ private:
     int node;
     int firstSlot, endSlot;
     int firstUpdate, endUpdate;
-    bool bodyAlone; ///< a body whose block is still diag(m, m, m, I_W) when its turn comes
+    bool bodyAlone;
   };
   struct Ends {
     int slotA = -1, slotB = -1; ///< where the row blocks go
@@ -84,6 +88,7 @@ private:
   void postorder(const std::vector<int>& rough);
   void findProgram(const std::vector<Edge>& edges);
   int factorPart(const Part& part);
+  void solvePart(const Part& part, double* x) const;
 
   int bodies_ = 0;
   int nodes_ = 0;
@@ -96,7 +101,8 @@ private:
   std::vector<Ends> ends_;
   std::vector<char> isFill_; ///< of each slot: starts as zero
 
-  std::vector<Block> diagonal_; ///< one a node; becomes L
+  std::vector<char> alone_;     ///< one a body
+  std::vector<Block> diagonal_; ///< one a node; becomes L; inverse of the block for a body alone
   std::vector<std::array<double, 6>> dInverse_;
   std::vector<std::array<double, 6>> smallest_;
   std::vector<unsigned> active_, kept_;

@@ -16,8 +16,8 @@ inline Quat rotationBy(const Vec3d& angle) {
   double c, f;
   if (s < 0.0625) {
     // Taylor series in h^2; the first terms left out are below 1e-17 for h < 1/4.
-    c = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90 * (1 - s / 132)))));
-    f = 1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72 * (1 - s / 110))));
+    c = 1 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800)))));
+    f = 1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800)))));
   } else {
     const double h = sqrt(s);
     c = base::cos(h);

@@ -132,18 +132,25 @@ TEST(MultibodyElimination, SolvesTheSaddlePointSystemOfABranchedGraphWithLoops) 
   };
   for (int b = 0; b < bodies; ++b) {
     const double m = 1 + b, I[3][3] = {{2, 0.3, 0.1}, {0.3, 3, 0.2}, {0.1, 0.2, 2.5}};
-    e.setBody(b, m, I);
+    const double d = 2 * (3 * 2.5 - 0.04) - 0.3 * (0.75 - 0.02) + 0.1 * (0.06 - 0.3); // I^-1 by cofactors
+    const double inverse[3][3] = {{(7.5 - 0.04) / d, (0.02 - 0.75) / d, (0.06 - 0.3) / d},
+                                  {(0.02 - 0.75) / d, (5 - 0.01) / d, (0.03 - 0.4) / d},
+                                  {(0.06 - 0.3) / d, (0.03 - 0.4) / d, (6 - 0.09) / d}};
+    if (e.bodyAlone(b))
+      e.setBodyInverse(b, 1 / m, inverse);
+    else
+      e.setBody(b, m, I);
     for (int i = 0; i < 3; ++i) {
       entry(6 * b + i, 6 * b + i) = m;
       for (int j = 0; j < 3; ++j) entry(6 * b + 3 + i, 6 * b + 3 + j) = I[i][j];
     }
   }
   for (int c = 0; c < constraints; ++c) {
-    double J[2][36], G[6] = {0, 0, 0.1, 0.2, 0.3, 0.5}, smallest[6] = {};
+    double J[2][36], G[6] = {0, 0, 0.1, 0.2, 0.3, 0.5};
     if (c == 8) G[0] = G[1] = 0.1; // closes a loop that leaves it no freedom
     for (auto& side : J)
       for (double& x : side) x = number();
-    e.setConstraint(c, J[0], J[1], G, smallest, 0x3f);
+    e.setConstraint(c, J[0], J[1], G, 0x3f);
     const int row = 6 * (bodies + c),
               body[2] = {edges[static_cast<std::size_t>(c)].bodyA, edges[static_cast<std::size_t>(c)].bodyB};
     for (int r = 0; r < 6; ++r) {
