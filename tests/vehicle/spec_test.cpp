@@ -61,8 +61,10 @@ TEST(VehicleSpec, WrongNumbers_AreRefused) {
 }
 
 TEST(VehicleSpec, ImpossibleInertia_IsRefused) {
-  const std::string text = refusalAfter("[0.064, 0.020, 0.080]", "[0.064, 0.020, 0.090]");
-  EXPECT_NE(text.find("no solid body"), std::string::npos) << text;
+  for (const char* inertia : {"[0.101, 0.020, 0.080]", "[0.064, 0.145, 0.080]", "[0.064, 0.020, 0.090]"}) {
+    const std::string text = refusalAfter("[0.064, 0.020, 0.080]", inertia);
+    EXPECT_NE(text.find("no solid body"), std::string::npos) << inertia << text;
+  }
 }
 
 TEST(VehicleSpec, RollersOfUnequalLists_AreRefused) {

@@ -93,6 +93,15 @@ TEST(Wrap, LongerVehicleOfFortyEightShoes_Closes) {
   EXPECT_LE(wrap.closure(), 1e-14);
 }
 
+TEST(Wrap, WheelFurtherBack_StillStandsOnTheGroundRun) {
+  // Four pitches of rear strand reach the ground at x = 0.517 m, behind a wheel at 0.545 m but ahead of one at 0.50 m.
+  VehicleSpec spec = vehicle::readVehicleSpec(kVehicle);
+  spec.roadWheel.firstX = 0.50;
+  const Wrap wrap = vehicle::wrapTrack(spec);
+  EXPECT_EQ(wrap.counts.rearStrand, 3);
+  EXPECT_LE(wrap.pins[wrap.firstGroundShoe()].x, 0.50);
+}
+
 TEST(Wrap, OddTeeth_TurnTheSprocketByHalfATooth) {
   VehicleSpec spec = vehicle::readVehicleSpec(kVehicle);
   spec.sprocket.teeth = 11;
