@@ -34,29 +34,33 @@ GROUSER_KERNEL void subtract(Column& y, const Column& x, double s) {
   y.b -= x.b * s;
 }
 
+GROUSER_KERNEL double entry(const Column& c, int row) { return row < 4 ? c.a[row] : c.b[row - 4]; }
+GROUSER_KERNEL void clear6(double* p) {
+  const Column zero{};
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) store(p + 6 * j, zero);
+}
+
 /// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. A row that is not in the bit mask
 /// `active`, or whose pivot does not exceed its entry of `smallest` in size, is left out: its 1/d is 0. Returns the
 /// mask of the rows kept.
 GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInverse, const double* __restrict smallest,
                                 unsigned active) {
   unsigned kept = 0;
+  Column a[6];
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) load(a[j], A + 6 * j);
+#pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
-    const double d = A[6 * j + j];
-    if (!(active >> j & 1u) || !(std::fabs(d) > smallest[j])) {
-      dInverse[j] = 0;
-      for (int i = j + 1; i < 6; ++i) A[6 * j + i] = 0;
-      continue;
-    }
-    kept |= 1u << j;
-    const double inverse = 1 / d;
+    const double d = entry(a[j], j);
+    const bool keep = (active >> j & 1u) && std::fabs(d) > smallest[j];
+    kept |= static_cast<unsigned>(keep) << j;
+    const double inverse = keep ? 1 / d : 0.0;
     dInverse[j] = inverse;
-    double l[6];
-    for (int i = j + 1; i < 6; ++i) l[i] = A[6 * j + i] * inverse;
-    for (int k = j + 1; k < 6; ++k) {
-      const double a = A[6 * j + k];
-      for (int i = k; i < 6; ++i) A[6 * k + i] -= l[i] * a;
-    }
-    for (int i = j + 1; i < 6; ++i) A[6 * j + i] = l[i];
+    const Column l{a[j].a * inverse, a[j].b * inverse};
+#pragma GCC unroll 6
+    for (int k = j + 1; k < 6; ++k) subtract(a[k], l, entry(a[j], k));
+    store(A + 6 * j, l);
   }
   return kept;
 }
@@ -65,8 +69,10 @@ GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInvers
 GROUSER_KERNEL void solveRight6(double* __restrict W, double* __restrict V, const double* __restrict L,
                                 const double* __restrict dInverse) {
   Column w[6];
+#pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     load(w[j], W + 6 * j);
+#pragma GCC unroll 6
     for (int k = 0; k < j; ++k) subtract(w[j], w[k], L[6 * k + j]);
     store(W + 6 * j, w[j]);
     const Column v{w[j].a * dInverse[j], w[j].b * dInverse[j]};
@@ -78,11 +84,14 @@ GROUSER_KERNEL void solveRight6(double* __restrict W, double* __restrict V, cons
 GROUSER_KERNEL void timesBodyInverse6(double* __restrict V, const double* __restrict W,
                                       const double* __restrict inverse) {
   Column w[6];
+#pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) load(w[j], W + 6 * j);
+#pragma GCC unroll 6
   for (int j = 0; j < 3; ++j) {
     const Column v{w[j].a * inverse[0], w[j].b * inverse[0]};
     store(V + 6 * j, v);
   }
+#pragma GCC unroll 6
   for (int j = 3; j < 6; ++j) {
     const double x = inverse[6 * j + 3], y = inverse[6 * j + 4], z = inverse[6 * j + 5];
     const Column v{w[3].a * x + w[4].a * y + w[5].a * z, w[3].b * x + w[4].b * y + w[5].b * z};
@@ -93,42 +102,38 @@ GROUSER_KERNEL void timesBodyInverse6(double* __restrict V, const double* __rest
 /// K -= V W^T.
 GROUSER_KERNEL void subtractProduct6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
   Column v[6];
+#pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) load(v[j], V + 6 * j);
+#pragma GCC unroll 6
   for (int c = 0; c < 6; ++c) {
     Column k;
     load(k, K + 6 * c);
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) subtract(k, v[j], W[6 * j + c]);
     store(K + 6 * c, k);
   }
 }
 
-/// Lower triangle (and the few entries above it that come along) of K -= V W^T, where the product is symmetric.
+/// Lower triangle (and the entries above it that come along) of K -= V W^T, where the product is symmetric. Keeps to
+/// the split of 4 and 2 rows throughout: a load that straddles two fresh stores would wait for both.
 GROUSER_KERNEL void subtractSymmetric6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
-  for (int c = 0; c < 2; ++c) { // rows 0..5
-    Column k, v;
+  Column v[6];
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) load(v[j], V + 6 * j);
+#pragma GCC unroll 6
+  for (int c = 0; c < 4; ++c) {
+    Column k;
     load(k, K + 6 * c);
-    for (int j = 0; j < 6; ++j) {
-      load(v, V + 6 * j);
-      subtract(k, v, W[6 * j + c]);
-    }
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) subtract(k, v[j], W[6 * j + c]);
     store(K + 6 * c, k);
   }
-  for (int c = 2; c < 4; ++c) { // rows 2..5
-    Lanes4 k, v;
-    std::memcpy(&k, K + 6 * c + 2, sizeof k);
-    for (int j = 0; j < 6; ++j) {
-      std::memcpy(&v, V + 6 * j + 2, sizeof v);
-      k -= v * W[6 * j + c];
-    }
-    std::memcpy(K + 6 * c + 2, &k, sizeof k);
-  }
+#pragma GCC unroll 6
   for (int c = 4; c < 6; ++c) { // rows 4, 5
-    Lanes2 k, v;
+    Lanes2 k;
     std::memcpy(&k, K + 6 * c + 4, sizeof k);
-    for (int j = 0; j < 6; ++j) {
-      std::memcpy(&v, V + 6 * j + 4, sizeof v);
-      k -= v * W[6 * j + c];
-    }
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) k -= v[j].b * W[6 * j + c];
     std::memcpy(K + 6 * c + 4, &k, sizeof k);
   }
 }
@@ -137,6 +142,7 @@ GROUSER_KERNEL void subtractSymmetric6(double* __restrict K, const double* __res
 GROUSER_KERNEL void subtractTimes6(double* __restrict y, const double* __restrict V, const double* __restrict x) {
   Column sum, v;
   load(sum, y);
+#pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     load(v, V + 6 * j);
     subtract(sum, v, x[j]);
@@ -149,6 +155,7 @@ GROUSER_KERNEL void subtractTransposedTimes6(double* __restrict y, const double*
                                              const double* __restrict x) {
   Column s, v;
   load(s, x);
+#pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     load(v, V + 6 * j);
     const Lanes4 p = v.a * s.a;
@@ -162,20 +169,26 @@ GROUSER_KERNEL void subtractTransposedTimes6(double* __restrict y, const double*
 
 /// y <- M^-1 y for a body alone.
 GROUSER_KERNEL void applyBodyInverse6(double* __restrict y, const double* __restrict inverse) {
+#pragma GCC unroll 6
   for (int i = 0; i < 3; ++i) y[i] *= inverse[0];
   const double a = y[3], b = y[4], c = y[5];
+#pragma GCC unroll 6
   for (int i = 3; i < 6; ++i) y[i] = inverse[18 + i] * a + inverse[24 + i] * b + inverse[30 + i] * c;
 }
 
 /// y <- L^-1 y.
 GROUSER_KERNEL void forward6(double* __restrict y, const double* __restrict L) {
+#pragma GCC unroll 6
   for (int j = 0; j < 5; ++j)
+#pragma GCC unroll 6
     for (int i = j + 1; i < 6; ++i) y[i] -= L[6 * j + i] * y[j];
 }
 
 /// x <- L^-T x.
 GROUSER_KERNEL void backward6(double* __restrict x, const double* __restrict L) {
+#pragma GCC unroll 6
   for (int j = 4; j >= 0; --j)
+#pragma GCC unroll 6
     for (int i = 5; i > j; --i) x[j] -= L[6 * j + i] * x[i];
 }
 

@@ -271,7 +271,7 @@ int Elimination::factorPart(const Part& part) {
   for (int s = part.firstStep; s < part.endStep; ++s) {
     const Step& step = steps_[at(s)];
     for (int k = step.firstSlot; k < step.endSlot; ++k)
-      if (isFill_[at(k)]) w_[at(k)].fill(0);
+      if (isFill_[at(k)]) clear6(w_[at(k)].data());
   }
   for (int s = part.firstStep; s < part.endStep; ++s) {
     const Step& step = steps_[at(s)];
