@@ -2,6 +2,7 @@
 #include "runs/commands.hpp"
 
 #include "base/error.hpp"
+#include "runs/manifest.hpp"
 #include "runs/output.hpp"
 #include "runs/plan.hpp"
 #include "runs/plots.hpp"
@@ -57,6 +58,7 @@ void runCommand(const RunCommand& command) {
   if (scene.output.plots) drawAndName(results, options.folder, kAllPlots);
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
+  listFiles(options.folder);
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 

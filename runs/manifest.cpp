@@ -16,15 +16,36 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kName = "manifest.json";
+
 std::string now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
+nlohmann::ordered_json filesIn(const fs::path& folder) {
+  std::map<std::string, std::uintmax_t> sizes;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != kName)
+      sizes[entry.path().filename().string()] = entry.file_size();
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  for (const auto& [name, bytes] : sizes) files[name] = {{"bytes", bytes}};
+  return files;
+}
+
+void replace(const fs::path& path, const nlohmann::ordered_json& json) {
+  const fs::path part = path.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << json.dump(2) << '\n';
+  file.close();
+  if (!file) throw std::runtime_error(part.string() + ": could not be written; is the disk full?");
+  fs::rename(part, path);
+}
+
 } // namespace
 
-Manifest::Manifest(fs::path path, const Scene& scene, const std::map<std::string, std::string>& metadata)
-    : path_(std::move(path)), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
+Manifest::Manifest(const fs::path& folder, const Scene& scene, const std::map<std::string, std::string>& metadata)
+    : path_(folder / kName), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
       overrides_(scene.overrides), notes_(metadata) {}
 
 void Manifest::write(const std::string& status) const {
@@ -50,17 +71,16 @@ void Manifest::write(const std::string& status) const {
     for (const auto& [key, text] : summary_.notes) json[key] = text;
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
   }
-  std::map<std::string, std::uintmax_t> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path_.parent_path()))
-    if (entry.is_regular_file() && entry.path() != path_) files[entry.path().filename().string()] = entry.file_size();
-  for (const auto& [name, bytes] : files) json["files"][name] = {{"bytes", bytes}};
+  json["files"] = filesIn(path_.parent_path());
+  replace(path_, json);
+}
 
-  const fs::path part = path_.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << json.dump(2) << '\n';
-  file.close();
-  if (!file) throw std::runtime_error(part.string() + ": could not be written; is the disk full?");
-  fs::rename(part, path_);
+void listFiles(const fs::path& folder) {
+  std::ifstream file(folder / kName);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (json.is_discarded()) return;
+  json["files"] = filesIn(folder);
+  replace(folder / kName, json);
 }
 
 } // namespace grouser::runs

@@ -12,7 +12,7 @@ namespace grouser::runs {
 /// manifest.json: what was run, by which program, on which machine, and what came of it.
 class Manifest {
 public:
-  Manifest(std::filesystem::path path, const Scene& scene, const std::map<std::string, std::string>& metadata);
+  Manifest(const std::filesystem::path& folder, const Scene& scene, const std::map<std::string, std::string>& metadata);
 
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }
   void add(const Summary& summary) { summary_ = summary; }
@@ -27,5 +27,8 @@ private:
   std::map<std::string, std::string> notes_;
   Summary summary_;
 };
+
+/// Brings the list of files in the manifest of `folder` up to date, after plots have been drawn.
+void listFiles(const std::filesystem::path& folder);
 
 } // namespace grouser::runs

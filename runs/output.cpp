@@ -81,7 +81,7 @@ struct RunWriter::Impl {
   Impl(const fs::path& where, const Scene& scene, std::vector<Channel> list, Options given)
       : folder(prepared(where, given.force)), options(std::move(given)), channels(std::move(list)),
         results(Hdf5File::create(folder / "results.h5")), csv(folder / "timeseries.csv", std::ios::binary),
-        manifest(folder / "manifest.json", scene, options.metadata) {
+        manifest(folder, scene, options.metadata) {
     const std::string resolved = resolvedToml(scene);
     writeText(folder / "scene.toml", resolved);
     const BuildInfo build = buildInfo();

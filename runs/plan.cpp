@@ -32,21 +32,21 @@ std::int64_t bedGrains(const Scene& scene) {
 }
 
 std::string onOff(bool on, const std::string& what, const std::string& why) {
-  return fmt::format("  {:<4} {:<26} {}\n", on ? "on" : "off", what, why);
+  const std::string line = fmt::format("  {:<4} {}", on ? "on" : "off", what);
+  return why.empty() ? line + "\n" : fmt::format("{:<33} {}\n", line, why);
 }
 
 std::string switches(const Scene& scene) {
   const Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
   const bool bed = t && t->granular(), grains = bed || !scene.grains.empty();
-  const bool friction =
-      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.friction > 0; });
+  const std::string soil = bed ? t->material : grains ? scene.grains.front().material : "";
+  const bool friction = grains && pairLaw(scene, soil, soil, 1).friction > 0;
   std::string text = "switched on and off\n";
   text += onOff(grains, "grains", grains ? "" : "no [[grain]], no granular [terrain]");
-  text += onOff(grains && friction, "friction history", grains && !friction ? "every friction is 0" : "");
+  text += onOff(friction, "friction history", grains && !friction ? "friction of the grains is 0" : "");
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
-  text +=
-      onOff(bed && t->settleTimeLimit > 0, "settling",
-            bed ? fmt::format("at most {} s, cache {}", t->settleTimeLimit, t->settleCache ? "on" : "off") : "no bed");
+  text += onOff(bed && t->settleTimeLimit > 0, "settling",
+                bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
   text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
@@ -102,9 +102,8 @@ std::string planText(const Scene& scene) {
     text +=
         fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, kStepsPerContact);
   }
-  const double step = scene.run.timeStep.value_or(resolved);
-  if (step <= 0) return text + fmt::format("  {:<24} chosen when the vehicle is assembled\n", "time step");
-  const double steps = std::ceil(scene.run.duration / step);
+  const double step = chooseTimeStep(scene);
+  const double steps = std::round(scene.run.duration / step);
   text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
                       contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
   text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);

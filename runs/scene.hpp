@@ -85,8 +85,6 @@ struct Terrain {
   bool walls = true;
   double settleTimeLimit = 3.0;
   double settleKineticEnergy = 1e-4; ///< [-] mean kinetic energy a grain over m g radius
-  std::optional<double> settleUnbalanced;
-  bool settleCache = true;
   bool granular() const { return kind == "granular"; }
   bool operator==(const Terrain&) const = default;
 };

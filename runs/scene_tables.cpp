@@ -109,10 +109,6 @@ Table<Terrain> terrainTable() {
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-", "at rest: mean kinetic energy a grain over m g radius")
       .above(0)
       .atMost(1e3);
-  t.add("settle_unbalanced", &S::settleUnbalanced, "-", "at rest, in addition: mean net force over mean contact force")
-      .above(0)
-      .atMost(1);
-  t.add("settle_cache", &S::settleCache, "", "keep the settled bed, and take it again for the same input");
   return t;
 }
 

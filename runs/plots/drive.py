@@ -6,6 +6,8 @@ from matplotlib.figure import Figure
 import series
 
 COLOURS = {"left": "tab:blue", "right": "tab:orange"}
+# Tracks that do the same stay visible both: the right one thin upon the left one.
+WIDTHS = {"left": 2.4, "right": 1.0}
 
 
 def plot(run):
@@ -18,25 +20,26 @@ def plot(run):
     for side, omega in speeds.items():
         if omega is None:
             continue
-        colour = COLOURS[side]
+        colour, width = COLOURS[side], WIDTHS[side]
         hull = run.get(f"vehicle/{side}/speed")
         if hull is not None:
-            speed.plot(run.time, hull, color=colour, label=f"hull at the {side} track")
+            speed.plot(run.time, hull, color=colour, linewidth=width, label=f"hull at the {side} track")
         if radius is not None:
-            speed.plot(run.time, omega * radius, color=colour, linestyle="--", linewidth=1.0,
+            speed.plot(run.time, omega * radius, color=colour, linestyle="--", linewidth=width,
                        label=f"{side} sprocket speed x pitch radius")
         joints = run.get(f"vehicle/{side}/tension")
         if series.finite(joints):
             tension.fill_between(run.time, joints.min(axis=1), joints.max(axis=1), color=colour, alpha=0.2, linewidth=0)
-            tension.plot(run.time, numpy.mean(joints, axis=1), color=colour, label=f"{side}: mean, least to largest")
+            tension.plot(run.time, numpy.mean(joints, axis=1), color=colour, linewidth=width,
+                         label=f"{side}: mean, and from least to largest")
         drive_torque = run.get(f"vehicle/{side}/drive_torque")
         if drive_torque is not None:
-            torque.plot(run.time, drive_torque, color=colour, label=side)
+            torque.plot(run.time, drive_torque, color=colour, linewidth=width, label=side)
     speed.set_ylabel("speed [m/s]")
     tension.set_ylabel("track tension [N]")
     torque.set_ylabel("drive torque [N m]")
     torque.set_xlabel("time [s]")
     for axis in (speed, tension, torque):
         if axis.get_legend_handles_labels()[0]:
-            axis.legend(loc="upper left")
+            axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, fontsize=9)
     return figure

@@ -86,4 +86,6 @@ def sinkage(run):
         axis.legend(loc="lower right")
     axes[0].set_ylabel("sinkage [mm]")
     axes[0].invert_yaxis()
+    if all(numpy.nanmax(values) < 0 for values in tracks.values()):
+        figure.suptitle("Below zero: grousers carry the pads above the surface", fontsize=9)
     return figure
