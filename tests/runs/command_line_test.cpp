@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program as a user calls it: exit codes, one clear line of error, nothing lost.
+#include "scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace grouser::runs {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out, errors;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class CommandLine : public testing::Test {
+protected:
+  void SetUp() override {
+    // The program lies beside this one.
+    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
+    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
+    folder_ = fs::path(testing::TempDir()) /
+              ("grouser_cli_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome call(const std::string& words) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" + program_.string() + "' " + words + " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
+  }
+
+  /// A falling grain: the smallest scene that runs.
+  void writeGrain(const std::string& name = "grain.toml", const std::string& more = "") const {
+    std::ofstream(folder_ / name)
+        << "version = 1\n[run]\nduration = 1e-3\ntime_step = 1e-5\n"
+        << more
+        << "[material.glass]\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
+           "[output]\nplots = false\npicture_width = 64\n";
+  }
+
+  fs::path program_, folder_;
+};
+
+TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
+  const Outcome o = call("--version");
+  EXPECT_EQ(o.code, 0);
+  for (const char* part : {"grouser ", "commit ", "compiler ", "CUDA "}) EXPECT_NE(o.out.find(part), std::string::npos);
+}
+
+TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
+  for (const char* command : {"", "run", "sinkage", "plan", "spheres", "fields"}) {
+    const Outcome o = call(std::string(command) + " --help");
+    EXPECT_EQ(o.code, 0) << command;
+    EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;
+  }
+}
+
+TEST_F(CommandLine, WrongWordsEndWithTwoAndOneLine) {
+  writeGrain();
+  for (const char* words :
+       {"", "rum", "run", "run grain.toml --devise cpu", "run grain.toml --steps 0", "run grain.toml --device gpu",
+        "run grain.toml --threads -1", "run grain.toml --set run.duration", "run nosuch.toml",
+        "run grain.toml --set run.duratio=1", "sinkage nosuch.h5", "sinkage grain.toml", "plan nosuch.toml",
+        "spheres nosuch.obj --radius 0.01", "spheres x.obj", "spheres x.obj --radius 1 --count 5"}) {
+    const Outcome o = call(words);
+    EXPECT_EQ(o.code, 2) << words << "\n" << o.errors;
+    EXPECT_EQ(o.errors.rfind("grouser: error: ", 0), 0u) << words << "\n" << o.errors;
+    EXPECT_EQ(std::count(o.errors.begin(), o.errors.end(), '\n'), 1) << words << "\n" << o.errors;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << words;
+  }
+}
+
+TEST_F(CommandLine, BrokenSceneEndsWithTwoAndTouchesNothing) {
+  std::ofstream(folder_ / "broken.toml") << replaced(goodScene(), "grain_radius = 0.05", "grain_radius = -1");
+  const Outcome o = call("run broken.toml");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.errors.find("broken.toml:19: terrain.grain_radius = -1 [m] is outside (0, 10]"), std::string::npos)
+      << o.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, RunLeavesItsFilesAndPrintsTheHashLast) {
+  writeGrain();
+  const Outcome o = call("run grain.toml --hash --threads 1");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* name :
+       {"results.h5", "timeseries.csv", "manifest.json", "scene.toml", "frames.h5", "frames.xdmf", "picture.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "out/grain" / name)) << name;
+  const std::size_t last = o.out.rfind('\n', o.out.size() - 2) + 1;
+  EXPECT_EQ(o.out.rfind("state-hash ", last), last) << o.out;
+  EXPECT_NE(o.out.find(" step 100\n", last), std::string::npos) << o.out;
+  EXPECT_NE(contents(folder_ / "out/grain/manifest.json").find("picture.png"), std::string::npos);
+}
+
+TEST_F(CommandLine, FilledFolderIsKeptUnlessForced) {
+  writeGrain();
+  fs::create_directories(folder_ / "results");
+  std::ofstream(folder_ / "results/results.h5") << "precious";
+  const Outcome refused = call("run grain.toml --out results");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.errors.find("--force"), std::string::npos);
+  EXPECT_EQ(contents(folder_ / "results/results.h5"), "precious");
+  EXPECT_EQ(call("run grain.toml --out results --force --steps 5").code, 0);
+  EXPECT_NE(contents(folder_ / "results/results.h5"), "precious");
+}
+
+TEST_F(CommandLine, ResolvedSceneRunsToTheSameHash) {
+  writeGrain();
+  const Outcome first = call("run grain.toml --hash --set run.seed=3 --out a");
+  const Outcome second = call("run a/scene.toml --hash --out b");
+  ASSERT_EQ(second.code, 0) << second.errors;
+  const auto hash = [](const Outcome& o) { return o.out.substr(o.out.rfind("state-hash")); };
+  EXPECT_EQ(hash(first), hash(second));
+}
+
+TEST_F(CommandLine, PlanRunsNothing) {
+  std::ofstream(folder_ / "scene.toml") << goodScene();
+  const Outcome o = call("plan scene.toml");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* part :
+       {"on   grains", "on   vehicle", "off  picture", "off  planes", "grain steps", "time step", "memory"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, FieldsNameEveryDriverKey) {
+  const Outcome o = call("fields");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.out.find("| `sprocket_speed` | rad/s | none | [-100, 100] |"), std::string::npos);
+}
+
+} // namespace
+} // namespace grouser::runs
