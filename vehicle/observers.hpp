@@ -15,6 +15,8 @@ namespace grouser::vehicle {
 using SurfaceHeight = std::function<double(double x, double y)>;
 
 /// What the ground did to the bodies: force on each body of the model, world components [N]. Empty: not known.
+/// Best the mean over the output interval (impulse over time): on grains the force of a single step flickers, and with
+/// it what counts as carrying load.
 struct GroundLoads {
   std::vector<base::Vec3d> force;
 };
