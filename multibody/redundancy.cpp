@@ -27,7 +27,7 @@ class Explorer {
 public:
   Explorer(ConstraintSystem& system, const Model& model)
       : system_(system), model_(model), laws_(system.constraints().size()),
-        x_(6 * (at(system.movableBodies()) + system.constraints().size()), 0.0) {
+        x_(at(system.movableBodies()) + system.constraints().size()) {
     for (const Body& body : model.bodies()) poses_.push_back(body.pose);
     system_.place(poses_, frames_);
   }
@@ -59,7 +59,7 @@ public:
     system_.solve(part, x_);
     double fastest = 0;
     for (const int node : part.bodies) {
-      const double* v = &x_[at(6 * node)];
+      const Vector6& v = x_[at(node)];
       fastest = std::max(fastest, v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
       fastest = std::max(fastest, 1e-6 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     }
@@ -78,7 +78,7 @@ public:
         double error[6];
         positionError(system_.constraints()[at(k)], system_.jointFrames(k), error);
         for (int r = 0; r < 6; ++r) {
-          x_[at(6 * (system_.movableBodies() + k) + r)] = -error[r];
+          x_[at(system_.movableBodies() + k)][at(r)] = -error[r];
           worst = std::max(worst, std::fabs(error[r]));
         }
       }
@@ -96,18 +96,18 @@ public:
 
 private:
   void set(int node, const Vec3d& linear, const Vec3d& angular) {
-    for (int i = 0; i < 3; ++i) x_[at(6 * node + i)] = linear[i], x_[at(6 * node + 3 + i)] = angular[i];
+    for (int i = 0; i < 3; ++i) x_[at(node)][at(i)] = linear[i], x_[at(node)][at(3 + i)] = angular[i];
   }
 
   void clear(const ConstraintSystem::Part& part) {
-    for (const int node : part.bodies) std::fill_n(x_.begin() + 6 * node, 6, 0.0);
-    for (const int k : part.constraints) std::fill_n(x_.begin() + 6 * (system_.movableBodies() + k), 6, 0.0);
+    for (const int node : part.bodies) x_[at(node)] = {};
+    for (const int k : part.constraints) x_[at(system_.movableBodies() + k)] = {};
   }
 
   void move(const ConstraintSystem::Part& part, double scale) {
     for (const int node : part.bodies) {
       const int b = system_.bodyOf(node);
-      const double* v = &x_[at(6 * node)];
+      const Vector6& v = x_[at(node)];
       Pose& X = poses_[at(b)];
       X.position += scale * Vec3d{v[0], v[1], v[2]};
       X.orientation = (rotationBy(scale * Vec3d{v[3], v[4], v[5]}) * X.orientation).normalized();
@@ -118,7 +118,7 @@ private:
   ConstraintSystem& system_;
   const Model& model_;
   std::vector<AxisLaw> laws_;
-  std::vector<double> x_;
+  std::vector<Vector6> x_;
   std::vector<Pose> poses_;
   std::vector<Frame> frames_;
 };

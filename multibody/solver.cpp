@@ -37,12 +37,13 @@ constexpr double kGapFailure = 1e-6;
 /// Joints must be closed this well by who builds the model [m, rad].
 constexpr double kStartGap = 1e-6;
 
-Vec3d vectorAt(const std::vector<double>& x, int i) { return {x[at(i)], x[at(i + 1)], x[at(i + 2)]}; }
-void setVector(std::vector<double>& x, int i, const Vec3d& v) {
-  x[at(i)] = v.x, x[at(i + 1)] = v.y, x[at(i + 2)] = v.z;
+Vec3d linear(const Vector6& x) { return {x[0], x[1], x[2]}; }
+Vec3d angular(const Vector6& x) { return {x[3], x[4], x[5]}; }
+void set(Vector6& x, const Vec3d& v, const Vec3d& w) {
+  x[0] = v.x, x[1] = v.y, x[2] = v.z, x[3] = w.x, x[4] = w.y, x[5] = w.z;
 }
-void addVector(std::vector<double>& x, int i, const Vec3d& v) {
-  x[at(i)] += v.x, x[at(i + 1)] += v.y, x[at(i + 2)] += v.z;
+void add(Vector6& x, const Vec3d& v, const Vec3d& w) {
+  x[0] += v.x, x[1] += v.y, x[2] += v.z, x[3] += w.x, x[4] += w.y, x[5] += w.z;
 }
 
 } // namespace
@@ -50,7 +51,7 @@ void addVector(std::vector<double>& x, int i, const Vec3d& v) {
 struct Solver::Impl {
   Impl(const Model& m, const SolverOptions& o)
       : model(m), options(o), system(m), axisLaws(m, system.constraints()), laws(system.constraints().size()),
-        x(6 * (at(system.movableBodies()) + system.constraints().size()), 0.0), impulse(system.constraints().size()),
+        x(at(system.movableBodies()) + system.constraints().size()), impulse(system.constraints().size()),
         oldRate(system.constraints().size(), 0.0), gyro(at(system.movableBodies())), newTwist(m.bodies().size()),
         trialPose(m.bodies().size()), trialFrames(system.constraints().size()) {
     for (const Body& body : m.bodies()) trialPose.at(static_cast<std::size_t>(&body - m.bodies().data())) = body.pose;
@@ -71,7 +72,7 @@ struct Solver::Impl {
   double setGyroResidual(const ConstraintSystem::Part& part, double dt);
   void finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
   void readConstraint(int k, State& state, double dt);
-  int rowNode(int k) const { return 6 * (system.movableBodies() + k); }
+  int rowNode(int k) const { return system.movableBodies() + k; }
 
   const Model& model;
   SolverOptions options;
@@ -82,7 +83,7 @@ struct Solver::Impl {
   StepReport last;
 
   std::vector<AxisLaw> laws;                  ///< one a constraint
-  std::vector<double> x;                      ///< residuals in, corrections out; 6 a node
+  std::vector<Vector6> x;                     ///< residuals in, corrections out; one a node
   std::vector<std::array<double, 6>> impulse; ///< Lambda, one a constraint
   std::vector<double> oldRate;                ///< of the soft or driven row, before the step
   std::vector<Vec3d> gyro;                    ///< gyroscopic momentum at the current iterate, one a movable body
@@ -132,9 +133,8 @@ void Solver::Impl::setFirstResidual(const ConstraintSystem::Part& part, const St
     const Wrench& wrench = loads.external[at(b)];
     const Twist& V = state.twist[at(b)];
     gyro[at(node)] = gyroscopicMomentum(system.inertia(node), V.w, dt);
-    setVector(x, 6 * node, dt * (wrench.force + model.bodies()[at(b)].mass * loads.gravity));
-    setVector(x, 6 * node + 3,
-              (state.spinMomentum[at(b)] - system.inertia(node) * V.w) - gyro[at(node)] + dt * wrench.torque);
+    set(x[at(node)], dt * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
+        (state.spinMomentum[at(b)] - system.inertia(node) * V.w) - gyro[at(node)] + dt * wrench.torque);
     newTwist[at(b)] = V;
   }
   for (const int k : part.constraints) {
@@ -148,12 +148,10 @@ void Solver::Impl::setFirstResidual(const ConstraintSystem::Part& part, const St
     const Vec3d torque = dt * laws[at(k)].force * system.rows(k).torque[at(row)];
     const Vec3d& p = system.jointFrames(k).p_B;
     if (c.nodeB >= 0) {
-      addVector(x, 6 * c.nodeB, force);
-      addVector(x, 6 * c.nodeB + 3, cross(p - frames[at(c.bodyB)].p, force) + torque);
+      add(x[at(c.nodeB)], force, cross(p - frames[at(c.bodyB)].p, force) + torque);
     }
     if (c.nodeA >= 0) {
-      addVector(x, 6 * c.nodeA, -force);
-      addVector(x, 6 * c.nodeA + 3, -(cross(p - frames[at(c.bodyA)].p, force) + torque));
+      add(x[at(c.nodeA)], -force, -(cross(p - frames[at(c.bodyA)].p, force) + torque));
     }
   }
 }
@@ -176,11 +174,11 @@ double Solver::Impl::setGapResidual(const ConstraintSystem::Part& part, double d
     placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
     double error[6];
     positionError(c, trialFrames[at(k)], error);
-    double* const residual = &x[at(rowNode(k))];
+    Vector6& residual = x[at(rowNode(k))];
     const unsigned hard = system.hardRowsOf(k);
     for (int r = 0; r < 6; ++r) {
       const double gap = hard >> r & 1u ? error[r] : 0;
-      residual[r] = scale * gap;
+      residual[at(r)] = scale * gap;
       // Written so that a gap that is not a number counts as the largest.
       if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap), worst = k;
     }
@@ -195,8 +193,7 @@ double Solver::Impl::setGyroResidual(const ConstraintSystem::Part& part, double 
     const Vec3d g = gyroscopicMomentum(I, newTwist[at(system.bodyOf(node))].w, dt);
     const Vec3d residual = gyro[at(node)] - g;
     gyro[at(node)] = g;
-    setVector(x, 6 * node, {});
-    setVector(x, 6 * node + 3, residual);
+    set(x[at(node)], {}, residual);
     const double turn = dt * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual);
     if (!(turn <= largest)) largest = turn;
   }
@@ -207,11 +204,11 @@ void Solver::Impl::applyCorrection(const ConstraintSystem::Part& part) {
   system.solve(part, x);
   for (const int node : part.bodies) {
     Twist& V = newTwist[at(system.bodyOf(node))];
-    V.v += vectorAt(x, 6 * node);
-    V.w += vectorAt(x, 6 * node + 3);
+    V.v += linear(x[at(node)]);
+    V.w += angular(x[at(node)]);
   }
   for (const int k : part.constraints)
-    for (int r = 0; r < 6; ++r) impulse[at(k)][at(r)] += x[at(rowNode(k) + r)];
+    for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
 }
 
 void Solver::Impl::solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
@@ -224,7 +221,7 @@ void Solver::Impl::solvePart(const ConstraintSystem::Part& part, State& state, c
   setGapResidual(part, dt, worst);
   for (const int k : part.constraints) {
     const int row = axisLaws.row(k);
-    if (row >= 0) x[at(rowNode(k) + row)] = (laws[at(k)].driven ? laws[at(k)].speed : 0) - oldRate[at(k)];
+    if (row >= 0) x[at(rowNode(k))][at(row)] = (laws[at(k)].driven ? laws[at(k)].speed : 0) - oldRate[at(k)];
   }
 
   double gap = 0;

@@ -112,16 +112,16 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
   rows.force[2] = f.z_A;
 }
 
-void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, double* jacobianA,
-               double* jacobianB) {
+void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, Block& jacobianA,
+               Block& jacobianB) {
   const Vec3d arm_A = p_B - com_A, arm_B = p_B - com_B;
-  for (int r = 0; r < 6; ++r) {
-    const Vec3d &e = rows.force[static_cast<std::size_t>(r)], &t = rows.torque[static_cast<std::size_t>(r)];
+  for (std::size_t r = 0; r < 6; ++r) {
+    const Vec3d &e = rows.force[r], &t = rows.torque[r];
     const Vec3d a = cross(arm_A, e) + t, b = cross(arm_B, e) + t;
-    jacobianA[r] = -e.x, jacobianA[6 + r] = -e.y, jacobianA[12 + r] = -e.z;
-    jacobianA[18 + r] = -a.x, jacobianA[24 + r] = -a.y, jacobianA[30 + r] = -a.z;
-    jacobianB[r] = e.x, jacobianB[6 + r] = e.y, jacobianB[12 + r] = e.z;
-    jacobianB[18 + r] = b.x, jacobianB[24 + r] = b.y, jacobianB[30 + r] = b.z;
+    jacobianA[r] = -e.x, jacobianA[kStride + r] = -e.y, jacobianA[2 * kStride + r] = -e.z;
+    jacobianA[3 * kStride + r] = -a.x, jacobianA[4 * kStride + r] = -a.y, jacobianA[5 * kStride + r] = -a.z;
+    jacobianB[r] = e.x, jacobianB[kStride + r] = e.y, jacobianB[2 * kStride + r] = e.z;
+    jacobianB[3 * kStride + r] = b.x, jacobianB[4 * kStride + r] = b.y, jacobianB[5 * kStride + r] = b.z;
   }
 }
 

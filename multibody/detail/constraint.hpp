@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "multibody/detail/block.hpp"
 #include "multibody/model.hpp"
 
 #include <array>
@@ -104,9 +105,9 @@ void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows);
 RowDirections rowDirections(const Constraint& c, const JointFrames& f);
 
-/// The rows' blocks, column-major 6x6: row r times (v, w) of A (of B) gives its share of C'.
-void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, double* jacobianA,
-               double* jacobianB);
+/// The rows' blocks: row r times (v, w) of A (of B) gives its share of C'.
+void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, Block& jacobianA,
+               Block& jacobianB);
 
 /// Angle from A to B about z_A [rad], in (-pi, pi], or slide along z_A [m], or length of a point spring [m].
 double axisPosition(const Constraint& c, const JointFrames& f);

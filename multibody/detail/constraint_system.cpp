@@ -108,16 +108,15 @@ void ConstraintSystem::place(const std::vector<Pose>& poses, std::vector<Frame>&
 }
 
 /// Size of J M^-1 J^T of each row alone, taken once; the mean moment of inertia stands for the tensor.
-void ConstraintSystem::setSize(int k, const double* jacobianA, const double* jacobianB) {
+void ConstraintSystem::setSize(int k, const Block& jacobianA, const Block& jacobianB) {
   double smallest[6] = {};
-  const auto add = [&](int node, const double* J) {
+  const auto add = [&](int node, const Block& J) {
     if (node < 0) return;
     const double m = 1 / model_->bodies()[at(movable_[at(node)])].mass;
     const Mat3d& I = inertia_[at(node)];
     const double i = 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
-    for (int r = 0; r < 6; ++r)
-      smallest[r] += m * (J[r] * J[r] + J[6 + r] * J[6 + r] + J[12 + r] * J[12 + r]) +
-                     i * (J[18 + r] * J[18 + r] + J[24 + r] * J[24 + r] + J[30 + r] * J[30 + r]);
+    for (std::size_t r = 0; r < 6; ++r)
+      for (std::size_t c = 0; c < 6; ++c) smallest[r] += (c < 3 ? m : i) * J[kStride * c + r] * J[kStride * c + r];
   };
   add(constraints_[at(k)].nodeA, jacobianA);
   add(constraints_[at(k)].nodeB, jacobianB);
@@ -153,7 +152,7 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
     }
     active_[at(k)] = active;
 
-    double jacobianA[36], jacobianB[36];
+    Block jacobianA{}, jacobianB{};
     rowBlocks(rows_[at(k)], frames_[at(k)].p_B, com_A_[at(k)], com_B_[at(k)], jacobianA, jacobianB);
     if (!sized_[at(k)]) setSize(k, jacobianA, jacobianB);
     elimination_->setConstraint(k, jacobianA, jacobianB, compliance, active);
@@ -161,11 +160,11 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
   return elimination_->factor(part.steps);
 }
 
-void ConstraintSystem::solve(const Part& part, std::vector<double>& x) const {
+void ConstraintSystem::solve(const Part& part, std::vector<Vector6>& x) const {
   elimination_->solve(part.steps, x.data());
   // The symmetric system is solved for -dLambda.
   for (const int k : part.constraints)
-    for (int r = 0; r < 6; ++r) x[at(6 * (movableBodies() + k) + r)] *= -1;
+    for (double& lambda : x[at(movableBodies() + k)]) lambda *= -1;
 }
 
 double ConstraintSystem::rate(int k, int row, const std::vector<Twist>& twist) const {

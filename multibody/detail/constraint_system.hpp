@@ -54,8 +54,8 @@ public:
   /// Sets up and factors one part at `frames`. `laws`: one a constraint. Returns the rows left out as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
 
-  /// In: 6 numbers a node (bodies: momentum residual; constraints: row residual). Out: dv and dLambda.
-  void solve(const Part& part, std::vector<double>& x) const;
+  /// In: one vector a node (bodies: momentum residual; constraints: row residual). Out: dv and dLambda.
+  void solve(const Part& part, std::vector<Vector6>& x) const;
 
   /// Quantities of the last linearise().
   const RowDirections& rows(int constraint) const { return rows_[static_cast<std::size_t>(constraint)]; }
@@ -69,7 +69,7 @@ public:
   std::string describe(int constraint, int row) const;
 
 private:
-  void setSize(int constraint, const double* jacobianA, const double* jacobianB);
+  void setSize(int constraint, const Block& jacobianA, const Block& jacobianB);
 
   const Model* model_;
   std::vector<int> movable_;

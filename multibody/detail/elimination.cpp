@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/elimination.hpp"
 
-#include "multibody/detail/block.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <set>
@@ -226,26 +224,26 @@ void Elimination::setBody(int body, double mass, const double (&inertia)[3][3]) 
   Block& D = diagonal_[at(body)];
   D.fill(0);
   for (int i = 0; i < 3; ++i) {
-    D[at(7 * i)] = mass;
-    for (int j = 0; j < 3; ++j) D[at(6 * (3 + j) + 3 + i)] = inertia[i][j];
+    D[at((kStride + 1) * i)] = mass;
+    for (int j = 0; j < 3; ++j) D[at(kStride * (3 + j) + 3 + i)] = inertia[i][j];
   }
 }
 
-void Elimination::setConstraint(int constraint, const double* jacobianA, const double* jacobianB,
+void Elimination::setConstraint(int constraint, const Block& jacobianA, const Block& jacobianB,
                                 const double* compliance, unsigned active) {
   const std::size_t node = at(bodies_ + constraint);
   Block& D = diagonal_[node];
   D.fill(0);
-  for (std::size_t i = 0; i < 6; ++i) D[7 * i] = -compliance[i];
+  for (std::size_t i = 0; i < 6; ++i) D[(kStride + 1) * i] = -compliance[i];
   active_[node] = active;
-  const auto put = [&](int slot, bool transpose, const double* J) {
+  const auto put = [&](int slot, bool transpose, const Block& J) {
     if (slot < 0) return;
     Block& K = w_[at(slot)];
     if (transpose)
       for (std::size_t i = 0; i < 6; ++i)
-        for (std::size_t j = 0; j < 6; ++j) K[6 * i + j] = J[6 * j + i];
+        for (std::size_t j = 0; j < 6; ++j) K[kStride * i + j] = J[kStride * j + i];
     else
-      std::copy(J, J + 36, K.begin());
+      K = J;
   };
   const Ends& e = ends_[at(constraint)];
   put(e.slotA, e.transposeA, jacobianA);
@@ -262,9 +260,9 @@ void Elimination::setSmallestPivots(int constraint, const double (&smallest)[6])
 
 int Elimination::factor(const Part& part) { return factorPart(part); }
 
-// AVX2 where the processor has it, chosen at load time. No fused multiply-add in either: the bits are equal.
+// Wide registers where the processor has them, chosen at load time. No fused multiply-add in any: the bits are equal.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx2", "default")))
+__attribute__((target_clones("avx512f", "avx2", "default")))
 #endif
 int Elimination::factorPart(const Part& part) {
   int leftOut = 0;
@@ -288,7 +286,7 @@ int Elimination::factorPart(const Part& part) {
     for (int k = step.firstUpdate; k < step.endUpdate; ++k) {
       const Update& u = updates_[at(k)];
       if (u.target < 0)
-        subtractSymmetric6(diagonal_[at(~u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
+        subtractProduct6(diagonal_[at(~u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
       else
         subtractProduct6(w_[at(u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
     }
@@ -297,29 +295,30 @@ int Elimination::factorPart(const Part& part) {
 }
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx2", "default")))
+__attribute__((target_clones("avx512f", "avx2", "default")))
 #endif
-void Elimination::solvePart(const Part& part, double* x) const {
+void Elimination::solvePart(const Part& part, Vector6* x) const {
   for (int s = part.firstStep; s < part.endStep; ++s) {
     const Step& step = steps_[at(s)];
-    double* const y = x + 6 * step.node;
+    double* const y = x[step.node].data();
     if (!step.bodyAlone) forward6(y, diagonal_[at(step.node)].data());
-    for (int k = step.firstSlot; k < step.endSlot; ++k) subtractTimes6(x + 6 * slots_[at(k)].row, v_[at(k)].data(), y);
+    for (int k = step.firstSlot; k < step.endSlot; ++k)
+      subtractTimes6(x[slots_[at(k)].row].data(), v_[at(k)].data(), y);
   }
   for (int s = part.endStep - 1; s >= part.firstStep; --s) {
     const Step& step = steps_[at(s)];
-    double* const y = x + 6 * step.node;
+    double* const y = x[step.node].data();
     const double* const L = diagonal_[at(step.node)].data();
     if (step.bodyAlone)
       applyBodyInverse6(y, L);
     else
       for (int i = 0; i < 6; ++i) y[i] *= dInverse_[at(step.node)][at(i)];
     for (int k = step.firstSlot; k < step.endSlot; ++k)
-      subtractTransposedTimes6(y, v_[at(k)].data(), x + 6 * slots_[at(k)].row);
+      subtractTransposedTimes6(y, v_[at(k)].data(), x[slots_[at(k)].row].data());
     if (!step.bodyAlone) backward6(y, L);
   }
 }
 
-void Elimination::solve(const Part& part, double* x) const { solvePart(part, x); }
+void Elimination::solve(const Part& part, Vector6* x) const { solvePart(part, x); }
 
 } // namespace grouser::multibody::detail

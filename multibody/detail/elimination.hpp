@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include "multibody/detail/block.hpp"
+
 #include <vector>
 
 namespace grouser::multibody::detail {
@@ -49,22 +50,21 @@ public:
   bool bodyAlone(int body) const { return alone_[static_cast<std::size_t>(body)]; }
   void setBody(int body, double mass, const double (&inertia)[3][3]);
   void setBodyInverse(int body, double inverseMass, const double (&inverseInertia)[3][3]);
-  /// Row blocks of a constraint, column-major 6x6 (row = constraint row, column = v, w of the body); null for the
+  /// Row blocks of a constraint, of `Block` layout (row = constraint row, column = v, w of the body); null for the
   /// world. `compliance`: G. `active`: bit mask of rows.
-  void setConstraint(int constraint, const double* jacobianA, const double* jacobianB, const double* compliance,
+  void setConstraint(int constraint, const Block& jacobianA, const Block& jacobianB, const double* compliance,
                      unsigned active);
   /// J M^-1 J^T of each row of a constraint alone, times kPivotTolerance; 0 before it is set.
   void setSmallestPivots(int constraint, const double (&smallest)[6]);
 
   /// Factors one part. Returns the number of active rows left out for want of a pivot.
   int factor(const Part& part);
-  /// Solves in place: `x` holds 6 numbers a node, right-hand side in, solution out.
-  void solve(const Part& part, double* x) const;
+  /// Solves in place: `x` holds one vector a node, right-hand side in, solution out.
+  void solve(const Part& part, Vector6* x) const;
   /// Rows of a constraint kept by the last factorisation (bit mask).
   unsigned keptRows(int constraint) const { return kept_[static_cast<std::size_t>(bodies_ + constraint)]; }
 
 private:
-  using Block = std::array<double, 36>;
   struct Slot {
     int row;    ///< node eliminated later
     int column; ///< node eliminated earlier
@@ -88,7 +88,7 @@ private:
   void postorder(const std::vector<int>& rough);
   void findProgram(const std::vector<Edge>& edges);
   int factorPart(const Part& part);
-  void solvePart(const Part& part, double* x) const;
+  void solvePart(const Part& part, Vector6* x) const;
 
   int bodies_ = 0;
   int nodes_ = 0;
@@ -103,8 +103,8 @@ private:
 
   std::vector<char> alone_;     ///< one a body
   std::vector<Block> diagonal_; ///< one a node; becomes L; inverse of the block for a body alone
-  std::vector<std::array<double, 6>> dInverse_;
-  std::vector<std::array<double, 6>> smallest_;
+  std::vector<Vector6> dInverse_;
+  std::vector<Vector6> smallest_;
   std::vector<unsigned> active_, kept_;
   std::vector<Block> w_, v_; ///< one a slot
 };

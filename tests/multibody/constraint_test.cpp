@@ -43,7 +43,7 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
   const Pair p = openPair(GetParam());
   const Frame FA = frameOf(p.A), FB = frameOf(p.B);
   const JointFrames f = framesOf(p.c, FA, FB);
-  double JA[36], JB[36];
+  Block JA{}, JB{};
   rowBlocks(rowDirections(p.c, f), f.p_B, FA.p, FB.p, JA, JB);
 
   const auto values = [&](const Pose& A, const Pose& B, double(&C)[6]) {
@@ -63,7 +63,8 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
       const bool revolute = p.c.kind == ConstraintKind::kRevolute;
       for (int r = 0; r < 6; ++r) {
         if (revolute && r == kAxisRow) continue; // its rate equals the angle's only when the axes coincide: next test
-        EXPECT_NEAR((body == 0 ? JA : JB)[6 * dof + r], (plus[r] - minus[r]) / (2 * h), tolerance)
+        EXPECT_NEAR((body == 0 ? JA : JB)[static_cast<std::size_t>(kStride * dof + r)], (plus[r] - minus[r]) / (2 * h),
+                    tolerance)
             << "body " << body << " dof " << dof << " row " << r;
       }
     }
@@ -74,14 +75,14 @@ TEST_P(MultibodyRows, ForcesOnTheTwoBodiesBalance) {
   const Pair p = openPair(GetParam());
   const Frame FA = frameOf(p.A), FB = frameOf(p.B);
   const JointFrames f = framesOf(p.c, FA, FB);
-  double JA[36], JB[36];
+  Block JA{}, JB{};
   rowBlocks(rowDirections(p.c, f), f.p_B, FA.p, FB.p, JA, JB);
   const Vec3d w{0.3, -0.8, 0.5}, v{1, 2, 3};
   const Vec3d vA = v + cross(w, FA.p), vB = v + cross(w, FB.p);
   const double uA[6] = {vA.x, vA.y, vA.z, w.x, w.y, w.z}, uB[6] = {vB.x, vB.y, vB.z, w.x, w.y, w.z};
-  for (int r = 0; r < 6; ++r) {
+  for (std::size_t r = 0; r < 6; ++r) {
     double rate = 0;
-    for (int i = 0; i < 6; ++i) rate += JA[6 * i + r] * uA[i] + JB[6 * i + r] * uB[i];
+    for (std::size_t i = 0; i < 6; ++i) rate += JA[kStride * i + r] * uA[i] + JB[kStride * i + r] * uB[i];
     EXPECT_NEAR(rate, 0, 1e-14) << "row " << r; // round-off of a dozen terms of order one
   }
 }
@@ -146,10 +147,12 @@ TEST(MultibodyElimination, SolvesTheSaddlePointSystemOfABranchedGraphWithLoops) 
     }
   }
   for (int c = 0; c < constraints; ++c) {
-    double J[2][36], G[6] = {0, 0, 0.1, 0.2, 0.3, 0.5};
+    Block J[2] = {};
+    double G[6] = {0, 0, 0.1, 0.2, 0.3, 0.5};
     if (c == 8) G[0] = G[1] = 0.1; // closes a loop that leaves it no freedom
     for (auto& side : J)
-      for (double& x : side) x = number();
+      for (std::size_t i = 0; i < 48; ++i)
+        if (i % kStride < 6) side[i] = number();
     e.setConstraint(c, J[0], J[1], G, 0x3f);
     const int row = 6 * (bodies + c),
               body[2] = {edges[static_cast<std::size_t>(c)].bodyA, edges[static_cast<std::size_t>(c)].bodyB};
@@ -157,16 +160,20 @@ TEST(MultibodyElimination, SolvesTheSaddlePointSystemOfABranchedGraphWithLoops) 
       entry(row + r, row + r) = -G[r];
       for (int side = 0; side < 2; ++side)
         for (int i = 0; i < 6 && body[side] >= 0; ++i)
-          entry(row + r, 6 * body[side] + i) = entry(6 * body[side] + i, row + r) = J[side][6 * i + r];
+          entry(row + r, 6 * body[side] + i) = entry(6 * body[side] + i, row + r) =
+              J[side][static_cast<std::size_t>(kStride * i + r)];
     }
   }
-  std::vector<double> rhs(static_cast<std::size_t>(n)), x;
+  std::vector<double> rhs(static_cast<std::size_t>(n));
   for (double& b : rhs) b = number();
-  x = rhs;
+  std::vector<Vector6> blocks(static_cast<std::size_t>(n / 6));
+  for (std::size_t i = 0; i < rhs.size(); ++i) blocks[i / 6][i % 6] = rhs[i];
   for (const auto& part : e.parts()) {
     EXPECT_EQ(e.factor(part), 0);
-    e.solve(part, x.data());
+    e.solve(part, blocks.data());
   }
+  std::vector<double> x;
+  for (std::size_t i = 0; i < rhs.size(); ++i) x.push_back(blocks[i / 6][i % 6]);
   for (int i = 0; i < n; ++i) {
     double residual = -rhs[static_cast<std::size_t>(i)];
     for (int j = 0; j < n; ++j) residual += entry(i, j) * x[static_cast<std::size_t>(j)];
