@@ -23,7 +23,7 @@ struct SetSphere {
                 ///< as thin as the sphere, one sphere serves both sides and carries the normal of one of them
   double offset{}; ///< [m]: the plane of that face is normal . x = offset; normal . centre + radius <= offset, with
                    ///< equality but for spheres that an edge or a concave corner pushes deeper
-  double flat{}; ///< [m] >= 0, radius of the disc; 0 next to a convex edge, where the sphere itself rounds the edge
+  double flat{};   ///< [m] >= 0, radius of the disc; 0 next to a convex edge, where the sphere itself rounds the edge
   double area{}; ///< [m2] outer mesh area this sphere stands for; the sum over a set is the mesh's outer area; may be 0
   bool surface() const { return norm2(normal) > 0; }
 };
