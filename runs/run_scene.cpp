@@ -100,6 +100,7 @@ public:
     row_.set("ledger/residual", l.residual);
     row_.set("ledger/impulse_residual", l.impulseResidual);
     writer_.row(row_.row());
+    simulation_.restartMeans();
   }
 
   void frame() {

@@ -25,6 +25,10 @@ public:
 
   const Ground& ground() const { return ground_; }
   const VehicleRig* vehicle() const { return vehicle_.get(); }
+  /// Means of the observers begin anew: after every row.
+  void restartMeans() {
+    if (vehicle_) vehicle_->restartMeans();
+  }
   const SettleReport& settled() const { return settled_; }
   const std::function<double(double, double)>& surface() const { return surface_; }
 

@@ -224,7 +224,12 @@ void VehicleRig::touchGround(const terrain::Grains* grains) {
 void VehicleRig::collectLoads() {
   trackSums_ = trackLoads_.toHost();
   groundSums_ = groundLoads_.toHost();
-  for (const contact::PartLoad& load : groundSums_) impulseOnParts_ += load.force;
+  groundForceSums_.resize(groundSums_.size());
+  for (std::size_t c = 0; c < groundSums_.size(); ++c) {
+    impulseOnParts_ += groundSums_[c].force;
+    groundForceSums_[c] += groundSums_[c].force;
+  }
+  ++meanSteps_;
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
   for (std::size_t c = 0; c < contactParts_.size(); ++c) {
     const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
@@ -257,32 +262,26 @@ void VehicleRig::trackTravel() {
   absoluteTravel_ += absolute * timeStep_;
 }
 
-namespace {
-
-vehicle::GroundLoads groundForces(const vehicle::Assembly& assembly, const std::vector<int>& contactParts,
-                                  const std::vector<contact::PartLoad>& sums, const base::FixedPoint& quantum) {
+vehicle::GroundLoads VehicleRig::meanGroundLoads() const {
   vehicle::GroundLoads loads;
-  loads.force.resize(assembly.model.bodies().size());
-  for (std::size_t c = 0; c < sums.size(); ++c)
-    loads.force[static_cast<std::size_t>(assembly.parts[static_cast<std::size_t>(contactParts[c])].body)] +=
-        quantum.value(sums[c].force);
+  if (!bed_ && !rigidGround_) return loads;
+  loads.force.resize(assembly_.model.bodies().size());
+  const double share = meanSteps_ > 0 ? 1 / static_cast<double>(meanSteps_) : 0.0;
+  for (std::size_t c = 0; c < groundForceSums_.size(); ++c) {
+    const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
+    loads.force[static_cast<std::size_t>(part.body)] += groundForceQuantum_.value(groundForceSums_[c]) * share;
+  }
   return loads;
 }
 
-} // namespace
-
-vehicle::Observation VehicleRig::observe() const {
-  const bool onGround = bed_ || rigidGround_;
-  return observer_->observe(state_, onGround ? groundForces(assembly_, contactParts_, groundSums_, groundForceQuantum_)
-                                             : vehicle::GroundLoads{},
-                            surfaceHeight_);
+void VehicleRig::restartMeans() {
+  groundForceSums_.assign(groundForceSums_.size(), {});
+  meanSteps_ = 0;
 }
 
-std::string VehicleRig::alarm() const {
-  const bool onGround = bed_ || rigidGround_;
-  return observer_->alarm(state_, onGround ? groundForces(assembly_, contactParts_, groundSums_, groundForceQuantum_)
-                                           : vehicle::GroundLoads{});
-}
+vehicle::Observation VehicleRig::observe() const { return observer_->observe(state_, meanGroundLoads(), surfaceHeight_); }
+
+std::string VehicleRig::alarm() const { return observer_->alarm(state_, meanGroundLoads()); }
 
 VehicleRig::Ledger VehicleRig::ledger() const {
   Ledger ledger;
@@ -305,9 +304,7 @@ VehicleRig::Ledger VehicleRig::ledger() const {
     ledger.impulseOnGrains = bed.impulseOnGrains;
     ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
   }
-  base::Vec3l sum{};
-  for (const contact::PartLoad& load : groundSums_) sum += load.force;
-  ledger.groundForce = groundForceQuantum_.value(sum);
+  for (const Vec3d& force : meanGroundLoads().force) ledger.groundForce += force;
   return ledger;
 }
 

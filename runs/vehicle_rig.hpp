@@ -42,7 +42,9 @@ public:
   const multibody::Solver& solver() const { return *solver_; }
   const vehicle::Driver& driver() const { return driver_; }
 
+  /// Ground loads are means since the last restartMeans(): on grains a single step says little.
   vehicle::Observation observe() const;
+  void restartMeans();
   /// A thrown or skipped track, in words; empty while all is well.
   std::string alarm() const;
 
@@ -57,7 +59,7 @@ public:
     std::int64_t grainContacts{};
     base::Vec3d impulseOnParts; ///< from the grains since the start [N s]
     base::Vec3d impulseOnGrains;
-    base::Vec3d groundForce; ///< sum over all parts in the last step [N]
+    base::Vec3d groundForce; ///< sum over all parts, mean since restartMeans() [N]
   };
   Ledger ledger() const;
 
@@ -81,6 +83,7 @@ private:
   void loadMeshes(const Scene& scene);
   void buildContacts(const Scene& scene, const Ground& ground);
   contact::PartMotion motionOf(std::size_t contactPart) const;
+  vehicle::GroundLoads meanGroundLoads() const;
   /// Bound of how far any point of a part may have moved [m] in this step: absolute, and relative to the hull.
   void trackTravel();
 
@@ -106,6 +109,8 @@ private:
   base::Array<contact::PartMotion> motion_;
   base::Array<contact::PartLoad> trackLoads_, groundLoads_;
   std::vector<contact::PartLoad> trackSums_, groundSums_;
+  std::vector<base::Vec3l> groundForceSums_; ///< by contact part, over `meanSteps_` steps
+  std::int64_t meanSteps_{0};
   base::FixedPoint groundForceQuantum_, groundTorqueQuantum_;
   std::unique_ptr<contact::PartPartContacts> track_;
   std::unique_ptr<terrain::GroundContacts> rigidGround_;
