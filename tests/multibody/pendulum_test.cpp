@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -107,7 +108,7 @@ TEST(MultibodyPendulum, EnergyHasNoSecularLoss) {
   EXPECT_NEAR(late, early, 2e-4);
 }
 
-TEST(MultibodyPendulum, LedgerClosesToRoundOff) {
+TEST(MultibodyPendulum, LedgerClosesWithTheStep) {
   // Kinetic energy = start + works; each impulse works over the mean of the rates before and after it.
   Mechanism p = pointPendulum();
   Solver solver(p.model);
@@ -119,7 +120,7 @@ TEST(MultibodyPendulum, LedgerClosesToRoundOff) {
   const double coarse = residual(1e-3), fine = residual(5e-4);
   std::printf("ledger residual: %.3e J at 1 ms, %.3e J at 0.5 ms\n", coarse, fine);
   EXPECT_LT(coarse, 1e-3);
-  EXPECT_LT(fine, 0.6 * coarse);
+  EXPECT_LT(fine, 0.3 * coarse); // measured order two: a quarter
 }
 
 } // namespace

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <functional>
+#include <ios>
 #include <limits>
 #include <string>
 
@@ -69,6 +71,20 @@ TEST(MultibodyState, ResumedRunEqualsTheStraightRunToTheLastBit) {
   const std::vector<double> a = straight.state.save(), b = resumed.state.save();
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
+}
+
+TEST(MultibodyState, HashOfARunIsTheSameOnEveryMachineAndBuild) {
+  // FNV-1a over the state's bytes. A change needs a reason in the commit that changes it.
+  Mechanism m = vehicleLike();
+  Solver solver(m.model);
+  runSteps(m, solver, 0, 300);
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const double x : m.state.save()) {
+    unsigned char bytes[sizeof x];
+    std::memcpy(bytes, &x, sizeof x);
+    for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
+  }
+  EXPECT_EQ(hash, 0x95c923cd6c3ec013ull) << std::hex << hash;
 }
 
 TEST(MultibodyState, RestoreRefusesAnotherModelsState) {
