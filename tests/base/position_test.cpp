@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/fixed_point.hpp"
+#include "base/math.hpp"
+#include "base/position.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace grouser::base {
+namespace {
+
+TEST(Position, RoundTripsOverItsWholeRange) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const auto draw = [&] { return static_cast<std::int64_t>(random() >> 22) - (std::int64_t{1} << 41); };
+    const Vec3l u{draw(), draw(), draw()};
+    ASSERT_EQ(toUnits(fromUnits(u)), u);
+  }
+}
+
+TEST(Position, DifferencesAreExactAcrossEveryBorder) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 100000; ++i) {
+    const auto draw = [&] { return static_cast<std::int64_t>(random() >> 23) - (std::int64_t{1} << 40); };
+    const auto step = [&] { return static_cast<std::int64_t>(random() >> 34) - (std::int64_t{1} << 29); };
+    const Vec3l a{draw(), draw(), draw()}, d{step(), step(), step()};
+    const Vec3i got = difference(fromUnits(a), fromUnits(a + d));
+    ASSERT_EQ(static_cast<std::int64_t>(got.x), d.x);
+    ASSERT_EQ(static_cast<std::int64_t>(got.y), d.y);
+    ASSERT_EQ(static_cast<std::int64_t>(got.z), d.z);
+    ASSERT_EQ(difference(fromUnits(a + d), fromUnits(a)), -got) << "the same from either side";
+  }
+}
+
+TEST(PositionScale, ResolvesAHundredMillionthOfADiameter) {
+  for (const double diameter : {1e-5, 1e-3, 0.054, 3.0}) {
+    const PositionScale s = positionScale(diameter);
+    EXPECT_LE(s.unit, 1e-8 * diameter);
+    EXPECT_GT(s.unit, 4e-9 * diameter);
+    int exponent = 0;
+    EXPECT_EQ(std::frexp(s.unit, &exponent), 0.5) << "a power of two";
+    EXPECT_EQ(s.unit * s.perMetre, 1);
+  }
+}
+
+TEST(FixedPoint, SumsDoNotDependOnOrder) {
+  const FixedPoint f = fixedPointFor(1e4, 42);
+  std::mt19937_64 random(3);
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) values.push_back((static_cast<double>(random() >> 11) * 0x1p-53 - 0.5) * 1e4);
+  std::int64_t forward = 0, backward = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    forward += f.quantise(values[i]);
+    backward += f.quantise(values[values.size() - 1 - i]);
+  }
+  EXPECT_EQ(forward, backward);
+}
+
+TEST(ElementaryFunctions, AgreeWithTheCLibraryToAFewUlp) {
+  // The bound is relative to the value, or to 1 where the function passes zero.
+  double worst = 0;
+  for (int i = -4000; i <= 4000; ++i) {
+    const double x = 0.0031 * i;
+    const auto off = [&](double got, double want) { worst = std::max(worst, std::fabs(got - want) / std::max(1.0, std::fabs(want))); };
+    off(sin(x), std::sin(x)), off(cos(x), std::cos(x)), off(atan(x), std::atan(x)), off(exp(x), std::exp(x));
+    if (x > 0) off(log(x), std::log(x)), off(pow(x, 1.7), std::pow(x, 1.7));
+    for (int j = -3; j <= 3; ++j) off(atan2(x, j), std::atan2(x, static_cast<double>(j)));
+    if (std::fabs(x) <= 1) off(acos(x), std::acos(x)), off(asin(x), std::asin(x));
+  }
+  EXPECT_LT(worst, 4e-15) << "about 16 ulp of 1";
+}
+
+} // namespace
+} // namespace grouser::base

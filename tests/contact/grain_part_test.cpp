@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One grain against parts made of spheres: the plane under it, two patches in a corner, history, balance of loads.
+#include "contact/grain_part_contacts.hpp"
+
+#include "base/math.hpp"
+#include "part_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::contact::testing {
+namespace {
+
+using base::Vec3d;
+
+constexpr double kRadius = 0.027, kStiffness = 1e6;
+
+/// One grain against one part, stepped by hand.
+struct Bench {
+  GrainPartModel model;
+  base::Exec exec = base::cpuExec(1);
+  std::unique_ptr<GrainPartContacts> contacts;
+  base::Array<PartMotion> motion;
+  base::Array<PartLoad> loads;
+
+  explicit Bench(const base::SphereSet& set, double friction = 0) {
+    model.radius = kRadius, model.mass = 0.2, model.timeStep = 1e-4, model.margin = 0.01;
+    model.law.stiffness = kStiffness, model.law.friction = static_cast<float>(friction);
+    model.law.tangentialStiffness = 2e5f;
+    model.scale = base::positionScale(2 * kRadius);
+    model.force = model.torque = base::fixedPointFor(kStiffness * kRadius, 36);
+    model.energy = base::fixedPointFor(10, 36);
+    contacts = std::make_unique<GrainPartContacts>(exec, model, std::vector<const base::SphereSet*>{&set},
+                                                   std::vector<GrainPart>{{0, {}, {}}});
+    loads = base::Array<PartLoad>(exec, 1);
+  }
+
+  struct Result {
+    Vec3d onGrain, onPart, torqueOnPart, torqueOnGrain;
+    std::int64_t patches;
+  };
+  Result touch(const Vec3d& x, const Vec3d& v, const PartMotion& part, bool refresh = true) {
+    const base::Position p = model.scale.fromMetres(x);
+    const base::Vec4f velocity{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}, spin{};
+    const std::uint32_t id = 0;
+    motion = base::Array<PartMotion>(exec, std::vector<PartMotion>{part});
+    const GrainPartContacts::GrainsView grains{&p, &velocity, &spin, &id, 1};
+    if (refresh) contacts->refresh(grains, motion);
+    loads.zero();
+    contacts->compute(grains, motion, loads);
+    Result r{};
+    const GrainLoadsView view = contacts->grainLoads();
+    for (std::uint32_t k = 0; k < (view.range[0] & 255u); ++k) {
+      r.onGrain += view.force.value(view.load[(view.range[0] >> 8) + k].force);
+      r.torqueOnGrain += view.load[(view.range[0] >> 8) + k].torque.as<double>();
+    }
+    r.onPart = model.force.value(loads.at(0).force);
+    r.torqueOnPart = model.torque.value(loads.at(0).torque);
+    r.patches = contacts->ledger().contacts;
+    return r;
+  }
+};
+
+TEST(GrainOnPlate, FeelsThePlaneNotTheBumps) {
+  const double overlap = 5e-4;
+  for (const double spacing : {0.004, 0.008, 0.016}) { // the force must not depend on how finely the part is cut
+    Bench bench(plate(0.1, 0.008, spacing));
+    for (double x = -0.03; x < 0.03; x += 0.0037) {
+      const auto r = bench.touch({x, 0.3 * x, kRadius - overlap}, {}, atRest({}));
+      EXPECT_EQ(r.patches, 1);
+      EXPECT_NEAR(r.onGrain.z, kStiffness * overlap, 1e-4 * kStiffness * overlap) << "float distances of 35 mm, 4e-9 m";
+      EXPECT_NEAR(r.onGrain.x, 0, 1e-4 * kStiffness * overlap);
+    }
+  }
+}
+
+TEST(GrainOnPlate, TurnedAndMovedPlateGivesTheSameForceInItsFrame) {
+  Bench bench(plate(0.1, 0.008, 0.008));
+  const double angle = 0.7;
+  const base::Quat q{base::cos(angle / 2), 0.6 * base::sin(angle / 2), 0.8 * base::sin(angle / 2), 0};
+  const PartMotion part = atRest({3, -2, 1}, q);
+  const double overlap = 3e-4;
+  const auto r = bench.touch(part.toWorld({0.011, -0.007, kRadius - overlap}), {}, part);
+  const Vec3d inPart = transposedTimes(part.rotation, r.onGrain);
+  EXPECT_NEAR(inPart.z, kStiffness * overlap, 1e-3 * kStiffness * overlap);
+  EXPECT_NEAR(inPart.x, 0, 1e-3 * kStiffness * overlap);
+}
+
+TEST(GrainOnPlate, LoadsBalanceToTheLastQuantum) {
+  Bench bench(plate(0.1, 0.008, 0.008), 0.5);
+  for (int k = 0; k < 20; ++k) {
+    const Vec3d x{0.001 * k, 0.0003 * k, kRadius - 1e-4 * k};
+    const auto r = bench.touch(x, {0.3, 0.1, -0.2}, atRest({}));
+    EXPECT_EQ(r.onGrain + r.onPart, Vec3d{}) << "integers of opposite sign";
+    // Torque of both about the world's origin: x cross F + torque on grain + torque on part (about the origin).
+    const Vec3d total = cross(x, r.onGrain) + r.torqueOnGrain + r.torqueOnPart;
+    EXPECT_LT(norm(total), 1e-5) << "float torque of 27 mm x 1 kN";
+  }
+}
+
+TEST(GrainInCorner, HasOnePatchOnEachFace) {
+  Bench bench(corner(0.1, 0.008, 0.008));
+  const double a = 4e-4, b = 2e-4;
+  const auto r = bench.touch({kRadius - a, 0.003, kRadius - b}, {}, atRest({}));
+  EXPECT_EQ(r.patches, 2);
+  EXPECT_NEAR(r.onGrain.x, kStiffness * a, 0.01);
+  EXPECT_NEAR(r.onGrain.z, kStiffness * b, 0.01);
+}
+
+TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
+  // Two parts face each other 2 R - 2 overlap apart: forces cancel, each part carries its own.
+  base::SphereSet set = plate(0.1, 0.008, 0.008);
+  GrainPartModel model = Bench(set).model;
+  const base::Exec exec = base::cpuExec(1);
+  GrainPartContacts contacts(exec, model, {&set}, {{0, {}, {}}, {0, {}, {}}});
+  const double overlap = 3e-4, gap = 2 * (kRadius - overlap);
+  const PartMotion below = atRest({}), above = atRest({0, 0, gap}, {0, 1, 0, 0}); // turned by half a turn about x
+  base::Array<PartMotion> motion(exec, std::vector<PartMotion>{below, above});
+  base::Array<PartLoad> loads(exec, 2);
+  const base::Position p = model.scale.fromMetres({0.005, 0.002, 0.5 * gap});
+  const base::Vec4f zero{};
+  const std::uint32_t id = 0;
+  contacts.refresh({&p, &zero, &zero, &id, 1}, motion);
+  contacts.compute({&p, &zero, &zero, &id, 1}, motion, loads);
+  const double down = model.force.value(loads.at(0).force.z), up = model.force.value(loads.at(1).force.z);
+  EXPECT_NEAR(down, -kStiffness * overlap, 0.05);
+  EXPECT_NEAR(up, kStiffness * overlap, 0.05);
+}
+
+TEST(GrainOnPlate, KeepsItsFrictionSpringThroughARefresh) {
+  for (const bool refresh : {false, true}) {
+    Bench bench(plate(0.1, 0.008, 0.008), 0.5);
+    double x = 0;
+    const double overlap = 1e-3, speed = 0.01;
+    Bench::Result r{};
+    for (int k = 0; k < 50; ++k) { // 50 steps of 1e-4 s at 1 cm/s: 50 um of stretch, 10 N of 500 N limit
+      r = bench.touch({x, 0, kRadius - overlap}, {speed, 0, 0}, atRest({}), k == 0 || refresh);
+      x += speed * bench.model.timeStep;
+    }
+    EXPECT_NEAR(r.onGrain.x, -2e5 * 50 * speed * bench.model.timeStep, 1e-3);
+  }
+}
+
+} // namespace
+} // namespace grouser::contact::testing

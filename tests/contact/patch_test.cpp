@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Extended surfaces: the pressure law does not depend on the cut, loads balance, friction sticks and slides.
+#include "contact/patch_contacts.hpp"
+
+#include "part_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::contact::testing {
+namespace {
+
+using base::Vec3d;
+
+struct PlateOnPlate {
+  base::Exec exec = base::cpuExec(1);
+  PartPartContacts::Model model;
+  base::SphereSet small, large;
+  std::unique_ptr<PartPartContacts> contacts;
+  base::Array<PartMotion> motion;
+  base::Array<PartLoad> loads;
+
+  PlateOnPlate(double spacing, double friction) : small(plate(0.05, 0.005, spacing)), large(plate(0.2, 0.005, 0.008)) {
+    model.law = {1e9, 0, friction, 0.8};
+    model.quanta.force = model.quanta.torque = model.quanta.moment = model.quanta.energy = base::fixedPointFor(1e6, 44);
+    model.quanta.area = base::fixedPointFor(1, 40);
+    model.timeStep = 1e-4, model.margin = 0.003;
+    contacts = std::make_unique<PartPartContacts>(exec, model, std::vector<const base::SphereSet*>{&small, &large},
+                                                  std::vector<int>{0, 1}, std::vector<PartPair>{{0, 1}});
+    loads = base::Array<PartLoad>(exec, 2);
+  }
+  /// Small plate (a) stands on its lower face, 30 mm below its origin; `v` is its velocity.
+  void step(const Vec3d& origin, const Vec3d& v) {
+    PartMotion a = atRest(origin), b = atRest({});
+    a.velocity = v;
+    motion = base::Array<PartMotion>(exec, std::vector<PartMotion>{a, b});
+    if (contacts->probesListed() == 0) contacts->refresh(motion);
+    loads.zero();
+    contacts->compute(motion, loads);
+  }
+  Vec3d force(int part) const { return model.quanta.force.value(loads.at(static_cast<std::size_t>(part)).force); }
+  Vec3d torque(int part) const { return model.quanta.torque.value(loads.at(static_cast<std::size_t>(part)).torque); }
+  double area() const {
+    double sum = 0;
+    for (const base::SetSphere& s : small.spheres)
+      if (s.normal.z < 0) sum += s.area;
+    return sum;
+  }
+};
+
+TEST(PlateOnPlate, PressureTimesAreaWhateverTheCut) {
+  const double overlap = 1e-4;
+  for (const double spacing : {0.003, 0.005, 0.01}) {
+    PlateOnPlate bench(spacing, 0);
+    bench.step({0.0123, 0.0071, 0.03 - overlap}, {});
+    EXPECT_NEAR(bench.force(0).z, 1e9 * bench.area() * overlap, 2e-4 * 1e9 * bench.area() * overlap)
+        << "float distances, 1e-8 m of 1e-4 m";
+    EXPECT_EQ(bench.force(0) + bench.force(1), Vec3d{});
+  }
+}
+
+TEST(PlateOnPlate, TorquesBalanceAboutOnePoint) {
+  PlateOnPlate bench(0.005, 0.5);
+  const Vec3d origin{0.05, -0.02, 0.0298};
+  bench.step(origin, {0.1, 0, 0});
+  const Vec3d total = bench.torque(0) + cross(origin, bench.force(0)) + bench.torque(1); // b's centre is the origin
+  EXPECT_LT(norm(total), 1e-6 * norm(bench.torque(1))) << "quanta";
+}
+
+TEST(PlateOnPlate, SticksOnItsSpringThenSlidesAtCoulombsLimit) {
+  PlateOnPlate bench(0.005, 0.5);
+  const double overlap = 1e-4, speed = 0.01;
+  double x = 0;
+  const double kt = 0.8 * 1e9 * bench.area();
+  for (int k = 1; k <= 100; ++k) {
+    bench.step({x, 0, 0.03 - overlap}, {speed, 0, 0});
+    const double spring = kt * speed * bench.model.timeStep * k, limit = 0.5 * bench.force(0).z;
+    EXPECT_NEAR(bench.force(0).x, -std::min(spring, limit), 1e-6 * limit + 1e-3 * std::min(spring, limit));
+    x += speed * bench.model.timeStep;
+  }
+  // Work of friction equals what was dissipated plus what is left in the spring.
+  const double slid = x - 0.5 * 1e9 * bench.area() * overlap / kt;
+  const auto ledger = bench.contacts->ledger();
+  EXPECT_NEAR(ledger.dissipated, 0.5 * bench.force(0).z * slid, 0.03 * ledger.dissipated) << "one step of 100";
+}
+
+} // namespace
+} // namespace grouser::contact::testing
