@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr int kShoes = 12, kRows = 80;
 
-/// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises.
+/// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
+/// comes down at row 60 only.
 class Plots : public testing::Test {
 protected:
   void SetUp() override {
@@ -36,7 +37,7 @@ protected:
       for (int s = 0; s < kShoes; ++s) {
         const auto i = static_cast<std::size_t>(s);
         const int left = 10 + 5 * s - r;
-        sinkage[i] = left >= 0 ? 0.001 * r : std::nan("");
+        sinkage[i] = left >= 0 && (s + 1 < kShoes || r >= 60) ? 0.001 * r : std::nan("");
         height[i] = left >= 0 ? 0.2 - 0.001 * r : 0.2 - 0.05 * left;
       }
       row.begin(r, 0.02 * r);
@@ -90,7 +91,7 @@ TEST_F(Plots, FourShoesAreConsecutiveAndPickedUp) {
                              "/runs/plots'); import h5py, series, shoes; run = series.Run(h5py.File('" +
                              (folder_ / "results.h5").string() +
                              "', 'r')); side, four = shoes.choose_four(run.shoes('pad_height'), run.shoes('sinkage')); "
-                             "sys.exit(0 if (side, four) == ('left', [8, 9, 10, 11]) else print(side, four) or 9)";
+                             "sys.exit(0 if (side, four) == ('left', [7, 8, 9, 10]) else print(side, four) or 9)";
   const int status = std::system(("/usr/bin/python3 -c \"" + script + "\"").c_str());
   if (WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 9) GTEST_SKIP() << "no Python with h5py and matplotlib";
   EXPECT_EQ(WEXITSTATUS(status), 0);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <omp.h>
 
 namespace grouser::runs {
 namespace {
@@ -62,6 +63,13 @@ TEST(Render, NearerSurfaceHidesTheFarther) {
   EXPECT_GT(count(image, isBlue), 0);
 }
 
+TEST(Render, OrderOfTheSpheresDoesNotMatter) {
+  const RenderSphere near{{0, -1, 0}, 0.5f, {0.8f, 0, 0}}, far{{0, 1, 0}, 0.5f, {0, 0, 0.8f}};
+  EXPECT_EQ(render({{near, far}, {}}, front(), kWidth, kHeight).rgb,
+            render({{far, near}, {}}, front(), kWidth, kHeight).rgb);
+  EXPECT_TRUE(isRed(render({{near, far}, {}}, front(), kWidth, kHeight).at(kWidth / 2, kHeight / 2)));
+}
+
 TEST(Render, SquareCoversItsProjection) {
   const Image image = render({{}, {square(0, 0.5, {0, 0, 0.8f})}}, front(), kWidth, kHeight);
   const double edge = kHeight * (1.0 / 4) / (2 * std::tan(17.5 * M_PI / 180));
@@ -95,7 +103,12 @@ TEST(Render, PictureIsTheSameForEveryNumberOfThreads) {
     scene.spheres.push_back({{0.1f * float(i % 20) - 1, 0.1f * float(i / 20) - 0.5f, 0.01f * float(i % 7)},
                              0.06f,
                              heightColour(float(i) / 200)});
-  const Image first = render(scene, front(), kWidth, kHeight), second = render(scene, front(), kWidth, kHeight);
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Image first = render(scene, front(), kWidth, kHeight);
+  omp_set_num_threads(3);
+  const Image second = render(scene, front(), kWidth, kHeight);
+  omp_set_num_threads(threads);
   EXPECT_EQ(first.rgb, second.rgb);
 }
 
