@@ -10,24 +10,26 @@
 namespace grouser::multibody {
 
 struct SolverOptions {
-  double positionTolerance = 1e-10; ///< on every hard constraint after a step [m, rad]
-  int maxIterations = 12;           ///< of the position solve; typically one or two are used
+  /// On every hard constraint after a step [m, rad]. What is left of a gap comes back in the next step's constraint
+  /// force as up to mass x gap / dt^2: 0.3 N for a shoe of 8.5 kg at 50 us.
+  double positionTolerance = 1e-10;
+  int maxIterations = 12; ///< of the position solve; typically one or two are used
 };
 
 /// How well the last step was solved.
 struct StepReport {
   int iterations = 0;
   double maxPositionError = 0; ///< max |C| over the hard rows at the new poses [m, rad]
-  double maxVelocityError =
-      0;                ///< max |J v - rate imposed| over the hard rows, J at the middle of the step [m/s, rad/s]
-  int singularRows = 0; ///< rows without a pivot in this step: a singular position is being passed
+  int singularRows = 0;        ///< rows without a pivot in this step: a singular position is being passed
 };
 
 /// Advances a mechanism by constrained symplectic Euler; solver.cpp states the scheme. Deterministic, one thread,
-/// no allocation in step().
+/// no allocation in step(). A start velocity belongs to the start pose, half a step before the first mean velocity: the
+/// first step gets a whole step of load where half would do (a shift in time of dt / 2, the scheme's only first-order
+/// error for smooth motions), and needs half the centripetal constraint force.
 class Solver {
 public:
-  /// Orders the elimination and finds redundant constraints. The model must outlive the solver.
+  /// Orders the elimination and finds redundant constraints. The model must outlive the solver and not change.
   /// Throws base::InputError if joints are not closed at the start (naming the joint and its gap).
   explicit Solver(const Model& model, const SolverOptions& options = {});
   ~Solver();
