@@ -148,6 +148,7 @@ private:
       Patch deepest{{}, {}, 0};
       for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k) {
         const Disc& disc = grid.disc[grid.entry[k]];
+        if (outOfReach(disc, c, model.radius)) continue;
         const DiscDistance at = distanceTo(disc, c);
         const float overlap = radius + disc.radius - at.distance;
         if (overlap <= deepest.overlap) continue;

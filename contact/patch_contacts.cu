@@ -10,7 +10,7 @@ namespace grouser::contact {
 
 PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::SphereSet*>& sets,
                            const std::vector<int>& setOf, std::size_t pairCount)
-    : exec(e), pairs(pairCount), setOfPart(e, setOf), count(e, pairCount), first(e, pairCount), entry(e),
+    : exec(e), pairs(pairCount), setOfPart(e, setOf), count(e, pairCount), first(e, pairCount), entry(e), gap(e),
       sums(e, pairCount * kClusters), states(e, pairCount * kClusters) {
   std::vector<Probe> all;
   std::vector<std::uint32_t> start{0};
@@ -77,8 +77,8 @@ void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {
   listProbes(buffers_, target(), motion, model_.margin);
 }
 
-void PartPartContacts::compute(const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads) {
-  pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, motion, loads);
+void PartPartContacts::compute(const base::Array<PartMotion>& motion, double travelled, base::Array<PartLoad>& loads) {
+  pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 
 } // namespace grouser::contact

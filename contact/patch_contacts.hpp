@@ -21,6 +21,7 @@ struct PatchBuffers {
   base::Array<int> setOfPart;
   base::Array<std::uint32_t> count, first;
   base::Array<std::uint64_t> entry;
+  base::Array<float> gap;
   std::size_t entries{0};
   base::Array<PatchSums> sums;
   base::Array<PatchState> states;
@@ -55,8 +56,9 @@ public:
 
   /// Lists the probes within the margin, at the parts' present places.
   void refresh(const base::Array<PartMotion>& motion);
-  /// Adds this step's contact loads to `loads` (one a part).
-  void compute(const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads);
+  /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this relative
+  /// to each other since the refresh [m]; at most the margin.
+  void compute(const base::Array<PartMotion>& motion, double travelled, base::Array<PartLoad>& loads);
 
   std::size_t probesListed() const { return buffers_.entries; }
   PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }
@@ -89,6 +91,7 @@ public:
       base::Vec3f outward{};
       for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k) {
         const Disc& disc = grid.disc[grid.entry[k]];
+        if (outOfReach(disc, local, radius)) continue;
         const DiscDistance at = distanceTo(disc, local);
         const double depth = radius + static_cast<double>(disc.radius) - static_cast<double>(at.distance);
         if (depth > overlap) overlap = depth, outward = at.normal;

@@ -27,7 +27,11 @@ struct ProbeSets {
   GROUSER_HD std::uint32_t end(int part) const { return start[setOfPart[part] + 1]; }
 };
 
-/// Counts (where `entry` is null) or lists the probes of one pair that are within `margin` of touching.
+/// Covers the rounding of distances in single precision [m].
+inline constexpr double kGapSlack = 1e-6;
+
+/// Counts (where `entry` is null) or lists the probes of one pair that are within `margin` of touching, each with its gap:
+/// until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
 template <class Target> struct ListProbes {
   Target target;
   ProbeSets sets;
@@ -35,6 +39,7 @@ template <class Target> struct ListProbes {
   double margin;
   std::uint32_t *count, *first;
   std::uint64_t* entry; ///< pair << 32 | probe
+  float* gap;           ///< [m], a lower bound
 
   GROUSER_HD void operator()(int pair) const {
     std::uint32_t found = 0;
@@ -46,7 +51,10 @@ template <class Target> struct ListProbes {
         double overlap;
         const base::Vec3d x = motion[a].toWorld(probe.centre.template as<double>());
         if (!target.touch(pair, motion, x, static_cast<double>(probe.radius) + margin, normal, overlap)) continue;
-        if (entry) entry[first[pair] + found] = static_cast<std::uint64_t>(pair) << 32 | k;
+        if (entry) {
+          entry[first[pair] + found] = static_cast<std::uint64_t>(pair) << 32 | k;
+          gap[first[pair] + found] = static_cast<float>(margin - overlap - kGapSlack);
+        }
         ++found;
       }
     }
@@ -78,11 +86,14 @@ template <class Target> struct PressProbe {
   PatchQuanta quanta;
   const PartMotion* motion;
   const std::uint64_t* entry;
+  const float* gap;
+  double travelled; ///< bound of the relative motion of any pair since the list was made [m]
   PatchSums* patches; ///< [pair * kClusters + cluster]
   PartLoad* loads;
   double timeStep;
 
   GROUSER_HD void operator()(int e) const {
+    if (static_cast<double>(gap[e]) > travelled) return;
     const int pair = static_cast<int>(entry[e] >> 32);
     const Probe probe = sets.probe[entry[e] & 0xFFFFFFFFu];
     const int a = target.partA(pair), b = target.partB(pair);
@@ -97,11 +108,8 @@ template <class Target> struct PressProbe {
     const double stiffness = law.modulus * static_cast<double>(probe.area);
     const double opening = dot(relative, normal);
     double size = stiffness * (overlap - law.relaxation * opening);
-    double dissipated = stiffness * law.relaxation * opening * opening * timeStep;
-    if (size < 0) {
-      dissipated = stiffness * overlap * opening * timeStep;
-      size = 0;
-    }
+    if (size < 0) size = 0;
+    const double dissipated = (stiffness * overlap - size) * opening * timeStep;
     const base::Vec3l force = quanta.force.quantise(normal * size);
     applyToBoth(quanta, motion, a, b, x, force, loads);
     PatchSums& patch = patches[static_cast<std::int64_t>(pair) * kClusters + probe.cluster];
@@ -146,18 +154,18 @@ template <class Target> struct RubPatch {
       if (b >= 0) relative -= motion[b].velocityAt(x);
       const base::Vec3d slip = relative - normal * dot(relative, normal);
       base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
-      shear += slip * timeStep;
       const double stiffness = law.tangentialRatio * law.modulus * quanta.area.value(sums.area);
+      const double storedBefore = stiffness * dot(shear, shear);
+      shear += slip * timeStep;
       const double dashpot = law.relaxation * stiffness;
       base::Vec3d force = shear * -stiffness - slip * dashpot;
       const double limit = law.friction * weight, size = norm(force);
       if (size > limit) {
         force *= limit / size;
-        const base::Vec3d kept = (force + slip * dashpot) * (-1 / stiffness);
-        dissipated -= dot(force, shear - kept);
-        shear = kept;
+        shear = force * (-1 / stiffness);
       }
-      dissipated += dashpot * dot(slip, slip) * timeStep;
+      // Work put in, less what the spring has gained.
+      dissipated -= dot(force, slip) * timeStep + 0.5 * (stiffness * dot(shear, shear) - storedBefore);
       base::atomicAdd64(&sums.elastic, quanta.energy.quantise(0.5 * stiffness * dot(shear, shear)));
       state.shear = shear;
       applyToBoth(quanta, motion, a, b, x, quanta.force.quantise(force), loads);

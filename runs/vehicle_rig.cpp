@@ -20,7 +20,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kTrackMargin = 0.006; // [m] how far before touching a probe is listed
+constexpr double kTrackMargin = 0.004; // [m] how far before touching a probe is listed
 constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their own skin
 
 vehicle::DriverOptions driverOptions(const Driver& d) {
@@ -210,7 +210,7 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
   absoluteTravel_ = 0;
 }
 
-void VehicleRig::touchTrack() { track_->compute(motion_, trackLoads_); }
+void VehicleRig::touchTrack() { track_->compute(motion_, 2 * relativeTravel_, trackLoads_); }
 
 void VehicleRig::touchGround(const terrain::Grains* grains) {
   if (bed_) {
@@ -218,7 +218,7 @@ void VehicleRig::touchGround(const terrain::Grains* grains) {
                   groundLoads_);
     grainLoads_ = bed_->grainLoads();
   }
-  if (rigidGround_) rigidGround_->compute(motion_, groundLoads_);
+  if (rigidGround_) rigidGround_->compute(motion_, absoluteTravel_, groundLoads_);
 }
 
 void VehicleRig::collectLoads() {

@@ -24,8 +24,9 @@ void GroundContacts::refresh(const base::Array<contact::PartMotion>& motion) {
   contact::listProbes(buffers_, target(), motion, model_.margin);
 }
 
-void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, base::Array<contact::PartLoad>& loads) {
-  contact::pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, motion, loads);
+void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, double travelled,
+                             base::Array<contact::PartLoad>& loads) {
+  contact::pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 
 } // namespace grouser::terrain

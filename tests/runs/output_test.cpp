@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 namespace grouser::runs {
@@ -198,13 +197,17 @@ TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
   writer.finish({});
   const std::string xml = contents(folder_ / "frames.xdmf");
   const Hdf5File file = Hdf5File::open(folder_ / "frames.h5");
-  const std::regex item("<DataItem Dimensions=\"([0-9 ]+)\"[^>]*>frames.h5:([^<]+)</DataItem>");
+  const auto between = [&xml](const std::string& open, const std::string& close, std::size_t from) {
+    const std::size_t begin = xml.find(open, from) + open.size();
+    return xml.substr(begin, xml.find(close, begin) - begin);
+  };
   int references = 0;
-  for (std::sregex_iterator it(xml.begin(), xml.end(), item), end; it != end; ++it, ++references) {
+  for (std::size_t at = 0; (at = xml.find("<DataItem", at)) != std::string::npos; ++at, ++references) {
     std::vector<std::uint64_t> wanted;
-    std::istringstream stream((*it)[1]);
+    std::istringstream stream(between("Dimensions=\"", "\"", at));
     for (std::uint64_t n; stream >> n;) wanted.push_back(n);
-    EXPECT_EQ(file.shape((*it)[2]), wanted) << (*it)[2];
+    const std::string dataset = between(">frames.h5:", "</DataItem>", at);
+    EXPECT_EQ(file.shape(dataset), wanted) << dataset;
   }
   EXPECT_EQ(references, 3 * (5 + 4 + 2)); // grains, parts, ground
   // Parts stand where their poses put them.
