@@ -11,8 +11,9 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kAzimuth = -55, kElevation = 14; ///< [deg] of the camera, from the vehicle
-constexpr double kTight = 0.8;                    ///< a vehicle fills its bounding ball to this share only
+constexpr double kAzimuth = -55;                             ///< [deg] of the camera
+constexpr double kVehicleElevation = 14, kBedElevation = 30; ///< [deg] of the camera above the vehicle, or a bed alone
+constexpr double kVehicleTight = 0.8, kBedTight = 0.75;      ///< share of its bounding ball that is seen filled
 
 Colour partColour(const std::string& kind) {
   if (kind == "chassis") return srgb(112, 122, 92);
@@ -66,8 +67,11 @@ Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const b
   const int height = std::max(1, width * 9 / 16);
   const Box& subject = vehicle.empty() ? bed : vehicle;
   if (subject.empty()) return render(scene, {}, width, height);
-  const double radius = std::max(1e-3, subject.radius()) * (vehicle.empty() ? 1.0 : kTight);
-  return render(scene, cameraTowards(subject.middle(), radius, kAzimuth, kElevation, 16.0 / 9), width, height);
+  const double radius = std::max(1e-3, subject.radius()) * (vehicle.empty() ? kBedTight : kVehicleTight);
+  return render(
+      scene,
+      cameraTowards(subject.middle(), radius, kAzimuth, vehicle.empty() ? kBedElevation : kVehicleElevation, 16.0 / 9),
+      width, height);
 }
 
 } // namespace grouser::runs

@@ -19,7 +19,7 @@ namespace grouser::runs {
 namespace {
 
 /// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
-constexpr double kBytesPerGrain = 1200;
+constexpr double kBytesPerGrain = 800;
 
 /// Grains of the bed; reads the height-map, for hills may need more.
 std::int64_t bedGrains(const Scene& scene) {
