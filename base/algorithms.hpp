@@ -5,7 +5,8 @@
 
 #include <cstdint>
 
-/// Parallel building blocks (Thrust beneath) on the memory of `exec`. Integer only, so every order gives the same result.
+/// Parallel building blocks (Thrust beneath) on the memory of `exec`. Integer only, so every order gives the same
+/// result.
 namespace grouser::base {
 
 /// Stable sort of `values` by `keys`, both of length `count`, in place.

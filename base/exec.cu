@@ -19,9 +19,11 @@ namespace {
 
 constexpr std::size_t kAlignment = 64;
 
+#if !defined(__CUDACC__)
 [[noreturn]] void noCuda() {
   throw DeviceError("this build has no CUDA backend; use --device cpu, or build with the preset 'cuda'");
 }
+#endif
 
 std::string processorName() {
   std::ifstream info("/proc/cpuinfo");

@@ -11,8 +11,8 @@ enum class Device { Cpu, Cuda };
 /// Where work runs: CPU threads, or one CUDA device and its stream. Cheap to copy; owns nothing.
 struct Exec {
   Device device{Device::Cpu};
-  int threads{1};         ///< CPU threads, >= 1
-  void* stream{nullptr};  ///< cudaStream_t where device is Cuda
+  int threads{1};        ///< CPU threads, >= 1
+  void* stream{nullptr}; ///< cudaStream_t where device is Cuda
 
   bool onCpu() const { return device == Device::Cpu; }
 };

@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// Order-free sums: a real number becomes a 64-bit multiple of a quantum, a power of two, so that additions are exact and
-/// any order, thread count or number of ranks gives the same bits. The range is +-2^63 quanta.
+/// Order-free sums: a real number becomes a 64-bit multiple of a quantum, a power of two, so that additions are exact
+/// and any order, thread count or number of ranks gives the same bits. The range is +-2^63 quanta.
 struct FixedPoint {
   double quantum{1};
   double perUnit{1}; ///< 1 / quantum, exact

@@ -30,7 +30,7 @@ template <class Body> void forEach(const Exec& exec, const char* name, std::int6
   if (exec.onCpu()) {
     const int n = static_cast<int>(count);
     // A thread costs more than a handful of items.
-    const int threads = count < 64 ? 1 : exec.threads;
+    [[maybe_unused]] const int threads = count < 64 ? 1 : exec.threads;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int i = 0; i < n; ++i) body(i);
     return;
@@ -78,8 +78,7 @@ GROUSER_HD void atomicMin64(std::uint64_t* target, std::uint64_t value) {
   atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
 #else
   std::uint64_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
-  while (value < old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-  }
+  while (value < old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
 #endif
 }
 

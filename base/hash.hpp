@@ -7,8 +7,8 @@
 
 namespace grouser::base {
 
-/// 64-bit hash of a sequence of words, for telling states apart: each word goes through a full 64-bit mix (the finaliser
-/// of splitmix64; Steele, Lea and Flood 2014). Not for secrets.
+/// 64-bit hash of a sequence of words, for telling states apart: each word goes through a full 64-bit mix (the
+/// finaliser of splitmix64; Steele, Lea and Flood 2014). Not for secrets.
 class StateHash {
 public:
   void add(std::uint64_t word) {

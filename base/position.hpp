@@ -7,7 +7,8 @@
 
 namespace grouser::base {
 
-/// Position of a grain as three 42-bit integers in 16 bytes: the low 32 bits of each axis, then three times 10 high bits.
+/// Position of a grain as three 42-bit integers in 16 bytes: the low 32 bits of each axis, then three times 10 high
+/// bits.
 ///
 /// One unit is a power of two of a metre, chosen so that the largest grain's diameter is between 1e8 and 2e8 units. The
 /// low words alone give the exact difference of any two grains less than 2^31 units (about 10 diameters) apart, by
@@ -28,7 +29,9 @@ GROUSER_HD Vec3l toUnits(const Position& p) {
 }
 
 GROUSER_HD Position fromUnits(const Vec3l& u) {
-  const auto high = [](std::int64_t v) { return static_cast<std::uint32_t>(static_cast<std::uint64_t>(v) >> 32) & 0x3FFu; };
+  const auto high = [](std::int64_t v) {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(v) >> 32) & 0x3FFu;
+  };
   return {static_cast<std::uint32_t>(u.x), static_cast<std::uint32_t>(u.y), static_cast<std::uint32_t>(u.z),
           high(u.x) | high(u.y) << 10 | high(u.z) << 20};
 }
@@ -46,7 +49,7 @@ GROUSER_HD std::int64_t squaredNorm(const Vec3i& d) {
 
 /// Units of length of a scene.
 struct PositionScale {
-  double unit{1};    ///< [m], a power of two
+  double unit{1};     ///< [m], a power of two
   double perMetre{1}; ///< 1 / unit, exact
 
   GROUSER_HD Vec3d toMetres(const Position& p) const {

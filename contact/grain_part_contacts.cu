@@ -15,9 +15,9 @@ using base::Vec3f;
 
 namespace {
 
-constexpr float kSameNormal = 0.9f;  // cosine: touches within 26 degrees are one patch
-constexpr float kSameFace = 0.97f;   // cosine: discs of one face are one patch
-constexpr float kSamePatch = 0.8f;   // cosine: a patch is the one it was in the step before
+constexpr float kSameNormal = 0.9f; // cosine: touches within 26 degrees are one patch
+constexpr float kSameFace = 0.97f;  // cosine: discs of one face are one patch
+constexpr float kSamePatch = 0.8f;  // cosine: a patch is the one it was in the step before
 
 /// Squared distance from a point to a box, in the box' frame.
 GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
@@ -56,8 +56,10 @@ struct ListParts {
         ++found;
       }
     }
-    if (!key) count[i] = found;
-    else first[i] = found == 0 ? 0 : first[i] << 8 | found;
+    if (!key)
+      count[i] = found;
+    else
+      first[i] = found == 0 ? 0 : first[i] << 8 | found;
   }
 };
 
@@ -72,8 +74,10 @@ struct CarryMemory {
     std::int64_t low = 0, high = oldCount;
     while (low < high) {
       const std::int64_t middle = (low + high) / 2;
-      if (oldKey[middle] < key[e]) low = middle + 1;
-      else high = middle;
+      if (oldKey[middle] < key[e])
+        low = middle + 1;
+      else
+        high = middle;
     }
     const bool found = low < oldCount && oldKey[low] == key[e];
     for (int k = 0; k < kPatches; ++k)
@@ -154,7 +158,8 @@ private:
         if (overlap <= deepest.overlap) continue;
         bool taken = false;
         for (int q = 0; q < found; ++q)
-          taken = taken || dot(at.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
+          taken =
+              taken || dot(at.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
         if (!taken) deepest = {at.normal, disc.normal, overlap};
       }
       if (deepest.overlap <= 0) break;
@@ -182,8 +187,8 @@ private:
     const Vec3d outward = part.rotation * patch.normal.as<double>();
     const Vec3d arm = outward * -(model.radius - static_cast<double>(patch.overlap));
     const Vec3d point = x + arm;
-    const Vec3d relative = grains.velocity[i].xyz().as<double>() + cross(grains.spin[i].xyz().as<double>(), arm) -
-                           part.velocityAt(point);
+    const Vec3d relative =
+        grains.velocity[i].xyz().as<double>() + cross(grains.spin[i].xyz().as<double>(), arm) - part.velocityAt(point);
     const Touch touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).as<float>(),
                       static_cast<float>(model.mass)};
     const Reaction reaction = linearForce(model.law, touch, static_cast<float>(model.timeStep), shear);
@@ -241,16 +246,25 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   const auto n = static_cast<std::int64_t>(grains.count);
   range_.resize(grains.count);
   count_.resize(grains.count);
-  ListParts list{model_.scale, grains.position, grains.id,
-                 motion.data(), parts_.data(), static_cast<int>(partCount_),
-                 model_.radius + model_.margin, {1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300},
-                 count_.data(), range_.data(), nullptr,
+  ListParts list{model_.scale,
+                 grains.position,
+                 grains.id,
+                 motion.data(),
+                 parts_.data(),
+                 static_cast<int>(partCount_),
+                 model_.radius + model_.margin,
+                 {1e300, 1e300, 1e300},
+                 {-1e300, -1e300, -1e300},
+                 count_.data(),
+                 range_.data(),
+                 nullptr,
                  nullptr};
   const std::vector<PartMotion> poses = motion.toHost();
   const std::vector<GrainPart> parts = parts_.toHost();
   for (std::size_t p = 0; p < partCount_; ++p)
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3d c{corner & 1 ? parts[p].boxHigh.x : parts[p].boxLow.x, corner & 2 ? parts[p].boxHigh.y : parts[p].boxLow.y,
+      const Vec3d c{corner & 1 ? parts[p].boxHigh.x : parts[p].boxLow.x,
+                    corner & 2 ? parts[p].boxHigh.y : parts[p].boxLow.y,
                     corner & 4 ? parts[p].boxHigh.z : parts[p].boxLow.z};
       const Vec3d w = poses[p].toWorld(c);
       list.low = base::min(list.low, w - Vec3d{list.reach, list.reach, list.reach});
@@ -283,7 +297,8 @@ GrainLoadsView GrainPartContacts::grainLoads() const { return {range_.data(), lo
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = sums_.toHost();
-  return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]), model_.force.value({q[3], q[4], q[5]}) * model_.timeStep};
+  return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]),
+          model_.force.value({q[3], q[4], q[5]}) * model_.timeStep};
 }
 
 std::vector<std::uint32_t> GrainPartContacts::stateWords() const {

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/position.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/linear_law.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
-#include "base/position.hpp"
 
 #include <vector>
 
 namespace grouser::contact {
 
-/// A grain's contact with one part merges into patches, one for each cluster of surface normals: one on a face, two in a
-/// corner or between two teeth.
+/// A grain's contact with one part merges into patches, one for each cluster of surface normals: one on a face, two in
+/// a corner or between two teeth.
 inline constexpr int kPatches = 3;
 
-/// Tangential spring of a patch, kept in the part's frame so that it turns with the part. A zero normal is a free place.
+/// Tangential spring of a patch, kept in the part's frame so that it turns with the part. A zero normal is a free
+/// place.
 struct PatchMemory {
   base::Vec3f normal, shear;
 };
 
 /// A rigid part as the grains meet it.
 struct GrainPart {
-  int surface{};           ///< index of its unique sphere set
+  int surface{};               ///< index of its unique sphere set
   base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]
 };
 
@@ -43,8 +44,8 @@ struct GrainPartModel {
 class GrainPartContacts {
 public:
   /// `sets`: the unique sphere sets; `parts`: instances of them.
-  GrainPartContacts(const base::Exec& exec, const GrainPartModel& model, const std::vector<const base::SphereSet*>& sets,
-                    std::vector<GrainPart> parts);
+  GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
+                    const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts);
 
   struct GrainsView {
     const base::Position* position;
@@ -63,10 +64,10 @@ public:
 
   std::size_t pairs() const { return pairs_; }
   struct Ledger {
-    std::int64_t contacts{};      ///< patches in touch at the last compute
-    double elastic{};             ///< held in their springs [J]
-    double dissipated{};          ///< since the start [J]
-    base::Vec3d impulseOnGrains;  ///< since the start [N s], from the loads the grains were given
+    std::int64_t contacts{};     ///< patches in touch at the last compute
+    double elastic{};            ///< held in their springs [J]
+    double dissipated{};         ///< since the start [J]
+    base::Vec3d impulseOnGrains; ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const;
   /// History by (grain id, part), in ascending order, without free places: for hashes and checkpoints.

@@ -20,10 +20,10 @@ struct LinearLaw {
 
 /// Two surfaces in touch, seen from side i. The normal points from i to j.
 struct Touch {
-  base::Vec3f normal;    ///< unit, from i to j
-  float overlap;         ///< [m], > 0
-  base::Vec3f velocity;  ///< of i's material point relative to j's at the contact point [m/s]
-  float effectiveMass;   ///< m_i m_j / (m_i + m_j) [kg]
+  base::Vec3f normal;   ///< unit, from i to j
+  float overlap;        ///< [m], > 0
+  base::Vec3f velocity; ///< of i's material point relative to j's at the contact point [m/s]
+  float effectiveMass;  ///< m_i m_j / (m_i + m_j) [kg]
 };
 
 /// What one contact does in one step.
@@ -35,8 +35,8 @@ struct Reaction {
 /// Force of `law` on side i, and the tangential spring `shear` [m] carried to the end of the step.
 /// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit.
 ///
-/// What is dissipated is the work of the dashpot and of friction, with velocities in the middle of the step as this
-/// contact alone would make them: second order in the step for a single contact.
+/// What is dissipated is the work of the dashpot, with the approach in the middle of the step as this contact alone
+/// would make it (second order in the step for a single collision), and of friction (first order).
 GROUSER_HD Reaction linearForce(const LinearLaw& law, const Touch& touch, float dt, base::Vec3f& shear) {
   const base::Vec3f& n = touch.normal;
   const float approach = dot(touch.velocity, n);
@@ -63,11 +63,9 @@ GROUSER_HD Reaction linearForce(const LinearLaw& law, const Touch& touch, float 
     tangential *= limit / sqrtf(size2);
     shear = law.tangentialStiffness > 0 ? tangential * (-1.0f / law.tangentialStiffness) : base::Vec3f{};
   }
-  // Work put into the tangential contact, less what its spring has gained. A sphere yields 7/2 times as easily at its
-  // rim as at its centre.
-  const base::Vec3f middle = slip + tangential * (3.5f * halfStepPerMass);
-  reaction.dissipated -= dot(tangential, middle) * dt +
-                         0.5f * (law.tangentialStiffness * dot(shear, shear) - storedBefore);
+  // Work put into the tangential contact, less what its spring has gained.
+  reaction.dissipated -=
+      dot(tangential, slip) * dt + 0.5f * (law.tangentialStiffness * dot(shear, shear) - storedBefore);
   reaction.force += tangential;
   return reaction;
 }

@@ -248,20 +248,21 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id) {
 }
 
 NeighbourView NeighbourList::view() {
-  return {now_.count.data(),     now_.slot.data(),  history_ ? now_.shear.data() : nullptr,
+  return {now_.count.data(),    now_.slot.data(), history_ ? now_.shear.data() : nullptr,
           now_.touching.data(), now_.grainStride, now_.slotStride};
 }
 
 std::size_t NeighbourList::bytes() const {
   std::size_t total = order_.bytes() + key_.bytes() + cellStart_.bytes();
   for (const Lists* lists : {&now_, &old_})
-    total += lists->count.bytes() + lists->slot.bytes() + lists->shear.bytes() + lists->touching.bytes() + lists->id.bytes();
+    total +=
+        lists->count.bytes() + lists->slot.bytes() + lists->shear.bytes() + lists->touching.bytes() + lists->id.bytes();
   return total;
 }
 
 NeighbourList::HostCopy NeighbourList::toHost() const {
-  return {now_.count.toHost(), now_.slot.toHost(), now_.shear.toHost(),
-          now_.touching.toHost(), now_.grainStride, now_.slotStride};
+  return {now_.count.toHost(),    now_.slot.toHost(), now_.shear.toHost(),
+          now_.touching.toHost(), now_.grainStride,   now_.slotStride};
 }
 
 } // namespace grouser::contact

@@ -8,8 +8,9 @@
 
 namespace grouser::contact {
 
-/// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global ids,
-/// each with the tangential spring of that contact. Bit k of `touching[i]` says that slot k touched in the last step.
+/// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
+/// ids, each with the tangential spring of that contact. Bit k of `touching[i]` says that slot k touched in the last
+/// step.
 struct NeighbourView {
   const std::uint32_t* count;
   const std::uint32_t* slot;
@@ -48,7 +49,9 @@ public:
     std::vector<base::Vec3f> shear;
     std::vector<std::uint64_t> touching;
     std::int64_t grainStride{}, slotStride{};
-    std::int64_t at(std::size_t i, std::uint32_t k) const { return static_cast<std::int64_t>(i) * grainStride + k * slotStride; }
+    std::int64_t at(std::size_t i, std::uint32_t k) const {
+      return static_cast<std::int64_t>(i) * grainStride + k * slotStride;
+    }
   };
   HostCopy toHost() const;
 

@@ -63,7 +63,8 @@ std::vector<Disc> discsOf(const base::SphereSet& set) {
   discs.reserve(set.surfaceCount);
   for (std::size_t i = 0; i < set.surfaceCount; ++i) {
     const base::SetSphere& s = set.spheres[i];
-    discs.push_back({s.centre.as<float>(), static_cast<float>(s.radius), s.normal.as<float>(), static_cast<float>(s.flat)});
+    discs.push_back(
+        {s.centre.as<float>(), static_cast<float>(s.radius), s.normal.as<float>(), static_cast<float>(s.flat)});
   }
   return discs;
 }

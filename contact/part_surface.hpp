@@ -8,9 +8,9 @@
 
 namespace grouser::contact {
 
-/// A surface sphere as contact sees it: a disc of radius `flat` through `centre` and across `normal`, swept by a ball of
-/// `radius`. On a face its top is the mesh's own plane, without the bumps between spheres; next to an edge `flat` is 0
-/// and the sphere rounds the edge.
+/// A surface sphere as contact sees it: a disc of radius `flat` through `centre` and across `normal`, swept by a ball
+/// of `radius`. On a face its top is the mesh's own plane, without the bumps between spheres; next to an edge `flat` is
+/// 0 and the sphere rounds the edge.
 struct Disc {
   base::Vec3f centre;
   float radius;
@@ -84,8 +84,8 @@ private:
 /// Surface spheres of a part as probes that feel other surfaces: each stands for a share of the part's area.
 struct Probe {
   base::Vec3f centre;
-  float radius; ///< [m]
-  float area;   ///< [m2]
+  float radius;          ///< [m]
+  float area;            ///< [m2]
   std::uint32_t cluster; ///< which way its face looks in the part's frame: 0..5 = -x, +x, -y, +y, -z, +z
 };
 

@@ -53,7 +53,8 @@ PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,
   double widest = 0;
   for (const PartPair& pair : pairs) {
     isTarget[static_cast<std::size_t>(setOfPart[static_cast<std::size_t>(pair.b)])] = true;
-    for (const base::SetSphere& s : sets[static_cast<std::size_t>(setOfPart[static_cast<std::size_t>(pair.a)])]->spheres)
+    for (const base::SetSphere& s :
+         sets[static_cast<std::size_t>(setOfPart[static_cast<std::size_t>(pair.a)])]->spheres)
       widest = std::max(widest, s.radius);
   }
   std::vector<SurfaceGridView> views;
@@ -69,8 +70,8 @@ PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,
 }
 
 PartPartContacts::Target PartPartContacts::target() const {
-  return {pairs_.data(), gridViews_.data(), buffers_.setOfPart.data(), reach_.data(), model_.law,
-          static_cast<int>(pairs_.size())};
+  return {pairs_.data(), gridViews_.data(), buffers_.setOfPart.data(),
+          reach_.data(), model_.law,        static_cast<int>(pairs_.size())};
 }
 
 void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {

@@ -11,8 +11,8 @@ namespace grouser::contact {
 
 /// The lists and sums that contacts of extended surfaces share, whatever the other side is.
 struct PatchBuffers {
-  PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
-               std::size_t pairs);
+  PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
+               const std::vector<int>& setOfPart, std::size_t pairs);
 
   base::Exec exec;
   std::size_t pairs;
@@ -56,8 +56,8 @@ public:
 
   /// Lists the probes within the margin, at the parts' present places.
   void refresh(const base::Array<PartMotion>& motion);
-  /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this relative
-  /// to each other since the refresh [m]; at most the margin.
+  /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
+  /// relative to each other since the refresh [m]; at most the margin.
   void compute(const base::Array<PartMotion>& motion, double travelled, base::Array<PartLoad>& loads);
 
   std::size_t probesListed() const { return buffers_.entries; }

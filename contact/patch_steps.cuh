@@ -11,8 +11,8 @@ namespace grouser::contact {
 template <class Target>
 void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<PartMotion>& motion, double margin) {
   const ProbeSets sets{buffers.probe.data(), buffers.probeStart.data(), buffers.setOfPart.data()};
-  ListProbes<Target> list{target, sets, motion.data(), margin, buffers.count.data(), buffers.first.data(), nullptr,
-                          nullptr};
+  ListProbes<Target> list{target,  sets,   motion.data(), margin, buffers.count.data(), buffers.first.data(),
+                          nullptr, nullptr};
   const auto pairs = static_cast<std::int64_t>(buffers.pairs);
   base::forEach(buffers.exec, "count probes", pairs, list);
   buffers.entries = base::exclusiveScan(buffers.exec, buffers.count.data(), buffers.first.data(), buffers.pairs);
@@ -24,17 +24,17 @@ void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<P
 
 /// Pressure on every listed probe, then friction on every patch. `travelled`: bound of the relative motion of any pair
 /// since the probes were listed [m].
-template <class Target>
-void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta, double timeStep, double travelled,
-                 const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads) {
+template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
+                                         double timeStep, double travelled, const base::Array<PartMotion>& motion,
+                                         base::Array<PartLoad>& loads) {
   const ProbeSets sets{buffers.probe.data(), buffers.probeStart.data(), buffers.setOfPart.data()};
   buffers.sums.zero();
   base::forEach(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
                 PressProbe<Target>{target, sets, quanta, motion.data(), buffers.entry.data(), buffers.gap.data(),
                                    travelled, buffers.sums.data(), loads.data(), timeStep});
   base::forEach(buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
-                RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads.data(),
-                                 timeStep});
+                RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(),
+                                 loads.data(), timeStep});
 }
 
 } // namespace grouser::contact

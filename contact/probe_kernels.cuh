@@ -6,8 +6,9 @@
 #include "contact/part_surface.hpp"
 #include "contact/patch_law.hpp"
 
-/// Kernel bodies of contacts between extended surfaces. Part A is felt by its probes; the other side is a Target: another
-/// part's table of discs, or the ground. A patch is all touching probes of one pair whose faces look the same way.
+/// Kernel bodies of contacts between extended surfaces. Part A is felt by its probes; the other side is a Target:
+/// another part's table of discs, or the ground. A patch is all touching probes of one pair whose faces look the same
+/// way.
 ///
 /// A Target offers
 ///   int pairs                                   number of pairs
@@ -30,8 +31,8 @@ struct ProbeSets {
 /// Covers the rounding of distances in single precision [m].
 inline constexpr double kGapSlack = 1e-6;
 
-/// Counts (where `entry` is null) or lists the probes of one pair that are within `margin` of touching, each with its gap:
-/// until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
+/// Counts (where `entry` is null) or lists the probes of one pair that are within `margin` of touching, each with its
+/// gap: until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
 template <class Target> struct ListProbes {
   Target target;
   ProbeSets sets;
@@ -87,7 +88,7 @@ template <class Target> struct PressProbe {
   const PartMotion* motion;
   const std::uint64_t* entry;
   const float* gap;
-  double travelled; ///< bound of the relative motion of any pair since the list was made [m]
+  double travelled;   ///< bound of the relative motion of any pair since the list was made [m]
   PatchSums* patches; ///< [pair * kClusters + cluster]
   PartLoad* loads;
   double timeStep;

@@ -30,12 +30,18 @@ base::Exec chooseExec(const Scene& scene) {
 
 const char* kindName(vehicle::PartKind kind) {
   switch (kind) {
-  case vehicle::PartKind::kChassis: return "chassis";
-  case vehicle::PartKind::kShoe: return "shoe";
-  case vehicle::PartKind::kSprocket: return "sprocket";
-  case vehicle::PartKind::kRoadWheel: return "road_wheel";
-  case vehicle::PartKind::kRoller: return "roller";
-  case vehicle::PartKind::kIdler: return "idler";
+  case vehicle::PartKind::kChassis:
+    return "chassis";
+  case vehicle::PartKind::kShoe:
+    return "shoe";
+  case vehicle::PartKind::kSprocket:
+    return "sprocket";
+  case vehicle::PartKind::kRoadWheel:
+    return "road_wheel";
+  case vehicle::PartKind::kRoller:
+    return "roller";
+  case vehicle::PartKind::kIdler:
+    return "idler";
   }
   return "part";
 }
@@ -84,7 +90,8 @@ public:
 
   void row() {
     row_.begin(simulation_.steps(), simulation_.time());
-    if (const VehicleRig* rig = simulation_.vehicle()) row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
+    if (const VehicleRig* rig = simulation_.vehicle())
+      row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
     const Simulation::Ledger l = simulation_.ledger();
     if (const auto& grains = simulation_.ground().grains) {
       row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
@@ -126,7 +133,7 @@ public:
 
   void picture(int width) {
     writePng(drawFrame(currentFrame(), parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
-            writer_.folder() / "picture.png");
+             writer_.folder() / "picture.png");
   }
 
   RunWriter& writer() { return writer_; }
@@ -135,7 +142,8 @@ private:
   static std::vector<Channel> channelsOf(const Simulation& simulation) {
     std::vector<Channel> channels;
     if (simulation.vehicle())
-      for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly())) channels.push_back(channelOf(q));
+      for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
+        channels.push_back(channelOf(q));
     if (simulation.ground().grains)
       for (const Channel& c : terrainChannels()) channels.push_back(c);
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
@@ -162,10 +170,11 @@ void describeBuild(const Simulation& simulation, const base::Exec& exec) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {} of radius {:g} m, {:.0f} bytes each\n", grains->count(), grains->model().radius,
-               static_cast<double>(grains->deviceBytes()) / static_cast<double>(std::max<std::size_t>(1, grains->count())));
+               static_cast<double>(grains->deviceBytes()) /
+                   static_cast<double>(std::max<std::size_t>(1, grains->count())));
   if (simulation.settled().steps > 0)
-    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n", simulation.settled().time,
-               simulation.settled().agitation);
+    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",
+               simulation.settled().time, simulation.settled().agitation);
   if (const VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
@@ -181,7 +190,8 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   std::unique_ptr<Progress> settling;
   Simulation simulation(scene, exec, [&](double time, double agitation) {
     if (!settling) settling = std::make_unique<Progress>("settling");
-    settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
+    settling->update(time / scene.terrain->settleTimeLimit,
+                     fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   });
   if (settling) settling->finish("at rest");
   const double prepared = since(start);
@@ -222,9 +232,10 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total));
   if (options.hash) summary.stateHash = simulation.stateHash();
   const Simulation::Ledger l = simulation.ledger();
-  fmt::print("ledger    drive work {:.4g} J = kinetic {:.4g} + potential {:.4g} + elastic {:.4g} + dissipated {:.4g} (changes "
-             "since the start), left over {:.3g} J\n",
-             l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
+  fmt::print(
+      "ledger    drive work {:.4g} J = kinetic {:.4g} + potential {:.4g} + elastic {:.4g} + dissipated {:.4g} (changes "
+      "since the start), left over {:.3g} J\n",
+      l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
   fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
              l.impulseResidual.z);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,

@@ -42,8 +42,7 @@ void Simulation::step() {
 
 void Simulation::checkAlarm() const {
   const std::string alarm = vehicle_->alarm();
-  if (!alarm.empty())
-    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
+  if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
 }
 
 Simulation::Ledger Simulation::ledger() {
@@ -67,7 +66,8 @@ Simulation::Ledger Simulation::ledger() {
     ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
     ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
   }
-  ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork - energyAtStart_;
+  ledger.residual =
+      ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork - energyAtStart_;
   return ledger;
 }
 

@@ -35,7 +35,8 @@ vehicle::DriverOptions driverOptions(const Driver& d) {
 /// Highest point of the ground under the tracks, for the vehicle to be set down on.
 double groundUnder(const vehicle::VehicleSpec& spec, double x, double y, double heading,
                    const std::function<double(double, double)>& surfaceHeight) {
-  const double c = base::cos(heading), s = base::sin(heading), last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1);
+  const double c = base::cos(heading), s = base::sin(heading),
+               last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1);
   double highest = -1e300;
   for (const double side : {-1.0, 1.0})
     for (int i = 0; i <= 40; ++i)
@@ -81,9 +82,10 @@ void checkPlace(const Scene& scene, const Ground& ground, const vehicle::Assembl
     if (part.kind != vehicle::PartKind::kShoe) continue;
     const Vec3d p = assembly.model.bodies()[static_cast<std::size_t>(part.body)].pose.position;
     if (p.x - reach < area.xMin || p.x + reach > area.xMax || p.y - reach < area.yMin || p.y + reach > area.yMax)
-      throw base::InputError(fmt::format("{}: vehicle.position: the {} would stand at ({:.2f}, {:.2f}) m, outside the terrain "
-                                         "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; move the vehicle or enlarge terrain.size",
-                                         scene.file.string(), part.name, p.x, p.y, area.xMin, area.xMax, area.yMin, area.yMax));
+      throw base::InputError(
+          fmt::format("{}: vehicle.position: the {} would stand at ({:.2f}, {:.2f}) m, outside the terrain "
+                      "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; move the vehicle or enlarge terrain.size",
+                      scene.file.string(), part.name, p.x, p.y, area.xMin, area.xMax, area.yMin, area.yMax));
   }
 }
 
@@ -112,7 +114,8 @@ void VehicleRig::loadMeshes(const Scene& scene) {
     const vehicle::Part& part = assembly_.parts[p];
     const auto [at, fresh] = indexOf.emplace(part.mesh, meshes_.size());
     if (fresh) {
-      meshes_.push_back(spheredecomp::importMesh((std::filesystem::path(assembly_.spec.meshFolder) / part.mesh).string()));
+      meshes_.push_back(
+          spheredecomp::importMesh((std::filesystem::path(assembly_.spec.meshFolder) / part.mesh).string()));
       const bool touches = part.kind != vehicle::PartKind::kChassis;
       sets_.push_back(touches ? spheredecomp::decompose(meshes_.back(), part.mesh, options) : base::SphereSet{});
       setFigures_.push_back({part.mesh, sets_.back().spheres.size(), sets_.back().surfaceCount, 0});
@@ -147,10 +150,12 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
   quanta_.area = base::fixedPointFor(1, 40);
   groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
 
-  const contact::PatchLaw inside{spec.foundationModulus, spec.relaxationTime, spec.frictionInside, spec.tangentialRatio};
+  const contact::PatchLaw inside{spec.foundationModulus, spec.relaxationTime, spec.frictionInside,
+                                 spec.tangentialRatio};
   std::vector<contact::PartPair> pairs;
   for (const vehicle::PartPair& pair : assembly_.pairs)
-    pairs.push_back({contactIndex[static_cast<std::size_t>(pair.shoe)], contactIndex[static_cast<std::size_t>(pair.other)]});
+    pairs.push_back(
+        {contactIndex[static_cast<std::size_t>(pair.shoe)], contactIndex[static_cast<std::size_t>(pair.other)]});
   trackMargin_ = kTrackMargin;
   track_ = std::make_unique<contact::PartPartContacts>(
       exec_, contact::PartPartContacts::Model{inside, quanta_, timeStep_, trackMargin_}, sets, setOfPart, pairs);
@@ -179,7 +184,8 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     for (const int part : assembly_.groundParts) shoes.push_back(contactIndex[static_cast<std::size_t>(part)]);
     groundMargin_ = kBedMargin;
     rigidGround_ = std::make_unique<terrain::GroundContacts>(
-        exec_, terrain::GroundContacts::Model{law, quanta_, timeStep_, groundMargin_}, *ground.rigid, sets, setOfPart, shoes);
+        exec_, terrain::GroundContacts::Model{law, quanta_, timeStep_, groundMargin_}, *ground.rigid, sets, setOfPart,
+        shoes);
   }
 }
 
@@ -187,7 +193,8 @@ contact::PartMotion VehicleRig::motionOf(std::size_t c) const {
   const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
   const base::Pose pose = vehicle::partPose(part, state_);
   const auto body = static_cast<std::size_t>(part.body);
-  return {pose.position, pose.orientation.matrix(), state_.pose[body].position, state_.twist[body].v, state_.twist[body].w};
+  return {pose.position, pose.orientation.matrix(), state_.pose[body].position, state_.twist[body].v,
+          state_.twist[body].w};
 }
 
 void VehicleRig::placeSurfaces() {
@@ -205,7 +212,9 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
     relativeTravel_ = 0;
   }
   if (absoluteTravel_ <= groundMargin_ && !slotsChanged) return;
-  if (bed_) bed_->refresh({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()}, motion_);
+  if (bed_)
+    bed_->refresh({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()},
+                  motion_);
   if (rigidGround_) rigidGround_->refresh(motion_);
   absoluteTravel_ = 0;
 }
@@ -279,7 +288,9 @@ void VehicleRig::restartMeans() {
   meanSteps_ = 0;
 }
 
-vehicle::Observation VehicleRig::observe() const { return observer_->observe(state_, meanGroundLoads(), surfaceHeight_); }
+vehicle::Observation VehicleRig::observe() const {
+  return observer_->observe(state_, meanGroundLoads(), surfaceHeight_);
+}
 
 std::string VehicleRig::alarm() const { return observer_->alarm(state_, meanGroundLoads()); }
 
@@ -321,7 +332,9 @@ std::vector<std::uint32_t> VehicleRig::stateWords() const {
     std::memcpy(raw, &v, sizeof raw);
     words.insert(words.end(), raw, raw + 2);
   }
-  const auto append = [&words](const std::vector<std::uint32_t>& more) { words.insert(words.end(), more.begin(), more.end()); };
+  const auto append = [&words](const std::vector<std::uint32_t>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+  };
   append(track_->stateWords());
   if (rigidGround_) append(rigidGround_->stateWords());
   if (bed_) append(bed_->stateWords());

@@ -26,12 +26,13 @@ public:
              const std::function<double(double, double)>& surfaceHeight);
 
   // One step, in this order.
-  void placeSurfaces();                         ///< poses of all parts to the device; sums of loads to zero
+  void placeSurfaces(); ///< poses of all parts to the device; sums of loads to zero
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
-  void touchTrack();                            ///< shoes against sprocket, wheels, rollers, idler
-  void touchGround(const terrain::Grains* grains); ///< shoes and all other parts against the bed, or shoes against rigid ground
-  void collectLoads();                          ///< sums to the host: one small transfer
-  void advance();                               ///< multibody step
+  void touchTrack(); ///< shoes against sprocket, wheels, rollers, idler
+  void touchGround(
+      const terrain::Grains* grains); ///< shoes and all other parts against the bed, or shoes against rigid ground
+  void collectLoads();                ///< sums to the host: one small transfer
+  void advance();                     ///< multibody step
 
   /// For the grains' step; null on rigid ground.
   const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
@@ -50,11 +51,11 @@ public:
 
   /// Energies of the contacts of parts with parts and ground, and of the bodies [J].
   struct Ledger {
-    double kinetic{};      ///< of the bodies
-    double driveWork{};    ///< since the start
+    double kinetic{};       ///< of the bodies
+    double driveWork{};     ///< since the start
     double potentialGain{}; ///< -(work of gravity and springs, ramps included)
-    double elastic{};      ///< held in contacts now
-    double dissipated{};   ///< in contacts, joints and dampers since the start
+    double elastic{};       ///< held in contacts now
+    double dissipated{};    ///< in contacts, joints and dampers since the start
     std::int64_t patches{}; ///< of parts on parts and on ground
     std::int64_t grainContacts{};
     base::Vec3d impulseOnParts; ///< from the grains since the start [N s]

@@ -14,8 +14,8 @@ enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, none 
 
 /// Written by the step, read by the host once a step.
 struct StepFlags {
-  std::uint64_t fault;   ///< Fault << 56 | grain id
-  std::uint32_t stale;   ///< a grain has used up its half of the skin
+  std::uint64_t fault; ///< Fault << 56 | grain id
+  std::uint32_t stale; ///< a grain has used up its half of the skin
   std::uint32_t padding;
 };
 

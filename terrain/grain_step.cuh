@@ -34,8 +34,8 @@ struct GrainKernelData {
   const std::uint32_t* id;
   const base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
   contact::NeighbourView neighbours;
-  base::Vec3f* wallShear;         ///< [wall or floor][slot]
-  std::uint32_t* wallTouching;    ///< bit a wall, bit `wallCount` the floor
+  base::Vec3f* wallShear;      ///< [wall or floor][slot]
+  std::uint32_t* wallTouching; ///< bit a wall, bit `wallCount` the floor
   double* dissipated;
   contact::GrainLoadsView loads;
   StepFlags* flags;
@@ -78,8 +78,8 @@ private:
       now |= std::uint64_t{1} << k;
       // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
       const float distance = sqrtf(static_cast<float>(distance2));
-      const float overlap = static_cast<float>(d.diameterUnits2 - distance2) /
-                            (static_cast<float>(d.diameterUnits) + distance) * d.unit;
+      const float overlap =
+          static_cast<float>(d.diameterUnits2 - distance2) / (static_cast<float>(d.diameterUnits) + distance) * d.unit;
       const base::Vec3f normal = apart.as<float>() * (1.0f / distance);
       // Both lever arms meet in the middle, so angular momentum balances too.
       const float arm = 0.5f * distance * d.unit;
@@ -180,11 +180,13 @@ private:
 
     const float speed2 = dot(v, v);
     Fault fault = Fault::none;
-    if (!(speed2 < 1e30f)) fault = Fault::notANumber;
-    else if (deepest > d.maxOverlap) fault = Fault::overlap;
-    else if (speed2 > d.maxSpeed2) fault = Fault::speed;
-    if (fault != Fault::none)
-      base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
+    if (!(speed2 < 1e30f))
+      fault = Fault::notANumber;
+    else if (deepest > d.maxOverlap)
+      fault = Fault::overlap;
+    else if (speed2 > d.maxSpeed2)
+      fault = Fault::speed;
+    if (fault != Fault::none) base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
   }
 };
 

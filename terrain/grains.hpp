@@ -31,14 +31,14 @@ struct GrainSnapshot {
 
 /// Rigid surroundings of the grains: plane walls and a height-field floor.
 struct Boundaries {
-  std::vector<Wall> walls;          ///< at most 31
+  std::vector<Wall> walls; ///< at most 31
   std::optional<HeightField> floor;
 };
 
 /// Equal spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
 ///
-/// State lives on the device of `exec`, sorted in space; results do not depend on the sorting, on when lists are rebuilt,
-/// on the number of threads or on the device.
+/// State lives on the device of `exec`, sorted in space; results do not depend on the sorting, on when lists are
+/// rebuilt, on the number of threads or on the device.
 class Grains {
 public:
   /// Throws InputError when a grain lies outside the range of the integer positions or two grains coincide.

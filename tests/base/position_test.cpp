@@ -63,7 +63,9 @@ TEST(ElementaryFunctions, AgreeWithTheCLibraryToAFewUlp) {
   double worst = 0;
   for (int i = -4000; i <= 4000; ++i) {
     const double x = 0.0031 * i;
-    const auto off = [&](double got, double want) { worst = std::max(worst, std::fabs(got - want) / std::max(1.0, std::fabs(want))); };
+    const auto off = [&](double got, double want) {
+      worst = std::max(worst, std::fabs(got - want) / std::max(1.0, std::fabs(want)));
+    };
     off(sin(x), std::sin(x)), off(cos(x), std::cos(x)), off(atan(x), std::atan(x)), off(exp(x), std::exp(x));
     if (x > 0) off(log(x), std::log(x)), off(pow(x, 1.7), std::pow(x, 1.7));
     for (int j = -3; j <= 3; ++j) off(atan2(x, j), std::atan2(x, static_cast<double>(j)));

@@ -36,7 +36,8 @@ TEST(SurfaceGrid, PruningNeverChangesTheNearestDisc) {
         const std::int64_t cell = view.cellAt(p);
         if (cell >= 0)
           for (std::uint32_t e = view.start[cell]; e < view.start[cell + 1]; ++e)
-            table = std::max(table, radius + view.disc[view.entry[e]].radius - distanceTo(view.disc[view.entry[e]], p).distance);
+            table = std::max(table, radius + view.disc[view.entry[e]].radius -
+                                        distanceTo(view.disc[view.entry[e]], p).distance);
         ASSERT_EQ(all, table) << p.x << " " << p.y << " " << p.z << " R " << radius;
         touching += all > 0;
       }

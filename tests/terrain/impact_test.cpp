@@ -61,15 +61,13 @@ TEST_P(LinearImpact, MatchesClosedFormWithFirstOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(A1, LinearImpact,
-                         ::testing::Values(Case{0, false, 1, 1.16677196e-4}, Case{0.05, true, 0.85446789, 1.08123827e-4},
-                                           Case{0.2, true, 0.52662060, 8.82237034e-5},
-                                           Case{0.5, true, 0.16303353, 6.37399375e-5},
-                                           Case{0.1, false, 0.74407940, 1.00645793e-4},
-                                           Case{0.2, false, 0.57174003, 8.82237034e-5},
-                                           Case{0.5, false, 0.29843606, 6.37399375e-5},
-                                           Case{1.0, false, 0.13533528, 4.29231418e-5},
-                                           Case{2.0, false, 0.04776873, 2.55010372e-5}));
+INSTANTIATE_TEST_SUITE_P(
+    A1, LinearImpact,
+    ::testing::Values(Case{0, false, 1, 1.16677196e-4}, Case{0.05, true, 0.85446789, 1.08123827e-4},
+                      Case{0.2, true, 0.52662060, 8.82237034e-5}, Case{0.5, true, 0.16303353, 6.37399375e-5},
+                      Case{0.1, false, 0.74407940, 1.00645793e-4}, Case{0.2, false, 0.57174003, 8.82237034e-5},
+                      Case{0.5, false, 0.29843606, 6.37399375e-5}, Case{1.0, false, 0.13533528, 4.29231418e-5},
+                      Case{2.0, false, 0.04776873, 2.55010372e-5}));
 
 TEST(TwoBalls, RestitutionDoesNotDependOnSpeed) {
   for (const double speed : {1e-3, 0.1, 10.0}) {
@@ -82,7 +80,8 @@ TEST(TwoBalls, RestitutionDoesNotDependOnSpeed) {
                   {{{-m.radius - gap, 0, 0}, {speed, 0, 0}, {}}, {{m.radius + gap, 0, 0}, {-speed, 0, 0}, {}}});
     advance(grains, 400);
     const auto s = grains.snapshot();
-    EXPECT_NEAR((s.velocity[1].x - s.velocity[0].x) / (2 * speed), 0.5, 5e-3) << "discretisation at 130 steps a contact";
+    EXPECT_NEAR((s.velocity[1].x - s.velocity[0].x) / (2 * speed), 0.5, 5e-3)
+        << "discretisation at 130 steps a contact";
     EXPECT_EQ(s.velocity[0].x, -s.velocity[1].x) << "momentum, to the last bit";
   }
 }

@@ -29,10 +29,12 @@ std::vector<std::uint32_t> runHeap(int threads, double skin, base::Vec3d shift =
     for (int y = 0; y < 7; ++y)
       for (int x = 0; x < 7; ++x) {
         const double odd = z % 2 ? 0.011 : 0.0, wobble = 0.001 * ((x * 7 + y * 5 + z * 3) % 4);
-        start.push_back({shift + base::Vec3d{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {0.3, 0.1, -1}, {}});
+        start.push_back(
+            {shift + base::Vec3d{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {0.3, 0.1, -1}, {}});
       }
   const double offset = shift.z;
-  Grains grains(base::cpuExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}}, start);
+  Grains grains(base::cpuExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}},
+                start);
   advance(grains, 3000);
   return grains.stateWords();
 }
@@ -48,8 +50,7 @@ TEST(Heap, NeighbourListLosesNoContact) {
   // Against a brute-force search over all pairs.
   const GrainModel m = gravel(0.3);
   std::vector<GrainStart> start;
-  for (int i = 0; i < 300; ++i)
-    start.push_back({{0.05 * (i % 7), 0.05 * (i / 7 % 7), 0.05 * (i / 49)}, {}, {}});
+  for (int i = 0; i < 300; ++i) start.push_back({{0.05 * (i % 7), 0.05 * (i / 7 % 7), 0.05 * (i / 49)}, {}, {}});
   Grains grains(base::cpuExec(2), m, {}, start);
   const GrainLedger ledger = grains.ledger();
   std::int64_t pairs = 0;
@@ -64,8 +65,7 @@ TEST(Heap, PairForcesBalanceToTheLastBit) {
   GrainModel m = gravel(0.3);
   m.gravity = {};
   std::vector<GrainStart> start;
-  for (int i = 0; i < 64; ++i)
-    start.push_back({{0.053 * (i % 4), 0.053 * (i / 4 % 4), 0.053 * (i / 16)}, {}, {}});
+  for (int i = 0; i < 64; ++i) start.push_back({{0.053 * (i % 4), 0.053 * (i / 4 % 4), 0.053 * (i / 16)}, {}, {}});
   Grains grains(base::cpuExec(1), m, {}, start);
   advance(grains, 2000);
   const GrainLedger ledger = grains.ledger();
