@@ -70,4 +70,42 @@ private:
   std::size_t size_{0}, capacity_{0};
 };
 
+/// An array on the device with a pinned twin on the host, for what crosses every step.
+template <class T> class Mirrored {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+  Mirrored() = default;
+  Mirrored(const Exec& exec, std::size_t size)
+      : exec_(exec), device_(exec, size), host_(static_cast<T*>(allocatePinned(exec, size * sizeof(T)))) {}
+  Mirrored(Mirrored&& other) noexcept { swap(other); }
+  Mirrored& operator=(Mirrored&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  Mirrored(const Mirrored&) = delete;
+  Mirrored& operator=(const Mirrored&) = delete;
+  ~Mirrored() { releasePinned(exec_, host_); }
+
+  std::size_t size() const { return device_.size(); }
+  Array<T>& device() { return device_; }
+  const Array<T>& device() const { return device_; }
+  T* host() { return host_; }
+  const T* host() const { return host_; }
+  /// Without waiting: the host's side must stay as it is until the next synchronize().
+  void upload() { copyToDeviceLater(exec_, device_.data(), host_, size() * sizeof(T)); }
+  /// Valid after the next synchronize().
+  void download() { copyToHostLater(exec_, host_, device_.data(), size() * sizeof(T)); }
+
+private:
+  void swap(Mirrored& other) noexcept {
+    std::swap(exec_, other.exec_);
+    device_.swap(other.device_);
+    std::swap(host_, other.host_);
+  }
+  Exec exec_{};
+  Array<T> device_;
+  T* host_{nullptr};
+};
+
 } // namespace grouser::base

@@ -138,6 +138,44 @@ void copyToHost(const Exec& exec, void* host, const void* device, std::size_t by
 #endif
 }
 
+void* allocatePinned(const Exec& exec, std::size_t bytes) {
+  if (exec.onCpu() || bytes == 0) return allocate(exec, bytes);
+#if defined(__CUDACC__)
+  void* memory = nullptr;
+  checkCuda(cudaMallocHost(&memory, bytes), "cudaMallocHost of " + std::to_string(bytes) + " bytes");
+  std::memset(memory, 0, bytes);
+  return memory;
+#else
+  noCuda();
+#endif
+}
+
+void releasePinned(const Exec& exec, void* memory) noexcept {
+  if (exec.onCpu()) {
+    std::free(memory);
+    return;
+  }
+#if defined(__CUDACC__)
+  cudaFreeHost(memory);
+#endif
+}
+
+void copyToDeviceLater(const Exec& exec, void* device, const void* host, std::size_t bytes) {
+  if (exec.onCpu()) return copyToDevice(exec, device, host, bytes);
+#if defined(__CUDACC__)
+  checkCuda(cudaMemcpyAsync(device, host, bytes, cudaMemcpyHostToDevice, static_cast<cudaStream_t>(exec.stream)),
+            "copy to device");
+#endif
+}
+
+void copyToHostLater(const Exec& exec, void* host, const void* device, std::size_t bytes) {
+  if (exec.onCpu()) return copyToHost(exec, host, device, bytes);
+#if defined(__CUDACC__)
+  checkCuda(cudaMemcpyAsync(host, device, bytes, cudaMemcpyDeviceToHost, static_cast<cudaStream_t>(exec.stream)),
+            "copy to host");
+#endif
+}
+
 void copyOnDevice(const Exec& exec, void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) return;
   if (exec.onCpu()) {

@@ -35,6 +35,13 @@ void release(const Exec& exec, void* memory) noexcept;
 void copyToDevice(const Exec& exec, void* device, const void* host, std::size_t bytes);
 /// Waits for earlier work on the stream, then copies.
 void copyToHost(const Exec& exec, void* host, const void* device, std::size_t bytes);
+/// Page-locked host memory that the device copies to and from without waiting; ordinary memory on the CPU. Zeroed.
+void* allocatePinned(const Exec& exec, std::size_t bytes);
+void releasePinned(const Exec& exec, void* memory) noexcept;
+/// Copies in the order of the stream, without waiting; `host` is pinned and stays untouched until the next
+/// synchronize().
+void copyToDeviceLater(const Exec& exec, void* device, const void* host, std::size_t bytes);
+void copyToHostLater(const Exec& exec, void* host, const void* device, std::size_t bytes);
 void copyOnDevice(const Exec& exec, void* to, const void* from, std::size_t bytes);
 void setZero(const Exec& exec, void* device, std::size_t bytes);
 

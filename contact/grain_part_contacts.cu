@@ -285,12 +285,11 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
                             oldMemory_.data(), memory_.data()});
 }
 
-void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion,
-                                base::Array<PartLoad>& loads) {
+void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
   base::setZero(exec_, sums_.data(), 2 * sizeof(std::int64_t));
   base::forEach(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
                 Compute{model_, grains, motion.data(), parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
-                        memory_.data(), load_.data(), loads.data(), sums_.data()});
+                        memory_.data(), load_.data(), loads, sums_.data()});
 }
 
 GrainLoadsView GrainPartContacts::grainLoads() const { return {range_.data(), load_.data(), model_.force}; }

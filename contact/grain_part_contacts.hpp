@@ -57,7 +57,7 @@ public:
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
   /// Contact loads of this step. `loads` (one a part) is added to.
-  void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, base::Array<PartLoad>& loads);
+  void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
 
   /// What the grains' step needs: valid until the next refresh.
   GrainLoadsView grainLoads() const;

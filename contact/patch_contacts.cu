@@ -8,10 +8,21 @@
 
 namespace grouser::contact {
 
+namespace {
+
+std::vector<int> probedParts(const std::vector<PartPair>& pairs) {
+  std::vector<int> parts;
+  for (const PartPair& pair : pairs) parts.push_back(pair.a);
+  return parts;
+}
+
+} // namespace
+
 PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::SphereSet*>& sets,
-                           const std::vector<int>& setOf, std::size_t pairCount)
-    : exec(e), pairs(pairCount), setOfPart(e, setOf), count(e, pairCount), first(e, pairCount), entry(e), gap(e),
-      sums(e, pairCount * kClusters), states(e, pairCount * kClusters) {
+                           const std::vector<int>& setOf, const std::vector<int>& probedParts)
+    : exec(e), pairs(probedParts.size()), setOfPart(e, setOf), near(e, pairs), entry(e), gap(e),
+      sums(e, pairs * kClusters), states(e, pairs * kClusters) {
+  constexpr std::uint32_t kProbesPerChunk = 32;
   std::vector<Probe> all;
   std::vector<std::uint32_t> start{0};
   for (const base::SphereSet* set : sets) {
@@ -19,8 +30,16 @@ PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::Sp
     all.insert(all.end(), probes.begin(), probes.end());
     start.push_back(static_cast<std::uint32_t>(all.size()));
   }
+  std::vector<ProbeChunk> list;
+  for (std::uint32_t p = 0; p < probedParts.size(); ++p) {
+    const auto set = static_cast<std::size_t>(setOf[static_cast<std::size_t>(probedParts[p])]);
+    for (std::uint32_t k = start[set]; k < start[set + 1]; k += kProbesPerChunk)
+      list.push_back({p, k, std::min(k + kProbesPerChunk, start[set + 1])});
+  }
   probe = base::Array<Probe>(e, all);
-  probeStart = base::Array<std::uint32_t>(e, start);
+  chunks = base::Array<ProbeChunk>(e, list);
+  count = base::Array<std::uint32_t>(e, list.size());
+  first = base::Array<std::uint32_t>(e, list.size());
 }
 
 PatchBuffers::Ledger PatchBuffers::ledger(const PatchQuanta& quanta) const {
@@ -48,7 +67,7 @@ std::vector<std::uint32_t> PatchBuffers::stateWords() const {
 PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,
                                    const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                    const std::vector<PartPair>& pairs)
-    : model_(model), buffers_(exec, sets, setOfPart, pairs.size()), pairs_(exec, pairs) {
+    : model_(model), buffers_(exec, sets, setOfPart, probedParts(pairs)), pairs_(exec, pairs) {
   std::vector<bool> isTarget(sets.size());
   double widest = 0;
   for (const PartPair& pair : pairs) {
@@ -78,7 +97,7 @@ void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {
   listProbes(buffers_, target(), motion, model_.margin);
 }
 
-void PartPartContacts::compute(const base::Array<PartMotion>& motion, double travelled, base::Array<PartLoad>& loads) {
+void PartPartContacts::compute(const base::Array<PartMotion>& motion, double travelled, PartLoad* loads) {
   pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 

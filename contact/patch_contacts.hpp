@@ -9,17 +9,23 @@
 
 namespace grouser::contact {
 
+/// Some probes of one pair: the unit of work when probes are listed.
+struct ProbeChunk {
+  std::uint32_t pair, first, last; ///< probes [first, last)
+};
+
 /// The lists and sums that contacts of extended surfaces share, whatever the other side is.
 struct PatchBuffers {
+  /// `probedParts`: for each pair the part whose probes feel.
   PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
-               const std::vector<int>& setOfPart, std::size_t pairs);
+               const std::vector<int>& setOfPart, const std::vector<int>& probedParts);
 
   base::Exec exec;
   std::size_t pairs;
   base::Array<Probe> probe;
-  base::Array<std::uint32_t> probeStart;
   base::Array<int> setOfPart;
-  base::Array<std::uint32_t> count, first;
+  base::Array<ProbeChunk> chunks;
+  base::Array<std::uint32_t> near, count, first;
   base::Array<std::uint64_t> entry;
   base::Array<float> gap;
   std::size_t entries{0};
@@ -58,7 +64,7 @@ public:
   void refresh(const base::Array<PartMotion>& motion);
   /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
   /// relative to each other since the refresh [m]; at most the margin.
-  void compute(const base::Array<PartMotion>& motion, double travelled, base::Array<PartLoad>& loads);
+  void compute(const base::Array<PartMotion>& motion, double travelled, PartLoad* loads);
 
   std::size_t probesListed() const { return buffers_.entries; }
   PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }

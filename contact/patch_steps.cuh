@@ -10,31 +10,32 @@ namespace grouser::contact {
 /// Lists the probes of every pair that are within `margin` of touching the target.
 template <class Target>
 void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<PartMotion>& motion, double margin) {
-  const ProbeSets sets{buffers.probe.data(), buffers.probeStart.data(), buffers.setOfPart.data()};
-  ListProbes<Target> list{target,  sets,   motion.data(), margin, buffers.count.data(), buffers.first.data(),
-                          nullptr, nullptr};
-  const auto pairs = static_cast<std::int64_t>(buffers.pairs);
-  base::forEach(buffers.exec, "count probes", pairs, list);
-  buffers.entries = base::exclusiveScan(buffers.exec, buffers.count.data(), buffers.first.data(), buffers.pairs);
+  base::forEach(buffers.exec, "mark near pairs", static_cast<std::int64_t>(buffers.pairs),
+                MarkNearPairs<Target>{target, motion.data(), margin, buffers.near.data()});
+  ListProbes<Target> list{target, buffers.probe.data(), buffers.chunks.data(), motion.data(), buffers.near.data(),
+                          margin, buffers.count.data(), buffers.first.data(),  nullptr,       nullptr};
+  const auto chunks = static_cast<std::int64_t>(buffers.chunks.size());
+  base::forEach(buffers.exec, "count probes", chunks, list);
+  buffers.entries =
+      base::exclusiveScan(buffers.exec, buffers.count.data(), buffers.first.data(), buffers.chunks.size());
   buffers.entry.resize(buffers.entries);
   buffers.gap.resize(buffers.entries);
   list.entry = buffers.entry.data(), list.gap = buffers.gap.data();
-  if (buffers.entries) base::forEach(buffers.exec, "list probes", pairs, list);
+  if (buffers.entries) base::forEach(buffers.exec, "list probes", chunks, list);
 }
 
 /// Pressure on every listed probe, then friction on every patch. `travelled`: bound of the relative motion of any pair
 /// since the probes were listed [m].
 template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
                                          double timeStep, double travelled, const base::Array<PartMotion>& motion,
-                                         base::Array<PartLoad>& loads) {
-  const ProbeSets sets{buffers.probe.data(), buffers.probeStart.data(), buffers.setOfPart.data()};
+                                         PartLoad* loads) {
   buffers.sums.zero();
   base::forEach(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
-                PressProbe<Target>{target, sets, quanta, motion.data(), buffers.entry.data(), buffers.gap.data(),
-                                   travelled, buffers.sums.data(), loads.data(), timeStep});
-  base::forEach(buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
-                RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(),
-                                 loads.data(), timeStep});
+                PressProbe<Target>{target, buffers.probe.data(), quanta, motion.data(), buffers.entry.data(),
+                                   buffers.gap.data(), travelled, buffers.sums.data(), loads, timeStep});
+  base::forEach(
+      buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
+      RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads, timeStep});
 }
 
 } // namespace grouser::contact

@@ -18,48 +18,51 @@
 ///   PatchLaw law(pair)
 namespace grouser::contact {
 
-/// Unique probe sets, one after another in one array.
-struct ProbeSets {
-  const Probe* probe;
-  const std::uint32_t* start; ///< [sets + 1]
-  const int* setOfPart;
-
-  GROUSER_HD std::uint32_t begin(int part) const { return start[setOfPart[part]]; }
-  GROUSER_HD std::uint32_t end(int part) const { return start[setOfPart[part] + 1]; }
-};
-
 /// Covers the rounding of distances in single precision [m].
 inline constexpr double kGapSlack = 1e-6;
 
-/// Counts (where `entry` is null) or lists the probes of one pair that are within `margin` of touching, each with its
+/// Which pairs may have anything to list.
+template <class Target> struct MarkNearPairs {
+  Target target;
+  const PartMotion* motion;
+  double margin;
+  std::uint32_t* near;
+  GROUSER_HD void operator()(int pair) const { near[pair] = target.near(pair, motion, margin) ? 1u : 0u; }
+};
+
+/// Counts (where `entry` is null) or lists the probes of one chunk that are within `margin` of touching, each with its
 /// gap: until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
 template <class Target> struct ListProbes {
   Target target;
-  ProbeSets sets;
+  const Probe* probes;
+  const ProbeChunk* chunks;
   const PartMotion* motion;
+  const std::uint32_t* near;
   double margin;
   std::uint32_t *count, *first;
   std::uint64_t* entry; ///< pair << 32 | probe
   float* gap;           ///< [m], a lower bound
 
-  GROUSER_HD void operator()(int pair) const {
+  GROUSER_HD void operator()(int item) const {
+    const ProbeChunk chunk = chunks[item];
+    const int pair = static_cast<int>(chunk.pair);
     std::uint32_t found = 0;
-    if (target.near(pair, motion, margin)) {
-      const int a = target.partA(pair);
-      for (std::uint32_t k = sets.begin(a); k < sets.end(a); ++k) {
-        const Probe& probe = sets.probe[k];
+    if (near[pair]) {
+      const PartMotion& a = motion[target.partA(pair)];
+      for (std::uint32_t k = chunk.first; k < chunk.last; ++k) {
+        const Probe& probe = probes[k];
         base::Vec3d normal;
         double overlap;
-        const base::Vec3d x = motion[a].toWorld(probe.centre.template as<double>());
+        const base::Vec3d x = a.toWorld(probe.centre.template as<double>());
         if (!target.touch(pair, motion, x, static_cast<double>(probe.radius) + margin, normal, overlap)) continue;
         if (entry) {
-          entry[first[pair] + found] = static_cast<std::uint64_t>(pair) << 32 | k;
-          gap[first[pair] + found] = static_cast<float>(margin - overlap - kGapSlack);
+          entry[first[item] + found] = static_cast<std::uint64_t>(pair) << 32 | k;
+          gap[first[item] + found] = static_cast<float>(margin - overlap - kGapSlack);
         }
         ++found;
       }
     }
-    if (!entry) count[pair] = found;
+    if (!entry) count[item] = found;
   }
 };
 
@@ -83,7 +86,7 @@ GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion,
 /// Pressure on one probe.
 template <class Target> struct PressProbe {
   Target target;
-  ProbeSets sets;
+  const Probe* probes;
   PatchQuanta quanta;
   const PartMotion* motion;
   const std::uint64_t* entry;
@@ -96,7 +99,7 @@ template <class Target> struct PressProbe {
   GROUSER_HD void operator()(int e) const {
     if (static_cast<double>(gap[e]) > travelled) return;
     const int pair = static_cast<int>(entry[e] >> 32);
-    const Probe probe = sets.probe[entry[e] & 0xFFFFFFFFu];
+    const Probe probe = probes[entry[e] & 0xFFFFFFFFu];
     const int a = target.partA(pair), b = target.partB(pair);
     const base::Vec3d centre = motion[a].toWorld(probe.centre.template as<double>());
     base::Vec3d normal;

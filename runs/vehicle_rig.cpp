@@ -137,9 +137,8 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     partReach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[p]]) + norm(assembly_.parts[p].pose_B.position));
   }
   const std::size_t n = contactParts_.size();
-  motion_ = base::Array<contact::PartMotion>(exec_, n);
-  trackLoads_ = base::Array<contact::PartLoad>(exec_, n);
-  groundLoads_ = base::Array<contact::PartLoad>(exec_, n);
+  motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
+  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n);
 
   const vehicle::ContactSpec& spec = assembly_.spec.contact;
   // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
@@ -198,54 +197,53 @@ contact::PartMotion VehicleRig::motionOf(std::size_t c) const {
 }
 
 void VehicleRig::placeSurfaces() {
-  std::vector<contact::PartMotion> motion(contactParts_.size());
-  for (std::size_t c = 0; c < motion.size(); ++c) motion[c] = motionOf(c);
-  motion_.assign(motion);
-  trackLoads_.zero();
-  groundLoads_.zero();
+  for (std::size_t c = 0; c < contactParts_.size(); ++c) motion_.host()[c] = motionOf(c);
+  motion_.upload();
+  loadSums_.device().zero();
 }
 
 void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
   // Two parts approach each other at most as fast as both move relative to the hull.
   if (2 * relativeTravel_ > trackMargin_) {
-    track_->refresh(motion_);
+    track_->refresh(motion_.device());
     relativeTravel_ = 0;
   }
   if (absoluteTravel_ <= groundMargin_ && !slotsChanged) return;
   if (bed_)
     bed_->refresh({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()},
-                  motion_);
-  if (rigidGround_) rigidGround_->refresh(motion_);
+                  motion_.device());
+  if (rigidGround_) rigidGround_->refresh(motion_.device());
   absoluteTravel_ = 0;
 }
 
-void VehicleRig::touchTrack() { track_->compute(motion_, 2 * relativeTravel_, trackLoads_); }
+void VehicleRig::touchTrack() { track_->compute(motion_.device(), 2 * relativeTravel_, loadSums_.device().data()); }
 
 void VehicleRig::touchGround(const terrain::Grains* grains) {
+  contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
   if (bed_) {
-    bed_->compute({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()}, motion_,
-                  groundLoads_);
+    bed_->compute({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()},
+                  motion_.device(), groundLoads);
     grainLoads_ = bed_->grainLoads();
   }
-  if (rigidGround_) rigidGround_->compute(motion_, absoluteTravel_, groundLoads_);
+  if (rigidGround_) rigidGround_->compute(motion_.device(), absoluteTravel_, groundLoads);
 }
 
 void VehicleRig::collectLoads() {
-  trackSums_ = trackLoads_.toHost();
-  groundSums_ = groundLoads_.toHost();
-  groundForceSums_.resize(groundSums_.size());
-  for (std::size_t c = 0; c < groundSums_.size(); ++c) {
-    impulseOnParts_ += groundSums_[c].force;
-    groundForceSums_[c] += groundSums_[c].force;
-  }
-  ++meanSteps_;
+  loadSums_.download();
+  base::synchronize(exec_);
+  const std::size_t n = contactParts_.size();
+  const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
-  for (std::size_t c = 0; c < contactParts_.size(); ++c) {
+  groundForceSums_.resize(n);
+  for (std::size_t c = 0; c < n; ++c) {
     const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
     multibody::Wrench& wrench = loads_.external[static_cast<std::size_t>(part.body)];
-    wrench.force += quanta_.force.value(trackSums_[c].force) + groundForceQuantum_.value(groundSums_[c].force);
-    wrench.torque += quanta_.torque.value(trackSums_[c].torque) + groundTorqueQuantum_.value(groundSums_[c].torque);
+    wrench.force += quanta_.force.value(track[c].force) + groundForceQuantum_.value(ground[c].force);
+    wrench.torque += quanta_.torque.value(track[c].torque) + groundTorqueQuantum_.value(ground[c].torque);
+    impulseOnParts_ += ground[c].force;
+    groundForceSums_[c] += ground[c].force;
   }
+  ++meanSteps_;
 }
 
 void VehicleRig::advance() {

@@ -107,9 +107,8 @@ private:
   std::vector<double> partReach_; ///< of each contact part about its centre of mass [m]
 
   contact::PatchQuanta quanta_;
-  base::Array<contact::PartMotion> motion_;
-  base::Array<contact::PartLoad> trackLoads_, groundLoads_;
-  std::vector<contact::PartLoad> trackSums_, groundSums_;
+  base::Mirrored<contact::PartMotion> motion_;
+  base::Mirrored<contact::PartLoad> loadSums_; ///< of all contact parts: from the track, then from the ground
   std::vector<base::Vec3l> groundForceSums_; ///< by contact part, over `meanSteps_` steps
   std::int64_t meanSteps_{0};
   base::FixedPoint groundForceQuantum_, groundTorqueQuantum_;

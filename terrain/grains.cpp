@@ -67,7 +67,9 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   wallShear_ = base::Array<Vec3f>(exec, frictional_ ? perBoundary * boundaryCount_ : 0);
   wallTouching_ = base::Array<std::uint32_t>(exec, perBoundary);
   dissipated_ = base::Array<double>(exec, model.ledger ? count_ : 0);
-  flags_ = base::Array<StepFlags>(exec, std::vector<StepFlags>(1, kNoFlags));
+  flags_ = base::Mirrored<StepFlags>(exec, 1);
+  *flags_.host() = kNoFlags;
+  flags_.upload();
   walls_ = base::Array<Wall>(exec, boundaries.walls);
   if (boundaries.floor) {
     hasFloor_ = true;
@@ -83,10 +85,14 @@ void Grains::endStep() {
 }
 
 void Grains::checkFlags() {
-  const StepFlags flags = flags_.at(0);
+  base::synchronize(exec_);
+  const StepFlags flags = *flags_.host();
   if (flags.stale) stale_ = true;
-  if (flags.stale || flags.fault != ~std::uint64_t{0}) flags_.assign(std::vector<StepFlags>(1, kNoFlags));
-  if (flags.fault == ~std::uint64_t{0}) return;
+  if (flags.stale || flags.fault != kNoFlags.fault) {
+    *flags_.host() = kNoFlags;
+    flags_.upload();
+  }
+  if (flags.fault == kNoFlags.fault) return;
   const auto fault = static_cast<Fault>(flags.fault >> 56);
   const auto id = static_cast<std::size_t>(flags.fault & 0xFFFFFFFFFFFFFFull);
   const GrainSnapshot s = snapshot();

@@ -133,7 +133,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.wallShear = wallShear_.data(), d.wallTouching = wallTouching_.data();
   d.dissipated = dissipated_.data();
   if (loads) d.loads = *loads;
-  d.flags = flags_.data();
+  d.flags = flags_.device().data();
   return d;
 }
 
@@ -185,6 +185,7 @@ void Grains::beginStep(const contact::GrainLoadsView* loads) {
     runStep<false, true>(exec_, d, withLoads, model_.ledger);
   else
     runStep<false, false>(exec_, d, withLoads, model_.ledger);
+  flags_.download();
   position_[0].swap(position_[1]);
   velocity_[0].swap(velocity_[1]);
   spin_[0].swap(spin_[1]);

@@ -102,7 +102,7 @@ private:
   base::Array<base::Vec3f> wallShear_;
   base::Array<std::uint32_t> wallTouching_;
   base::Array<double> dissipated_;
-  base::Array<StepFlags> flags_;
+  base::Mirrored<StepFlags> flags_;
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;
   HeightFieldView floorView_{};

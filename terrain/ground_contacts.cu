@@ -8,7 +8,7 @@ namespace grouser::terrain {
 GroundContacts::GroundContacts(const base::Exec& exec, const Model& model, const HeightField& ground,
                                const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                const std::vector<int>& parts)
-    : model_(model), buffers_(exec, sets, setOfPart, parts.size()), parts_(exec, parts),
+    : model_(model), buffers_(exec, sets, setOfPart, parts), parts_(exec, parts),
       heights_(exec, ground.heights()), ground_(ground.view()) {
   std::vector<double> reach;
   for (const base::SphereSet* set : sets) reach.push_back(contact::enclosingRadius(*set));
@@ -26,7 +26,7 @@ void GroundContacts::refresh(const base::Array<contact::PartMotion>& motion) {
 }
 
 void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, double travelled,
-                             base::Array<contact::PartLoad>& loads) {
+                             contact::PartLoad* loads) {
   contact::pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 

@@ -46,7 +46,7 @@ struct Bench {
     const GrainPartContacts::GrainsView grains{&p, &velocity, &spin, &id, 1};
     if (refresh) contacts->refresh(grains, motion);
     loads.zero();
-    contacts->compute(grains, motion, loads);
+    contacts->compute(grains, motion, loads.data());
     Result r{};
     const GrainLoadsView view = contacts->grainLoads();
     for (std::uint32_t k = 0; k < (view.range[0] & 255u); ++k) {
@@ -120,7 +120,7 @@ TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
   const base::Vec4f zero{};
   const std::uint32_t id = 0;
   contacts.refresh({&p, &zero, &zero, &id, 1}, motion);
-  contacts.compute({&p, &zero, &zero, &id, 1}, motion, loads);
+  contacts.compute({&p, &zero, &zero, &id, 1}, motion, loads.data());
   const double down = model.force.value(loads.at(0).force.z), up = model.force.value(loads.at(1).force.z);
   EXPECT_NEAR(down, -kStiffness * overlap, 0.05);
   EXPECT_NEAR(up, kStiffness * overlap, 0.05);
