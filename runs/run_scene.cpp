@@ -232,10 +232,9 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total));
   if (options.hash) summary.stateHash = simulation.stateHash();
   const Simulation::Ledger l = simulation.ledger();
-  fmt::print(
-      "ledger    drive work {:.4g} J = kinetic {:.4g} + potential {:.4g} + elastic {:.4g} + dissipated {:.4g} (changes "
-      "since the start), left over {:.3g} J\n",
-      l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
+  fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
+             "dissipated {:+.4g}; left over {:.3g}\n",
+             l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
   fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
              l.impulseResidual.z);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,

@@ -19,7 +19,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleP
   surface_ = surfaceHeight(scene, ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
   if (ground_.grains) ground_.grains->setSteps(0);
-  energyAtStart_ = ledger().residual;
+  start_ = ledger();
 }
 
 void Simulation::step() {
@@ -66,8 +66,9 @@ Simulation::Ledger Simulation::ledger() {
     ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
     ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
   }
-  ledger.residual =
-      ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork - energyAtStart_;
+  ledger.kinetic -= start_.kinetic, ledger.potential -= start_.potential;
+  ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;
+  ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork;
   return ledger;
 }
 

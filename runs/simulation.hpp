@@ -32,7 +32,8 @@ public:
   const SettleReport& settled() const { return settled_; }
   const std::function<double(double, double)>& surface() const { return surface_; }
 
-  /// Energies [J] of everything, and what does not balance since the first step.
+  /// Changes of all energies [J] since the first step, and what does not balance:
+  /// residual = kinetic + potential + elastic + dissipated - driveWork.
   struct Ledger {
     double driveWork{}, kinetic{}, potential{}, elastic{}, dissipated{}, residual{};
     base::Vec3d impulseResidual; ///< on vehicle plus on bed [N s]
@@ -55,7 +56,7 @@ private:
   std::function<double(double, double)> surface_;
   std::unique_ptr<VehicleRig> vehicle_;
   std::int64_t steps_{0};
-  double energyAtStart_{0};
+  Ledger start_; ///< before the first step; the ledger counts from here
 };
 
 } // namespace grouser::runs
