@@ -74,6 +74,7 @@ public:
   std::vector<std::uint32_t> stateWords() const;
   GrainLedger ledger();
   std::size_t deviceBytes() const;
+  const contact::NeighbourList& neighbours() const { return neighbours_; } ///< as last built
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t steps() const { return steps_; }
   void setSteps(std::int64_t steps) { steps_ = steps; }
