@@ -8,6 +8,7 @@
 #include <fstream>
 #include <new>
 #include <omp.h>
+#include <sys/resource.h>
 
 #if defined(__CUDACC__)
 #include "base/cuda_check.cuh"
@@ -72,6 +73,21 @@ std::string describe(const Exec& exec) {
   checkCuda(cudaGetDevice(&index), "cudaGetDevice");
   checkCuda(cudaGetDeviceProperties(&properties, index), "cudaGetDeviceProperties");
   return std::string(properties.name) + ", " + std::to_string(properties.totalGlobalMem >> 30) + " GiB";
+#else
+  noCuda();
+#endif
+}
+
+std::size_t memoryTaken(const Exec& exec) {
+  if (exec.onCpu()) {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+  }
+#if defined(__CUDACC__)
+  std::size_t free = 0, total = 0;
+  checkCuda(cudaMemGetInfo(&free, &total), "cudaMemGetInfo");
+  return total - free;
 #else
   noCuda();
 #endif

@@ -25,6 +25,8 @@ Exec cudaExec(int index = 0);
 bool cudaAvailable();
 /// One line about the device: cores and processor, or the GPU's name and memory.
 std::string describe(const Exec& exec);
+/// Memory taken on the device now, by all programs together [B]; on the CPU the most this process has held.
+std::size_t memoryTaken(const Exec& exec);
 
 /// Waits until all work given to `exec` has ended. Throws DeviceError with the code received.
 void synchronize(const Exec& exec);

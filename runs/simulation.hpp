@@ -46,6 +46,7 @@ public:
   std::string stateHash() const;
 
 private:
+  friend class StepBench; // times the verbs of step() one by one
   void checkAlarm() const;
 
   const Scene scene_;

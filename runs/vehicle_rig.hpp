@@ -69,6 +69,10 @@ public:
     std::size_t spheres{}, surface{};
     int instances{};
   };
+  /// Listed as near now: probes of parts against parts and rigid ground, and pairs of grain and part.
+  std::size_t probesListed() const { return track_->probesListed() + (rigidGround_ ? rigidGround_->probesListed() : 0); }
+  std::size_t grainPairsListed() const { return bed_ ? bed_->pairs() : 0; }
+
   const std::vector<SetFigures>& sphereSets() const { return setFigures_; }
   std::size_t totalSpheres() const;
 
