@@ -265,4 +265,9 @@ NeighbourList::HostCopy NeighbourList::toHost() const {
           now_.touching.toHost(), now_.grainStride,   now_.slotStride};
 }
 
+void NeighbourList::setHistory(const HostCopy& copy) {
+  now_.touching.assign(copy.touching);
+  if (history_) now_.shear.assign(copy.shear);
+}
+
 } // namespace grouser::contact

@@ -54,6 +54,8 @@ public:
     }
   };
   HostCopy toHost() const;
+  /// Takes over touching bits and springs of a host copy of the present list.
+  void setHistory(const HostCopy& copy);
 
 private:
   struct Lists {

@@ -4,7 +4,6 @@
 #include "base/error.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace grouser::terrain {
@@ -128,43 +127,6 @@ GrainSnapshot Grains::snapshot() const {
     s.spin[id[i]] = spin[i].xyz();
   }
   return s;
-}
-
-std::vector<std::uint32_t> Grains::stateWords() const {
-  const auto position = position_[0].toHost();
-  const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
-  const auto remainders = remainders_.toHost();
-  const auto id = id_.toHost();
-  const auto wallTouching = wallTouching_.toHost();
-  const auto wallShear = wallShear_.toHost();
-  const bool listed = rebuilds_ > 0;
-  const auto lists = listed ? neighbours_.toHost() : contact::NeighbourList::HostCopy{};
-  std::vector<std::uint32_t> slotOf(count_);
-  for (std::size_t i = 0; i < count_; ++i) slotOf[id[i]] = static_cast<std::uint32_t>(i);
-
-  std::vector<std::uint32_t> words;
-  words.reserve(count_ * 24);
-  const auto put = [&words](const auto& value) {
-    static_assert(sizeof value % 4 == 0);
-    std::uint32_t raw[sizeof value / 4];
-    std::memcpy(raw, &value, sizeof value);
-    words.insert(words.end(), raw, raw + sizeof value / 4);
-  };
-  for (std::size_t g = 0; g < count_; ++g) {
-    const std::size_t i = slotOf[g];
-    put(position[i]), put(velocity[i].xyz()), put(spin[i].xyz()), put(remainders[i]);
-    for (std::size_t k = 0; listed && k < lists.count[i]; ++k) {
-      if (!(lists.touching[i] >> k & 1)) continue;
-      const auto at = static_cast<std::size_t>(lists.at(i, static_cast<std::uint32_t>(k)));
-      put(id[lists.slot[at]]);
-      if (!lists.shear.empty()) put(lists.shear[at]);
-    }
-    if (wallTouching.empty()) continue;
-    put(wallTouching[i]);
-    for (int b = 0; b < boundaryCount_ && !wallShear.empty(); ++b)
-      if (wallTouching[i] >> b & 1) put(wallShear[static_cast<std::size_t>(b) * count_ + i]);
-  }
-  return words;
 }
 
 std::size_t Grains::deviceBytes() const {

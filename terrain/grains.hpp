@@ -6,6 +6,7 @@
 #include "contact/neighbour_list.hpp"
 #include "terrain/grain_model.hpp"
 #include "terrain/grain_records.hpp"
+#include "terrain/grain_state.hpp"
 
 #include <memory>
 #include <optional>
@@ -72,6 +73,10 @@ public:
   GrainSnapshot snapshot() const;
   /// All of the state by id, without padding, contact history by pair of ids: equal for equal states.
   std::vector<std::uint32_t> stateWords() const;
+  /// For checkpoints. A run that goes on from `restore(state())` gives the same bits as one that was not stopped, on any
+  /// device and with any skin. Throws InputError when the state is of other grains.
+  GrainState state() const;
+  void restore(const GrainState& state);
   GrainLedger ledger();
   std::size_t deviceBytes() const;
   const contact::NeighbourList& neighbours() const { return neighbours_; } ///< as last built
@@ -86,6 +91,7 @@ private:
   GrainKernelData kernelData(const contact::GrainLoadsView* loads);
   void permute();
   void checkFlags();
+  void restoreContacts(const GrainState& state, const std::vector<std::uint32_t>& id);
 
   base::Exec exec_;
   GrainModel model_;
