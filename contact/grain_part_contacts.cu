@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/for_each.cuh"
 
-#include <cstring>
 
 namespace grouser::contact {
 
@@ -298,25 +297,6 @@ GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = sums_.toHost();
   return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]),
           model_.force.value({q[3], q[4], q[5]}) * model_.timeStep};
-}
-
-std::vector<std::uint32_t> GrainPartContacts::stateWords() const {
-  std::vector<std::uint64_t> key = key_.toHost();
-  key.resize(pairs_);
-  const std::vector<PatchMemory> memory = memory_.toHost();
-  std::vector<std::uint32_t> order(pairs_), words;
-  for (std::size_t e = 0; e < pairs_; ++e) order[e] = static_cast<std::uint32_t>(e);
-  base::sortByKey(base::cpuExec(1), key.data(), order.data(), pairs_);
-  for (std::size_t k = 0; k < pairs_; ++k)
-    for (int q = 0; q < kPatches; ++q) {
-      const PatchMemory& m = memory[static_cast<std::size_t>(order[k]) * kPatches + static_cast<std::size_t>(q)];
-      if (norm2(m.normal) == 0) continue;
-      std::uint32_t raw[8];
-      std::memcpy(raw, &key[k], 8);
-      std::memcpy(raw + 2, &m, sizeof m);
-      words.insert(words.end(), raw, raw + 8);
-    }
-  return words;
 }
 
 std::size_t GrainPartContacts::bytes() const {

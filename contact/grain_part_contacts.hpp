@@ -6,6 +6,7 @@
 #include "contact/linear_law.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
+#include "contact/saved_contacts.hpp"
 
 #include <vector>
 
@@ -70,8 +71,10 @@ public:
     base::Vec3d impulseOnGrains; ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const;
-  /// History by (grain id, part), in ascending order, without free places: for hashes and checkpoints.
-  std::vector<std::uint32_t> stateWords() const;
+  /// For hashes and checkpoints. Throws InputError when what was saved is of other parts; refresh before the next
+  /// compute.
+  SavedGrainPatches save() const;
+  void restore(const SavedGrainPatches& saved);
   std::size_t bytes() const;
 
 private:

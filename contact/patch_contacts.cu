@@ -4,7 +4,6 @@
 #include "contact/patch_steps.cuh"
 
 #include <algorithm>
-#include <cstring>
 
 namespace grouser::contact {
 
@@ -52,16 +51,6 @@ PatchBuffers::Ledger PatchBuffers::ledger(const PatchQuanta& quanta) const {
   ledger.elastic = quanta.energy.value(elastic);
   for (const PatchState& s : states.toHost()) ledger.dissipated += s.dissipated;
   return ledger;
-}
-
-std::vector<std::uint32_t> PatchBuffers::stateWords() const {
-  std::vector<std::uint32_t> words;
-  for (const PatchState& s : states.toHost()) {
-    std::uint32_t raw[6];
-    std::memcpy(raw, &s.shear, sizeof raw);
-    words.insert(words.end(), raw, raw + 6);
-  }
-  return words;
 }
 
 PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,

@@ -4,6 +4,7 @@
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/patch_law.hpp"
+#include "contact/saved_contacts.hpp"
 
 #include <vector>
 
@@ -38,8 +39,9 @@ struct PatchBuffers {
     std::int64_t patches{};
   };
   Ledger ledger(const PatchQuanta& quanta) const;
-  /// Springs of the patches by pair and cluster: for hashes and checkpoints.
-  std::vector<std::uint32_t> stateWords() const;
+  /// For hashes and checkpoints. Throws InputError when what was saved is of other pairs; list the probes afterwards.
+  SavedPatches save() const;
+  void restore(const SavedPatches& saved);
 };
 
 /// A pair of parts that may meet; `a` is felt by its probes, `b` by its table.
@@ -68,7 +70,8 @@ public:
 
   std::size_t probesListed() const { return buffers_.entries; }
   PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }
-  std::vector<std::uint32_t> stateWords() const { return buffers_.stateWords(); }
+  SavedPatches save() const { return buffers_.save(); }
+  void restore(const SavedPatches& saved) { buffers_.restore(saved); }
 
   /// How pairs find their surfaces; plain data for kernels.
   struct Target {

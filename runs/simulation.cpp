@@ -75,7 +75,7 @@ Simulation::Ledger Simulation::ledger() {
 std::string Simulation::stateHash() const {
   base::StateHash hash;
   if (ground_.grains) hash.add(ground_.grains->stateWords());
-  if (vehicle_) hash.add(vehicle_->stateWords());
+  if (vehicle_) hash.add(vehicle_->save().words());
   return hash.hex();
 }
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
@@ -321,22 +320,6 @@ std::size_t VehicleRig::totalSpheres() const {
   std::size_t total = 0;
   for (const SetFigures& f : setFigures_) total += f.spheres * static_cast<std::size_t>(f.instances);
   return total;
-}
-
-std::vector<std::uint32_t> VehicleRig::stateWords() const {
-  std::vector<std::uint32_t> words;
-  for (const double v : state_.save()) {
-    std::uint32_t raw[2];
-    std::memcpy(raw, &v, sizeof raw);
-    words.insert(words.end(), raw, raw + 2);
-  }
-  const auto append = [&words](const std::vector<std::uint32_t>& more) {
-    words.insert(words.end(), more.begin(), more.end());
-  };
-  append(track_->stateWords());
-  if (rigidGround_) append(rigidGround_->stateWords());
-  if (bed_) append(bed_->stateWords());
-  return words;
 }
 
 } // namespace grouser::runs

@@ -7,6 +7,7 @@
 #include "multibody/solver.hpp"
 #include "runs/bed.hpp"
 #include "runs/scene.hpp"
+#include "runs/vehicle_state.hpp"
 #include "terrain/ground_contacts.hpp"
 #include "vehicle/assembly.hpp"
 #include "vehicle/driver.hpp"
@@ -76,8 +77,10 @@ public:
   const std::vector<SetFigures>& sphereSets() const { return setFigures_; }
   std::size_t totalSpheres() const;
 
-  /// Bodies and contact history, for the hash.
-  std::vector<std::uint32_t> stateWords() const;
+  /// Bodies, contact history and sums, for hash and checkpoint.
+  VehicleState save() const;
+  /// Throws InputError when the state is of another vehicle.
+  void restore(const VehicleState& state);
 
   /// Pose of part `i` of the assembly in the world.
   base::Pose partPose(std::size_t i) const { return vehicle::partPose(assembly_.parts[i], state_); }
@@ -121,7 +124,8 @@ private:
   std::unique_ptr<contact::GrainPartContacts> bed_;
   contact::GrainLoadsView grainLoads_;
   double trackMargin_{}, groundMargin_{};
-  double relativeTravel_{1e9}, absoluteTravel_{1e9};
+  static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
+  double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};
   base::Vec3l impulseOnParts_{};
   double bedDissipated_{0};
 };

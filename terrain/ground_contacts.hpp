@@ -26,7 +26,8 @@ public:
 
   std::size_t probesListed() const { return buffers_.entries; }
   contact::PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }
-  std::vector<std::uint32_t> stateWords() const { return buffers_.stateWords(); }
+  contact::SavedPatches save() const { return buffers_.save(); }
+  void restore(const contact::SavedPatches& saved) { buffers_.restore(saved); }
 
   struct Target {
     const int* part;

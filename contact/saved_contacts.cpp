@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/saved_contacts.hpp"
+
+#include "base/algorithms.hpp"
+#include "base/error.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "contact/patch_contacts.hpp"
+
+#include <cstring>
+
+namespace grouser::contact {
+
+namespace {
+
+constexpr std::size_t kWords = 8; // of one patch between a grain and a part
+static_assert(sizeof(std::uint64_t) + sizeof(PatchMemory) == kWords * sizeof(std::uint32_t));
+
+[[noreturn]] void refuse() {
+  throw base::InputError("the checkpoint holds contacts of another vehicle; resume with the scene that was run");
+}
+
+} // namespace
+
+std::vector<std::uint32_t> SavedPatches::words() const {
+  std::vector<std::uint32_t> words;
+  for (const PatchState& s : states) {
+    std::uint32_t raw[6];
+    std::memcpy(raw, &s.shear, sizeof raw);
+    words.insert(words.end(), raw, raw + 6);
+  }
+  return words;
+}
+
+SavedPatches PatchBuffers::save() const { return {states.toHost(), sums.toHost()}; }
+
+void PatchBuffers::restore(const SavedPatches& saved) {
+  if (saved.states.size() != states.size() || saved.sums.size() != sums.size()) refuse();
+  states.assign(saved.states);
+  sums.assign(saved.sums);
+}
+
+SavedGrainPatches GrainPartContacts::save() const {
+  std::vector<std::uint64_t> key = key_.toHost();
+  key.resize(pairs_);
+  const std::vector<PatchMemory> memory = memory_.toHost();
+  std::vector<std::uint32_t> order(pairs_), words;
+  for (std::size_t e = 0; e < pairs_; ++e) order[e] = static_cast<std::uint32_t>(e);
+  base::sortByKey(base::cpuExec(1), key.data(), order.data(), pairs_);
+  for (std::size_t k = 0; k < pairs_; ++k)
+    for (int q = 0; q < kPatches; ++q) {
+      const PatchMemory& m = memory[static_cast<std::size_t>(order[k]) * kPatches + static_cast<std::size_t>(q)];
+      if (norm2(m.normal) == 0) continue;
+      std::uint32_t raw[kWords];
+      std::memcpy(raw, &key[k], 8);
+      std::memcpy(raw + 2, &m, sizeof m);
+      words.insert(words.end(), raw, raw + kWords);
+    }
+  return {words, sums_.toHost()};
+}
+
+void GrainPartContacts::restore(const SavedGrainPatches& saved) {
+  if (saved.sums.size() != sums_.size() || saved.memories.size() % kWords != 0) refuse();
+  std::vector<std::uint64_t> keys;
+  std::vector<PatchMemory> memories;
+  std::size_t place = 0;
+  for (std::size_t w = 0; w < saved.memories.size(); w += kWords) {
+    std::uint64_t key;
+    std::memcpy(&key, &saved.memories[w], sizeof key);
+    if (keys.empty() || keys.back() != key) {
+      keys.push_back(key);
+      memories.resize(keys.size() * kPatches);
+      place = 0;
+    }
+    if ((key & 0xFFFFu) >= partCount_ || place == kPatches) refuse();
+    float f[6];
+    std::memcpy(f, &saved.memories[w + 2], sizeof f);
+    memories[(keys.size() - 1) * kPatches + place++] = {{f[0], f[1], f[2]}, {f[3], f[4], f[5]}};
+  }
+  // A list of just the pairs in touch: the next refresh takes the history from it, as from any former list.
+  pairs_ = keys.size();
+  key_.assign(keys);
+  memory_.assign(memories);
+  sums_.assign(saved.sums);
+}
+
+} // namespace grouser::contact

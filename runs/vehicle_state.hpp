@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/saved_contacts.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::runs {
+
+/// All of a vehicle on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
+struct VehicleState {
+  std::vector<double> bodies;     ///< multibody::State::save()
+  std::vector<double> observers;  ///< vehicle::Observer::save()
+  contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
+  contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it
+  contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
+
+  // Sums for output, in quanta of force.
+  std::vector<base::Vec3l> groundForces; ///< by part, since the last row
+  std::int64_t meanSteps{};              ///< of that sum
+  base::Vec3l impulseOnParts;            ///< since the start, over the time step
+
+  /// For the hash: what the next step depends on.
+  std::vector<std::uint32_t> words() const;
+};
+
+} // namespace grouser::runs
