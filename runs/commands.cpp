@@ -9,6 +9,7 @@
 #include "runs/run_scene.hpp"
 #include "runs/scene.hpp"
 #include "runs/sinkage.hpp"
+#include "runs/sweep.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "spheredecomp/quality.hpp"
@@ -60,6 +61,21 @@ void runCommand(const RunCommand& command) {
   nameIfThere("frames", options.folder / "frames.xdmf");
   listFiles(options.folder);
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
+}
+
+void sweepCommand(const SweepCommand& command) {
+  std::vector<std::string> fixed;
+  if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
+  if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  const SweepPlan plan = planSweep(command.scene, command.sets, fixed);
+  SweepOptions options;
+  options.program = fs::read_symlink("/proc/self/exe");
+  options.folder =
+      command.folder.empty() ? fs::path("out") / (plan.scene.stem().string() + "_sweep") : fs::path(command.folder);
+  options.jobs = command.jobs, options.force = command.force;
+  if (const int failed = runSweep(plan, options))
+    throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
+                                            plan.runs.size(), (options.folder / "summary.csv").string()));
 }
 
 void sinkageCommand(const SinkageCommand& command) {

@@ -23,6 +23,18 @@ struct RunCommand {
 };
 void runCommand(const RunCommand& command);
 
+struct SweepCommand {
+  std::string scene;
+  std::vector<std::string> sets; ///< "key=value,value..."
+  std::string device;            ///< empty: as the scene says
+  std::optional<int> threads;    ///< empty: as the scene says
+  std::string folder;            ///< empty: out/NAME_sweep
+  int jobs = 1;
+  bool force = false;
+};
+/// Throws SimulationError where a run has failed, when all have ended.
+void sweepCommand(const SweepCommand& command);
+
 struct SinkageCommand {
   std::string results;
   std::string folder; ///< empty: beside the results

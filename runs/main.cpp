@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
+#include "runs/bench.hpp"
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
 #include "runs/scene.hpp"
@@ -28,6 +29,68 @@ void addRun(CLI::App& app, runs::RunCommand& c) {
   run->add_flag("--force", c.force, "overwrite the results in that folder");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
   run->callback([&c] { runs::runCommand(c); });
+}
+
+void addSweep(CLI::App& app, runs::SweepCommand& c) {
+  CLI::App* sweep = app.add_subcommand("sweep", "Many runs of a scene over lists of values, with a summary");
+  sweep->add_option("scene", c.scene, "scene file")->required();
+  sweep
+      ->add_option(
+          "--set", c.sets,
+          "a key and its values, e.g. driver.sprocket_speed=0.5,1,2; may be repeated: all combinations are run")
+      ->allow_extra_args(false);
+  sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(CLI::Range(1, 1024));
+  sweep->add_option("--out", c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
+  sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
+  sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs");
+  sweep->add_flag("--force", c.force, "run again what has already been run");
+  sweep->callback([&c] { runs::sweepCommand(c); });
+}
+
+void addBench(CLI::App& app, runs::BenchCommand& c) {
+  CLI::App* bench = app.add_subcommand("bench", "Figures of speed, with machine and commit");
+  bench->require_subcommand(1);
+  const auto addCommon = [&c](CLI::App* sub) {
+    sub->add_option("--device", c.device, "auto, cpu or cuda");
+    sub->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(CLI::Range(0, 1024));
+    sub->add_option("--json", c.json, "write the figures to this file");
+  };
+  runs::BedBench& b = c.bed;
+  CLI::App* bed =
+      bench->add_subcommand("bed", "Grains alone: five settled layers in a box, the bed that figures are compared on");
+  bed->add_option("--grains", b.grains, "number of grains")->check(CLI::Range(1, 1'000'000'000))->capture_default_str();
+  bed->add_option("--radius", b.radius, "[m]")->check(CLI::PositiveNumber)->capture_default_str();
+  bed->add_option("--jitter", b.jitter, "of the lattice, as a share of its free gap [-]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  bed->add_option("--friction", b.friction, "Coulomb coefficient [-]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  bed->add_option("--restitution", b.restitution, "[-], above 0")->check(CLI::Range(1e-3, 1.0))->capture_default_str();
+  bed->add_option("--stiffness", b.stiffness, "[N/m]")->check(CLI::PositiveNumber)->capture_default_str();
+  bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
+      ->check(CLI::Range(1e-3, 4.0))
+      ->capture_default_str();
+  bed->add_option("--time-step", b.timeStep, "[s]")->check(CLI::PositiveNumber)->capture_default_str();
+  bed->add_option("--settle", b.settleTime, "simulated time before timing [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  bed->add_option("--steps", b.steps, "of one batch; default: about a second's")->check(CLI::PositiveNumber);
+  bed->add_option("--batches", b.batches, "timed batches")->check(CLI::Range(1, 1000))->capture_default_str();
+  bed->add_flag("--ledger", b.ledger, "sum dissipation grain by grain, as runs do");
+  bed->add_flag("--hash", b.hash, "print the hash of the final state");
+  addCommon(bed);
+  bed->callback([&c] { runs::benchBedCommand(c); });
+
+  CLI::App* step = bench->add_subcommand("step", "Where each microsecond of a scene's step goes");
+  step->add_option("scene", c.scene, "scene file")->required();
+  step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
+  step->add_option("--steps", c.step.steps, "of one batch")->check(CLI::PositiveNumber)->capture_default_str();
+  step->add_option("--batches", c.step.batches, "timed batches")->check(CLI::Range(1, 1000))->capture_default_str();
+  step->add_option("--after", c.step.after,
+                   "simulated time before timing [s]; default: until the drive is up to speed");
+  addCommon(step);
+  step->callback([&c] { runs::benchStepCommand(c); });
 }
 
 void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, runs::SpheresCommand& d) {
@@ -73,11 +136,15 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", runs::versionText());
   app.footer("Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound, 4 device, 1 anything else.");
   runs::RunCommand run;
+  runs::SweepCommand sweep;
+  runs::BenchCommand bench;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
   runs::SpheresCommand spheres;
   for (int i = 0; i < argc; ++i) run.commandLine += (i ? " " : "") + std::string(argv[i]);
   addRun(app, run);
+  addSweep(app, sweep);
+  addBench(app, bench);
   addOthers(app, sinkage, plan, spheres);
   try {
     app.parse(argc, argv);

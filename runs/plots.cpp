@@ -50,32 +50,48 @@ std::string lastLine(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-} // namespace
-
-std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
-                                             const std::vector<std::string>& names, std::string& warning) {
-  const std::filesystem::path script = shareFolder() / "runs" / "plots" / "plot.py";
+/// Runs a script of runs/plots/. False, with a `warning`, where it does not end well.
+bool draw(const std::string& name, const std::vector<std::string>& arguments, std::string& warning) {
+  const std::filesystem::path script = shareFolder() / "runs" / "plots" / name;
   warning.clear();
   if (!std::filesystem::exists(script)) {
     warning =
         fmt::format("no plots: {} is missing; set GROUSER_SHARE to the folder that holds runs/plots", script.string());
-    return {};
+    return false;
   }
-  std::vector<std::string> words = {kPython, script.string(), results.string(), folder.string()};
-  words.insert(words.end(), names.begin(), names.end());
+  std::vector<std::string> words = {kPython, script.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
   const Outcome outcome = call(words);
-  constexpr int kMissingPackage = 3; // what plot.py ends with
+  constexpr int kMissingPackage = 3; // what the scripts end with
   if (outcome.status == 127 || outcome.status == -1)
     warning = fmt::format("no plots: {} is missing; install python3, python3-matplotlib and python3-h5py", kPython);
   else if (outcome.status != 0)
     warning = fmt::format("no plots: {}", outcome.status == kMissingPackage
                                               ? lastLine(outcome.output)
                                               : script.string() + ": " + lastLine(outcome.output));
+  return outcome.status == 0;
+}
+
+} // namespace
+
+std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
+                                             const std::vector<std::string>& names, std::string& warning) {
+  std::vector<std::string> words = {results.string(), folder.string()};
+  words.insert(words.end(), names.begin(), names.end());
   std::vector<std::filesystem::path> drawn;
+  if (!draw("plot.py", words, warning)) return drawn;
   for (const std::string& name : names)
-    if (const auto file = folder / (name + ".png"); outcome.status == 0 && std::filesystem::exists(file))
-      drawn.push_back(file);
+    if (const auto file = folder / (name + ".png"); std::filesystem::exists(file)) drawn.push_back(file);
   return drawn;
+}
+
+std::filesystem::path drawSweep(const std::filesystem::path& summary, const std::filesystem::path& folder,
+                                std::string& warning) {
+  const std::filesystem::path file = folder / "summary.png";
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (!draw("sweep.py", {summary.string(), file.string()}, warning)) return {};
+  return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
 } // namespace grouser::runs

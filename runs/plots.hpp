@@ -16,4 +16,9 @@ inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage", "d
 std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
                                              const std::vector<std::string>& names, std::string& warning);
 
+/// Draws the summary.csv of a sweep as summary.png into `folder`. Returns the file; empty, with a `warning`, where it
+/// could not be drawn.
+std::filesystem::path drawSweep(const std::filesystem::path& summary, const std::filesystem::path& folder,
+                                std::string& warning);
+
 } // namespace grouser::runs

@@ -41,6 +41,13 @@ void Progress::update(double fraction, const std::string& detail) {
   std::fflush(stderr);
 }
 
+void Progress::note(const std::string& line) {
+  clearLine();
+  std::fflush(stderr);
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
 void Progress::finish(const std::string& detail) {
   clearLine();
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();

@@ -19,6 +19,8 @@ public:
   void update(double fraction, const std::string& detail);
   /// True when the next update would print; lets the caller leave out making the detail.
   bool due() const;
+  /// A line of result on stdout, beside the progress on stderr.
+  void note(const std::string& line);
   /// The last line, with the time taken.
   void finish(const std::string& detail);
 

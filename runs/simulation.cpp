@@ -8,10 +8,6 @@
 
 namespace grouser::runs {
 
-namespace {
-constexpr std::int64_t kAlarmInterval = 50; // steps between looks at the track
-}
-
 Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress)
     : scene_(scene), exec_(exec), timeStep_(chooseTimeStep(scene)), ground_(buildGround(scene, exec, timeStep_)) {
   const bool bed = scene.terrain && scene.terrain->granular();

@@ -46,7 +46,8 @@ public:
   std::string stateHash() const;
 
 private:
-  friend class StepBench; // times the verbs of step() one by one
+  friend class StepBench;                            // times the verbs of step() one by one
+  static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm() const;
 
   const Scene scene_;

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweep_summary.hpp"
+
+#include "runs/channels.hpp"
+#include "runs/hdf5_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean and largest of the numbers that are there.
+struct Spread {
+  double sum = 0, most = kNone;
+  std::size_t count = 0;
+  void add(double v) {
+    if (std::isnan(v)) return;
+    sum += v, ++count;
+    most = std::isnan(most) ? v : std::max(most, v);
+  }
+  double mean() const { return count ? sum / static_cast<double>(count) : kNone; }
+};
+
+/// The steady rows of a run's series. Without a file everything is NaN.
+class Steady {
+public:
+  Steady(const Hdf5File* file, double from) : file_(file) {
+    if (file) times_ = file->numbers("/series/time");
+    while (first_ < times_.size() && !(times_[first_] >= from)) ++first_;
+  }
+  Spread of(const std::string& path) const {
+    Spread spread;
+    for (const double v : rows(path)) spread.add(v);
+    return spread;
+  }
+  /// Sum over the tracks of the mean product of two quantities of one number a row.
+  double meanProduct(const std::string& a, const std::string& b) const {
+    double sum = 0;
+    for (const std::string side : {"left", "right"}) {
+      const std::vector<double> x = rows("vehicle/" + side + "/" + a), y = rows("vehicle/" + side + "/" + b);
+      Spread spread;
+      for (std::size_t i = 0; i < x.size(); ++i) spread.add(x[i] * y[i]);
+      sum += spread.mean();
+    }
+    return sum;
+  }
+  /// Over both tracks and all shoes.
+  Spread ofTracks(const std::string& name) const {
+    Spread spread;
+    for (const std::string side : {"left", "right"})
+      for (const double v : rows("vehicle/" + side + "/" + name)) spread.add(v);
+    return spread;
+  }
+  double last(const std::string& path) const {
+    const std::vector<double> all = numbers(path);
+    return all.empty() ? kNone : all.back();
+  }
+  double lastNorm(const std::string& path) const {
+    const std::vector<double> all = numbers(path);
+    if (all.size() < 3) return kNone;
+    const double* v = all.data() + all.size() - 3;
+    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  double constant(const std::string& path) const {
+    return file_ && file_->has("/" + path) ? file_->numbers("/" + path).front() : kNone;
+  }
+
+private:
+  std::vector<double> numbers(const std::string& path) const {
+    const std::string dataset = "/" + path + "/value";
+    return file_ && file_->has(dataset) ? file_->numbers(dataset) : std::vector<double>{};
+  }
+  std::vector<double> rows(const std::string& path) const {
+    std::vector<double> all = numbers(path);
+    const std::size_t width = times_.empty() ? 0 : all.size() / times_.size();
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), first_ * width)));
+    return all;
+  }
+
+  const Hdf5File* file_;
+  std::vector<double> times_;
+  std::size_t first_ = 0;
+};
+
+struct Figure {
+  const char* column;
+  double value;
+};
+
+/// The figures of one run, all NaN where `file` is null: one list for header and rows.
+std::vector<Figure> figuresOf(const Hdf5File* file, double from) {
+  const Steady steady(file, from);
+  // Both tracks together: what the hull did against what the sprockets asked for.
+  const double speed = steady.ofTracks("speed").mean();
+  const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
+  const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
+  return {{"steady from [s]", file ? from : kNone},
+          {"speed [m/s]", speed},
+          {"slip [-]", asked != 0 ? 1 - speed / asked : kNone},
+          {"sinkage mean [m]", sinkage.mean()},
+          {"sinkage max [m]", sinkage.most},
+          {"drive torque [N m]",
+           steady.of("vehicle/left/drive_torque").mean() + steady.of("vehicle/right/drive_torque").mean()},
+          {"drive power [W]", steady.meanProduct("drive_torque", "sprocket_speed")},
+          {"tension mean [N]", tension.mean()},
+          {"tension peak [N]", tension.most},
+          {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
+          {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
+          {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()},
+          {"drive work [J]", steady.last("ledger/drive_work")},
+          {"energy residual [J]", steady.last("ledger/residual")},
+          {"impulse residual [N s]", steady.lastNorm("ledger/impulse_residual")}};
+}
+
+/// A cell that any reader of CSV takes whole.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  return cell + "\"";
+}
+
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
+
+/// A number of the manifest, or NaN.
+double numberOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : kNone;
+}
+
+nlohmann::json readManifest(const fs::path& folder) {
+  std::ifstream file(folder / "manifest.json");
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
+/// The cells of one run, in the order of the header.
+std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder) {
+  std::vector<std::string> cells = {quoted(run.name)};
+  for (const std::string& value : run.values) cells.push_back(quoted(value));
+  cells.push_back(outcome.status);
+  cells.push_back(quoted(outcome.message));
+  const bool isFinished = outcome.status == "finished";
+  const nlohmann::json manifest = isFinished ? readManifest(folder / run.name) : nlohmann::json::object();
+  for (const char* key : {"wall_time_s", "steps", "simulated_time_s"}) cells.push_back(cell(numberOf(manifest, key)));
+  std::optional<Hdf5File> file;
+  if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
+    file.emplace(Hdf5File::open(results));
+  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene))) cells.push_back(cell(f.value));
+  cells.push_back(manifest.value("state_hash", ""));
+  cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
+  return cells;
+}
+
+} // namespace
+
+double steadyFrom(const Scene& scene) {
+  if (!scene.vehicle) return kNone;
+  double ramped = scene.driver.driveBegins() + scene.driver.driveRamp;
+  if (scene.driver.table) ramped = std::max(ramped, scene.driver.driveBegins() + scene.driver.table->time.back());
+  return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
+}
+
+fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
+  std::vector<std::string> header = {"run"};
+  for (const std::string& key : plan.keys) header.push_back(quoted(key));
+  for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
+    header.push_back(column);
+  for (const Figure& f : figuresOf(nullptr, kNone)) header.push_back(f.column);
+  header.insert(header.end(), {"state hash", "commit"});
+  std::string text = fmt::format("{}\n", fmt::join(header, ","));
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder), ","));
+
+  const fs::path path = folder / "summary.csv", part = folder / "summary.csv.part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(part.string() + ": could not be written; is the disk full?");
+  fs::rename(part, path);
+  return path;
+}
+
+} // namespace grouser::runs
