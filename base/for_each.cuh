@@ -16,7 +16,7 @@ namespace grouser::base {
 
 #if defined(__CUDACC__)
 namespace detail {
-template <class Body> __global__ void forEachKernel(Body body, std::int64_t count) {
+template <class Body> __global__ void __launch_bounds__(128) forEachKernel(Body body, std::int64_t count) {
   const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
   if (i < count) body(static_cast<int>(i));
 }

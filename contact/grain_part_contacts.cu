@@ -3,8 +3,7 @@
 
 #include "base/algorithms.hpp"
 #include "base/error.hpp"
-#include "base/for_each.cuh"
-
+#include "base/for_each_group.cuh"
 
 namespace grouser::contact {
 
@@ -104,14 +103,15 @@ struct Compute {
   PartLoad* partLoad;
   std::int64_t* sums;
 
-  GROUSER_HD void operator()(int e) const {
+  template <class Lanes> GROUSER_HD void operator()(int e, const Lanes& lanes) const {
     const int i = static_cast<int>(slot[e]);
     const int p = static_cast<int>(key[e] & 0xFFFFu);
     const PartMotion part = motion[p];
     const Vec3d x = model.scale.toMetres(grains.position[i]);
     const Vec3d c = part.toPart(x);
     Patch patches[kPatches];
-    const int found = findPatches(grids[parts[p].surface], c, patches);
+    const int found = findPatches(grids[parts[p].surface], c, lanes, patches);
+    if (lanes.lane != 0) return; // the rest is for one thread
     GrainLoad result{};
     PatchMemory fresh[kPatches] = {};
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
@@ -142,27 +142,32 @@ private:
   }
 
   /// The deepest touch first, then the deepest that belongs to none of the patches so far.
-  GROUSER_HD int findPatches(const SurfaceGridView& grid, const Vec3d& c, Patch* patches) const {
+  template <class Lanes>
+  GROUSER_HD int findPatches(const SurfaceGridView& grid, const Vec3d& c, const Lanes& lanes, Patch* patches) const {
     const std::int64_t cell = grid.cellAt(c);
     if (cell < 0) return 0;
     const float radius = static_cast<float>(model.radius);
+    const std::uint32_t first = grid.start[cell], last = grid.start[cell + 1];
     int found = 0;
     for (; found < kPatches; ++found) {
-      Patch deepest{{}, {}, 0};
-      for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k) {
+      float deepest = 0;
+      std::uint32_t at = last;
+      for (std::uint32_t k = first + static_cast<std::uint32_t>(lanes.lane); k < last; k += Lanes::width) {
         const Disc& disc = grid.disc[grid.entry[k]];
         if (outOfReach(disc, c, model.radius)) continue;
-        const DiscDistance at = distanceTo(disc, c);
-        const float overlap = radius + disc.radius - at.distance;
-        if (overlap <= deepest.overlap) continue;
+        const DiscDistance d = distanceTo(disc, c);
+        const float overlap = radius + disc.radius - d.distance;
+        if (overlap <= deepest) continue;
         bool taken = false;
         for (int q = 0; q < found; ++q)
           taken =
-              taken || dot(at.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
-        if (!taken) deepest = {at.normal, disc.normal, overlap};
+              taken || dot(d.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
+        if (!taken) deepest = overlap, at = k;
       }
-      if (deepest.overlap <= 0) break;
-      patches[found] = deepest;
+      lanes.agreeOnGreatest(deepest, at);
+      if (deepest <= 0) break;
+      const Disc& disc = grid.disc[grid.entry[at]];
+      patches[found] = {distanceTo(disc, c).normal, disc.normal, deepest};
     }
     return found;
   }
@@ -286,9 +291,9 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
 
 void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
   base::setZero(exec_, sums_.data(), 2 * sizeof(std::int64_t));
-  base::forEach(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
-                Compute{model_, grains, motion.data(), parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
-                        memory_.data(), load_.data(), loads, sums_.data()});
+  base::forEachGroup<16>(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
+                         Compute{model_, grains, motion.data(), parts_.data(), gridViews_.data(), key_.data(),
+                                 slot_.data(), memory_.data(), load_.data(), loads, sums_.data()});
 }
 
 GrainLoadsView GrainPartContacts::grainLoads() const { return {range_.data(), load_.data(), model_.force}; }

@@ -89,23 +89,26 @@ public:
       const double r = reach[setOfPart[pair[p].a]] + reach[setOfPart[pair[p].b]] + margin;
       return norm2(motion[pair[p].a].origin - motion[pair[p].b].origin) < r * r;
     }
-    GROUSER_HD bool touch(int p, const PartMotion* motion, const base::Vec3d& x, double radius, base::Vec3d& normal,
-                          double& overlap) const {
+    template <class Lanes> GROUSER_HD bool touch(int p, const PartMotion* motion, const base::Vec3d& x, double radius,
+                                                 const Lanes& lanes, base::Vec3d& normal, double& overlap) const {
       const PartMotion& b = motion[pair[p].b];
       const base::Vec3d local = b.toPart(x);
       const SurfaceGridView& grid = grids[setOfPart[pair[p].b]];
       const std::int64_t cell = grid.cellAt(local);
       if (cell < 0) return false;
+      const std::uint32_t last = grid.start[cell + 1];
+      std::uint32_t deepest = last;
       overlap = 0;
-      base::Vec3f outward{};
-      for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k) {
+      for (std::uint32_t k = grid.start[cell] + static_cast<std::uint32_t>(lanes.lane); k < last; k += Lanes::width) {
         const Disc& disc = grid.disc[grid.entry[k]];
         if (outOfReach(disc, local, radius)) continue;
-        const DiscDistance at = distanceTo(disc, local);
-        const double depth = radius + static_cast<double>(disc.radius) - static_cast<double>(at.distance);
-        if (depth > overlap) overlap = depth, outward = at.normal;
+        const double depth =
+            radius + static_cast<double>(disc.radius) - static_cast<double>(distanceTo(disc, local).distance);
+        if (depth > overlap) overlap = depth, deepest = k;
       }
+      lanes.agreeOnGreatest(overlap, deepest);
       if (overlap <= 0) return false;
+      const base::Vec3f outward = distanceTo(grid.disc[grid.entry[deepest]], local).normal;
       normal = b.rotation * outward.as<double>();
       return true;
     }

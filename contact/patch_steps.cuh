@@ -30,9 +30,9 @@ template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& ta
                                          double timeStep, double travelled, const base::Array<PartMotion>& motion,
                                          PartLoad* loads) {
   buffers.sums.zero();
-  base::forEach(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
-                PressProbe<Target>{target, buffers.probe.data(), quanta, motion.data(), buffers.entry.data(),
-                                   buffers.gap.data(), travelled, buffers.sums.data(), loads, timeStep});
+  base::forEachGroup<8>(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
+                        PressProbe<Target>{target, buffers.probe.data(), quanta, motion.data(), buffers.entry.data(),
+                                           buffers.gap.data(), travelled, buffers.sums.data(), loads, timeStep});
   base::forEach(
       buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
       RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads, timeStep});

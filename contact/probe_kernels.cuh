@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/for_each.cuh"
+#include "base/for_each_group.cuh"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/patch_law.hpp"
@@ -14,7 +14,7 @@
 ///   int pairs                                   number of pairs
 ///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: does not move
 ///   bool near(pair, motion, margin)              may anything touch?
-///   bool touch(pair, motion, x, radius, normal, overlap)   world point x: outward normal of B, overlap > 0
+///   bool touch(pair, motion, x, radius, lanes, normal, overlap)   world point x: outward normal of B, overlap > 0
 ///   PatchLaw law(pair)
 namespace grouser::contact {
 
@@ -54,7 +54,9 @@ template <class Target> struct ListProbes {
         base::Vec3d normal;
         double overlap;
         const base::Vec3d x = a.toWorld(probe.centre.template as<double>());
-        if (!target.touch(pair, motion, x, static_cast<double>(probe.radius) + margin, normal, overlap)) continue;
+        if (!target.touch(pair, motion, x, static_cast<double>(probe.radius) + margin, base::Lanes<1>{0}, normal,
+                          overlap))
+          continue;
         if (entry) {
           entry[first[item] + found] = static_cast<std::uint64_t>(pair) << 32 | k;
           gap[first[item] + found] = static_cast<float>(margin - overlap - kGapSlack);
@@ -96,7 +98,7 @@ template <class Target> struct PressProbe {
   PartLoad* loads;
   double timeStep;
 
-  GROUSER_HD void operator()(int e) const {
+  template <class Lanes> GROUSER_HD void operator()(int e, const Lanes& lanes) const {
     if (static_cast<double>(gap[e]) > travelled) return;
     const int pair = static_cast<int>(entry[e] >> 32);
     const Probe probe = probes[entry[e] & 0xFFFFFFFFu];
@@ -104,7 +106,8 @@ template <class Target> struct PressProbe {
     const base::Vec3d centre = motion[a].toWorld(probe.centre.template as<double>());
     base::Vec3d normal;
     double overlap;
-    if (!target.touch(pair, motion, centre, static_cast<double>(probe.radius), normal, overlap)) return;
+    if (!target.touch(pair, motion, centre, static_cast<double>(probe.radius), lanes, normal, overlap)) return;
+    if (lanes.lane != 0) return; // the rest is for one thread
     const base::Vec3d x = centre - normal * (static_cast<double>(probe.radius) - 0.5 * overlap);
     base::Vec3d relative = motion[a].velocityAt(x);
     if (b >= 0) relative -= motion[b].velocityAt(x);

@@ -9,6 +9,12 @@ namespace grouser::terrain {
 
 using base::Vec4f;
 
+/// What walls and floor do to one grain in one step.
+struct BoundaryLoad {
+  base::Vec3f force, torque; ///< [N], [N m] about the centre
+  float dissipated, deepest; ///< [J]; deepest overlap [m]
+};
+
 /// What stops a run; the smallest key (code, then grain id) is kept.
 enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, none = 255 };
 

@@ -34,11 +34,64 @@ struct GrainKernelData {
   const std::uint32_t* id;
   const base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
   contact::NeighbourView neighbours;
-  base::Vec3f* wallShear;      ///< [wall or floor][slot]
-  std::uint32_t* wallTouching; ///< bit a wall, bit `wallCount` the floor
+  const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
+  const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
+  BoundaryLoad* boundaryLoads;       ///< by place in that list
+  base::Vec3f* wallShear;            ///< [wall or floor][slot]
+  std::uint32_t* wallTouching;       ///< bit a wall, bit `wallCount` the floor
   double* dissipated;
   contact::GrainLoadsView loads;
   StepFlags* flags;
+};
+
+/// Walls and floor on the grains near them. A kernel of its own: the search on the floor needs many registers, and only
+/// one layer of grains needs the search.
+template <bool kFriction> struct BoundaryContacts {
+  GrainKernelData d;
+
+  GROUSER_HD void operator()(int k) const {
+    const int i = static_cast<int>(d.nearBoundary[k]);
+    const base::Vec3f v = d.velocity[i].xyz(), w = d.spin[i].xyz();
+    const base::Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
+    BoundaryLoad sum{};
+    const std::uint32_t before = d.wallTouching[i];
+    std::uint32_t now = 0;
+    for (int b = 0; b < d.wallCount; ++b) {
+      const double distance = dot(d.walls[b].normal, x) - d.walls[b].offset;
+      const float overlap = static_cast<float>(static_cast<double>(d.radius) - distance);
+      if (overlap <= 0) continue;
+      now |= 1u << b;
+      touchBoundary(i, b, before, d.walls[b].law, d.walls[b].normal.as<float>(), overlap, v, w, sum);
+    }
+    if (d.hasFloor && !d.floor.clearOf(x, d.radius)) {
+      const FootPoint foot = d.floor.closestPoint(x);
+      const float overlap = static_cast<float>(static_cast<double>(d.radius) - foot.distance);
+      if (overlap > 0) {
+        now |= 1u << d.wallCount;
+        touchBoundary(i, d.wallCount, before, d.floorLaw, foot.normal.as<float>(), overlap, v, w, sum);
+      }
+    }
+    if (now != before) d.wallTouching[i] = now;
+    d.boundaryLoads[k] = sum;
+  }
+
+private:
+  GROUSER_HD void touchBoundary(int i, int boundary, std::uint32_t before, const contact::LinearLaw& law,
+                                const base::Vec3f& outward, float overlap, const base::Vec3f& v, const base::Vec3f& w,
+                                BoundaryLoad& sum) const {
+    const base::Vec3f normal = -outward; // from the grain to the wall
+    const base::Vec3f arm = normal * (d.radius - overlap);
+    contact::Touch touch{normal, overlap, v + cross(w, arm), d.mass};
+    base::Vec3f shear{};
+    const std::int64_t at = boundary * d.count + i;
+    if (kFriction && (before >> boundary & 1)) shear = d.wallShear[at];
+    const contact::Reaction reaction = contact::linearForce(law, touch, d.timeStep, shear);
+    if (kFriction) d.wallShear[at] = shear;
+    sum.force += reaction.force;
+    if (kFriction) sum.torque += cross(arm, reaction.force);
+    sum.dissipated += reaction.dissipated;
+    if (overlap > sum.deepest) sum.deepest = overlap;
+  }
 };
 
 /// One grain, one step: gather its contacts in the order of the neighbours' ids, then advance it by symplectic Euler.
@@ -56,7 +109,7 @@ template <bool kFriction, bool kBoundaries, bool kLoads, bool kLedger> struct Gr
     const base::Position p = d.position[i];
     const base::Vec3f v = d.velocity[i].xyz(), w = d.spin[i].xyz();
     gatherGrains(i, p, v, w, sum);
-    if (kBoundaries) gatherBoundaries(i, p, v, w, sum);
+    if (kBoundaries) addBoundaries(i, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (kLoads) addLoads(i, force, torque, sum);
     if (kLedger) d.dissipated[i] += static_cast<double>(sum.dissipated);
@@ -97,45 +150,14 @@ private:
     d.neighbours.touching[i] = now;
   }
 
-  GROUSER_HD void gatherBoundaries(int i, const base::Position& p, const base::Vec3f& v, const base::Vec3f& w,
-                                   Sum& sum) const {
-    const base::Vec3l u = base::toUnits(p);
-    const base::Vec3d x = u.as<double>() * d.unitLength;
-    const std::uint32_t before = d.wallTouching[i];
-    std::uint32_t now = 0;
-    for (int b = 0; b < d.wallCount; ++b) {
-      const double distance = dot(d.walls[b].normal, x) - d.walls[b].offset;
-      const float overlap = static_cast<float>(static_cast<double>(d.radius) - distance);
-      if (overlap <= 0) continue;
-      now |= 1u << b;
-      touchBoundary(i, b, before, d.walls[b].law, d.walls[b].normal.as<float>(), overlap, v, w, sum);
-    }
-    if (d.hasFloor && !d.floor.clearOf(x, d.radius)) {
-      const FootPoint foot = d.floor.closestPoint(x);
-      const float overlap = static_cast<float>(static_cast<double>(d.radius) - foot.distance);
-      if (overlap > 0) {
-        now |= 1u << d.wallCount;
-        touchBoundary(i, d.wallCount, before, d.floorLaw, foot.normal.as<float>(), overlap, v, w, sum);
-      }
-    }
-    if (now != before) d.wallTouching[i] = now;
-  }
-
-  GROUSER_HD void touchBoundary(int i, int boundary, std::uint32_t before, const contact::LinearLaw& law,
-                                const base::Vec3f& outward, float overlap, const base::Vec3f& v, const base::Vec3f& w,
-                                Sum& sum) const {
-    const base::Vec3f normal = -outward; // from the grain to the wall
-    const base::Vec3f arm = normal * (d.radius - overlap);
-    contact::Touch touch{normal, overlap, v + cross(w, arm), d.mass};
-    base::Vec3f shear{};
-    const std::int64_t at = boundary * d.count + i;
-    if (kFriction && (before >> boundary & 1)) shear = d.wallShear[at];
-    const contact::Reaction reaction = contact::linearForce(law, touch, d.timeStep, shear);
-    if (kFriction) d.wallShear[at] = shear;
-    sum.force += reaction.force;
-    if (kFriction) sum.torque += cross(arm, reaction.force);
-    sum.dissipated += reaction.dissipated;
-    if (overlap > sum.deepest) sum.deepest = overlap;
+  GROUSER_HD void addBoundaries(int i, Sum& sum) const {
+    const std::uint32_t place = d.boundaryOf[i];
+    if (place == 0) return;
+    const BoundaryLoad& load = d.boundaryLoads[place - 1];
+    sum.force += load.force;
+    sum.torque += load.torque;
+    sum.dissipated += load.dissipated;
+    if (load.deepest > sum.deepest) sum.deepest = load.deepest;
   }
 
   /// Forces from rigid parts come as integers and are added as such: the parts receive exactly their opposite.

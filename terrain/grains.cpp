@@ -65,6 +65,9 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   const std::size_t perBoundary = boundaryCount_ > 0 ? count_ : 0;
   wallShear_ = base::Array<Vec3f>(exec, frictional_ ? perBoundary * boundaryCount_ : 0);
   wallTouching_ = base::Array<std::uint32_t>(exec, perBoundary);
+  nearBoundary_ = base::Array<std::uint32_t>(exec);
+  boundaryOf_ = base::Array<std::uint32_t>(exec, perBoundary);
+  boundaryLoads_ = base::Array<BoundaryLoad>(exec);
   dissipated_ = base::Array<double>(exec, model.ledger ? count_ : 0);
   flags_ = base::Mirrored<StepFlags>(exec, 1);
   *flags_.host() = kNoFlags;
@@ -131,7 +134,8 @@ GrainSnapshot Grains::snapshot() const {
 
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
-                      wallShear_.bytes() + wallTouching_.bytes() + dissipated_.bytes();
+                      wallShear_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + nearBoundary_.bytes() +
+                      boundaryOf_.bytes() + boundaryLoads_.bytes();
   for (int k = 0; k < 2; ++k) total += position_[k].bytes() + velocity_[k].bytes() + spin_[k].bytes();
   return total;
 }

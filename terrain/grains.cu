@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/grains.hpp"
 
+#include "base/algorithms.hpp"
 #include "base/fixed_point.hpp"
 #include "terrain/grain_step.cuh"
 
@@ -24,6 +25,32 @@ struct KeepReference {
   const Position* position;
   base::Vec3<std::uint32_t>* reference;
   GROUSER_HD void operator()(int i) const { reference[i] = {position[i].x, position[i].y, position[i].z}; }
+};
+
+/// Marks the grains that may touch a wall or the floor before any grain has moved half the skin.
+struct MarkNearBoundary {
+  GrainKernelData d;
+  double reach; ///< radius plus half the skin [m]
+  std::uint32_t* mark;
+  GROUSER_HD void operator()(int i) const {
+    const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
+    bool near = d.hasFloor && !d.floor.clearOf(x, reach);
+    for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < reach;
+    mark[i] = near ? 1u : 0u;
+  }
+};
+
+/// From the counts before each slot to places: the list, and the place of each slot in it.
+struct ListNearBoundary {
+  const std::uint32_t* before;
+  std::int64_t count;
+  std::uint32_t total;
+  std::uint32_t *list, *placeOf;
+  GROUSER_HD void operator()(int i) const {
+    const std::uint32_t next = i + 1 < count ? before[i + 1] : total;
+    placeOf[i] = next > before[i] ? next : 0u;
+    if (next > before[i]) list[before[i]] = static_cast<std::uint32_t>(i);
+  }
 };
 
 /// Runs the step with just the features this scene has.
@@ -130,6 +157,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.id = id_.data();
   d.reference = reference_.data();
   d.neighbours = neighbours_.view();
+  d.nearBoundary = nearBoundary_.data(), d.boundaryOf = boundaryOf_.data(), d.boundaryLoads = boundaryLoads_.data();
   d.wallShear = wallShear_.data(), d.wallTouching = wallTouching_.data();
   d.dissipated = dissipated_.data();
   if (loads) d.loads = *loads;
@@ -142,11 +170,26 @@ bool Grains::refreshNeighbours() {
   neighbours_.sort(position_[0].data(), count_);
   permute();
   neighbours_.build(position_[0].data(), id_.data());
+  if (boundaryCount_ > 0) listNearBoundaries();
   base::forEach(exec_, "keep reference", static_cast<std::int64_t>(count_),
                 KeepReference{position_[0].data(), reference_.data()});
   stale_ = false;
   ++rebuilds_;
   return true;
+}
+
+void Grains::listNearBoundaries() {
+  const auto n = static_cast<std::int64_t>(count_);
+  base::Array<std::uint32_t> mark(exec_, count_), before(exec_, count_);
+  base::forEach(
+      exec_, "mark grains near boundaries", n,
+      MarkNearBoundary{kernelData(nullptr), model_.radius * (1 + 0.5 * model_.skin) + scale_.unit, mark.data()});
+  const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), count_);
+  nearBoundary_.resize(total);
+  boundaryLoads_.resize(total);
+  base::forEach(exec_, "list grains near boundaries", n,
+                ListNearBoundary{before.data(), n, total, nearBoundary_.data(), boundaryOf_.data()});
+  base::synchronize(exec_);
 }
 
 void Grains::permute() {
@@ -177,6 +220,9 @@ void Grains::permute() {
 void Grains::beginStep(const contact::GrainLoadsView* loads) {
   const GrainKernelData d = kernelData(loads);
   const bool boundaries = boundaryCount_ > 0, withLoads = loads != nullptr;
+  const auto near = static_cast<std::int64_t>(nearBoundary_.size());
+  if (boundaries && frictional_) base::forEach(exec_, "boundary contacts", near, BoundaryContacts<true>{d});
+  if (boundaries && !frictional_) base::forEach(exec_, "boundary contacts", near, BoundaryContacts<false>{d});
   if (frictional_ && boundaries)
     runStep<true, true>(exec_, d, withLoads, model_.ledger);
   else if (frictional_)

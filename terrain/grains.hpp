@@ -73,8 +73,8 @@ public:
   GrainSnapshot snapshot() const;
   /// All of the state by id, without padding, contact history by pair of ids: equal for equal states.
   std::vector<std::uint32_t> stateWords() const;
-  /// For checkpoints. A run that goes on from `restore(state())` gives the same bits as one that was not stopped, on any
-  /// device and with any skin. Throws InputError when the state is of other grains.
+  /// For checkpoints. A run that goes on from `restore(state())` gives the same bits as one that was not stopped, on
+  /// any device and with any skin. Throws InputError when the state is of other grains.
   GrainState state() const;
   void restore(const GrainState& state);
   GrainLedger ledger();
@@ -90,6 +90,7 @@ public:
 private:
   GrainKernelData kernelData(const contact::GrainLoadsView* loads);
   void permute();
+  void listNearBoundaries();
   void checkFlags();
   void restoreContacts(const GrainState& state, const std::vector<std::uint32_t>& id);
 
@@ -109,6 +110,8 @@ private:
   base::Array<base::Vec3f> wallShear_;
   base::Array<std::uint32_t> wallTouching_;
   base::Array<double> dissipated_;
+  base::Array<std::uint32_t> nearBoundary_, boundaryOf_;
+  base::Array<BoundaryLoad> boundaryLoads_;
   base::Mirrored<StepFlags> flags_;
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;

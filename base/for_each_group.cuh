@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/for_each.cuh"
+
+namespace grouser::base {
+
+/// The threads that share one item of forEachGroup: `width` neighbours within a warp on the GPU, one on the CPU. They
+/// walk a list together (for k = lane; k < n; k += width) and agree on the best entry.
+template <int kWidth> struct Lanes {
+  static constexpr int width = kWidth;
+  int lane;
+
+  /// After this every lane has the greatest `value` of all and, among equal values, the smallest `key`: what one thread
+  /// would have found that keeps the first of the greatest.
+  template <class T> GROUSER_HD void agreeOnGreatest(T& value, std::uint32_t& key) const {
+#if defined(__CUDA_ARCH__)
+    const unsigned self = threadIdx.x & 31u;
+    const unsigned group = kWidth == 32 ? ~0u : ((1u << (kWidth & 31)) - 1u) << (self & ~(kWidth - 1u));
+    for (int apart = kWidth / 2; apart > 0; apart /= 2) {
+      const T otherValue = __shfl_xor_sync(group, value, apart);
+      const std::uint32_t otherKey = __shfl_xor_sync(group, key, apart);
+      if (otherValue > value || (otherValue == value && otherKey < key)) value = otherValue, key = otherKey;
+    }
+#else
+    (void)value, (void)key;
+#endif
+  }
+};
+
+#if defined(__CUDACC__)
+namespace detail {
+template <int kWidth, class Body> __global__ void __launch_bounds__(128)
+    forEachGroupKernel(Body body, std::int64_t count) {
+  const std::int64_t thread = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+  const std::int64_t i = thread / kWidth;
+  if (i < count) body(static_cast<int>(i), Lanes<kWidth>{static_cast<int>(thread % kWidth)});
+}
+} // namespace detail
+#endif
+
+/// Runs `body(i, lanes)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
+/// work on each item. For items that walk lists long enough to keep a thread waiting.
+template <int kWidth, class Body>
+void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
+  if (count <= 0) return;
+  if (exec.onCpu()) {
+    const int n = static_cast<int>(count);
+    [[maybe_unused]] const int threads = count < 64 ? 1 : exec.threads;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int i = 0; i < n; ++i) body(i, Lanes<1>{0});
+    return;
+  }
+#if defined(__CUDACC__)
+  constexpr int kBlock = 128;
+  const auto blocks = static_cast<unsigned>((count * kWidth + kBlock - 1) / kBlock);
+  detail::forEachGroupKernel<kWidth><<<blocks, kBlock, 0, static_cast<cudaStream_t>(exec.stream)>>>(body, count);
+  checkCuda(cudaGetLastError(), std::string("launch of ") + name);
+#else
+  throw DeviceError(std::string(name) + ": this file was not compiled for CUDA");
+#endif
+}
+
+} // namespace grouser::base
