@@ -177,17 +177,22 @@ SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& pr
                   t.settleTimeLimit, report.agitation, t.settleKineticEnergy));
 }
 
-std::function<double(double, double)> surfaceHeight(const Scene& scene, const Ground& ground) {
-  if (!scene.terrain) return {};
-  if (!ground.grains) {
-    const auto field = std::make_shared<terrain::HeightField>(*ground.surface);
-    return [field](double x, double y) { return field->height(x, y); };
-  }
+void keepSurface(Ground& ground) {
   std::vector<terrain::Seed> seeds;
   const double radius = ground.grains->model().radius;
   for (const Vec3d& p : ground.grains->snapshot().position) seeds.push_back({p, radius});
-  const auto surface = std::make_shared<terrain::BedSurface>(seeds, ground.rigid->view(), *ground.walls, 2 * radius);
-  return [surface](double x, double y) { return surface->height(x, y); };
+  ground.undisturbed = std::make_shared<terrain::BedSurface>(seeds, ground.rigid->view(), *ground.walls, 2 * radius);
+}
+
+void keepSurface(Ground& ground, const std::vector<double>& heights) {
+  ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * ground.grains->model().radius, heights);
+}
+
+std::function<double(double, double)> surfaceHeight(const Ground& ground) {
+  if (const auto bed = ground.undisturbed) return [bed](double x, double y) { return bed->height(x, y); };
+  if (!ground.surface) return {};
+  const auto field = std::make_shared<terrain::HeightField>(*ground.surface);
+  return [field](double x, double y) { return field->height(x, y); };
 }
 
 } // namespace grouser::runs

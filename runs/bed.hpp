@@ -20,6 +20,7 @@ struct Ground {
   std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
   std::unique_ptr<terrain::Grains> grains;     ///< null without grains
   std::optional<terrain::Rectangle> walls;     ///< around a bed
+  std::shared_ptr<const terrain::BedSurface> undisturbed; ///< of a settled bed, before the vehicle touched it
 };
 
 /// Called now and then while a bed settles: simulated time [s], kinetic energy a grain over m g radius [-].
@@ -53,7 +54,11 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep);
 /// Throws SimulationError when the scene's time limit passes first.
 SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress);
 
-/// Surface of the bed as it lies now, or of the rigid ground.
-std::function<double(double x, double y)> surfaceHeight(const Scene& scene, const Ground& ground);
+/// Takes the surface of a bed as it lies now for the undisturbed one, or `heights` of one taken earlier.
+void keepSurface(Ground& ground);
+void keepSurface(Ground& ground, const std::vector<double>& heights);
+
+/// Height of the undisturbed bed, or of the rigid ground; null where there is neither.
+std::function<double(double x, double y)> surfaceHeight(const Ground& ground);
 
 } // namespace grouser::runs

@@ -2,6 +2,7 @@
 #include "runs/commands.hpp"
 
 #include "base/error.hpp"
+#include "runs/checkpoint.hpp"
 #include "runs/manifest.hpp"
 #include "runs/output.hpp"
 #include "runs/plan.hpp"
@@ -35,6 +36,22 @@ void nameIfThere(const char* what, const fs::path& file) {
   if (fs::exists(file)) fmt::print("{:<9} {}\n", what, file.string());
 }
 
+/// A run goes on in the folder of its checkpoint.
+void chooseCheckpoint(const RunCommand& command, RunOptions& options) {
+  if (command.checkpoint.empty()) {
+    options.resume = options.folder / kCheckpointName;
+    return;
+  }
+  options.resume = command.checkpoint;
+  const fs::path folder = fs::absolute(command.checkpoint).lexically_normal().parent_path();
+  if (command.folder.empty()) options.folder = folder;
+  std::error_code error;
+  if (!fs::equivalent(options.folder, folder, error))
+    throw base::InputError(fmt::format("--out {}: a run goes on in the folder of its checkpoint, {}; leave --out away, "
+                                       "or copy that folder first",
+                                       command.folder, folder.string()));
+}
+
 } // namespace
 
 void runCommand(const RunCommand& command) {
@@ -49,7 +66,10 @@ void runCommand(const RunCommand& command) {
                                                   : fs::path("out") / scene.name();
   options.force = command.force, options.hash = command.hash, options.steps = command.steps;
   options.commandLine = command.commandLine;
-  checkOutputFolder(options.folder, options.force);
+  if (command.resume)
+    chooseCheckpoint(command, options);
+  else
+    checkOutputFolder(options.folder, options.force);
   const Summary summary = runScene(scene, options);
 
   const fs::path results = options.folder / "results.h5";
@@ -76,6 +96,11 @@ void sweepCommand(const SweepCommand& command) {
   if (const int failed = runSweep(plan, options))
     throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
                                             plan.runs.size(), (options.folder / "summary.csv").string()));
+}
+
+void hashCommand(const HashCommand& command) {
+  const SimulationState state = readCheckpoint(command.checkpoint).state;
+  fmt::print("state-hash {} step {}\n", state.hash(), state.steps);
 }
 
 void sinkageCommand(const SinkageCommand& command) {

@@ -19,6 +19,8 @@ struct RunCommand {
   std::optional<std::int64_t> steps;
   bool force = false;
   bool hash = false;
+  bool resume = false;
+  std::string checkpoint; ///< of --resume; empty: that of the folder
   std::string commandLine;
 };
 void runCommand(const RunCommand& command);
@@ -34,6 +36,11 @@ struct SweepCommand {
 };
 /// Throws SimulationError where a run has failed, when all have ended.
 void sweepCommand(const SweepCommand& command);
+
+struct HashCommand {
+  std::string checkpoint;
+};
+void hashCommand(const HashCommand& command);
 
 struct SinkageCommand {
   std::string results;

@@ -48,11 +48,17 @@ std::vector<float> flat(const std::vector<base::Vec3d>& points) {
   return out;
 }
 
+std::string groupOf(std::int64_t frame) { return fmt::format("/{:06}", frame); }
+
 } // namespace
 
 FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts,
                        const base::TriangleMesh& ground)
-    : folder_(folder), file_(Hdf5File::create(folder / "frames.h5")), parts_(std::move(parts)) {
+    : FramesFile(folder, Hdf5File::create(folder / "frames.h5"), std::move(parts), ground) {}
+
+FramesFile::FramesFile(const std::filesystem::path& folder, Hdf5File file, std::vector<FramePart> parts,
+                       const base::TriangleMesh& ground)
+    : folder_(folder), file_(std::move(file)), parts_(std::move(parts)) {
   std::vector<std::uint32_t> corners, partOf, kindOf;
   std::vector<std::string> names, kinds;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -66,7 +72,7 @@ FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePar
     partVertices_ += part.mesh.vertices.size();
   }
   partTriangles_ = corners.size() / 3;
-  if (partTriangles_) {
+  if (partTriangles_ && !file_.has("/parts/triangles")) {
     file_.write("/parts/triangles", corners, {partTriangles_, 3});
     file_.write("/parts/part", partOf, {partTriangles_});
     file_.write("/parts/kind", kindOf, {partTriangles_});
@@ -74,10 +80,36 @@ FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePar
     file_.attribute("/parts/kind", "names", kinds);
   }
   groundVertices_ = ground.vertices.size(), groundTriangles_ = ground.indices.size() / 3;
-  if (groundTriangles_) {
+  if (groundTriangles_ && !file_.has("/ground/position")) {
     file_.write("/ground/position", flat(ground.vertices), {groundVertices_, 3});
     file_.write("/ground/triangles", ground.indices, {groundTriangles_, 3});
   }
+}
+
+FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
+                            const base::TriangleMesh& ground, std::int64_t lastStep) {
+  const std::int64_t kept = framesUpTo(folder, lastStep);
+  FramesFile frames(folder, Hdf5File::openToChange(folder / "frames.h5"), std::move(parts), ground);
+  for (std::int64_t i = 0; frames.file_.has(groupOf(i)); ++i) {
+    const std::string group = groupOf(i);
+    if (i >= kept) {
+      frames.file_.remove(group);
+      continue;
+    }
+    const std::string grains = group + "/grains/position";
+    frames.describe(frames.file_.has(grains) ? frames.file_.shape(grains)[0] : 0,
+                    static_cast<std::int64_t>(frames.file_.number(group, "step")), frames.file_.number(group, "time"));
+  }
+  frames.file_.flush();
+  if (!frames.steps_.empty()) frames.writeXdmf();
+  return frames;
+}
+
+std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep) {
+  const Hdf5File file = Hdf5File::open(folder / "frames.h5");
+  std::int64_t count = 0;
+  while (file.has(groupOf(count)) && file.number(groupOf(count), "step") <= static_cast<double>(lastStep)) ++count;
+  return count;
 }
 
 void FramesFile::add(const Frame& frame) {
@@ -85,12 +117,11 @@ void FramesFile::add(const Frame& frame) {
   if (frame.radii.size() != grains || frame.speeds.size() != grains || frame.ids.size() != grains ||
       frame.partPoses.size() != parts_.size())
     throw std::logic_error("a frame's arrays differ in length");
-  const std::string group = fmt::format("/{:06}", count_);
+  const std::string group = groupOf(count_);
   file_.makeGroup(group);
   file_.attribute(group, "time", frame.time);
   file_.attribute(group, "step", static_cast<double>(frame.step));
 
-  std::string grids;
   if (grains) {
     std::vector<float> positions(3 * grains);
     std::vector<std::uint32_t> sequence(grains);
@@ -104,6 +135,24 @@ void FramesFile::add(const Frame& frame) {
     file_.write(at + "/speed", frame.speeds, {grains});
     file_.write(at + "/id", frame.ids, {grains});
     file_.write(at + "/vertex", sequence, {grains, 1});
+  }
+  if (partTriangles_) {
+    std::vector<base::Vec3d> world;
+    world.reserve(partVertices_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
+    file_.write(group + "/parts/position", flat(world), {partVertices_, 3});
+  }
+  file_.flush();
+  describe(grains, frame.step, frame.time);
+  if (!steps_.empty()) writeXdmf();
+}
+
+void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
+  const std::string group = groupOf(count_++);
+  std::string grids;
+  if (grains) {
+    const std::string at = group + "/grains";
     // The vertices are listed, though they are just 0, 1, 2...: not every reader makes them up.
     const std::string vertices = fmt::format(
         "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
@@ -113,28 +162,18 @@ void FramesFile::add(const Frame& frame) {
                                 attribute("speed", "Node", grains, "Float", at + "/speed") +
                                 attribute("id", "Node", grains, "UInt", at + "/id"));
   }
-  if (partTriangles_) {
-    std::vector<base::Vec3d> world;
-    world.reserve(partVertices_);
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-      for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
-    file_.write(group + "/parts/position", flat(world), {partVertices_, 3});
+  if (partTriangles_)
     grids += grid("parts", triangles(partTriangles_, "/parts/triangles") +
                                geometry(partVertices_, group + "/parts/position") +
                                attribute("part", "Cell", partTriangles_, "UInt", "/parts/part") +
                                attribute("kind", "Cell", partTriangles_, "UInt", "/parts/kind"));
-  }
   if (groundTriangles_)
     grids += grid("ground",
                   triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));
-  file_.flush();
-
-  ++count_;
   if (grids.empty()) return;
   steps_ += fmt::format("    <Grid Name=\"step {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n      <Time "
                         "Value=\"{}\"/>\n{}    </Grid>\n",
-                        frame.step, frame.time, grids);
-  writeXdmf();
+                        step, time, grids);
 }
 
 void FramesFile::writeXdmf() const {

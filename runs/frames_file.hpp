@@ -19,11 +19,20 @@ namespace grouser::runs {
 class FramesFile {
 public:
   FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground);
+  /// Goes on with the files of a stopped run of the same parts and ground: frames after `lastStep` are removed.
+  static FramesFile goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
+                         const base::TriangleMesh& ground, std::int64_t lastStep);
+  /// How many frames the folder holds up to and with `lastStep`. Throws base::InputError where there is no such file.
+  static std::int64_t framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep);
 
   /// Throws std::logic_error where the arrays' lengths do not agree.
   void add(const Frame& frame);
 
 private:
+  FramesFile(const std::filesystem::path& folder, Hdf5File file, std::vector<FramePart> parts,
+             const base::TriangleMesh& ground);
+  /// Adds the XML of the next frame, which is in the file.
+  void describe(std::size_t grains, std::int64_t step, double time);
   void writeXdmf() const;
 
   std::filesystem::path folder_;
@@ -31,7 +40,7 @@ private:
   std::vector<FramePart> parts_;
   std::size_t partVertices_ = 0, partTriangles_ = 0, groundVertices_ = 0, groundTriangles_ = 0;
   std::string steps_; ///< the frames so far, as XML
-  std::size_t count_ = 0;
+  std::int64_t count_ = 0;
 };
 
 } // namespace grouser::runs

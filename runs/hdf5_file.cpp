@@ -7,6 +7,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -110,25 +111,33 @@ void GrowingDataset::appendRow(const void* numbers, std::int64_t type) {
   ++rows_;
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlock) {
   quiet();
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, userBlock);
   // The oldest file format has no "open for writing" mark: a file that a killed program left stays readable.
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
   if (file < 0) throw std::runtime_error(failure(path, "create the file"));
   return {file, path};
 }
 
-Hdf5File Hdf5File::open(const std::filesystem::path& path) {
+namespace {
+hid_t openedAs(unsigned access, const std::filesystem::path& path) {
   quiet();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw base::InputError(fmt::format("{}: there is no such file; give the results.h5 of a run", path.string()));
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t file = H5Fopen(path.c_str(), access, H5P_DEFAULT);
   if (file < 0)
     throw base::InputError(
         fmt::format("{}: is no HDF5 file, or was cut short; give the results.h5 of a run", path.string()));
-  return {file, path};
+  return file;
 }
+} // namespace
+
+Hdf5File Hdf5File::open(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDONLY, path), path}; }
+
+Hdf5File Hdf5File::openToChange(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDWR, path), path}; }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)) {}
 
@@ -216,6 +225,10 @@ void Hdf5File::link(const std::string& existing, const std::string& name) {
   check(H5Lcreate_hard(file_, existing.c_str(), file_, name.c_str(), parents, H5P_DEFAULT), "make a link");
 }
 
+void Hdf5File::remove(const std::string& object) {
+  check(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), "remove an object");
+}
+
 void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush the file"); }
 
 bool Hdf5File::has(const std::string& object) const {
@@ -246,6 +259,22 @@ std::vector<double> Hdf5File::numbers(const std::string& dataset) const {
   if (count && H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw base::InputError(fmt::format("{}: the dataset {} cannot be read as numbers", path_.string(), dataset));
   return values;
+}
+
+void Hdf5File::readNumbers(const std::string& dataset, void* numbers, NumberType type, std::uint64_t count) const {
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle stored(H5Dget_type(id), H5Tclose);
+  if (H5Tequal(stored, fileType(type)) <= 0 ||
+      (count && H5Dread(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) < 0))
+    throw base::InputError(fmt::format("{}: the dataset {} cannot be read", path_.string(), dataset));
+}
+
+double Hdf5File::number(const std::string& object, const std::string& name) const {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return value;
+  const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  H5Aread(id, H5T_NATIVE_DOUBLE, &value);
+  return value;
 }
 
 std::string Hdf5File::text(const std::string& object, const std::string& name) const {

@@ -43,10 +43,13 @@ private:
 
 class Hdf5File {
 public:
-  /// Creates or replaces the file. Throws std::runtime_error with the path.
-  static Hdf5File create(const std::filesystem::path& path);
+  /// Creates or replaces the file, with room for `userBlock` bytes of others before HDF5's own (0, 512, 1024...).
+  /// Throws std::runtime_error with the path.
+  static Hdf5File create(const std::filesystem::path& path, std::size_t userBlock = 0);
   /// Opens for reading. Throws base::InputError where it is missing or no HDF5 file.
   static Hdf5File open(const std::filesystem::path& path);
+  /// The same for reading and writing.
+  static Hdf5File openToChange(const std::filesystem::path& path);
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File& operator=(Hdf5File&& other) noexcept;
   ~Hdf5File();
@@ -67,6 +70,7 @@ public:
   GrowingDataset growing(const std::string& dataset, NumberType type, int width, int chunkRows);
   /// A second name for an object.
   void link(const std::string& existing, const std::string& name);
+  void remove(const std::string& object);
   /// Everything written so far is on disk after this: a killed program leaves a readable file.
   void flush();
 
@@ -74,14 +78,25 @@ public:
   /// Shape and numbers of a dataset, converted to double. Throws base::InputError where there is none.
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
   std::vector<double> numbers(const std::string& dataset) const;
+  /// Numbers of a dataset that was written as the same type, to the bit. Throws base::InputError.
+  template <class T> std::vector<T> read(const std::string& dataset) const {
+    std::uint64_t count = 1;
+    for (const std::uint64_t n : shape(dataset)) count *= n;
+    std::vector<T> values(count);
+    readNumbers(dataset, values.data(), NumberTypeOf<T>::value, count);
+    return values;
+  }
   /// Empty where there is no such attribute.
   std::string text(const std::string& object, const std::string& name) const;
+  /// NaN where there is no such attribute.
+  double number(const std::string& object, const std::string& name) const;
   std::vector<std::string> texts(const std::string& object, const std::string& name) const;
 
 private:
   Hdf5File(std::int64_t file, std::filesystem::path path) : file_(file), path_(std::move(path)) {}
   void writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
                     const std::vector<std::uint64_t>& shape);
+  void readNumbers(const std::string& dataset, void* numbers, NumberType type, std::uint64_t count) const;
   void check(std::int64_t status, const char* what) const;
 
   std::int64_t file_ = -1;

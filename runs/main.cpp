@@ -4,6 +4,7 @@
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
 #include "runs/scene.hpp"
+#include "runs/stop_signals.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -27,8 +28,16 @@ void addRun(CLI::App& app, runs::RunCommand& c) {
   run->add_option("--out", c.folder, "folder of the results; default: out/NAME of the scene");
   run->add_option("--steps", c.steps, "stop after so many steps of the drive")->check(CLI::PositiveNumber);
   run->add_flag("--force", c.force, "overwrite the results in that folder");
+  CLI::Option* resume =
+      run->add_option("--resume", c.checkpoint,
+                      "go on from this checkpoint as if the run had not been stopped; default: that of its folder")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
-  run->callback([&c] { runs::runCommand(c); });
+  run->callback([&c, resume] {
+    c.resume = resume->count() > 0;
+    runs::runCommand(c);
+  });
 }
 
 void addSweep(CLI::App& app, runs::SweepCommand& c) {
@@ -93,6 +102,12 @@ void addBench(CLI::App& app, runs::BenchCommand& c) {
   step->callback([&c] { runs::benchStepCommand(c); });
 }
 
+void addHash(CLI::App& app, runs::HashCommand& c) {
+  CLI::App* hash = app.add_subcommand("hash", "Hash of the state in a checkpoint, as run --hash prints it");
+  hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run")->required();
+  hash->callback([&c] { runs::hashCommand(c); });
+}
+
 void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, runs::SpheresCommand& d) {
   CLI::App* sinkage = app.add_subcommand("sinkage", "Sinkage of every shoe over time [m], as CSV and as a plot");
   sinkage->add_option("results", s.results, "results.h5 of a run")->required();
@@ -134,10 +149,13 @@ int main(int argc, char** argv) {
   CLI::App app("grouser drives a tracked vehicle over granular terrain, and says how wrong its answer is.", "grouser");
   app.require_subcommand(1);
   app.set_version_flag("--version", runs::versionText());
-  app.footer("Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound, 4 device, 1 anything else.");
+  app.footer(
+      "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound, 4 device, 130 and 143 stopped by "
+      "SIGINT and SIGTERM, 1 anything else.");
   runs::RunCommand run;
   runs::SweepCommand sweep;
   runs::BenchCommand bench;
+  runs::HashCommand hash;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
   runs::SpheresCommand spheres;
@@ -145,6 +163,7 @@ int main(int argc, char** argv) {
   addRun(app, run);
   addSweep(app, sweep);
   addBench(app, bench);
+  addHash(app, hash);
   addOthers(app, sinkage, plan, spheres);
   try {
     app.parse(argc, argv);
@@ -157,6 +176,10 @@ int main(int argc, char** argv) {
     return fail(kInput, e.what());
   } catch (const base::SimulationError& e) {
     return fail(kSimulation, e.what());
+  } catch (const runs::Stopped& e) {
+    std::fflush(stdout);
+    fmt::print(stderr, "grouser: {}\n", e.what());
+    return 128 + e.signal();
   } catch (const base::DeviceError& e) {
     return fail(kDevice, e.what());
   } catch (const std::exception& e) {

@@ -3,9 +3,11 @@
 
 #include "base/error.hpp"
 #include "runs/build_info.hpp"
+#include "runs/checkpoint.hpp"
 #include "runs/frames_file.hpp"
 #include "runs/hdf5_file.hpp"
 #include "runs/manifest.hpp"
+#include "runs/sealed_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -24,9 +26,9 @@ namespace {
 constexpr int kChunkRows = 64;
 
 /// The files of a run; what else lies in its folder is not ours.
-constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.h5",   "frames.xdmf",
-                                  "scene.toml",       "manifest.json",  "sinkage.csv", "sinkage.png",
-                                  "shoe_heights.png", "drive.png",      "ledger.png",  "picture.png"};
+constexpr const char* kFiles[] = {"results.h5",    "timeseries.csv", "frames.h5",    "frames.xdmf",      "scene.toml",
+                                  "manifest.json", "sinkage.csv",    "sinkage.png",  "shoe_heights.png", "drive.png",
+                                  "ledger.png",    "picture.png",    kCheckpointName};
 
 void writeText(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -35,8 +37,9 @@ void writeText(const fs::path& path, const std::string& text) {
   if (!file) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path.string()));
 }
 
-fs::path prepared(fs::path folder, bool force) {
-  checkOutputFolder(folder, force);
+fs::path prepared(fs::path folder, const RunWriter::Options& options) {
+  if (options.former) return folder;
+  checkOutputFolder(folder, options.force);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
@@ -62,8 +65,9 @@ void checkOutputFolder(const fs::path& folder, bool force) {
     throw base::InputError(
         fmt::format("{}: is a file, where the results' folder should be; name another with --out", folder.string()));
   if (!force && !fs::is_empty(folder, error))
-    throw base::InputError(fmt::format(
-        "{}: the folder is not empty; name another with --out, or overwrite it with --force", folder.string()));
+    throw base::InputError(
+        fmt::format("{}: the folder is not empty; name another with --out, {}or overwrite it with --force",
+                    folder.string(), fs::exists(folder / kCheckpointName, error) ? "go on with --resume, " : ""));
 }
 
 struct RunWriter::Impl {
@@ -77,10 +81,14 @@ struct RunWriter::Impl {
   std::optional<FramesFile> frames;
   Manifest manifest;
   std::size_t width = 0;
+  std::int64_t rows = 0, framesAdded = 0;
+
+  /// While former rows are copied the new files have another name, so that a kill loses none.
+  fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
   Impl(const fs::path& where, const Scene& scene, std::vector<Channel> list, Options given)
-      : folder(prepared(where, given.force)), options(std::move(given)), channels(std::move(list)),
-        results(Hdf5File::create(folder / "results.h5")), csv(folder / "timeseries.csv", std::ios::binary),
+      : folder(prepared(where, given)), options(std::move(given)), channels(std::move(list)),
+        results(Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
         manifest(folder, scene, options.metadata) {
     const std::string resolved = resolvedToml(scene);
     writeText(folder / "scene.toml", resolved);
@@ -92,7 +100,27 @@ struct RunWriter::Impl {
     results.attribute("/", "scene", resolved);
     makeSeries();
     writeHeader();
+    if (options.former) takeOver();
     manifest.write("running");
+  }
+
+  void takeOver() {
+    for (const Row& row : options.former->rows) append(row);
+    flush();
+    for (const char* name : {"results.h5", "timeseries.csv"}) fs::rename(atFirst(name), folder / name);
+  }
+
+  void append(const Row& row) {
+    if (row.values.size() != width) throw std::logic_error("a row has another length than its channels");
+    steps.append(&row.step);
+    times.append(&row.time);
+    const double* number = row.values.data();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      values[c].append(number);
+      number += channels[c].width;
+    }
+    writeCsvRow(row);
+    ++rows;
   }
 
   /// H5MD's layout: each quantity is a group of step, time and value; step and time are one dataset under many names.
@@ -131,7 +159,12 @@ struct RunWriter::Impl {
         for (int i = 0; i < c.width; ++i) line += fmt::format(",{}", number[i]);
       number += c.width;
     }
-    csv << line << '\n' << std::flush;
+    csv << line << '\n';
+  }
+
+  void flush() {
+    results.flush();
+    csv.flush();
     if (!csv)
       throw std::runtime_error(
           fmt::format("{}: could not be written; is the disk full?", (folder / "timeseries.csv").string()));
@@ -159,27 +192,29 @@ void RunWriter::constant(const std::string& path, const std::string& unit, doubl
 }
 
 void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground) {
-  if (impl_->options.frames) impl_->frames.emplace(impl_->folder, std::move(parts), ground);
+  Impl& w = *impl_;
+  if (!w.options.frames) return;
+  if (w.options.former && w.options.former->frames) {
+    const std::int64_t last = w.options.former->lastStep;
+    w.framesAdded = FramesFile::framesUpTo(w.folder, last);
+    w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, last));
+  } else {
+    w.frames.emplace(w.folder, std::move(parts), ground);
+  }
 }
 
 void RunWriter::row(const Row& row) {
   Impl& w = *impl_;
-  if (row.values.size() != w.width) throw std::logic_error("a row has another length than its channels");
-  w.steps.append(&row.step);
-  w.times.append(&row.time);
-  const double* number = row.values.data();
-  for (std::size_t c = 0; c < w.channels.size(); ++c) {
-    w.values[c].append(number);
-    number += w.channels[c].width;
-  }
-  w.results.flush();
-  w.writeCsvRow(row);
+  w.append(row);
+  w.flush();
 }
 
 void RunWriter::frame(const Frame& frame) {
   Impl& w = *impl_;
   if (w.options.frames && !w.frames) setParts({}, {});
-  if (w.frames) w.frames->add(frame);
+  if (!w.frames) return;
+  w.frames->add(frame);
+  ++w.framesAdded;
 }
 
 void RunWriter::finish(const Summary& summary) {
@@ -194,6 +229,20 @@ void RunWriter::finish(const Summary& summary) {
 void RunWriter::abandon(const std::string& reason) {
   impl_->manifest.note("error", reason);
   impl_->manifest.write("failed");
+}
+
+void RunWriter::stop(const std::string& reason) {
+  impl_->manifest.note("stopped", reason);
+  impl_->manifest.write("stopped");
+}
+
+std::int64_t RunWriter::rows() const { return impl_->rows; }
+
+std::int64_t RunWriter::frames() const { return impl_->framesAdded; }
+
+void RunWriter::sync() {
+  impl_->flush();
+  for (const char* name : {"results.h5", "timeseries.csv"}) syncFile(impl_->folder / name);
 }
 
 } // namespace grouser::runs

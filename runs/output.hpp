@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,13 @@ struct Summary {
 /// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
 void checkOutputFolder(const std::filesystem::path& folder, bool force);
 
+/// What a resumed run keeps of the folder it goes on with; what came later is cut off.
+struct FormerOutput {
+  std::vector<Row> rows;     ///< to begin the new files with
+  bool frames = false;       ///< whether frames.h5 is kept
+  std::int64_t lastStep = 0; ///< of those frames
+};
+
 /// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.
 /// With `force` the files of a former run are removed first; other files stay.
 /// Calls that fail (disk full) throw std::runtime_error with the file's name.
@@ -74,6 +82,7 @@ public:
   struct Options {
     bool force = false;
     bool frames = true;                          ///< frames.h5 and frames.xdmf
+    std::optional<FormerOutput> former;          ///< go on with the folder of a stopped run
     std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
   };
   RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
@@ -96,6 +105,13 @@ public:
   void finish(const Summary& summary);
   /// Instead of finish: the run was stopped by an error, whose message goes into the manifest.
   void abandon(const std::string& reason);
+  /// Instead of finish: the run was stopped and may be resumed.
+  void stop(const std::string& reason);
+
+  std::int64_t rows() const;   ///< written so far, former ones among them
+  std::int64_t frames() const; ///< the same
+  /// Brings the rows to the disk, before a checkpoint counts on them.
+  void sync();
 
   const std::filesystem::path& folder() const;
 

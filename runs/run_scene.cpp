@@ -2,11 +2,15 @@
 #include "runs/run_scene.hpp"
 
 #include "base/error.hpp"
+#include "runs/build_info.hpp"
 #include "runs/channels.hpp"
+#include "runs/checkpoint.hpp"
+#include "runs/former_output.hpp"
 #include "runs/image.hpp"
 #include "runs/picture.hpp"
 #include "runs/progress.hpp"
 #include "runs/simulation.hpp"
+#include "runs/stop_signals.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <algorithm>
@@ -76,9 +80,11 @@ base::TriangleMesh groundMesh(const terrain::HeightField& field) {
 /// What a run writes: channels, rows and frames of one simulation.
 class Recorder {
 public:
-  Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec)
+  /// `former`: the checkpoint that the run goes on from, or null.
+  Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec,
+           const Checkpoint* former)
       : simulation_(simulation), channels_(channelsOf(simulation)), row_(channels_), frames_(scene.output.frames),
-        writer_(options.folder, scene, channels_, writerOptions(scene, options, exec)) {
+        writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
     if (const VehicleRig* rig = simulation.vehicle()) {
       parts_ = frameParts(*rig);
       writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
@@ -149,11 +155,24 @@ private:
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
     return channels;
   }
-  static RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, const base::Exec& exec) {
+  static RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, const base::Exec& exec,
+                                          const std::vector<Channel>& channels, const Checkpoint* former) {
     RunWriter::Options w;
     w.force = options.force;
     w.frames = scene.output.frames;
     w.metadata = {{"command_line", options.commandLine}, {"device", base::describe(exec)}};
+    if (!former) return w;
+    const std::int64_t step = former->state.steps;
+    w.metadata["resumed_from_step"] = std::to_string(step);
+    try {
+      FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames > 0, step};
+      if (w.frames && kept.frames) checkFrames(options.folder, step, former->frames);
+      w.former = std::move(kept);
+    } catch (const base::InputError& error) {
+      if (!options.force) throw;
+      fmt::print(stderr, "grouser: warning: {}\n", error.what());
+      w.former = FormerOutput{};
+    }
     return w;
   }
 
@@ -182,46 +201,133 @@ void describeBuild(const Simulation& simulation, const base::Exec& exec) {
   std::fflush(stdout);
 }
 
-} // namespace
+/// The checkpoint of a run, written again and again.
+class Checkpoints {
+public:
+  Checkpoints(const Scene& scene, const RunOptions& options) : path_(options.folder / kCheckpointName) {
+    checkpoint_.scene = resolvedToml(scene);
+    checkpoint_.inputs = inputsOf(scene);
+    checkpoint_.commit = buildInfo().commit;
+  }
 
-Summary runScene(const Scene& scene, const RunOptions& options) {
-  const Clock::time_point start = Clock::now();
-  const base::Exec exec = chooseExec(scene);
+  void write(const Simulation& simulation, RunWriter& writer) {
+    if (writtenAt_ == simulation.steps()) return;
+    writer.sync();
+    checkpoint_.timeStep = simulation.timeStep();
+    checkpoint_.rows = writer.rows(), checkpoint_.frames = writer.frames();
+    checkpoint_.state = simulation.save();
+    writeCheckpoint(path_, checkpoint_);
+    checkpoint_.state = {};
+    writtenAt_ = simulation.steps();
+  }
+  /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
+  std::string last() const { return writtenAt_ < 0 ? "" : fmt::format("{}, step {}", path_.string(), writtenAt_); }
+  /// The run goes on from one of this step.
+  void begunAt(std::int64_t step) { writtenAt_ = step; }
+
+private:
+  std::filesystem::path path_;
+  Checkpoint checkpoint_;
+  std::int64_t writtenAt_ = -1;
+};
+
+/// Reads the checkpoint of a run to be resumed; null for one from the start.
+std::unique_ptr<Checkpoint> formerRun(const Scene& scene, const RunOptions& options) {
+  if (!options.resume) return nullptr;
+  auto former = std::make_unique<Checkpoint>(readCheckpoint(*options.resume));
+  checkSameScene(*former, *options.resume, scene);
+  if (former->commit != buildInfo().commit)
+    fmt::print(stderr,
+               "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
+               "are\n",
+               options.resume->string(), former->commit, buildInfo().commit);
+  return former;
+}
+
+/// At the checkpoint, or at the start: then the bed is settled first.
+std::unique_ptr<Simulation> makeSimulation(const Scene& scene, const base::Exec& exec, const Checkpoint* former) {
+  if (former) return std::make_unique<Simulation>(scene, exec, former->state);
   std::unique_ptr<Progress> settling;
-  Simulation simulation(scene, exec, [&](double time, double agitation) {
+  auto simulation = std::make_unique<Simulation>(scene, exec, [&](double time, double agitation) {
+    if (const int signal = StopSignals::received())
+      throw Stopped(signal,
+                    fmt::format("stopped by {} while the bed settled; nothing was written", StopSignals::name(signal)));
     if (!settling) settling = std::make_unique<Progress>("settling");
     settling->update(time / scene.terrain->settleTimeLimit,
                      fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   });
   if (settling) settling->finish("at rest");
+  return simulation;
+}
+
+/// Steps to the end, with rows, frames and checkpoints on the way. Throws Stopped where a signal came.
+void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const Scene& scene,
+           std::int64_t total) {
+  const double dt = simulation.timeStep();
+  const auto stepsOf = [dt](double interval) { return std::max<std::int64_t>(1, std::llround(interval / dt)); };
+  const std::int64_t rowEvery = stepsOf(scene.run.outputInterval), frameEvery = stepsOf(scene.run.frameInterval);
+  const std::int64_t saveEvery = scene.run.checkpointInterval > 0 ? stepsOf(scene.run.checkpointInterval) : total + 1;
+  Progress progress("running");
+  while (simulation.steps() < total) {
+    simulation.step();
+    if (simulation.steps() % rowEvery == 0) recorder.row();
+    if (simulation.steps() % frameEvery == 0) recorder.frame();
+    if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
+    if (const int signal = StopSignals::received()) {
+      checkpoints.write(simulation, recorder.writer());
+      throw Stopped(signal, fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
+                                        StopSignals::name(signal), simulation.time(), checkpoints.last()));
+    }
+    if (progress.due())
+      progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
+                      fmt::format("t {:.3f} of {:g} s", simulation.time(), static_cast<double>(total) * dt));
+  }
+  checkpoints.write(simulation, recorder.writer());
+  progress.finish(fmt::format("{} steps", simulation.steps()));
+}
+
+} // namespace
+
+Summary runScene(const Scene& scene, const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const StopSignals signals;
+  const base::Exec exec = chooseExec(scene);
+  const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
+  const std::unique_ptr<Simulation> made = makeSimulation(scene, exec, former.get());
+  Simulation& simulation = *made;
+  const std::int64_t total = options.steps.value_or(std::llround(scene.run.duration / simulation.timeStep())),
+                     begin = simulation.steps();
+  if (begin > total)
+    throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
+                                       options.resume->string(), begin, total));
   const double prepared = since(start);
   describeBuild(simulation, exec);
 
-  Recorder recorder(simulation, scene, options, exec);
-  const double dt = simulation.timeStep();
-  const auto stepsOf = [dt](double interval) { return std::max<std::int64_t>(1, std::llround(interval / dt)); };
-  const std::int64_t total = options.steps.value_or(std::llround(scene.run.duration / dt));
-  const std::int64_t rowEvery = stepsOf(scene.run.outputInterval), frameEvery = stepsOf(scene.run.frameInterval);
-
+  Recorder recorder(simulation, scene, options, exec, former.get());
+  Checkpoints checkpoints(scene, options);
   const Clock::time_point driving = Clock::now();
-  recorder.row();
-  recorder.frame();
-  Progress progress("running");
+  if (former) {
+    checkpoints.begunAt(begin);
+    fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
+  } else {
+    recorder.row();
+    recorder.frame();
+  }
   try {
-    while (simulation.steps() < total) {
-      simulation.step();
-      if (simulation.steps() % rowEvery == 0) recorder.row();
-      if (simulation.steps() % frameEvery == 0) recorder.frame();
-      if (progress.due())
-        progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
-                        fmt::format("t {:.3f} of {:g} s", simulation.time(), static_cast<double>(total) * dt));
-    }
+    drive(simulation, recorder, checkpoints, scene, total);
+  } catch (const Stopped& stopped) {
+    recorder.writer().stop(stopped.what());
+    throw;
+  } catch (const base::SimulationError& error) {
+    const std::string last = checkpoints.last();
+    const std::string message = error.what() + (last.empty() ? "" : fmt::format(" (last checkpoint: {})", last));
+    recorder.writer().abandon(message);
+    throw base::SimulationError(message);
   } catch (const std::exception& error) {
     recorder.writer().abandon(error.what());
     throw;
   }
   const double drove = since(driving);
-  progress.finish(fmt::format("{} steps", simulation.steps()));
   if (scene.output.picture) recorder.picture(scene.output.pictureWidth);
 
   Summary summary;
@@ -229,7 +335,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   summary.wallTime = since(start);
   summary.figures["wall_preparation_s"] = prepared;
   summary.figures["wall_steps_s"] = drove;
-  summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total));
+  summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
   if (options.hash) summary.stateHash = simulation.stateHash();
   const Simulation::Ledger l = simulation.ledger();
   fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
@@ -238,7 +344,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
              l.impulseResidual.z);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
-             simulation.steps(), dt, summary.figures["microseconds_a_step"]);
+             simulation.steps() - begin, simulation.timeStep(), summary.figures["microseconds_a_step"]);
   recorder.writer().finish(summary);
   return summary;
 }

@@ -13,15 +13,17 @@ namespace grouser::runs {
 
 /// What the command line adds to a scene.
 struct RunOptions {
-  std::filesystem::path folder;      ///< of the results
-  bool force = false;                ///< overwrite what is there
-  bool hash = false;                 ///< take the state hash at the end
-  std::optional<std::int64_t> steps; ///< stop after so many steps instead of the scene's duration
-  std::string commandLine;           ///< for the manifest
+  std::filesystem::path folder;                ///< of the results
+  bool force = false;                          ///< overwrite what is there
+  std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
+  bool hash = false;                           ///< take the state hash at the end
+  std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
+  std::string commandLine;                     ///< for the manifest
 };
 
 /// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.
-/// With `hash` the summary holds the state hash. Throws InputError, SimulationError or DeviceError.
+/// With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the end, and where
+/// SIGINT or SIGTERM stops the run. Throws InputError, SimulationError, DeviceError, or Stopped.
 Summary runScene(const Scene& scene, const RunOptions& options);
 
 } // namespace grouser::runs

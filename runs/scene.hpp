@@ -22,6 +22,7 @@ struct RunSettings {
   base::Vec3d gravity{0, 0, -9.81};
   double outputInterval = 0.02;
   double frameInterval = 0.1;
+  double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
   std::string device = "auto"; ///< auto | cpu | cuda
   int threads = 0;             ///< 0: all

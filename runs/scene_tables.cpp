@@ -17,6 +17,10 @@ Table<RunSettings> runTable() {
   t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);
   t.add("output_interval", &S::outputInterval, "s", "between rows of the time series").above(0);
   t.add("frame_interval", &S::frameInterval, "s", "between frames for ParaView").above(0);
+  t.add("checkpoint_interval", &S::checkpointInterval, "s",
+        "between checkpoints for --resume, simulated; 0: only where the run ends or is stopped")
+      .atLeast(0)
+      .atMost(1e5);
   t.add("seed", &S::seed, "-", "of every random number").atLeast(0);
   t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one")
       .oneOf({"auto", "cpu", "cuda"});

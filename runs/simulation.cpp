@@ -2,7 +2,6 @@
 #include "runs/simulation.hpp"
 
 #include "base/error.hpp"
-#include "base/hash.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +11,8 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleP
     : scene_(scene), exec_(exec), timeStep_(chooseTimeStep(scene)), ground_(buildGround(scene, exec, timeStep_)) {
   const bool bed = scene.terrain && scene.terrain->granular();
   if (bed && scene.terrain->settleTimeLimit > 0) settled_ = settle(scene, ground_, progress);
-  surface_ = surfaceHeight(scene, ground_);
+  if (bed) keepSurface(ground_);
+  surface_ = surfaceHeight(ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
   if (ground_.grains) ground_.grains->setSteps(0);
   start_ = ledger();
@@ -66,13 +66,6 @@ Simulation::Ledger Simulation::ledger() {
   ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;
   ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork;
   return ledger;
-}
-
-std::string Simulation::stateHash() const {
-  base::StateHash hash;
-  if (ground_.grains) hash.add(ground_.grains->stateWords());
-  if (vehicle_) hash.add(vehicle_->save().words());
-  return hash.hex();
 }
 
 } // namespace grouser::runs

@@ -4,6 +4,7 @@
 #include "runs/bed.hpp"
 #include "runs/output.hpp"
 #include "runs/scene.hpp"
+#include "runs/simulation_state.hpp"
 #include "runs/vehicle_rig.hpp"
 
 #include <memory>
@@ -15,6 +16,10 @@ namespace grouser::runs {
 class Simulation {
 public:
   Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress);
+  /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
+  /// InputError when the state is of another scene.
+  Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state);
+  SimulationState save() const;
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
   void step();

@@ -86,16 +86,27 @@ void smooth(std::vector<double>& values, std::size_t lines, std::size_t lineStri
 
 } // namespace
 
-BedSurface::BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area,
-                       double diameter)
-    : area_(area) {
+void BedSurface::layGrid(double diameter) {
   if (!(diameter > 0 && std::isfinite(diameter)))
     throw InputError(fmt::format("surface of the bed: grain diameter = {} m must be positive", diameter));
   // Nodes a radius apart, or a little less so that they meet the border.
-  columns_ = 1 + std::max(1, static_cast<int>(std::ceil(area.width() / (diameter / 2))));
-  rows_ = 1 + std::max(1, static_cast<int>(std::ceil(area.length() / (diameter / 2))));
-  dx_ = area.width() / (columns_ - 1), dy_ = area.length() / (rows_ - 1);
+  columns_ = 1 + std::max(1, static_cast<int>(std::ceil(area_.width() / (diameter / 2))));
+  rows_ = 1 + std::max(1, static_cast<int>(std::ceil(area_.length() / (diameter / 2))));
+  dx_ = area_.width() / (columns_ - 1), dy_ = area_.length() / (rows_ - 1);
+}
 
+BedSurface::BedSurface(const Rectangle& area, double diameter, std::vector<double> heights)
+    : area_(area), heights_(std::move(heights)) {
+  layGrid(diameter);
+  if (heights_.size() != static_cast<std::size_t>(columns_) * rows_)
+    throw InputError(
+        fmt::format("surface of the bed: {} heights, its grid has {} x {} nodes", heights_.size(), columns_, rows_));
+}
+
+BedSurface::BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area,
+                       double diameter)
+    : area_(area) {
+  layGrid(diameter);
   const Grid grid{columns_, rows_, dx_, dy_, area.xMin, area.yMin};
   std::vector<double> tops = highestTops(grid, grains, diameter);
   for (int j = 0; j < rows_; ++j)

@@ -29,6 +29,8 @@ public:
   /// `diameter` [m]: of the largest grain. The grid spans `area`. Grains outside it by more than a diameter do not
   /// count. InputError: `diameter` not positive, or a grain that is no finite number.
   BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area, double diameter);
+  /// From the nodes of an earlier surface of the same area and diameter. InputError: their number does not fit.
+  BedSurface(const Rectangle& area, double diameter, std::vector<double> heights);
 
   /// Surface height at (x, y) [m]; never NaN.
   double height(double x, double y) const;
@@ -40,6 +42,8 @@ public:
   const std::vector<double>& heights() const { return heights_; }
 
 private:
+  void layGrid(double diameter);
+
   Rectangle area_;
   int columns_{}, rows_{};
   double dx_{}, dy_{};

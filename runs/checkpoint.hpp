@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene.hpp"
+#include "runs/simulation_state.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace grouser::runs {
+
+inline constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// A stopped run: all that is needed to go on as if it had not been stopped.
+struct Checkpoint {
+  std::string scene;   ///< resolved
+  std::string inputs;  ///< what the files that the scene names held: see inputsOf()
+  std::string commit;  ///< of the program that wrote it
+  double timeStep{};   ///< [s]
+  std::int64_t rows{}; ///< written by then
+  std::int64_t frames{};
+  SimulationState state;
+};
+
+/// One line a file that the scene reads (height-map, vehicle, meshes): its role and a hash of its bytes.
+std::string inputsOf(const Scene& scene);
+
+/// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
+/// Throws std::runtime_error.
+void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
+
+/// Throws base::InputError where the file is missing, foreign, of another version, cut or damaged.
+Checkpoint readCheckpoint(const std::filesystem::path& path);
+
+/// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
+/// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by
+/// what is in them.
+void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path, const Scene& scene);
+
+} // namespace grouser::runs

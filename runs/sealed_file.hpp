@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+
+/// Files that are either whole or not there: written under another name, sealed with length and checksum, put in place
+/// by renaming. A program killed at any time leaves the former file as it was.
+namespace grouser::runs {
+
+/// Bytes at the start of a file that the seal takes; the writer leaves them free. HDF5 calls this a user block.
+inline constexpr std::size_t kSealBytes = 512;
+
+/// Calls `write` with the name of a file to be made beside `path`, seals what it wrote as `kind` of `version`, and
+/// brings it to the disk before it takes `path`'s place. Throws std::runtime_error, with `path` as it was, when any of
+/// it fails.
+void writeSealed(const std::filesystem::path& path, const char* kind, int version,
+                 const std::function<void(const std::filesystem::path& part)>& write);
+
+/// Reads the whole file and throws base::InputError unless it is a `kind` of `version`, as long and with every bit as
+/// it was written.
+void checkSeal(const std::filesystem::path& path, const char* kind, int version);
+
+/// Waits until what was written to a file is on the disk.
+void syncFile(const std::filesystem::path& path);
+
+} // namespace grouser::runs

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+
+namespace grouser::runs {
+
+std::string SimulationState::hash() const {
+  base::StateHash hash;
+  if (grains) hash.add(grains->words());
+  if (vehicle) hash.add(vehicle->words());
+  return hash.hex();
+}
+
+std::string Simulation::stateHash() const { return save().hash(); }
+
+SimulationState Simulation::save() const {
+  SimulationState state;
+  state.steps = steps_;
+  state.settled = settled_;
+  state.energyAtStart = {start_.kinetic, start_.potential, start_.elastic, start_.dissipated};
+  if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
+  if (ground_.grains) state.grains = ground_.grains->state();
+  if (vehicle_) state.vehicle = vehicle_->save();
+  return state;
+}
+
+Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state)
+    : scene_(scene), exec_(exec), timeStep_(chooseTimeStep(scene)), ground_(buildGround(scene, exec, timeStep_)),
+      settled_(state.settled), steps_(state.steps) {
+  const bool bed = ground_.grains && ground_.walls;
+  if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
+      state.vehicle.has_value() != scene.vehicle.has_value() || state.energyAtStart.size() != 4)
+    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  if (bed) keepSurface(ground_, state.surface);
+  surface_ = surfaceHeight(ground_);
+  if (ground_.grains) {
+    ground_.grains->restore(*state.grains);
+    ground_.grains->setSteps(steps_);
+  }
+  if (scene.vehicle) {
+    // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
+    vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
+    vehicle_->restore(*state.vehicle);
+  }
+  const std::vector<double>& e = state.energyAtStart;
+  start_.kinetic = e[0], start_.potential = e[1], start_.elastic = e[2], start_.dissipated = e[3];
+}
+
+} // namespace grouser::runs

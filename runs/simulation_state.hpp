@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/bed.hpp"
+#include "runs/vehicle_state.hpp"
+#include "terrain/grain_state.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// All of a simulation on which later bits or later output depend. Free of device, threads and lists.
+struct SimulationState {
+  std::int64_t steps{};
+  std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
+  SettleReport settled;
+  std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
+  std::optional<terrain::GrainState> grains;
+  std::optional<VehicleState> vehicle;
+
+  /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash.
+  std::string hash() const;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace grouser::runs {
+
+/// A signal has stopped the run, in good order. Exit code 128 + signal, as shells have it: 130 or 143.
+class Stopped : public std::runtime_error {
+public:
+  Stopped(int signal, const std::string& message) : std::runtime_error(message), signal_(signal) {}
+  int signal() const { return signal_; }
+
+private:
+  int signal_;
+};
+
+/// While an object of this kind lives, the first SIGINT or SIGTERM is kept for the run to act on at the end of its
+/// step. A second one ends the program at once, as ever.
+class StopSignals {
+public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  /// The signal received, or 0.
+  static int received();
+  /// "SIGINT"
+  static const char* name(int signal);
+};
+
+} // namespace grouser::runs
