@@ -65,6 +65,11 @@ public:
       for (const double v : rows("vehicle/" + side + "/" + name)) spread.add(v);
     return spread;
   }
+  /// From the first steady row to the last, of one number a row.
+  double change(const std::string& path) const {
+    const std::vector<double> all = rows(path);
+    return all.empty() ? kNone : all.back() - all.front();
+  }
   double last(const std::string& path) const {
     const std::vector<double> all = numbers(path);
     return all.empty() ? kNone : all.back();
@@ -109,6 +114,8 @@ std::vector<Figure> figuresOf(const Hdf5File* file, double from) {
   const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
   const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
   return {{"steady from [s]", file ? from : kNone},
+          {"teeth passed [-]",
+           0.5 * (steady.change("vehicle/left/teeth_passed") + steady.change("vehicle/right/teeth_passed"))},
           {"speed [m/s]", speed},
           {"slip [-]", asked != 0 ? 1 - speed / asked : kNone},
           {"sinkage mean [m]", sinkage.mean()},

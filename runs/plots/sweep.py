@@ -2,7 +2,7 @@
 """Plot of a sweep: sweep.py SUMMARY.csv FILE.png
 
 Sinkage, slip, torque and tension over the first swept key, one line for each combination of the others.
-Exit status: 0 (no plot where no run has finished), 3 where a Python package is missing; its last line then says which.
+Exit status: 0 (no plot where there is nothing to draw), 3 where a Python package is missing; its last line then says which.
 """
 import csv
 import pathlib
@@ -90,7 +90,7 @@ def main(arguments):
         return 2
     matplotlib.rcParams.update(series.STYLE)
     keys, rows = read(arguments[0])
-    if rows:
+    if any(number(row[column]) is not None for row in rows for _, _, columns in PANELS for column, _, _ in columns):
         plot(keys, rows).savefig(arguments[1], dpi=110)
     return 0
 

@@ -4,6 +4,7 @@
 
 #include "base/math.hpp"
 #include "part_fixture.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +15,22 @@ using base::Vec3d;
 
 constexpr double kRadius = 0.027, kStiffness = 1e6;
 
+/// A grain on the device under test.
+struct OneGrain {
+  base::Array<base::Position> position;
+  base::Array<base::Vec4f> velocity, spin;
+  base::Array<std::uint32_t> id;
+
+  OneGrain(const base::Exec& exec, const base::Position& p, const base::Vec3f& v)
+      : position(exec, std::vector{p}), velocity(exec, std::vector{base::Vec4f{v.x, v.y, v.z, 0}}), spin(exec, 1),
+        id(exec, 1) {}
+  GrainPartContacts::GrainsView view() const { return {position.data(), velocity.data(), spin.data(), id.data(), 1}; }
+};
+
 /// One grain against one part, stepped by hand.
 struct Bench {
   GrainPartModel model;
-  base::Exec exec = base::cpuExec(1);
+  base::Exec exec = testExec();
   std::unique_ptr<GrainPartContacts> contacts;
   base::Array<PartMotion> motion;
   base::Array<PartLoad> loads;
@@ -39,20 +52,19 @@ struct Bench {
     std::int64_t patches;
   };
   Result touch(const Vec3d& x, const Vec3d& v, const PartMotion& part, bool refresh = true) {
-    const base::Position p = model.scale.fromMetres(x);
-    const base::Vec4f velocity{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}, spin{};
-    const std::uint32_t id = 0;
+    const OneGrain grain(exec, model.scale.fromMetres(x), v.as<float>());
     motion = base::Array<PartMotion>(exec, std::vector<PartMotion>{part});
-    const GrainPartContacts::GrainsView grains{&p, &velocity, &spin, &id, 1};
+    const GrainPartContacts::GrainsView grains = grain.view();
     if (refresh) contacts->refresh(grains, motion);
     loads.zero();
     contacts->compute(grains, motion, loads.data());
     Result r{};
     const GrainLoadsView view = contacts->grainLoads();
-    for (std::uint32_t k = 0; k < (view.range[0] & 255u); ++k) {
-      r.onGrain += view.force.value(view.load[(view.range[0] >> 8) + k].force);
-      r.torqueOnGrain += view.load[(view.range[0] >> 8) + k].torque.as<double>();
-    }
+    std::uint32_t range = 0;
+    base::copyToHost(exec, &range, view.range, sizeof range);
+    std::vector<GrainLoad> load(range & 255u);
+    base::copyToHost(exec, load.data(), view.load + (range >> 8), load.size() * sizeof(GrainLoad));
+    for (const GrainLoad& l : load) r.onGrain += view.force.value(l.force), r.torqueOnGrain += l.torque.as<double>();
     r.onPart = model.force.value(loads.at(0).force);
     r.torqueOnPart = model.torque.value(loads.at(0).torque);
     r.patches = contacts->ledger().contacts;
@@ -110,17 +122,15 @@ TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
   // Two parts face each other 2 R - 2 overlap apart: forces cancel, each part carries its own.
   base::SphereSet set = plate(0.1, 0.008, 0.008);
   GrainPartModel model = Bench(set).model;
-  const base::Exec exec = base::cpuExec(1);
+  const base::Exec exec = testExec();
   GrainPartContacts contacts(exec, model, {&set}, {{0, {}, {}}, {0, {}, {}}});
   const double overlap = 3e-4, gap = 2 * (kRadius - overlap);
   const PartMotion below = atRest({}), above = atRest({0, 0, gap}, {0, 1, 0, 0}); // turned by half a turn about x
   base::Array<PartMotion> motion(exec, std::vector<PartMotion>{below, above});
   base::Array<PartLoad> loads(exec, 2);
-  const base::Position p = model.scale.fromMetres({0.005, 0.002, 0.5 * gap});
-  const base::Vec4f zero{};
-  const std::uint32_t id = 0;
-  contacts.refresh({&p, &zero, &zero, &id, 1}, motion);
-  contacts.compute({&p, &zero, &zero, &id, 1}, motion, loads.data());
+  const OneGrain grain(exec, model.scale.fromMetres({0.005, 0.002, 0.5 * gap}), {});
+  contacts.refresh(grain.view(), motion);
+  contacts.compute(grain.view(), motion, loads.data());
   const double down = model.force.value(loads.at(0).force.z), up = model.force.value(loads.at(1).force.z);
   EXPECT_NEAR(down, -kStiffness * overlap, 0.05);
   EXPECT_NEAR(up, kStiffness * overlap, 0.05);

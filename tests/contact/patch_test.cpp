@@ -3,6 +3,7 @@
 #include "contact/patch_contacts.hpp"
 
 #include "part_fixture.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 using base::Vec3d;
 
 struct PlateOnPlate {
-  base::Exec exec = base::cpuExec(1);
+  base::Exec exec = testExec();
   PartPartContacts::Model model;
   base::SphereSet small, large;
   std::unique_ptr<PartPartContacts> contacts;

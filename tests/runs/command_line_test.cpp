@@ -65,7 +65,8 @@ TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
 }
 
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
-  for (const char* command : {"", "run", "sinkage", "plan", "spheres", "fields"}) {
+  for (const char* command :
+       {"", "run", "sweep", "bench", "bench bed", "bench step", "sinkage", "plan", "spheres", "fields"}) {
     const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;

@@ -3,6 +3,7 @@
 #include "runs/simulation.hpp"
 
 #include "runs/scene.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -124,7 +125,7 @@ std::size_t fourShoes(const Drive& d, double from) {
 }
 
 TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
-  Simulation simulation(loadScene(testScene("rigid.toml")), base::cpuExec(1), quiet);
+  Simulation simulation(loadScene(testScene("rigid.toml")), testExec(), quiet);
   const double omega = 2, begin = 0.5;
   const Drive d = drive(simulation, 4.0);
   const vehicle::VehicleSpec& spec = simulation.vehicle()->assembly().spec;
@@ -155,7 +156,7 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
   Simulation simulation(loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2"}),
-                        base::cpuExec(1), quiet);
+                        testExec(), quiet);
   const double begin = 0.5;
   const Drive d = drive(simulation, 2.6);
   const Line line = slopeOnGround(d, fourShoes(d, begin), begin);
@@ -166,7 +167,7 @@ TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
 
 TEST(GranularBed, CarriesTheWholeWeightAtRest) {
   Simulation simulation(loadScene(testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"}),
-                        base::cpuExec(1), quiet);
+                        testExec(), quiet);
   while (simulation.time() < 1.0) simulation.step();
   simulation.restartMeans();
   while (simulation.time() < 2.0) simulation.step();

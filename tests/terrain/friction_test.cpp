@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Friction with history: oblique impact, sliding into rolling, inclines, the pyramid.
 #include "grain_fixture.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ double obliqueImpact(double psi1, double kappa, int stepsPerContact) {
   const double omega0 = std::sqrt(m.law.stiffness / m.mass);
   m.timeStep = base::kPi / omega0 / stepsPerContact;
   m.maxOverlap = 1;
-  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}},
                 {{{0, 0, m.radius + 1.5 * m.timeStep * vn}, {psi1 * mu * vn, 0, -vn}, {}}});
   advance(grains, 2 * stepsPerContact);
   const auto s = grains.snapshot();
@@ -57,7 +58,7 @@ TEST(SlidingBall, RollsAtFiveSeventhsOfItsSpeed) {
   const double mu = 0.3, v0 = 1;
   const GrainModel m = roller(mu);
   const double overlap = m.mass * 9.81 / m.law.stiffness;
-  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius - overlap}, {v0, 0, 0}, {}}});
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius - overlap}, {v0, 0, 0}, {}}});
   const double tRoll = 2 * v0 / (7 * mu * 9.81); // 0.09708 s
   advance(grains, static_cast<std::int64_t>(0.5 * tRoll / m.timeStep));
   const double half = grains.snapshot().velocity[0].x;
@@ -74,7 +75,7 @@ TEST(BallOnIncline, RollsOrSlidesAsCoulombSays) {
     const double mu = rolls ? 0.3 : 0.1; // critical: 0.16496
     GrainModel m = roller(mu);
     m.gravity = {g * base::sin(theta), 0, -g * base::cos(theta)};
-    Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
+    Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}},
                   {{{0, 0, m.radius - m.mass * g * base::cos(theta) / m.law.stiffness}, {}, {}}});
     const int n = 50000;
     advance(grains, n);
@@ -100,7 +101,7 @@ double pyramidSinks(double muBall, double muFloor) {
   m.law.friction = static_cast<float>(muBall);
   onFloor.friction = static_cast<float>(muFloor);
   const double r = m.radius;
-  Grains grains(base::cpuExec(1), m, {{floorPlane(onFloor)}, {}},
+  Grains grains(testExec(1), m, {{floorPlane(onFloor)}, {}},
                 {{{-r, 0, r}, {}, {}}, {{r, 0, r}, {}, {}}, {{0, 0, r + std::sqrt(3.0) * r}, {}, {}}});
   advance(grains, 25000); // 0.5 s
   return r + std::sqrt(3.0) * r - grains.snapshot().position[2].z;

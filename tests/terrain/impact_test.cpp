@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One ball on a wall and two balls head on, against the closed forms of the linear spring-dashpot.
 #include "grain_fixture.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ Impact impactOnWall(double zeta, bool attraction, double stepsPerContact, double
   m.timeStep = base::kPi / omega0 / stepsPerContact;
   m.maxOverlap = 1;
   const double speed = 1;
-  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}},
                 {{{0, 0, m.radius + (2 + phase) * m.timeStep * speed}, {0, 0, -speed}, {}}});
   Impact impact{0, 0, 0};
   for (int i = 0; i < 4 * stepsPerContact + 4; ++i) {
@@ -76,7 +77,7 @@ TEST(TwoBalls, RestitutionDoesNotDependOnSpeed) {
     m.law.damping = static_cast<float>(2 * contact::dampingRatioFor(0.5, false) * omega0);
     m.maxOverlap = 1;
     const double gap = 20 * m.timeStep * speed;
-    Grains grains(base::cpuExec(1), m, {},
+    Grains grains(testExec(1), m, {},
                   {{{-m.radius - gap, 0, 0}, {speed, 0, 0}, {}}, {{m.radius + gap, 0, 0}, {-speed, 0, 0}, {}}});
     advance(grains, 400);
     const auto s = grains.snapshot();
@@ -90,7 +91,7 @@ TEST(RestSphereOnPlane, SettlesAtStaticOverlap) {
   GrainModel m = ball(1e-5);
   m.gravity = {0, 0, -9.81};
   m.law.damping = static_cast<float>(2 * 0.5 * std::sqrt(m.law.stiffness / m.mass));
-  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius}, {}, {}}});
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius}, {}, {}}});
   advance(grains, 2000);
   const double overlap = m.radius - grains.snapshot().position[0].z;
   const double expected = m.mass * 9.81 / m.law.stiffness; // 0.134 um
@@ -104,7 +105,7 @@ TEST(Column, OverlapOfContactJIsJTimesWeight) {
   std::vector<GrainStart> start;
   const int n = 5;
   for (int i = 0; i < n; ++i) start.push_back({{0, 0, m.radius * (2 * i + 1)}, {}, {}});
-  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, start);
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, start);
   advance(grains, 20000);
   const auto s = grains.snapshot();
   for (int j = 1; j < n; ++j) { // contact j from the top, between grains n-1-j and n-j
@@ -116,7 +117,7 @@ TEST(Column, OverlapOfContactJIsJTimesWeight) {
 TEST(FreeFall, HoldsGravityAtTinySteps) {
   GrainModel m = ball(1e-6);
   m.gravity = {0, 0, -9.81};
-  Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}});
+  Grains grains(testExec(1), m, {}, {{{0, 0, 0}, {}, {}}});
   const int n = 200000;
   advance(grains, n);
   const auto s = grains.snapshot();
@@ -133,7 +134,7 @@ TEST(Pinch, BallBetweenTwoWedgeWallsCarriesItsWeightOnBoth) {
   m.gravity = {0, 0, -9.81};
   m.law.damping = static_cast<float>(2 * 0.5 * std::sqrt(m.law.stiffness / m.mass));
   const double h = std::sqrt(0.5);
-  Grains grains(base::cpuExec(1), m, {{{{h, 0, h}, 0.0, m.law}, {{-h, 0, h}, 0.0, m.law}}, {}},
+  Grains grains(testExec(1), m, {{{{h, 0, h}, 0.0, m.law}, {{-h, 0, h}, 0.0, m.law}}, {}},
                 {{{0, 0, m.radius / h}, {}, {}}});
   advance(grains, 4000);
   const auto s = grains.snapshot();

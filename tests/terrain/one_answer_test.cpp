@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One scene, one answer: threads, rebuild intervals and shifts by whole units do not change a bit.
 #include "grain_fixture.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> runHeap(int threads, double skin, base::Vec3d shift =
             {shift + base::Vec3d{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {0.3, 0.1, -1}, {}});
       }
   const double offset = shift.z;
-  Grains grains(base::cpuExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}},
+  Grains grains(testExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}},
                 start);
   advance(grains, 3000);
   return grains.stateWords();
@@ -51,7 +52,7 @@ TEST(Heap, NeighbourListLosesNoContact) {
   const GrainModel m = gravel(0.3);
   std::vector<GrainStart> start;
   for (int i = 0; i < 300; ++i) start.push_back({{0.05 * (i % 7), 0.05 * (i / 7 % 7), 0.05 * (i / 49)}, {}, {}});
-  Grains grains(base::cpuExec(2), m, {}, start);
+  Grains grains(testExec(2), m, {}, start);
   const GrainLedger ledger = grains.ledger();
   std::int64_t pairs = 0;
   for (int i = 0; i < 300; ++i)
@@ -66,7 +67,7 @@ TEST(Heap, PairForcesBalanceToTheLastBit) {
   m.gravity = {};
   std::vector<GrainStart> start;
   for (int i = 0; i < 64; ++i) start.push_back({{0.053 * (i % 4), 0.053 * (i / 4 % 4), 0.053 * (i / 16)}, {}, {}});
-  Grains grains(base::cpuExec(1), m, {}, start);
+  Grains grains(testExec(1), m, {}, start);
   advance(grains, 2000);
   const GrainLedger ledger = grains.ledger();
   EXPECT_GT(ledger.kinetic, 1e-3) << "the cluster has burst apart";

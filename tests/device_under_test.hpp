@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+
+#include <cstdlib>
+#include <string>
+
+namespace grouser {
+
+/// Where the tests that take it compute: on `threads` CPU threads, or on CUDA where the environment says
+/// GROUSER_TEST_DEVICE=cuda (tests/gpu sets it). The claims are the same on both.
+inline base::Exec testExec(int threads = 1) {
+  const char* device = std::getenv("GROUSER_TEST_DEVICE");
+  return device && std::string(device) == "cuda" ? base::cudaExec() : base::cpuExec(threads);
+}
+
+} // namespace grouser
