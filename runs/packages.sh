@@ -33,6 +33,8 @@ configure_and_build() {
   if [ -n "$nvcc" ] && command -v nvidia-smi >/dev/null && nvidia-smi -L 2>/dev/null | grep -q GPU; then preset=cuda; fi
   local launcher=()
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  cmake --preset "$preset" -B "$folder" "${launcher[@]}" >"$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
+  local log=$folder/configure.log
+  mkdir -p "$folder"
+  cmake --preset "$preset" -B "$folder" "${launcher[@]}" >"$log" 2>&1 || { tail -n 20 "$log" >&2; return 1; }
   cmake --build "$folder" --target "$@"
 }
