@@ -21,6 +21,8 @@ StopSignals::StopSignals() {
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, &formerInterrupt);
   sigaction(SIGTERM, &action, &formerTerminate);
+  // Whoever started us in the background may have switched interrupts off: leave them off.
+  if (formerInterrupt.sa_handler == SIG_IGN) sigaction(SIGINT, &formerInterrupt, nullptr);
 }
 
 StopSignals::~StopSignals() {
