@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/locations.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <system_error>
 
@@ -20,13 +21,16 @@ fs::path shareFolder() {
 }
 
 fs::path findInput(const std::string& name, const fs::path& scene, std::vector<fs::path>& tried) {
+  tried.clear();
+  if (name.empty()) return {};
   const fs::path wanted = name;
-  if (wanted.is_absolute()) {
-    tried = {wanted};
-  } else {
-    tried = {fs::absolute(scene).parent_path() / wanted, fs::absolute(wanted), shareFolder() / "assets" / wanted};
-  }
   std::error_code error;
+  // An absolute path stands for itself under every folder.
+  for (const fs::path& folder :
+       {fs::absolute(scene, error).parent_path(), fs::current_path(error), shareFolder() / "assets"})
+    if (const fs::path place = (folder / wanted).lexically_normal();
+        std::find(tried.begin(), tried.end(), place) == tried.end())
+      tried.push_back(place);
   for (const fs::path& candidate : tried)
     if (fs::is_regular_file(candidate, error)) return fs::weakly_canonical(candidate);
   return {};

@@ -12,7 +12,8 @@ namespace grouser::runs {
 std::filesystem::path shareFolder();
 
 /// The file that a scene means by `name`: an absolute path, or relative to one of the folder of `scene`, the current
-/// folder, assets/. Empty where there is none; `tried` then lists the places looked at.
+/// folder, assets/. Empty where there is none; `tried` then lists the places looked at, each once; none for an empty
+/// name.
 std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
                                 std::vector<std::filesystem::path>& tried);
 

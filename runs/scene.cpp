@@ -49,7 +49,8 @@ std::vector<std::string> materialNames(const Scene& scene) {
 void checkMaterial(const Scene& scene, const Section& section, const std::string& key, const std::string& name) {
   const std::vector<std::string> names = materialNames(scene);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  const std::string known = names.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, names));
+  const std::string known =
+      names.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, names));
   section.fail(key, fmt::format("names no material of this scene{}; {}add a section [material.{}]",
                                 key.empty() ? fmt::format(" (\"{}\")", name) : "", known, name));
 }
@@ -85,11 +86,17 @@ void readGrainsAndPlanes(const Section& root, Scene& scene) {
 
 /// Makes `name` the absolute path of an existing file.
 void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {
+  if (name.empty()) section.fail(key, "is empty; give the path of a file");
   std::vector<std::filesystem::path> tried;
   const std::filesystem::path found = findInput(name, scene.file, tried);
   if (found.empty()) {
     std::string places;
-    for (const auto& p : tried) places += (places.empty() ? "" : ", ") + p.string();
+    std::error_code error;
+    for (const auto& p : tried) {
+      if (std::filesystem::is_directory(p, error))
+        section.fail(key, fmt::format("is a folder, {}; give the path of a file", p.string()));
+      places += (places.empty() ? "" : ", ") + p.string();
+    }
     section.fail(key, fmt::format("does not exist; correct the path (looked for {})", places));
   }
   name = found.string();

@@ -2,6 +2,7 @@
 #include "runs/scene.hpp"
 
 #include "base/error.hpp"
+#include "runs/locations.hpp"
 #include "scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -73,6 +74,14 @@ TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
   const Scene s = parseScene(goodScene(), folder / "scene.toml");
   EXPECT_EQ(s.terrain->heightmap, std::filesystem::canonical(folder / "heightmaps/hills.png").string());
   std::filesystem::remove_all(folder);
+}
+
+TEST(Scene, PlacesLookedAtAreNamedOnce) {
+  std::vector<std::filesystem::path> tried;
+  EXPECT_TRUE(findInput("nosuch.png", "scene.toml", tried).empty());
+  EXPECT_EQ(tried.size(), 2u); // the scene's folder is the current one; the other is assets/
+  EXPECT_TRUE(findInput("/nosuch.png", "scene.toml", tried).empty());
+  EXPECT_EQ(tried, std::vector<std::filesystem::path>{"/nosuch.png"});
 }
 
 TEST(Scene, DriverFormsGiveTheSameSpeeds) {
@@ -186,6 +195,15 @@ INSTANTIATE_TEST_SUITE_P(
                "height_range = [0, 0.3]",
                "height_range = [0.3, 0]",
                {"terrain.height_range", "lower height first"}},
+        Broken{"EmptyHeightmap",
+               "\"heightmaps/hills.png\"",
+               "\"\"",
+               {"scene.toml:14: terrain.heightmap = \"\" is empty; give the path of a file"}},
+        Broken{"FolderAsHeightmap", "heightmaps/hills.png", "heightmaps", {"terrain.heightmap", "is a folder, "}},
+        Broken{"EmptySpec",
+               "\"vehicles/light_tracked.toml\"",
+               "\"\"",
+               {"scene.toml:22: vehicle.spec = \"\" is empty; give the path of a file"}},
         Broken{"NoSpec", "light_tracked.toml", "lite.toml", {"vehicle.spec", "does not exist", "correct the path"}},
         Broken{"OffTheTerrain",
                "position = [1.5, 0]",
