@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kAzimuth = -55;                             ///< [deg] of the camera
 constexpr double kVehicleElevation = 14, kBedElevation = 30; ///< [deg] of the camera above the vehicle, or a bed alone
-constexpr double kVehicleTight = 0.8, kBedTight = 0.75;      ///< share of its bounding ball that is seen filled
+constexpr double kVehicleTight = 0.8;                        ///< share of its bounding ball that is seen filled
+constexpr double kAspect = 16.0 / 9;
 
 Colour partColour(const std::string& kind) {
   if (kind == "chassis") return srgb(112, 122, 92);
@@ -40,38 +41,58 @@ std::pair<float, float> heightRange(const Frame& frame) {
   for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
   std::sort(heights.begin(), heights.end());
   const std::size_t cut = heights.size() / 100;
-  return {heights[cut], std::max(heights[heights.size() - 1 - cut], heights[cut] + 1e-6f)};
+  return {heights[cut], heights[heights.size() - 1 - cut]};
+}
+
+/// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
+/// grains, axis by axis, than these are wide; of less than 100 grains none.
+std::vector<Ball> seenGrains(const Frame& frame) {
+  const std::size_t count = frame.positions.size(), cut = count / 100;
+  Vec3d low, high;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<float> places;
+    for (const base::Vec3f& p : frame.positions) places.push_back(p[k]);
+    std::sort(places.begin(), places.end());
+    low[k] = places[cut], high[k] = places[count - 1 - cut];
+  }
+  const Vec3d reach = high - low + Vec3d{1, 1, 1} * (2.0 * frame.radii.front());
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d p = frame.positions[i].as<double>();
+    if (cut == 0 || (base::min(p, low - reach) == low - reach && base::max(p, high + reach) == high + reach))
+      balls.push_back({p, frame.radii[i]});
+  }
+  return balls;
 }
 
 } // namespace
 
 Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width) {
   RenderScene scene;
-  Box bed, vehicle;
+  Box vehicle;
   if (!frame.positions.empty()) {
     const auto [low, high] = heightRange(frame);
+    const float range = std::max(high - low, frame.radii.front());
     for (std::size_t i = 0; i < frame.positions.size(); ++i) {
       const base::Vec3f& p = frame.positions[i];
-      scene.spheres.push_back({p, frame.radii[i], heightColour((p.z - low) / (high - low))});
-      bed.take(p.as<double>());
+      scene.spheres.push_back({p, frame.radii[i], heightColour((p.z - low) / range)});
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind)});
     for (const Vec3d& v : parts[i].mesh.vertices) vehicle.take(frame.partPoses[i].toWorld(v));
   }
-  if (!ground.indices.empty()) {
-    scene.meshes.push_back({ground, {}, srgb(168, 152, 128)});
-    for (const Vec3d& v : ground.vertices) bed.take(v);
-  }
+  if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, srgb(168, 152, 128)});
   const int height = std::max(1, width * 9 / 16);
-  const Box& subject = vehicle.empty() ? bed : vehicle;
-  if (subject.empty()) return render(scene, {}, width, height);
-  const double radius = std::max(1e-3, subject.radius()) * (vehicle.empty() ? kBedTight : kVehicleTight);
-  return render(
-      scene,
-      cameraTowards(subject.middle(), radius, kAzimuth, vehicle.empty() ? kBedElevation : kVehicleElevation, 16.0 / 9),
-      width, height);
+  if (!vehicle.empty()) {
+    const double radius = std::max(1e-3, vehicle.radius()) * kVehicleTight;
+    return render(scene, cameraTowards(vehicle.middle(), radius, kAzimuth, kVehicleElevation, kAspect), width, height);
+  }
+  std::vector<Ball> seen;
+  if (!frame.positions.empty()) seen = seenGrains(frame);
+  for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
+  if (seen.empty()) return render(scene, {}, width, height);
+  return render(scene, cameraAround(seen, kAzimuth, kBedElevation, kAspect), width, height);
 }
 
 } // namespace grouser::runs

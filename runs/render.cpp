@@ -20,6 +20,8 @@ namespace {
 constexpr int kSamples = 2; ///< a pixel, each way
 constexpr int kShadowPixels = 2048;
 constexpr int kOcclusionTaps = 16;
+constexpr float kNear = 0.002f; ///< nearest depth seen, of the distance to what the camera looks at
+constexpr double kMargin = 1.1; ///< room about what a camera is placed around
 constexpr double kSunAzimuth = -100, kSunElevation = 50; ///< [deg]
 const Colour kSun{1.00f, 0.95f, 0.86f}, kSky{0.52f, 0.62f, 0.75f}, kEarth{0.30f, 0.27f, 0.24f};
 const Colour kHorizon{0.90f, 0.92f, 0.94f}, kZenith{0.55f, 0.68f, 0.82f};
@@ -34,11 +36,6 @@ Vec3d direction(double azimuth, double elevation) {
   return {base::cos(a) * base::cos(e), base::sin(a) * base::cos(e), base::sin(e)};
 }
 
-struct Ball {
-  Vec3d centre;
-  double radius;
-};
-
 Ball around(const RenderScene& scene) {
   Vec3d low{1e300, 1e300, 1e300}, high = low * -1.0;
   const auto take = [&](const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
@@ -49,7 +46,7 @@ Ball around(const RenderScene& scene) {
   for (const RenderMesh& m : scene.meshes)
     for (const Vec3d& v : m.mesh.vertices) take(m.pose.toWorld(v));
   if (low.x > high.x) return {{}, 1};
-  return {(low + high) * 0.5, 0.5 * norm(high - low) + 1e-3};
+  return {(low + high) * 0.5, 0.5 * norm(high - low) * 1.001};
 }
 
 /// The scene as the sun sees it.
@@ -188,11 +185,36 @@ Camera cameraTowards(const Vec3d& centre, double radius, double azimuth, double 
   return camera;
 }
 
+Camera cameraAround(const std::vector<Ball>& balls, double azimuth, double elevation, double aspect) {
+  Camera camera;
+  Vec3d low{1e300, 1e300, 1e300}, high = -low;
+  for (const Ball& b : balls) {
+    const Vec3d reach{b.radius, b.radius, b.radius};
+    low = base::min(low, b.centre - reach), high = base::max(high, b.centre + reach);
+  }
+  const Vec3d towardsEye = direction(azimuth, elevation);
+  const Vec3d right = normalized(cross(camera.up, towardsEye)), up = cross(towardsEye, right);
+  const double tanUp = base::tan(0.5 * camera.fieldOfView * base::kPi / 180) / kMargin, tanRight = tanUp * aspect;
+  camera.target = (low + high) * 0.5;
+  // A ball at (x, z), z towards the eye, lies within the half angle a of an eye at distance d where
+  // |x| cos a + r <= (d - z) sin a.
+  double distance = 0;
+  for (const Ball& b : balls) {
+    const Vec3d p = b.centre - camera.target;
+    for (const auto& [x, tangent] : {std::pair{dot(p, right), tanRight}, std::pair{dot(p, up), tanUp}})
+      distance = std::max(distance,
+                          dot(p, towardsEye) + (std::fabs(x) + b.radius * std::sqrt(1 + tangent * tangent)) / tangent);
+  }
+  camera.eye = camera.target + towardsEye * distance;
+  return camera;
+}
+
 Image render(const RenderScene& scene, const Camera& camera, int width, int height) {
   const std::vector<detail::Facet> facets = detail::facetsOf(scene);
   const Ball ball = around(scene);
   View view = detail::viewTowards(camera.eye, camera.target, camera.up);
   view.halfHeight = static_cast<float>(base::tan(0.5 * camera.fieldOfView * base::kPi / 180));
+  view.near = kNear * static_cast<float>(norm(camera.target - camera.eye));
   view.width = kSamples * width, view.height = kSamples * height;
   Surfaces seen(view);
   detail::rasterise(scene.spheres, facets, seen);

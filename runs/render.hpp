@@ -46,6 +46,15 @@ struct Camera {
 /// `elevation` [deg] above the horizon.
 Camera cameraTowards(const base::Vec3d& centre, double radius, double azimuth, double elevation, double aspect);
 
+struct Ball {
+  base::Vec3d centre; ///< [m]
+  double radius{};    ///< [m]
+};
+
+/// The nearest camera that looks at the middle of `balls` and sees each of them whole, with a margin. `balls` must not
+/// be empty.
+Camera cameraAround(const std::vector<Ball>& balls, double azimuth, double elevation, double aspect);
+
 /// The scene as seen by the camera, four samples a pixel.
 Image render(const RenderScene& scene, const Camera& camera, int width, int height);
 

@@ -10,7 +10,6 @@ namespace grouser::runs::detail {
 
 namespace {
 
-constexpr float kNear = 0.01f;         ///< [m]
 constexpr float kCreaseCosine = 0.82f; ///< of 35 degrees
 constexpr int kBandRows = 32;
 
@@ -51,7 +50,7 @@ std::vector<PlacedSphere> place(const View& view, const std::vector<RenderSphere
   std::vector<PlacedSphere> placed;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Vec3f c = view.toCamera(spheres[i].centre);
-    if (view.perspective && c.z < spheres[i].radius + kNear) continue;
+    if (view.perspective && c.z < spheres[i].radius + view.near) continue;
     const Rectangle r = sphereBounds(view, c, spheres[i].radius);
     if (r.left < r.right && r.top < r.bottom) placed.push_back({c, spheres[i].radius, r, static_cast<std::int32_t>(i)});
   }
@@ -89,10 +88,10 @@ std::vector<Corner> clipped(const Facet& f, const View& view) {
   if (!view.perspective) return in;
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner &a = in[k], &b = in[(k + 1) % 3];
-    const bool aIn = a.p_C.z > kNear, bIn = b.p_C.z > kNear;
+    const bool aIn = a.p_C.z > view.near, bIn = b.p_C.z > view.near;
     if (aIn) out.push_back(a);
     if (aIn != bIn) {
-      const float t = (kNear - a.p_C.z) / (b.p_C.z - a.p_C.z);
+      const float t = (view.near - a.p_C.z) / (b.p_C.z - a.p_C.z);
       out.push_back({a.p_C + (b.p_C - a.p_C) * t, a.normal + (b.normal - a.normal) * t});
     }
   }

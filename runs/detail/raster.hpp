@@ -17,6 +17,7 @@ struct View {
   Vec3f eye, right, up, forward;
   bool perspective = true;
   float halfHeight = 1; ///< of the picture at depth 1 (perspective), or anywhere (parallel)
+  float near = 0.01f;   ///< what is nearer is not seen (perspective) [m]
   int width = 0, height = 0;
 
   Vec3f toCamera(const Vec3f& p_W) const {

@@ -137,5 +137,49 @@ TEST(Picture, ShowsGrainsPartsAndGroundAndIsWritten) {
   EXPECT_THROW(writePng(image, "/nonexistent/picture.png"), std::runtime_error);
 }
 
+/// Pixels unlike an empty picture's, and whether some lie on the outermost two of any side.
+struct Subject {
+  int pixels = 0;
+  bool isCut = false;
+};
+
+Subject subjectOf(const Image& image, const Image& empty) {
+  Subject s;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t *a = image.at(x, y), *b = empty.at(x, y);
+      if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) continue;
+      ++s.pixels;
+      s.isCut |= x < 2 || y < 2 || x >= image.width - 2 || y >= image.height - 2;
+    }
+  return s;
+}
+
+TEST(Picture, FewGrainsOfAnySizeAreSeenWhole) {
+  const Image empty = drawFrame({}, {}, {}, 320);
+  for (const float radius : {1e-4f, 0.01f, 2.0f})
+    for (const int count : {1, 2, 30}) {
+      Frame frame;
+      for (int i = 0; i < count; ++i)
+        frame.positions.push_back({3 * radius * float(i), radius * float(i % 5), 1 + radius * float(i % 3)}),
+            frame.radii.push_back(radius);
+      const Subject s = subjectOf(drawFrame(frame, {}, {}, 320), empty);
+      EXPECT_FALSE(s.isCut) << count << " grains of radius " << radius;
+      // A row of 30 is 22 times as long as its grains are wide: no more than a strip of the picture.
+      EXPECT_GT(s.pixels, count < 30 ? 3000 : 500) << count << " grains of radius " << radius;
+    }
+}
+
+TEST(Picture, StrayGrainDoesNotShrinkABed) {
+  const Image empty = drawFrame({}, {}, {}, 320);
+  Frame frame;
+  for (int i = 0; i < 400; ++i)
+    frame.positions.push_back({0.1f * float(i % 20), 0.1f * float(i / 20), 0}), frame.radii.push_back(0.05f);
+  frame.positions[57] = {1, 1, -500};
+  const Subject s = subjectOf(drawFrame(frame, {}, {}, 320), empty);
+  EXPECT_FALSE(s.isCut);
+  EXPECT_GT(s.pixels, 320 * 180 / 4);
+}
+
 } // namespace
 } // namespace grouser::runs
