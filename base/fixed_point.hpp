@@ -14,9 +14,11 @@ struct FixedPoint {
   double quantum{1};
   double perUnit{1}; ///< 1 / quantum, exact
 
-  /// Nearest multiple.
+  /// Nearest multiple; what is beyond half the range (or no number) becomes the end of that half, on every device.
   GROUSER_HD std::int64_t quantise(double value) const {
-    return static_cast<std::int64_t>(floor(value * perUnit + 0.5));
+    constexpr double kMost = 4611686018427387904.0; // 2^62
+    const double quanta = floor(value * perUnit + 0.5);
+    return static_cast<std::int64_t>(!(quanta > -kMost) ? -kMost : quanta < kMost ? quanta : kMost);
   }
   GROUSER_HD double value(std::int64_t quanta) const { return static_cast<double>(quanta) * quantum; }
   GROUSER_HD Vec3l quantise(const Vec3d& v) const { return {quantise(v.x), quantise(v.y), quantise(v.z)}; }

@@ -14,6 +14,7 @@ struct GrainLoad {
   base::Vec3l force;
   base::Vec3f torque;
   float dissipated; ///< [J]
+  float deepest;    ///< overlap [m]
 };
 
 /// Loads from rigid parts as the grains' kernel sees them. `range[i]` packs first * 256 + count of the loads of slot i.
@@ -21,6 +22,7 @@ struct GrainLoadsView {
   const std::uint32_t* range{nullptr};
   const GrainLoad* load{nullptr};
   base::FixedPoint force; ///< quantum of the forces [N]
+  std::int64_t* received{nullptr}; ///< sums of the forces that the grains have taken, x y z, since the start [quanta]
 };
 
 } // namespace grouser::contact

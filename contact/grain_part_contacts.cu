@@ -131,7 +131,6 @@ struct Compute {
     base::atomicAdd64(sums + 0, found);
     base::atomicAdd64(sums + 1, model.energy.quantise(elastic));
     base::atomicAdd64(sums + 2, model.energy.quantise(static_cast<double>(result.dissipated)));
-    for (int a = 0; a < 3; ++a) base::atomicAdd64(sums + 3 + a, result.force[a]);
   }
 
 private:
@@ -201,6 +200,7 @@ private:
     result.force += quanta;
     result.torque += cross(arm, force).as<float>();
     result.dissipated += reaction.dissipated;
+    if (patch.overlap > result.deepest) result.deepest = patch.overlap;
     torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
   }
 };
@@ -213,7 +213,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   std::vector<SurfaceGridView> views;
   for (const base::SphereSet* set : sets) {
     const double edge = set->spacing > 0.006 ? 0.75 * set->spacing : 0.0045;
-    grids_.emplace_back(exec, *set, model.radius, edge);
+    grids_.push_back(set->surfaceCount ? SurfaceGrid(exec, *set, model.radius, edge) : SurfaceGrid());
     views.push_back(grids_.back().view());
   }
   for (GrainPart& part : parts) {
@@ -296,7 +296,7 @@ void GrainPartContacts::compute(const GrainsView& grains, const base::Array<Part
                                  slot_.data(), memory_.data(), load_.data(), loads, sums_.data()});
 }
 
-GrainLoadsView GrainPartContacts::grainLoads() const { return {range_.data(), load_.data(), model_.force}; }
+GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.data(), model_.force, sums_.data() + 3}; }
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = sums_.toHost();

@@ -61,7 +61,7 @@ public:
   void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
 
   /// What the grains' step needs: valid until the next refresh.
-  GrainLoadsView grainLoads() const;
+  GrainLoadsView grainLoads();
 
   std::size_t pairs() const { return pairs_; }
   struct Ledger {

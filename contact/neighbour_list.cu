@@ -113,12 +113,21 @@ struct Collect {
       for (std::uint32_t y = c.y == 0 ? 0 : c.y - 1; y <= c.y + 1 && y < grid.cells.y; ++y) {
         const std::uint32_t last = start[grid.key({x, y, z1}) + 1];
         for (std::uint32_t j = start[grid.key({x, y, z0})]; j < last; ++j) {
-          if (static_cast<int>(j) == i || base::squaredNorm(base::difference(p, position[j])) >= reach2) continue;
+          if (static_cast<int>(j) == i || !near(p, position[j])) continue;
+          if (base::squaredNorm(base::difference(p, position[j])) >= reach2) continue;
           if (found < capacity) insert(i, found, j);
           ++found;
         }
       }
     count[i] = found;
+  }
+
+  /// Whether 32-bit differences hold: cells may have been widened for grains far away.
+  GROUSER_HD static bool near(const Position& a, const Position& b) {
+    constexpr std::int64_t kSafe = std::int64_t{1} << 30;
+    const Vec3l apart = base::toUnits(b) - base::toUnits(a);
+    return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&
+           apart.z > -kSafe;
   }
 
   GROUSER_HD void insert(int i, std::uint32_t filled, std::uint32_t j) const {

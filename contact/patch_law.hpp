@@ -34,6 +34,7 @@ struct PatchSums {
 /// What a patch remembers: the tangential spring in world axes.
 struct PatchState {
   base::Vec3d shear; ///< [m]
+  double stiffness;  ///< k_t that goes with it [N/m]: it follows the touching area
   double dissipated; ///< [J] since the start
 };
 

@@ -143,7 +143,8 @@ template <class Target> struct RubPatch {
     PatchSums& sums = patches[index];
     PatchState& state = states[index];
     if (sums.weight <= 0) {
-      state.shear = {};
+      state.dissipated += 0.5 * state.stiffness * dot(state.shear, state.shear); // the spring lets go
+      state.shear = {}, state.stiffness = 0;
       state.dissipated += quanta.energy.value(sums.dissipated);
       return;
     }
@@ -162,7 +163,10 @@ template <class Target> struct RubPatch {
       const base::Vec3d slip = relative - normal * dot(relative, normal);
       base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
       const double stiffness = law.tangentialRatio * law.modulus * quanta.area.value(sums.area);
-      const double storedBefore = stiffness * dot(shear, shear);
+      // The area has changed: where it grew, fresh material touches without strain and the force stays; where it
+      // shrank, the strain stays and the part of the spring that has let go is lost. Neither gives energy.
+      const double storedBefore = state.stiffness * dot(state.shear, state.shear);
+      if (stiffness > state.stiffness) shear *= state.stiffness / stiffness;
       shear += slip * timeStep;
       const double dashpot = law.relaxation * stiffness;
       base::Vec3d force = shear * -stiffness - slip * dashpot;
@@ -174,7 +178,7 @@ template <class Target> struct RubPatch {
       // Work put in, less what the spring has gained.
       dissipated -= dot(force, slip) * timeStep + 0.5 * (stiffness * dot(shear, shear) - storedBefore);
       base::atomicAdd64(&sums.elastic, quanta.energy.quantise(0.5 * stiffness * dot(shear, shear)));
-      state.shear = shear;
+      state.shear = shear, state.stiffness = stiffness;
       applyToBoth(quanta, motion, a, b, x, quanta.force.quantise(force), loads);
     }
     state.dissipated += dissipated;

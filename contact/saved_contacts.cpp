@@ -24,9 +24,10 @@ static_assert(sizeof(std::uint64_t) + sizeof(PatchMemory) == kWords * sizeof(std
 std::vector<std::uint32_t> SavedPatches::words() const {
   std::vector<std::uint32_t> words;
   for (const PatchState& s : states) {
-    std::uint32_t raw[6];
-    std::memcpy(raw, &s.shear, sizeof raw);
-    words.insert(words.end(), raw, raw + 6);
+    std::uint32_t raw[8];
+    std::memcpy(raw, &s.shear, 24);
+    std::memcpy(raw + 6, &s.stiffness, 8);
+    words.insert(words.end(), raw, raw + 8);
   }
   return words;
 }

@@ -7,11 +7,13 @@
 #include "runs/plan.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
+#include "vehicle/spec.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <unistd.h>
 
 namespace grouser::runs {
 
@@ -45,9 +47,25 @@ void addPlanes(const Scene& scene, const std::string& material, double mass, ter
   }
 }
 
+/// Throws before any memory is taken when the bed cannot fit into this machine.
+void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
+  constexpr double kBytesPerGrain = 900;
+  const Terrain& t = *scene.terrain;
+  const double spacing = options.spacingInRadii * options.radius;
+  const double layers = options.layers > 0 ? options.layers : std::max(1.0, options.depth / spacing);
+  const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (grains * kBytesPerGrain > memory || grains > 4e9)
+    throw base::InputError(fmt::format(
+        "{}: terrain.grain_radius = {:g} [m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} "
+        "GiB: use larger grains, fewer layers or a smaller terrain.size",
+        scene.file.string(), options.radius, grains, grains * kBytesPerGrain / 1073741824.0, memory / 1073741824.0));
+}
+
 void layBed(const Scene& scene, const base::Exec& exec, double timeStep, Ground& ground) {
   const Terrain& t = *scene.terrain;
   const terrain::LayerOptions options = layerOptions(scene);
+  checkBedSize(scene, options);
   const terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
   const terrain::GrainModel bare = grainModel(scene, t.material, options.radius, timeStep);
   const std::string& groundMaterial = t.groundMaterial.empty() ? t.material : t.groundMaterial;
@@ -59,6 +77,7 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, Ground&
   ground.rigid = plan.floor;
   boundaries.floor = plan.floor;
   ground.walls = plan.walls;
+  ground.layers = plan.layers;
   if (t.walls) {
     boundaries.walls.push_back({{1, 0, 0}, plan.walls.xMin, wallLaw});
     boundaries.walls.push_back({{-1, 0, 0}, -plan.walls.xMax, wallLaw});
@@ -69,6 +88,28 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, Ground&
   std::vector<terrain::GrainStart> start;
   for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options)) start.push_back({seed.centre, {}, {}});
   ground.grains = std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start);
+}
+
+/// Throws when grains start deeper in each other or in a plane than a run allows.
+void checkStartingOverlaps(const Scene& scene) {
+  const auto& grains = scene.grains;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double most = scene.run.maxOverlap * grains[i].radius;
+    const auto refuse = [&](double overlap, const std::string& what) {
+      if (overlap > most)
+        throw base::InputError(
+            fmt::format("{}: grain.{}.position: the grain overlaps {} by {:.3g} m, more than run.max_overlap = {:g} "
+                        "of its radius; move it",
+                        scene.file.string(), i, what, overlap, scene.run.maxOverlap));
+    };
+    for (std::size_t j = 0; j < i; ++j)
+      refuse(grains[i].radius + grains[j].radius - norm(grains[i].position - grains[j].position),
+             fmt::format("grain {}", j));
+    for (std::size_t k = 0; k < scene.planes.size(); ++k)
+      refuse(grains[i].radius -
+                 dot(base::normalized(scene.planes[k].normal), grains[i].position - scene.planes[k].point),
+             fmt::format("plane {}", k));
+  }
 }
 
 void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeStep, Ground& ground) {
@@ -82,9 +123,14 @@ void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeSt
                       scene.file.string(), g.radius, g.material, first.radius, first.material));
     start.push_back({g.position, g.velocity, g.spin});
   }
-  const terrain::GrainModel model = grainModel(scene, first.material, first.radius, timeStep);
+  checkStartingOverlaps(scene);
+  terrain::GrainModel model = grainModel(scene, first.material, first.radius, timeStep);
   terrain::Boundaries boundaries;
   addPlanes(scene, first.material, model.mass, boundaries);
+  if (ground.rigid) {
+    boundaries.floor = ground.rigid;
+    model.floorLaw = pairLaw(scene, first.material, scene.terrain->material, model.mass);
+  }
   ground.grains = std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start);
 }
 
@@ -100,30 +146,68 @@ terrain::LayerOptions layerOptions(const Scene& scene) {
   return options;
 }
 
-double stableTimeStep(const Scene& scene) {
-  double limit = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const std::string& material, double radius) {
+namespace {
+
+/// Keeps the smallest stable step and what it belongs to.
+struct StepLimit {
+  double step = std::numeric_limits<double>::infinity();
+  std::string what;
+
+  void consider(double omega, double zeta, const std::string& name) {
+    const double limit = contact::stableStep(omega, zeta);
+    if (limit < step) step = limit, what = name;
+  }
+  /// A grain of `mass` in `count` contacts of one law at once; tangential springs act on 7/2 of the inverse mass.
+  void considerGrain(const contact::LinearLaw& law, double mass, double count, const std::string& name) {
+    const double normal = count * law.stiffness / mass;
+    const double tangential = law.friction > 0 ? 3.5 * 0.5 * count * law.tangentialStiffness / mass : 0;
+    const double omega2 = std::max(normal, tangential);
+    consider(std::sqrt(omega2), 0.5 * law.damping / std::sqrt(omega2 * 2 / count), name);
+  }
+};
+
+StepLimit grainStepLimit(const Scene& scene) {
+  StepLimit limit;
+  const auto everyContact = [&](const std::string& material, double radius) {
     const double mass = sphereMass(scene.material(material).density, radius);
-    const contact::LinearLaw law = pairLaw(scene, material, material, 0.5 * mass);
-    // Twelve neighbours: omega^2 <= 8 k / m (Gershgorin); the dashpot narrows it further.
-    const double zeta = 0.5 * law.damping * std::sqrt(0.5 * mass / law.stiffness);
-    limit = std::min(limit, contact::stableStep(std::sqrt(8 * law.stiffness / mass), zeta));
+    // Twelve neighbours: omega^2 <= 8 k / m (Gershgorin). Between two heavy bodies: 2 k / m.
+    limit.considerGrain(pairLaw(scene, material, material, 0.5 * mass), mass, 8,
+                        "grain on grain of '" + material + "'");
+    const auto against = [&](const std::string& other, const std::string& name) {
+      limit.considerGrain(pairLaw(scene, material, other.empty() ? material : other, mass), mass, 2, name);
+    };
+    for (const Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
+    if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
+    if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
   };
-  for (const Grain& g : scene.grains) consider(g.material, g.radius);
-  if (scene.terrain && scene.terrain->granular()) consider(scene.terrain->material, *scene.terrain->grainRadius);
+  for (const Grain& g : scene.grains) everyContact(g.material, g.radius);
+  if (scene.terrain && scene.terrain->granular()) everyContact(scene.terrain->material, *scene.terrain->grainRadius);
   return limit;
 }
 
+} // namespace
+
+double stableTimeStep(const Scene& scene) {
+  StepLimit limit = grainStepLimit(scene);
+  if (scene.vehicle) {
+    // A shoe that lies on its whole pad: the stiffest that the foundation can be.
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    const double area = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
+    const double omega = std::sqrt(spec.contact.foundationModulus * area / spec.shoe.mass);
+    limit.consider(omega, 0.5 * omega * spec.contact.relaxationTime, "shoe on rigid ground or wheel");
+  }
+  return limit.step;
+}
+
 double chooseTimeStep(const Scene& scene) {
-  const double contact = shortestContact(scene);
-  if (contact <= 0) return scene.run.timeStep.value_or(kVehicleTimeStep);
-  if (!scene.run.timeStep) return contact / kStepsPerContact;
-  const double limit = stableTimeStep(scene);
+  const double contact = shortestContact(scene), limit = stableTimeStep(scene);
+  const double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit);
+  if (!scene.run.timeStep) return automatic;
   if (*scene.run.timeStep > limit)
     throw base::InputError(
-        fmt::format("{}: run.time_step = {:g} s is above {:.3g} s, where the stiffest contacts become "
-                    "unstable; choose {:.3g} s or less (\"auto\": {:.3g} s)",
-                    scene.file.string(), *scene.run.timeStep, limit, limit, contact / kStepsPerContact));
+        fmt::format("{}: run.time_step = {:g} s is above {:.3g} s, where the stiffest contact of the scene becomes "
+                    "unstable; choose {:.3g} s or less (\"auto\": {:.3g} s), or lower its stiffness",
+                    scene.file.string(), *scene.run.timeStep, limit, limit, automatic));
   return *scene.run.timeStep;
 }
 
@@ -140,6 +224,10 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep) 
     if (ground.grains)
       throw base::InputError(scene.file.string() +
                              ": [[grain]] and a granular [terrain] in one scene; use one of them");
+    if (scene.vehicle && scene.terrain)
+      throw base::InputError(scene.file.string() +
+                             ": [[grain]] beside a [vehicle] on rigid [terrain] is not possible so far; use "
+                             "a granular terrain, or leave the grains out");
     placeSingleGrains(scene, exec, timeStep, ground);
   }
   return ground;
@@ -152,7 +240,7 @@ SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& pr
   const double g = norm(model.gravity), dt = model.timeStep;
   const double unit = model.mass * g * model.radius * static_cast<double>(grains.count());
   // Loose layers fall first; nothing is judged before they have landed.
-  const double layers = std::max(1, t.layers.value_or(5));
+  const double layers = ground.layers;
   const double fall = std::sqrt(2 * layers * (t.spacing - 1.6) * model.radius / g);
   const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
   SettleReport report;

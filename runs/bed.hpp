@@ -20,6 +20,7 @@ struct Ground {
   std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
   std::unique_ptr<terrain::Grains> grains;     ///< null without grains
   std::optional<terrain::Rectangle> walls;     ///< around a bed
+  int layers{1};                               ///< of a bed
   std::shared_ptr<const terrain::BedSurface> undisturbed; ///< of a settled bed, before the vehicle touched it
 };
 
@@ -39,7 +40,8 @@ inline constexpr double kVehicleTimeStep = 1e-4;
 /// How the scene's bed is laid.
 terrain::LayerOptions layerOptions(const Scene& scene);
 
-/// Largest step at which a grain with twelve neighbours stays stable [s]; infinite without grains.
+/// Largest step at which the stiffest contact of the scene stays stable [s]: a grain among twelve others, between two
+/// planes or parts, or a shoe on its whole pad. Infinite without contacts.
 double stableTimeStep(const Scene& scene);
 
 /// Step of the run [s]: as the scene says, checked against the stability limit, or the largest sound one.

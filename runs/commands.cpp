@@ -11,6 +11,7 @@
 #include "runs/scene.hpp"
 #include "runs/sinkage.hpp"
 #include "runs/sweep.hpp"
+#include "runs/text_file.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "spheredecomp/quality.hpp"
@@ -18,7 +19,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 namespace grouser::runs {
 
@@ -117,16 +117,18 @@ void planCommand(const PlanCommand& command) {
 void spheresCommand(const SpheresCommand& command) {
   spheredecomp::DecompositionOptions options;
   options.radius = command.radius, options.targetCount = command.count;
+  std::error_code error;
+  if (!command.csv.empty() && !command.force && fs::exists(command.csv, error))
+    throw base::InputError(
+        fmt::format("--csv {}: the file is there already; name another, or overwrite it with --force", command.csv));
   const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
   const base::SphereSet set = spheredecomp::decompose(mesh, fs::path(command.mesh).filename().string(), options);
   fmt::print("{}", spheredecomp::report(set, spheredecomp::measure(mesh, set)));
   if (command.csv.empty()) return;
-  std::ofstream file(command.csv, std::ios::binary);
-  file << "x [m],y [m],z [m],radius [m]\n";
+  std::string text = "x [m],y [m],z [m],radius [m]\n";
   for (const base::SetSphere& s : set.spheres)
-    file << fmt::format("{},{},{},{}\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
-  file.close();
-  if (!file) throw base::InputError(fmt::format("{}: cannot be written; name another file with --csv", command.csv));
+    text += fmt::format("{},{},{},{}\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
+  writeTextFile(command.csv, text, "--csv");
   fmt::print("spheres   {}\n", command.csv);
 }
 

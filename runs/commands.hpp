@@ -59,6 +59,7 @@ struct SpheresCommand {
   double radius = 0;     ///< [m]; 0: from count
   std::size_t count = 0; ///< 0: from radius
   std::string csv;       ///< file for the spheres; empty: none
+  bool force = false;    ///< overwrite that file
 };
 void spheresCommand(const SpheresCommand& command);
 

@@ -7,7 +7,9 @@
 #include "runs/stop_signals.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <exception>
 
@@ -127,6 +129,7 @@ void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, run
                            ->check(CLI::PositiveNumber);
   radius->excludes(count);
   spheres->add_option("--csv", d.csv, "write the spheres to this file: x, y, z, radius [m]");
+  spheres->add_flag("--force", d.force, "overwrite that file");
   spheres->callback([=, &d] {
     if (!*radius && !*count) throw CLI::RequiredError("spheres: one of --radius and --count");
     runs::spheresCommand(d);
@@ -145,7 +148,21 @@ int fail(ExitCode code, const char* message) {
 
 } // namespace
 
+namespace {
+
+/// Threads that wait for each other spin for milliseconds by default; on a machine that is busy with other work too
+/// that makes a step many times slower. The OpenMP library reads its settings when it is loaded, so the program starts
+/// itself again with a short spin, unless the user has chosen.
+void waitBriefly(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
+  setenv("GOMP_SPINCOUNT", "5000", 1);
+  execv("/proc/self/exe", argv); // returns only if it failed: then the default will do
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
+  waitBriefly(argv);
   CLI::App app("grouser drives a tracked vehicle over granular terrain, and says how wrong its answer is.", "grouser");
   app.require_subcommand(1);
   app.set_version_flag("--version", runs::versionText());

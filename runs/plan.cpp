@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/bed.hpp"
 #include "runs/laws.hpp"
+#include "runs/placement.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
@@ -91,6 +92,7 @@ std::string planText(const Scene& scene) {
                         static_cast<double>(grains) * kBytesPerGrain / 1048576.0);
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    placeVehicle(scene, spec);
     text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
                         spec.shoe.count, spec.pitchRadius());
   }

@@ -99,6 +99,7 @@ public:
     if (const VehicleRig* rig = simulation_.vehicle())
       row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
     const Simulation::Ledger l = simulation_.ledger();
+    simulation_.checkEnergy(l);
     if (const auto& grains = simulation_.ground().grains) {
       row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
       row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
@@ -282,6 +283,9 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
       progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
                       fmt::format("t {:.3f} of {:g} s", simulation.time(), static_cast<double>(total) * dt));
   }
+  // The end is always written, whether or not the intervals meet it.
+  if (simulation.steps() % rowEvery != 0) recorder.row();
+  if (simulation.steps() % frameEvery != 0) recorder.frame();
   checkpoints.write(simulation, recorder.writer());
   progress.finish(fmt::format("{} steps", simulation.steps()));
 }
@@ -295,8 +299,8 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
   const std::unique_ptr<Simulation> made = makeSimulation(scene, exec, former.get());
   Simulation& simulation = *made;
-  const std::int64_t total = options.steps.value_or(std::llround(scene.run.duration / simulation.timeStep())),
-                     begin = simulation.steps();
+  const std::int64_t whole = std::llround(scene.run.duration / simulation.timeStep()), begin = simulation.steps(),
+                     total = std::min(whole, options.steps.value_or(whole));
   if (begin > total)
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));

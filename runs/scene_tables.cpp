@@ -27,7 +27,7 @@ Table<RunSettings> runTable() {
   t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
       .atLeast(0)
       .atMost(1024);
-  t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(4);
+  t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);
   t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
       .above(0)
       .atMost(1);

@@ -2,14 +2,23 @@
 #include "runs/simulation.hpp"
 
 #include "base/error.hpp"
+#include "runs/placement.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace grouser::runs {
 
+namespace {
+constexpr double kMostCreated = 2;    // energy that may be left over, as a share of what was put in [-]
+constexpr double kEnergyFloor = 1e-6; // [J] below which nothing is judged
+} // namespace
+
 Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress)
     : scene_(scene), exec_(exec), timeStep_(chooseTimeStep(scene)), ground_(buildGround(scene, exec, timeStep_)) {
   const bool bed = scene.terrain && scene.terrain->granular();
+  if (scene.vehicle)
+    placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
   if (bed && scene.terrain->settleTimeLimit > 0) settled_ = settle(scene, ground_, progress);
   if (bed) keepSurface(ground_);
   surface_ = surfaceHeight(ground_);
@@ -36,8 +45,9 @@ void Simulation::step() {
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
 }
 
-void Simulation::checkAlarm() const {
-  const std::string alarm = vehicle_->alarm();
+void Simulation::checkAlarm() {
+  std::string alarm = vehicle_->alarm();
+  if (alarm.empty()) alarm = offTerrain(scene_, vehicle_->assembly(), vehicle_->state());
   if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
 }
 
@@ -66,6 +76,16 @@ Simulation::Ledger Simulation::ledger() {
   ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;
   ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork;
   return ledger;
+}
+
+void Simulation::checkEnergy(const Ledger& now) {
+  mostPutIn_ = std::max(mostPutIn_, std::max(0.0, now.driveWork) + std::max(0.0, -now.potential));
+  const double available = start_.kinetic + start_.elastic + mostPutIn_;
+  if (now.residual <= kMostCreated * available + kEnergyFloor) return;
+  throw base::SimulationError(
+      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; the "
+                  "contacts are unstable: use a smaller time_step or softer contacts",
+                  steps_, time(), now.residual, available));
 }
 
 } // namespace grouser::runs

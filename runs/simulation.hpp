@@ -47,13 +47,16 @@ public:
   };
   Ledger ledger();
 
+  /// Throws SimulationError when the contacts have given far more energy than ever was put in: an unstable step.
+  void checkEnergy(const Ledger& now);
+
   /// Hash over the state sorted by id, as 16 hexadecimal digits: equal bits, equal hash.
   std::string stateHash() const;
 
 private:
   friend class StepBench;                            // times the verbs of step() one by one
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
-  void checkAlarm() const;
+  void checkAlarm();
 
   const Scene scene_;
   base::Exec exec_;
@@ -63,6 +66,7 @@ private:
   std::function<double(double, double)> surface_;
   std::unique_ptr<VehicleRig> vehicle_;
   std::int64_t steps_{0};
+  double mostPutIn_{0}; ///< by drives and gravity, the most at any row so far [J]
   Ledger start_; ///< before the first step; the ledger counts from here
 };
 

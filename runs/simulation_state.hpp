@@ -16,7 +16,8 @@ struct SimulationState {
   std::int64_t steps{};
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
   SettleReport settled;
-  std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
+  std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here;
+                                     ///< then the most that was put in so far
   std::optional<terrain::GrainState> grains;
   std::optional<VehicleState> vehicle;
 

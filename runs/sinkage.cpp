@@ -4,11 +4,13 @@
 #include "base/error.hpp"
 #include "runs/channels.hpp"
 #include "runs/hdf5_file.hpp"
+#include "runs/text_file.hpp"
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 namespace grouser::runs {
 
@@ -49,10 +51,7 @@ std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, cons
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   const std::filesystem::path path = folder / "sinkage.csv";
-  std::ofstream csv(path, std::ios::binary);
-  csv << text << '\n';
-  csv.close();
-  if (!csv) throw base::InputError(fmt::format("{}: cannot be written; name another folder with --out", path.string()));
+  writeTextFile(path, text + '\n', "--out");
   return path;
 }
 

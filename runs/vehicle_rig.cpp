@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/laws.hpp"
+#include "runs/placement.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 
@@ -31,61 +32,14 @@ vehicle::DriverOptions driverOptions(const Driver& d) {
   return options;
 }
 
-/// Highest point of the ground under the tracks, for the vehicle to be set down on.
-double groundUnder(const vehicle::VehicleSpec& spec, double x, double y, double heading,
-                   const std::function<double(double, double)>& surfaceHeight) {
-  const double c = base::cos(heading), s = base::sin(heading),
-               last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1);
-  double highest = -1e300;
-  for (const double side : {-1.0, 1.0})
-    for (int i = 0; i <= 40; ++i)
-      for (int j = -2; j <= 2; ++j) {
-        const double px = spec.roadWheel.firstX - 0.2 + (last - spec.roadWheel.firstX + 0.4) * i / 40.0;
-        const double py = side * spec.trackOffset + 0.5 * j * spec.shoe.padHalfWidth;
-        highest = std::max(highest, surfaceHeight(x + c * px - s * py, y + s * px + c * py));
-      }
-  return highest;
-}
-
-/// How far a shoe may reach from its middle, whichever way it points [m].
-double shoeReach(const vehicle::VehicleSpec& spec) { return 0.5 * spec.shoe.pitch + spec.shoe.padHalfWidth; }
-
-/// Where the vehicle's origin goes when the scene does not say: in the middle across, its rear at the near end.
-std::array<double, 2> defaultPlace(const Ground& ground, const vehicle::VehicleSpec& spec) {
-  const terrain::Rectangle& area = ground.walls ? *ground.walls : ground.surface->area();
-  return {area.xMin + spec.sprocketPinRadius() + shoeReach(spec) + 0.02, 0.5 * (area.yMin + area.yMax)};
-}
-
-vehicle::AssemblyOptions assemblyOptions(const Scene& scene, const vehicle::VehicleSpec& spec, const Ground& ground,
+vehicle::AssemblyOptions assemblyOptions(const Scene& scene, const vehicle::VehicleSpec& spec,
                                          const std::function<double(double, double)>& surfaceHeight) {
+  const Placement place = placeVehicle(scene, spec);
+  const double z = scene.terrain ? groundUnder(spec, place, surfaceHeight) + scene.vehicle->clearance : 0.0;
   vehicle::AssemblyOptions options;
   options.fixChassis = scene.vehicle->chassis == "fixed";
-  const double heading = scene.vehicle->heading * base::kPi / 180;
-  if (!ground.surface) {
-    const auto place = scene.vehicle->position.value_or(std::array<double, 2>{0, 0});
-    options.pose_W = vehicle::placeOnGround(spec, place[0], place[1], 0, 0, heading);
-    return options;
-  }
-  const auto place = scene.vehicle->position.value_or(defaultPlace(ground, spec));
-  const double z = groundUnder(spec, place[0], place[1], heading, surfaceHeight);
-  options.pose_W = vehicle::placeOnGround(spec, place[0], place[1], z, scene.vehicle->clearance, heading);
+  options.pose_W = vehicle::placeOnGround(spec, place.x, place.y, z, 0, place.heading);
   return options;
-}
-
-/// Throws unless the whole vehicle stands between the walls.
-void checkPlace(const Scene& scene, const Ground& ground, const vehicle::Assembly& assembly) {
-  if (!ground.surface) return;
-  const terrain::Rectangle& area = ground.walls ? *ground.walls : ground.surface->area();
-  const double reach = shoeReach(assembly.spec);
-  for (const vehicle::Part& part : assembly.parts) {
-    if (part.kind != vehicle::PartKind::kShoe) continue;
-    const Vec3d p = assembly.model.bodies()[static_cast<std::size_t>(part.body)].pose.position;
-    if (p.x - reach < area.xMin || p.x + reach > area.xMax || p.y - reach < area.yMin || p.y + reach > area.yMax)
-      throw base::InputError(
-          fmt::format("{}: vehicle.position: the {} would stand at ({:.2f}, {:.2f}) m, outside the terrain "
-                      "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; move the vehicle or enlarge terrain.size",
-                      scene.file.string(), part.name, p.x, p.y, area.xMin, area.xMax, area.yMin, area.yMax));
-  }
 }
 
 } // namespace
@@ -95,8 +49,7 @@ VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeSt
     : exec_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)), surfaceHeight_(surfaceHeight),
       gravity_(scene.run.gravity) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-  assembly_ = vehicle::assemble(spec, assemblyOptions(scene, spec, ground, surfaceHeight));
-  checkPlace(scene, ground, assembly_);
+  assembly_ = vehicle::assemble(spec, assemblyOptions(scene, spec, surfaceHeight));
   solver_ = std::make_unique<multibody::Solver>(assembly_.model);
   state_ = multibody::makeState(assembly_.model);
   loads_ = multibody::makeLoads(assembly_.model);
@@ -144,7 +97,7 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
   const double largest = 1e4 * assembly_.mass * 9.81;
   quanta_.force = base::fixedPointFor(largest, 46);
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
-  quanta_.energy = base::fixedPointFor(largest, 46);
+  quanta_.energy = base::fixedPointFor(1e3, 50); // of one probe in one step: these sums begin anew every step
   quanta_.area = base::fixedPointFor(1, 40);
   groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
 
@@ -163,7 +116,8 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     contact::GrainPartModel model;
     model.radius = grains.radius, model.mass = grains.mass, model.timeStep = timeStep_;
     groundMargin_ = kBedMargin;
-    model.margin = 0.5 * grains.skin * grains.radius + groundMargin_;
+    // A grain listed at one end of its half skin may touch at the other.
+    model.margin = grains.skin * grains.radius + groundMargin_;
     const std::string& soil = scene.terrain ? scene.terrain->material : scene.grains.front().material;
     model.law = pairLaw(scene, soil, scene.vehicle->material.empty() ? soil : scene.vehicle->material, grains.mass);
     if (scene.vehicle->material.empty()) model.law.friction = static_cast<float>(spec.frictionGround);
@@ -234,6 +188,7 @@ void VehicleRig::collectLoads() {
   const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
   groundForceSums_.resize(n);
+  alarmForceSums_.resize(n);
   for (std::size_t c = 0; c < n; ++c) {
     const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
     multibody::Wrench& wrench = loads_.external[static_cast<std::size_t>(part.body)];
@@ -241,8 +196,9 @@ void VehicleRig::collectLoads() {
     wrench.torque += quanta_.torque.value(track[c].torque) + groundTorqueQuantum_.value(ground[c].torque);
     impulseOnParts_ += ground[c].force;
     groundForceSums_[c] += ground[c].force;
+    alarmForceSums_[c] += ground[c].force;
   }
-  ++meanSteps_;
+  ++meanSteps_, ++alarmSteps_;
 }
 
 void VehicleRig::advance() {
@@ -268,14 +224,14 @@ void VehicleRig::trackTravel() {
   absoluteTravel_ += absolute * timeStep_;
 }
 
-vehicle::GroundLoads VehicleRig::meanGroundLoads() const {
+vehicle::GroundLoads VehicleRig::meanGroundLoads(const std::vector<base::Vec3l>& sums, std::int64_t steps) const {
   vehicle::GroundLoads loads;
   if (!bed_ && !rigidGround_) return loads;
   loads.force.resize(assembly_.model.bodies().size());
-  const double share = meanSteps_ > 0 ? 1 / static_cast<double>(meanSteps_) : 0.0;
-  for (std::size_t c = 0; c < groundForceSums_.size(); ++c) {
+  const double share = steps > 0 ? 1 / static_cast<double>(steps) : 0.0;
+  for (std::size_t c = 0; c < sums.size(); ++c) {
     const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
-    loads.force[static_cast<std::size_t>(part.body)] += groundForceQuantum_.value(groundForceSums_[c]) * share;
+    loads.force[static_cast<std::size_t>(part.body)] += groundForceQuantum_.value(sums[c]) * share;
   }
   return loads;
 }
@@ -286,10 +242,15 @@ void VehicleRig::restartMeans() {
 }
 
 vehicle::Observation VehicleRig::observe() const {
-  return observer_->observe(state_, meanGroundLoads(), surfaceHeight_);
+  return observer_->observe(state_, meanGroundLoads(groundForceSums_, meanSteps_), surfaceHeight_);
 }
 
-std::string VehicleRig::alarm() const { return observer_->alarm(state_, meanGroundLoads()); }
+std::string VehicleRig::alarm() {
+  const std::string alarm = observer_->alarm(state_, meanGroundLoads(alarmForceSums_, alarmSteps_));
+  alarmForceSums_.assign(alarmForceSums_.size(), {});
+  alarmSteps_ = 0;
+  return alarm;
+}
 
 VehicleRig::Ledger VehicleRig::ledger() const {
   Ledger ledger;
@@ -312,7 +273,7 @@ VehicleRig::Ledger VehicleRig::ledger() const {
     ledger.impulseOnGrains = bed.impulseOnGrains;
     ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
   }
-  for (const Vec3d& force : meanGroundLoads().force) ledger.groundForce += force;
+  for (const Vec3d& force : meanGroundLoads(groundForceSums_, meanSteps_).force) ledger.groundForce += force;
   return ledger;
 }
 

@@ -47,8 +47,8 @@ public:
   /// Ground loads are means since the last restartMeans(): on grains a single step says little.
   vehicle::Observation observe() const;
   void restartMeans();
-  /// A thrown or skipped track, in words; empty while all is well.
-  std::string alarm() const;
+  /// A thrown or skipped track, in words; empty while all is well. Judges by the loads since it was last asked.
+  std::string alarm();
 
   /// Energies of the contacts of parts with parts and ground, and of the bodies [J].
   struct Ledger {
@@ -71,7 +71,9 @@ public:
     int instances{};
   };
   /// Listed as near now: probes of parts against parts and rigid ground, and pairs of grain and part.
-  std::size_t probesListed() const { return track_->probesListed() + (rigidGround_ ? rigidGround_->probesListed() : 0); }
+  std::size_t probesListed() const {
+    return track_->probesListed() + (rigidGround_ ? rigidGround_->probesListed() : 0);
+  }
   std::size_t grainPairsListed() const { return bed_ ? bed_->pairs() : 0; }
 
   const std::vector<SetFigures>& sphereSets() const { return setFigures_; }
@@ -91,7 +93,7 @@ private:
   void loadMeshes(const Scene& scene);
   void buildContacts(const Scene& scene, const Ground& ground);
   contact::PartMotion motionOf(std::size_t contactPart) const;
-  vehicle::GroundLoads meanGroundLoads() const;
+  vehicle::GroundLoads meanGroundLoads(const std::vector<base::Vec3l>& sums, std::int64_t steps) const;
   /// Bound of how far any point of a part may have moved [m] in this step: absolute, and relative to the hull.
   void trackTravel();
 
@@ -116,8 +118,9 @@ private:
   contact::PatchQuanta quanta_;
   base::Mirrored<contact::PartMotion> motion_;
   base::Mirrored<contact::PartLoad> loadSums_; ///< of all contact parts: from the track, then from the ground
-  std::vector<base::Vec3l> groundForceSums_; ///< by contact part, over `meanSteps_` steps
-  std::int64_t meanSteps_{0};
+  std::vector<base::Vec3l> groundForceSums_;   ///< by contact part, over `meanSteps_` steps
+  std::vector<base::Vec3l> alarmForceSums_;    ///< the same since the last alarm()
+  std::int64_t meanSteps_{0}, alarmSteps_{0};
   base::FixedPoint groundForceQuantum_, groundTorqueQuantum_;
   std::unique_ptr<contact::PartPartContacts> track_;
   std::unique_ptr<terrain::GroundContacts> rigidGround_;
@@ -127,7 +130,6 @@ private:
   static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
   double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};
   base::Vec3l impulseOnParts_{};
-  double bedDissipated_{0};
 };
 
 } // namespace grouser::runs

@@ -263,11 +263,23 @@ void check(const std::string& name, const DecompositionOptions& o) {
   if (o.radius != 0) range("radius", o.radius, 1e-6, 1e3, "m");
 }
 
+/// A sphere as wide as the part is long stands for nothing of it.
+void checkFits(const TriangleMesh& mesh, const std::string& name, double radius) {
+  const auto [low, high] = bounds(mesh);
+  const double half = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  // A millionth absorbs the rounding of coordinates read as floats.
+  if (radius > half * (1 + 1e-6))
+    throw base::InputError(fmt::format("{}: radius = {:.6g} m is above {:.6g} m, half the part's longest side; take a "
+                                       "smaller radius (and see that the mesh is in metres)",
+                                       name, radius, half));
+}
+
 } // namespace
 
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options) {
   check(name, options);
   checkClosed(mesh, name);
+  if (options.radius > 0) checkFits(mesh, name, options.radius);
   return options.radius > 0 ? decomposeAt(mesh, name, options, options.radius) : decomposeToCount(mesh, name, options);
 }
 

@@ -30,8 +30,8 @@ struct DecompositionOptions {
 /// any thread count.
 /// @param mesh  closed, outward, welded (see importMesh)
 /// @param name  kept in the result and named in errors
-/// Throws base::InputError when the options are out of range, the mesh is not closed, or the radius is too coarse or
-/// too fine for the part (more than 50 million lattice points).
+/// Throws base::InputError when the options are out of range, the mesh is not closed, or the radius is too coarse
+/// (above half the longest side of the bounding box) or too fine for the part (more than 50 million lattice points).
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options);
 
 } // namespace grouser::spheredecomp

@@ -35,12 +35,22 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   return welded;
 }
 
+namespace {
+
+void checkFinite(const TriangleMesh& mesh, const std::string& name) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (const Vec3d& v = mesh.vertices[i]; !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+      throw base::InputError(fmt::format("{}: the mesh has a vertex that is not finite, number {}: ({}, {}, {}) m; "
+                                         "repair it in a mesh editor",
+                                         name, i + 1, v.x, v.y, v.z));
+}
+
+} // namespace
+
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.indices.size() < 3)
     throw base::InputError(name + ": the mesh has no triangles; export it as a triangulated surface");
-  for (const Vec3d& v : mesh.vertices)
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-      throw base::InputError(name + ": the mesh has a vertex that is not finite; repair it in a mesh editor");
+  checkFinite(mesh, name);
 
   // Count directed edges; each must be met as often in the other direction.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;
@@ -84,6 +94,7 @@ TriangleMesh importMesh(const std::string& path) {
       if (const aiFace& face = part.mFaces[f]; face.mNumIndices == 3)
         for (unsigned k = 0; k < 3; ++k) mesh.indices.push_back(first + face.mIndices[k]);
   }
+  checkFinite(mesh, path); // before the weld, to which a NaN is equal to anything
   mesh = weld(mesh);
   checkClosed(mesh, path);
   return mesh;

@@ -180,12 +180,20 @@ std::string report(const SphereSet& set, const Quality& q) {
         "  {:<14} {:.3f} mm ({:.3f} mesh to set, {:.3f} set to mesh); rms {:.3f} mm, out of the mesh {:.3f} mm\n", name,
         1e3 * d.hausdorff(), 1e3 * d.meshToSet, 1e3 * d.setToMesh, 1e3 * d.rms, 1e3 * d.protrusion);
   };
+  double smallest = set.radius;
+  for (const SetSphere& s : set.spheres) smallest = std::min(smallest, s.radius);
+  const std::string shrunk =
+      smallest < 0.999 * set.radius
+          ? fmt::format("  smallest       radius {:.4g} mm: spheres shrink where the part is thin, and at its edges\n",
+                        1e3 * smallest)
+          : "";
   return fmt::format("{}: {} spheres ({} surface, {} interior), radius {:.4g} mm, spacing {:.4g} mm\n"
+                     "{}"
                      "  mesh           volume {:.6g} m3, outer area {:.6g} m2\n"
                      "  volume ratio   {:.4f} (union of spheres / mesh), area ratio {:.8f}\n"
                      "  Hausdorff distance to the mesh\n",
                      set.name, set.spheres.size(), q.surfaceCount, q.interiorCount, 1e3 * set.radius, 1e3 * set.spacing,
-                     set.meshVolume, set.meshArea, q.volumeRatio, q.areaRatio) +
+                     shrunk, set.meshVolume, set.meshArea, q.volumeRatio, q.areaRatio) +
          line("rounded discs", q.discs) + line("plain spheres", q.spheres);
 }
 

@@ -16,7 +16,7 @@ struct BoundaryLoad {
 };
 
 /// What stops a run; the smallest key (code, then grain id) is kept.
-enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, none = 255 };
+enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, range = 4, none = 255 };
 
 /// Written by the step, read by the host once a step.
 struct StepFlags {

@@ -127,7 +127,11 @@ private:
       const std::uint32_t j = d.neighbours.slot[at];
       const base::Vec3i apart = base::difference(p, d.position[j]);
       const std::int64_t distance2 = base::squaredNorm(apart);
-      if (distance2 >= d.diameterUnits2 || distance2 == 0) continue;
+      if (distance2 >= d.diameterUnits2) continue;
+      if (distance2 == 0) { // no direction to push in: the overlap alarm
+        sum.deepest = d.diameter;
+        continue;
+      }
       now |= std::uint64_t{1} << k;
       // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
       const float distance = sqrtf(static_cast<float>(distance2));
@@ -171,8 +175,10 @@ private:
       quanta += load.force;
       torque += load.torque.template as<double>();
       sum.dissipated += load.dissipated;
+      if (load.deepest > sum.deepest) sum.deepest = load.deepest;
     }
     force += d.loads.force.value(quanta);
+    for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
@@ -183,7 +189,7 @@ private:
     for (int a = 0; a < 3; ++a) {
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
       const double speed = addKeeping(v[a], rv, force[a] * d.stepPerMass + d.gravityStep[a]);
-      if (kFriction) addKeeping(w[a], rw, torque[a] * d.stepPerInertia);
+      if (kFriction || kLoads) addKeeping(w[a], rw, torque[a] * d.stepPerInertia);
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.
@@ -202,8 +208,13 @@ private:
 
     const float speed2 = dot(v, v);
     Fault fault = Fault::none;
+    constexpr std::int64_t kRange = std::int64_t{1} << 41;
+    const bool inside = moved.x >= -kRange && moved.x < kRange && moved.y >= -kRange && moved.y < kRange &&
+                        moved.z >= -kRange && moved.z < kRange;
     if (!(speed2 < 1e30f))
       fault = Fault::notANumber;
+    else if (!inside)
+      fault = Fault::range;
     else if (deepest > d.maxOverlap)
       fault = Fault::overlap;
     else if (speed2 > d.maxSpeed2)

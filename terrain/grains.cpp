@@ -3,8 +3,11 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
+#include <tuple>
 
 namespace grouser::terrain {
 
@@ -24,6 +27,21 @@ bool anyFriction(const GrainModel& model, const Boundaries& boundaries) {
 
 std::int64_t wholeUnits(double length, const base::PositionScale& scale) {
   return static_cast<std::int64_t>(std::floor(length * scale.perMetre + 0.5));
+}
+
+/// Throws InputError when two grains have the same place: no direction would push them apart.
+void checkDistinct(const std::vector<Position>& position) {
+  std::vector<std::size_t> order(position.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const Position& p = position[i];
+    return std::tuple(p.x, p.y, p.z, p.high);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (key(order[k - 1]) == key(order[k]))
+      throw base::InputError(fmt::format("grains {} and {} have the same position; move one of them",
+                                         std::min(order[k - 1], order[k]), std::max(order[k - 1], order[k])));
 }
 
 } // namespace
@@ -53,6 +71,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
     spin[i] = {w.x, w.y, w.z, 0};
     id[i] = static_cast<std::uint32_t>(i);
   }
+  checkDistinct(position);
   position_[0] = base::Array<Position>(exec, position);
   velocity_[0] = base::Array<Vec4f>(exec, velocity);
   spin_[0] = base::Array<Vec4f>(exec, spin);
@@ -106,6 +125,11 @@ void Grains::checkFlags() {
     throw base::SimulationError(fmt::format("{} overlaps by more than {:.3g} of its radius; use stiffer contacts "
                                             "(material stiffness) or a smaller time_step",
                                             where, model_.maxOverlap));
+  if (fault == Fault::range)
+    throw base::SimulationError(
+        fmt::format("{} leaves the range of positions, {:.6g} m from the origin; give the scene a "
+                    "floor or walls that hold it",
+                    where, scale_.limit()));
   if (fault == Fault::speed)
     throw base::SimulationError(fmt::format("{} moves at {:.4g} m/s, more than half the neighbour list's skin in one "
                                             "step; use a smaller time_step or a larger skin",
