@@ -85,9 +85,9 @@ std::size_t memoryTaken(const Exec& exec) {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
   }
 #if defined(__CUDACC__)
-  std::size_t free = 0, total = 0;
-  checkCuda(cudaMemGetInfo(&free, &total), "cudaMemGetInfo");
-  return total - free;
+  std::size_t unused = 0, total = 0;
+  checkCuda(cudaMemGetInfo(&unused, &total), "cudaMemGetInfo");
+  return total - unused;
 #else
   noCuda();
 #endif
