@@ -3,6 +3,7 @@
 #include "runs/bench.hpp"
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
+#include "runs/option_checks.hpp"
 #include "runs/scene.hpp"
 #include "runs/stop_signals.hpp"
 
@@ -26,9 +27,10 @@ void addRun(CLI::App& app, runs::RunCommand& c) {
   run->add_option("scene", c.scene, "scene file; `grouser fields` lists its keys")->required();
   run->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
   run->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
-  run->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it");
+  run->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
+      ->check(runs::wholeNumber(0, 1024));
   run->add_option("--out", c.folder, "folder of the results; default: out/NAME of the scene");
-  run->add_option("--steps", c.steps, "stop after so many steps of the drive")->check(CLI::PositiveNumber);
+  run->add_option("--steps", c.steps, "stop after so many steps of the drive")->check(runs::wholeNumber(1));
   run->add_flag("--force", c.force, "overwrite the results in that folder");
   CLI::Option* resume =
       run->add_option("--resume", c.checkpoint,
@@ -50,10 +52,11 @@ void addSweep(CLI::App& app, runs::SweepCommand& c) {
           "--set", c.sets,
           "a key and its values, e.g. driver.sprocket_speed=0.5,1,2; may be repeated: all combinations are run")
       ->allow_extra_args(false);
-  sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(CLI::Range(1, 1024));
+  sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(runs::wholeNumber(1, 1024));
   sweep->add_option("--out", c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
-  sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs");
+  sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
+      ->check(runs::wholeNumber(0, 1024));
   sweep->add_flag("--force", c.force, "run again what has already been run");
   sweep->callback([&c] { runs::sweepCommand(c); });
 }
@@ -63,31 +66,35 @@ void addBench(CLI::App& app, runs::BenchCommand& c) {
   bench->require_subcommand(1);
   const auto addCommon = [&c](CLI::App* sub) {
     sub->add_option("--device", c.device, "auto, cpu or cuda");
-    sub->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(CLI::Range(0, 1024));
+    sub->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(runs::wholeNumber(0, 1024));
     sub->add_option("--json", c.json, "write the figures to this file");
   };
   runs::BedBench& b = c.bed;
   CLI::App* bed =
       bench->add_subcommand("bed", "Grains alone: five settled layers in a box, the bed that figures are compared on");
-  bed->add_option("--grains", b.grains, "number of grains")->check(CLI::Range(1, 1'000'000'000))->capture_default_str();
-  bed->add_option("--radius", b.radius, "[m]")->check(CLI::PositiveNumber)->capture_default_str();
+  bed->add_option("--grains", b.grains, "number of grains")
+      ->check(runs::wholeNumber(1, 1'000'000'000))
+      ->capture_default_str();
+  bed->add_option("--radius", b.radius, "[m]")->check(runs::positive("a length in metres"))->capture_default_str();
   bed->add_option("--jitter", b.jitter, "of the lattice, as a share of its free gap [-]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   bed->add_option("--friction", b.friction, "Coulomb coefficient [-]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(runs::notNegative("a number"))
       ->capture_default_str();
   bed->add_option("--restitution", b.restitution, "[-], above 0")->check(CLI::Range(1e-3, 1.0))->capture_default_str();
-  bed->add_option("--stiffness", b.stiffness, "[N/m]")->check(CLI::PositiveNumber)->capture_default_str();
+  bed->add_option("--stiffness", b.stiffness, "[N/m]")
+      ->check(runs::positive("a stiffness in N/m"))
+      ->capture_default_str();
   bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
       ->check(CLI::Range(1e-3, 4.0))
       ->capture_default_str();
-  bed->add_option("--time-step", b.timeStep, "[s]")->check(CLI::PositiveNumber)->capture_default_str();
+  bed->add_option("--time-step", b.timeStep, "[s]")->check(runs::positive("a time in seconds"))->capture_default_str();
   bed->add_option("--settle", b.settleTime, "simulated time before timing [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(runs::notNegative("a time in seconds"))
       ->capture_default_str();
-  bed->add_option("--steps", b.steps, "of one batch; default: about a second's")->check(CLI::PositiveNumber);
-  bed->add_option("--batches", b.batches, "timed batches")->check(CLI::Range(1, 1000))->capture_default_str();
+  bed->add_option("--steps", b.steps, "of one batch; default: about a second's")->check(runs::wholeNumber(1));
+  bed->add_option("--batches", b.batches, "timed batches")->check(runs::wholeNumber(1, 1000))->capture_default_str();
   bed->add_flag("--ledger", b.ledger, "sum dissipation grain by grain, as runs do");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(bed);
@@ -96,10 +103,12 @@ void addBench(CLI::App& app, runs::BenchCommand& c) {
   CLI::App* step = bench->add_subcommand("step", "Where each microsecond of a scene's step goes");
   step->add_option("scene", c.scene, "scene file")->required();
   step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
-  step->add_option("--steps", c.step.steps, "of one batch")->check(CLI::PositiveNumber)->capture_default_str();
-  step->add_option("--batches", c.step.batches, "timed batches")->check(CLI::Range(1, 1000))->capture_default_str();
-  step->add_option("--after", c.step.after,
-                   "simulated time before timing [s]; default: until the drive is up to speed");
+  step->add_option("--steps", c.step.steps, "of one batch")->check(runs::wholeNumber(1))->capture_default_str();
+  step->add_option("--batches", c.step.batches, "timed batches")
+      ->check(runs::wholeNumber(1, 1000))
+      ->capture_default_str();
+  step->add_option("--after", c.step.after, "simulated time before timing [s]; default: until the drive is up to speed")
+      ->check(runs::notNegative("a time in seconds"));
   addCommon(step);
   step->callback([&c] { runs::benchStepCommand(c); });
 }
@@ -124,9 +133,10 @@ void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, run
 
   CLI::App* spheres = app.add_subcommand("spheres", "Cut a closed mesh into spheres, and say how well they fit");
   spheres->add_option("mesh", d.mesh, "OBJ, STL, PLY... in metres")->required();
-  CLI::Option* radius = spheres->add_option("--radius", d.radius, "sphere radius [m]")->check(CLI::PositiveNumber);
+  CLI::Option* radius =
+      spheres->add_option("--radius", d.radius, "sphere radius [m]")->check(runs::positive("a length in metres"));
   CLI::Option* count = spheres->add_option("--count", d.count, "wanted number of spheres, instead of a radius")
-                           ->check(CLI::PositiveNumber);
+                           ->check(runs::wholeNumber(1));
   radius->excludes(count);
   spheres->add_option("--csv", d.csv, "write the spheres to this file: x, y, z, radius [m]");
   spheres->add_flag("--force", d.force, "overwrite that file");
@@ -182,6 +192,8 @@ int main(int argc, char** argv) {
   addBench(app, bench);
   addHash(app, hash);
   addOthers(app, sinkage, plan, spheres);
+  if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())
+    return fail(kInput, unknown.c_str());
   try {
     app.parse(argc, argv);
     return 0;

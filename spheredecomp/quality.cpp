@@ -184,8 +184,7 @@ std::string report(const SphereSet& set, const Quality& q) {
   for (const SetSphere& s : set.spheres) smallest = std::min(smallest, s.radius);
   const std::string shrunk =
       smallest < 0.999 * set.radius
-          ? fmt::format("  smallest       radius {:.4g} mm: spheres shrink where the part is thin, and at its edges\n",
-                        1e3 * smallest)
+          ? fmt::format("  smallest       radius {:.4g} mm: spheres shrink where the part is thin\n", 1e3 * smallest)
           : "";
   return fmt::format("{}: {} spheres ({} surface, {} interior), radius {:.4g} mm, spacing {:.4g} mm\n"
                      "{}"

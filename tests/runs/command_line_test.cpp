@@ -39,9 +39,10 @@ protected:
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome call(const std::string& words) const {
+  /// `before`: for the shell, to do first.
+  Outcome call(const std::string& words, const std::string& before = "") const {
     const std::string command =
-        "cd '" + folder_.string() + "' && '" + program_.string() + "' " + words + " >out.txt 2>err.txt";
+        "cd '" + folder_.string() + "' && " + before + "'" + program_.string() + "' " + words + " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
   }
@@ -53,6 +54,15 @@ protected:
         << more
         << "[material.glass]\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
            "[output]\nplots = false\npicture_width = 64\n";
+  }
+
+  /// A cube of 0.1 m.
+  void writeCube() const {
+    std::ofstream file(folder_ / "cube.obj");
+    for (const char* x : {"-0.05", "0.05"})
+      for (const char* y : {"-0.05", "0.05"})
+        for (const char* z : {"-0.05", "0.05"}) file << "v " << x << ' ' << y << ' ' << z << '\n';
+    file << "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
   }
 
   fs::path program_, folder_;
@@ -86,6 +96,50 @@ TEST_F(CommandLine, WrongWordsEndWithTwoAndOneLine) {
     EXPECT_EQ(std::count(o.errors.begin(), o.errors.end(), '\n'), 1) << words << "\n" << o.errors;
     EXPECT_FALSE(fs::exists(folder_ / "out")) << words;
   }
+}
+
+TEST_F(CommandLine, WrongNumberNamesOptionValueAndRange) {
+  writeGrain();
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"run grain.toml --steps -1", "--steps: -1 is not a whole number of at least 1"},
+      {"run grain.toml --steps abc", "--steps: abc is not a whole number of at least 1"},
+      {"run grain.toml --steps 1.5", "--steps: 1.5 is not a whole number of at least 1"},
+      {"run grain.toml --threads 2000", "--threads: 2000 is not a whole number from 0 to 1024"},
+      {"spheres x.obj --radius -1", "--radius: -1 is not a length in metres above 0"},
+      {"spheres x.obj --radius inf", "--radius: inf is not a length in metres above 0"},
+      {"spheres x.obj --count 0", "--count: 0 is not a whole number of at least 1"}};
+  for (const auto& [words, message] : mistakes) {
+    const Outcome o = call(words);
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_NE(o.errors.find(message), std::string::npos) << o.errors;
+  }
+}
+
+TEST_F(CommandLine, UnknownCommandNamesTheNearest) {
+  EXPECT_NE(call("spheers x.obj").errors.find("\"spheers\" is no command; did you mean \"spheres\"?"),
+            std::string::npos);
+  EXPECT_NE(call("bench stp").errors.find("\"bench stp\" is no command; did you mean \"bench step\"?"),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, SpheresAreNotWrittenOverAFileUnlessForced) {
+  writeCube();
+  std::ofstream(folder_ / "s.csv") << "precious";
+  const Outcome refused = call("spheres cube.obj --radius 0.02 --csv s.csv");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.errors.find("--force"), std::string::npos) << refused.errors;
+  EXPECT_EQ(contents(folder_ / "s.csv"), "precious");
+  EXPECT_EQ(call("spheres cube.obj --radius 0.02 --csv s.csv --force").code, 0);
+  EXPECT_EQ(contents(folder_ / "s.csv").rfind("x [m],y [m],z [m],radius [m]\n", 0), 0u);
+}
+
+TEST_F(CommandLine, FullDiskIsSaidAndLeavesNoPart) {
+  writeCube();
+  // Files of at most 512 bytes: the write fails in the middle, as on a full disk.
+  const Outcome o = call("spheres cube.obj --radius 0.01 --csv s.csv", "trap '' XFSZ; ulimit -f 1; ");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.errors.find("s.csv: could not be written whole; is the disk full?"), std::string::npos) << o.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "s.csv"));
 }
 
 TEST_F(CommandLine, BrokenSceneEndsWithTwoAndTouchesNothing) {

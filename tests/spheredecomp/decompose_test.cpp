@@ -187,6 +187,12 @@ TEST(Decompose, BadOptions_AreInputErrors) {
   EXPECT_THROW(decompose(testBox(), "part", options), base::InputError);
   options.radius = 1e-5; // 7.7e12 lattice points
   EXPECT_THROW(decompose(testBox(), "part", options), base::InputError);
+  const auto [low, high] = bounds(testBox());
+  const double half = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  options.radius = 1.01 * half;
+  EXPECT_THROW(decompose(testBox(), "part", options), base::InputError);
+  options.radius = half;
+  EXPECT_NO_THROW(decompose(testBox(), "part", options));
   options.radius = 0.01;
   options.spacingRatio = 3;
   EXPECT_THROW(decompose(testBox(), "part", options), base::InputError);

@@ -68,6 +68,8 @@ TEST(ImportMesh, BadFiles_GiveOneClearError) {
   EXPECT_NE(messageOf(text.path).find(text.path), std::string::npos);
   const File inward("grouser_inward.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
   EXPECT_NE(messageOf(inward.path).find("inwards"), std::string::npos) << messageOf(inward.path);
+  const File nan("grouser_nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  EXPECT_NE(messageOf(nan.path).find("not finite, number"), std::string::npos) << messageOf(nan.path);
 }
 
 TEST(Winding, Cube_IsOneInsideAndZeroOutside) {

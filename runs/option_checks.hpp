@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+/// What the words of the command line may be, said in one line: "--steps: -1 is not a whole number of at least 1".
+namespace grouser::runs {
+
+/// A whole number in [low, high].
+CLI::Validator wholeNumber(std::int64_t low, std::int64_t high = std::numeric_limits<std::int64_t>::max());
+
+/// A finite number above 0; `what` names it and its unit: "a length in metres".
+CLI::Validator positive(const std::string& what);
+
+/// A finite number of at least 0.
+CLI::Validator notNegative(const std::string& what);
+
+/// The message for a first word, or one after a command of commands, that is no command: it names the nearest. Empty
+/// where there is none such.
+std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
+
+} // namespace grouser::runs
