@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The energy ledger: what went in, where it is, what does not balance."""
+"""The energy ledger, as changes since the first step of the run: what went in, where it is, what does not balance."""
 from matplotlib.figure import Figure
 
 import series
@@ -7,26 +7,27 @@ import series
 TERMS = (
     ("drive_work", "work of the drives", "black"),
     ("kinetic", "kinetic", "tab:blue"),
-    ("potential", "potential, since the start", "tab:green"),
+    ("potential", "potential", "tab:green"),
     ("elastic", "elastic", "tab:orange"),
     ("dissipated", "dissipated", "tab:red"),
 )
 
 
 def plot(run):
-    terms = [(run.get(f"ledger/{name}"), name, label, colour) for name, label, colour in TERMS]
+    terms = [(run.get(f"ledger/{name}"), label, colour) for name, label, colour in TERMS]
     terms = [term for term in terms if series.finite(term[0])]
     if not terms:
         return None
     figure = Figure(figsize=(8.0, 6.5))
     energy, rest = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
-    for values, name, label, colour in terms:
-        energy.plot(run.time, values - values[0] if name == "potential" else values, color=colour, label=label)
-    energy.set_ylabel("energy [J]")
+    for values, label, colour in terms:
+        energy.plot(run.time, values, color=colour, label=label)
+    energy.set_title("Changes since the first step of the run")
+    energy.set_ylabel("change of energy [J]")
     energy.legend(loc="upper left")
     residual = run.get("ledger/residual")
     if series.finite(residual):
         rest.plot(run.time, residual, color="tab:purple")
-    rest.set_ylabel("residual [J]")
+    rest.set_ylabel("sum minus work [J]")
     rest.set_xlabel("time [s]")
     return figure

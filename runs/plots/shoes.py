@@ -2,6 +2,7 @@
 """Heights of four consecutive shoes, and the sinkage of all."""
 import numpy
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 import series
 
@@ -43,49 +44,80 @@ def choose_four(heights, sinkage):
     return (best[1], best[2]) if best and best[0][2] > 0 else None
 
 
+def key_of(line_styles):
+    """Handles for a legend that explains widths, in grey, whatever the colours."""
+    return [Line2D([], [], color="0.3", label=label, **style) for label, style in line_styles]
+
+
+CARRYING = {"linewidth": 2.2}
+OFF_GROUND = {"linewidth": 0.9, "alpha": 0.5}
+
+
+def say_empty(axis):
+    """Instead of curves."""
+    axis.text(0.5, 0.5, "no shoe on the ground run and carrying\nat any output time", ha="center", va="center",
+              transform=axis.transAxes)
+
+
 def heights(run):
     pads, sinkage = run.shoes("pad_height"), run.shoes("sinkage")
-    chosen = choose_four(pads, sinkage) if pads and sinkage and pads.keys() >= sinkage.keys() else None
-    if chosen is None:
+    if not pads or not sinkage or not pads.keys() >= sinkage.keys():
         return None
-    side, four = chosen
+    chosen = choose_four(pads, sinkage)
     figure = Figure(figsize=(8.0, 6.5))
+    if chosen is None:
+        say_empty(figure.subplots())
+        return figure
+    side, four = chosen
     whole, close = figure.subplots(2, 1, sharex=True)
     level = []
     for shoe in four:
         height, on_ground = pads[side][:, shoe], numpy.isfinite(sinkage[side][:, shoe])
-        (line,) = whole.plot(run.time, height, label=f"{side} {shoe}")
-        close.plot(run.time, height, color=line.get_color(), alpha=0.4, linewidth=0.9)
-        close.plot(run.time, numpy.where(on_ground, height, numpy.nan), color=line.get_color(), linewidth=1.8)
+        (line,) = whole.plot(run.time, height, **OFF_GROUND)
+        for axis in (whole, close):
+            axis.plot(run.time, numpy.where(on_ground, height, numpy.nan), color=line.get_color(), **CARRYING,
+                      label=f"shoe {shoe}")
+        close.plot(run.time, height, color=line.get_color(), **OFF_GROUND)
         level.append(height[on_ground])
     level = numpy.concatenate(level)
     margin = max(0.003, 0.6 * float(numpy.ptp(level)))
     close.set_ylim(level.min() - margin, level.max() + margin)
     whole.set_ylabel("pad height [m]")
-    whole.set_title("Four consecutive shoes over the ground run and up the sprocket")
+    whole.set_title(f"Four consecutive shoes of the {side} track")
     whole.legend(ncol=4, loc="upper left")
+    close.legend(handles=key_of((("on the ground run and carrying", CARRYING), ("off it", OFF_GROUND))), ncol=2,
+                 loc="lower center", bbox_to_anchor=(0.5, 1.0))
     close.set_ylabel("pad height [m], close-up")
     close.set_xlabel("time [s]")
     return figure
 
 
+DEFINITION = ("Sinkage: undisturbed surface of the bed minus the pad plate's lowest point; "
+              "negative while grousers carry the pad above the surface")
+
+
 def sinkage(run):
-    tracks = {side: values for side, values in run.shoes("sinkage").items() if series.finite(values)}
+    tracks = {side: values for side, values in run.shoes("sinkage").items() if len(values)}
     if not tracks:
         return None
-    figure = Figure(figsize=(8.0, 5.0))
+    figure = Figure(figsize=(9.0, 5.0))
     axes = figure.subplots(1, len(tracks), sharey=True, squeeze=False)[0]
     for axis, (side, values) in zip(axes, tracks.items()):
-        axis.plot(run.time, 1000 * values, color="tab:blue", alpha=0.25, linewidth=0.8)
-        some = numpy.isfinite(values).any(axis=1)
-        mean = numpy.full(len(run.time), numpy.nan)
-        mean[some] = numpy.nanmean(values[some], axis=1)
-        axis.plot(run.time, 1000 * mean, color="black", label="mean of the shoes on the ground run")
         axis.set_title(f"{side} track")
         axis.set_xlabel("time [s]")
-        axis.legend(loc="lower right")
+        some = numpy.isfinite(values).any(axis=1)
+        if not some.any():
+            axis.set_xlim(run.time[0], max(run.time[-1], run.time[0] + 1e-9))
+            say_empty(axis)
+            continue
+        shoes = axis.plot(run.time, 1000 * values, color="tab:blue", alpha=0.25, linewidth=0.8)
+        shoes[0].set_label("single shoes on the ground run")
+        mean = numpy.full(len(run.time), numpy.nan)
+        mean[some] = numpy.nanmean(values[some], axis=1)
+        axis.plot(run.time, 1000 * mean, color="black", label="their mean")
+        for line in axis.legend(loc="lower right").get_lines():
+            line.set_alpha(1)
     axes[0].set_ylabel("sinkage [mm]")
     axes[0].invert_yaxis()
-    if all(numpy.nanmax(values) < 0 for values in tracks.values()):
-        figure.suptitle("Below zero: grousers carry the pads above the surface", fontsize=9)
+    figure.suptitle(DEFINITION, fontsize=9)
     return figure

@@ -72,6 +72,24 @@ TEST_F(Plots, AreDrawnOrSayWhatToInstall) {
   for (const fs::path& plot : drawn) EXPECT_GT(fs::file_size(plot), 10000u) << plot;
 }
 
+TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
+  const fs::path hanging = folder_ / "hanging";
+  const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},
+                                         {"vehicle/left/pad_height", "m", "", kShoes, {}}};
+  {
+    RunWriter writer(hanging, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    RowBuilder row(channels);
+    row.begin(0, 0); // all NaN
+    writer.row(row.row());
+    writer.finish({});
+  } // closes the file
+  std::string warning;
+  const std::vector<fs::path> drawn = drawPlots(hanging / "results.h5", hanging, {"sinkage", "shoe_heights"}, warning);
+  if (warning.find("install python3") != std::string::npos) GTEST_SKIP() << warning;
+  EXPECT_EQ(warning, "");
+  EXPECT_EQ(drawn.size(), 2u);
+}
+
 TEST_F(Plots, WithoutScriptsAreAWarning) {
   setenv("GROUSER_SHARE", "/nonexistent", 1);
   std::string warning;
