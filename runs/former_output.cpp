@@ -26,8 +26,8 @@ std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& ch
     std::vector<Row> rows;
     const std::vector<std::int64_t> steps = file.read<std::int64_t>("/series/step");
     const std::vector<double> times = file.read<double>("/series/time");
-    for (std::size_t i = 0; i < std::min(steps.size(), times.size()) && steps[i] <= step; ++i)
-      rows.push_back({steps[i], times[i], {}});
+    const std::size_t most = std::min({steps.size(), times.size(), static_cast<std::size_t>(count)});
+    for (std::size_t i = 0; i < most && steps[i] <= step; ++i) rows.push_back({steps[i], times[i], {}});
     if (static_cast<std::int64_t>(rows.size()) != count)
       refuse(fmt::format("holds {} rows up to step {}, where the checkpoint counted {}", rows.size(), step, count));
     for (const Channel& c : channels) {
@@ -53,7 +53,7 @@ void checkFrames(const fs::path& folder, std::int64_t step, std::int64_t count) 
   } catch (const base::InputError&) {
     found = -1;
   }
-  if (found != count)
+  if (found < count)
     throw base::InputError(fmt::format("{}: does not hold the {} frames up to step {} that the checkpoint counted; "
                                        "bring back the file that the run wrote, or go on without them by --force",
                                        (folder / "frames.h5").string(), count, step));

@@ -87,8 +87,7 @@ FramesFile::FramesFile(const std::filesystem::path& folder, Hdf5File file, std::
 }
 
 FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
-                            const base::TriangleMesh& ground, std::int64_t lastStep) {
-  const std::int64_t kept = framesUpTo(folder, lastStep);
+                            const base::TriangleMesh& ground, std::int64_t kept) {
   FramesFile frames(folder, Hdf5File::openToChange(folder / "frames.h5"), std::move(parts), ground);
   for (std::int64_t i = 0; frames.file_.has(groupOf(i)); ++i) {
     const std::string group = groupOf(i);

@@ -19,9 +19,9 @@ namespace grouser::runs {
 class FramesFile {
 public:
   FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground);
-  /// Goes on with the files of a stopped run of the same parts and ground: frames after `lastStep` are removed.
+  /// Goes on with the files of a stopped run of the same parts and ground: all but the first `kept` frames are removed.
   static FramesFile goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
-                         const base::TriangleMesh& ground, std::int64_t lastStep);
+                         const base::TriangleMesh& ground, std::int64_t kept);
   /// How many frames the folder holds up to and with `lastStep`. Throws base::InputError where there is no such file.
   static std::int64_t framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep);
 

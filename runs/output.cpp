@@ -194,10 +194,9 @@ void RunWriter::constant(const std::string& path, const std::string& unit, doubl
 void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground) {
   Impl& w = *impl_;
   if (!w.options.frames) return;
-  if (w.options.former && w.options.former->frames) {
-    const std::int64_t last = w.options.former->lastStep;
-    w.framesAdded = FramesFile::framesUpTo(w.folder, last);
-    w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, last));
+  if (w.options.former && w.options.former->frames > 0) {
+    w.framesAdded = w.options.former->frames;
+    w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, w.framesAdded));
   } else {
     w.frames.emplace(w.folder, std::move(parts), ground);
   }

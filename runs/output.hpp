@@ -69,9 +69,8 @@ void checkOutputFolder(const std::filesystem::path& folder, bool force);
 
 /// What a resumed run keeps of the folder it goes on with; what came later is cut off.
 struct FormerOutput {
-  std::vector<Row> rows;     ///< to begin the new files with
-  bool frames = false;       ///< whether frames.h5 is kept
-  std::int64_t lastStep = 0; ///< of those frames
+  std::vector<Row> rows;   ///< to begin the new files with
+  std::int64_t frames = 0; ///< kept of frames.h5; 0: it is begun anew
 };
 
 /// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.

@@ -166,8 +166,8 @@ private:
     const std::int64_t step = former->state.steps;
     w.metadata["resumed_from_step"] = std::to_string(step);
     try {
-      FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames > 0, step};
-      if (w.frames && kept.frames) checkFrames(options.folder, step, former->frames);
+      FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames};
+      if (w.frames && kept.frames > 0) checkFrames(options.folder, step, former->frames);
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
@@ -283,10 +283,11 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
       progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
                       fmt::format("t {:.3f} of {:g} s", simulation.time(), static_cast<double>(total) * dt));
   }
+  // Before the last row: a run that goes on from here does not have it.
+  checkpoints.write(simulation, recorder.writer());
   // The end is always written, whether or not the intervals meet it.
   if (simulation.steps() % rowEvery != 0) recorder.row();
   if (simulation.steps() % frameEvery != 0) recorder.frame();
-  checkpoints.write(simulation, recorder.writer());
   progress.finish(fmt::format("{} steps", simulation.steps()));
 }
 

@@ -105,12 +105,12 @@ protected:
                              "/ledger/residual/value", "/ledger/impulse_residual/value", "/terrain/max_overlap/step"})
       EXPECT_EQ(bits(a.numbers(name)), bits(b.numbers(name))) << name;
     const Hdf5File p = Hdf5File::open(folder_ / "frames.h5"), q = Hdf5File::open(whole / "frames.h5");
-    for (int i = 0; i < 7; ++i)
+    for (int i = 0; i < 8; ++i)
       for (const char* name : {"position", "speed"}) {
         const std::string dataset = "/00000" + std::to_string(i) + "/grains/" + name;
         EXPECT_EQ(p.numbers(dataset), q.numbers(dataset)) << dataset;
       }
-    EXPECT_FALSE(p.has("/000007"));
+    EXPECT_FALSE(p.has("/000008"));
     const Checkpoint c = readCheckpoint(folder_ / kCheckpointName), d = readCheckpoint(whole / kCheckpointName);
     EXPECT_EQ(c.state.hash(), d.state.hash());
     EXPECT_EQ(c.rows, d.rows);
@@ -137,6 +137,16 @@ TEST_F(ResumedRun, RowsAndFramesAfterTheCheckpointAreCut) {
   // As after a kill at step 1710 or later whose last checkpoint was of step 850.
   fs::rename(root_ / "earlier.h5", folder_ / kCheckpointName);
   EXPECT_EQ(resume(bed()).stateHash, hash);
+  expectSameFolders();
+}
+
+TEST_F(ResumedRun, LastRowAndFrameOfAShorterRunAreCut) {
+  const std::string hash = straight();
+  run(folder_, bed(), 1234);
+  ASSERT_EQ(Hdf5File::open(folder_ / "results.h5").numbers("/series/step").back(), 1234) << "a row for its own end";
+  EXPECT_EQ(resume(bed()).stateHash, hash);
+  expectSameFolders();
+  EXPECT_EQ(resume(bed()).stateHash, hash) << "nothing left to do";
   expectSameFolders();
 }
 
