@@ -36,6 +36,7 @@ template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/energy_at_start", s.energyAtStart);
+  archive("/most_put_in", s.mostPutIn);
   archive("/settled/time", s.settled.time);
   archive("/settled/agitation", s.settled.agitation);
   archive("/settled/steps", s.settled.steps);
@@ -68,6 +69,8 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/bed/sums", v.bed.sums);
     archive("/vehicle/ground_forces", v.groundForces);
     archive("/vehicle/mean_steps", v.meanSteps);
+    archive("/vehicle/alarm_forces", v.alarmForces);
+    archive("/vehicle/alarm_steps", v.alarmSteps);
     archive("/vehicle/impulse_on_parts", v.impulseOnParts);
   }
 }

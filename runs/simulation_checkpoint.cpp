@@ -19,7 +19,8 @@ SimulationState Simulation::save() const {
   SimulationState state;
   state.steps = steps_;
   state.settled = settled_;
-  state.energyAtStart = {start_.kinetic, start_.potential, start_.elastic, start_.dissipated, mostPutIn_};
+  state.energyAtStart = {start_.kinetic, start_.potential, start_.elastic, start_.dissipated};
+  state.mostPutIn = mostPutIn_;
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
   if (vehicle_) state.vehicle = vehicle_->save();
@@ -31,7 +32,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
       settled_(state.settled), steps_(state.steps) {
   const bool bed = ground_.grains && ground_.walls;
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
-      state.vehicle.has_value() != scene.vehicle.has_value() || state.energyAtStart.size() != 5)
+      state.vehicle.has_value() != scene.vehicle.has_value() || state.energyAtStart.size() != 4)
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (bed) keepSurface(ground_, state.surface);
   surface_ = surfaceHeight(ground_);
@@ -46,7 +47,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
   }
   const std::vector<double>& e = state.energyAtStart;
   start_.kinetic = e[0], start_.potential = e[1], start_.elastic = e[2], start_.dissipated = e[3];
-  mostPutIn_ = e[4];
+  mostPutIn_ = state.mostPutIn;
 }
 
 } // namespace grouser::runs

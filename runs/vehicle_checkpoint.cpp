@@ -28,12 +28,14 @@ VehicleState VehicleRig::save() const {
   if (bed_) s.bed = bed_->save();
   s.groundForces = groundForceSums_;
   s.meanSteps = meanSteps_;
+  s.alarmForces = alarmForceSums_;
+  s.alarmSteps = alarmSteps_;
   s.impulseOnParts = impulseOnParts_;
   return s;
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  if (!s.groundForces.empty() && s.groundForces.size() != contactParts_.size())
+  if (s.groundForces.size() > contactParts_.size() || s.alarmForces.size() > contactParts_.size())
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);
@@ -42,6 +44,8 @@ void VehicleRig::restore(const VehicleState& s) {
   if (bed_) bed_->restore(s.bed);
   groundForceSums_ = s.groundForces;
   meanSteps_ = s.meanSteps;
+  alarmForceSums_ = s.alarmForces;
+  alarmSteps_ = s.alarmSteps;
   impulseOnParts_ = s.impulseOnParts;
   // The lists belong to another place: the next step makes them anew.
   relativeTravel_ = absoluteTravel_ = kNeverListed;

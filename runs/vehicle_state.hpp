@@ -16,9 +16,11 @@ struct VehicleState {
   contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it
   contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
 
-  // Sums for output, in quanta of force.
+  // Sums for output and alarm, in quanta of force.
   std::vector<base::Vec3l> groundForces; ///< by part, since the last row
   std::int64_t meanSteps{};              ///< of that sum
+  std::vector<base::Vec3l> alarmForces;  ///< by part, since the last look at the track
+  std::int64_t alarmSteps{};             ///< of that sum
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
 
   /// For the hash: what the next step depends on.

@@ -76,7 +76,7 @@ TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
 
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
   for (const char* command :
-       {"", "run", "sweep", "bench", "bench bed", "bench step", "sinkage", "plan", "spheres", "fields"}) {
+       {"", "run", "sweep", "bench", "bench bed", "bench step", "hash", "sinkage", "plan", "spheres", "fields"}) {
     const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;
@@ -187,6 +187,61 @@ TEST_F(CommandLine, ResolvedSceneRunsToTheSameHash) {
   ASSERT_EQ(second.code, 0) << second.errors;
   const auto hash = [](const Outcome& o) { return o.out.substr(o.out.rfind("state-hash")); };
   EXPECT_EQ(hash(first), hash(second));
+}
+
+TEST_F(CommandLine, HashOfTheCheckpointIsTheHashOfTheRun) {
+  writeGrain();
+  const Outcome run = call("run grain.toml --hash");
+  ASSERT_EQ(run.code, 0) << run.errors;
+  const Outcome hash = call("hash out/grain/checkpoint.h5");
+  EXPECT_EQ(hash.code, 0) << hash.errors;
+  EXPECT_EQ(hash.out, run.out.substr(run.out.rfind("state-hash")));
+}
+
+TEST_F(CommandLine, ResumeFindsTheCheckpointByFolderOrByName) {
+  writeGrain();
+  const Outcome whole = call("run grain.toml --hash --out whole");
+  ASSERT_EQ(whole.code, 0) << whole.errors;
+  const auto hash = [](const Outcome& o) { return o.out.substr(o.out.rfind("state-hash")); };
+  ASSERT_EQ(call("run grain.toml --steps 40").code, 0);
+  EXPECT_EQ(hash(call("run grain.toml --resume --steps 70 --hash")).substr(27), "step 70\n");
+  EXPECT_EQ(hash(call("run grain.toml --resume out/grain/checkpoint.h5 --hash")), hash(whole));
+  EXPECT_EQ(contents(folder_ / "out/grain/timeseries.csv"), contents(folder_ / "whole/timeseries.csv"));
+  const Outcome filled = call("run grain.toml");
+  EXPECT_NE(filled.errors.find("go on with --resume"), std::string::npos) << filled.errors;
+}
+
+TEST_F(CommandLine, ResumeOfWhatIsNotThereEndsWithTwo) {
+  writeGrain();
+  ASSERT_EQ(call("run grain.toml --out a").code, 0);
+  for (const char* words :
+       {"run grain.toml --resume", "run grain.toml --resume nosuch.h5", "run grain.toml --resume grain.toml",
+        "run grain.toml --resume a/results.h5", "run grain.toml --out b --resume a/checkpoint.h5",
+        "run grain.toml --out a --resume --set run.gravity=[0,0,-1]", "hash a/results.h5", "hash"}) {
+    const Outcome o = call(words);
+    EXPECT_EQ(o.code, 2) << words << "\n" << o.errors;
+    EXPECT_EQ(std::count(o.errors.begin(), o.errors.end(), '\n'), 1) << words << "\n" << o.errors;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_FALSE(fs::exists(folder_ / "b"));
+}
+
+TEST_F(CommandLine, TerminatedRunEndsWith143AndIsResumed) {
+  writeGrain("long.toml");
+  const std::string scene = "run long.toml --set run.duration=100 --set output.frames=false --out run";
+  std::ofstream(folder_ / "stop.sh")
+      << "'" << program_.string() << "' " << scene
+      << " >stopped.txt 2>&1 & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; "
+         "done\nkill -TERM $pid\nwait $pid\nexit $?\n";
+  const int status = std::system(("cd '" + folder_.string() + "' && sh stop.sh").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 143) << contents(folder_ / "stopped.txt");
+  EXPECT_NE(contents(folder_ / "stopped.txt").find("grouser: stopped by SIGTERM"), std::string::npos);
+  const Outcome at = call("hash run/checkpoint.h5");
+  ASSERT_EQ(at.code, 0) << at.errors;
+  const long long step = std::stoll(at.out.substr(at.out.rfind(' ')));
+  const Outcome on = call(scene + " --resume --hash --steps " + std::to_string(step + 100));
+  ASSERT_EQ(on.code, 0) << on.errors;
+  EXPECT_NE(on.out.find(" step " + std::to_string(step + 100) + "\n"), std::string::npos) << on.out;
 }
 
 TEST_F(CommandLine, PlanRunsNothing) {

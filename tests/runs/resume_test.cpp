@@ -70,8 +70,8 @@ constexpr std::int64_t kEnd = 2000;
 class ResumedRun : public testing::Test {
 protected:
   void SetUp() override {
-    root_ = fs::path(testing::TempDir()) /
-            ("grouser_resume_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    root_ = fs::path(testing::TempDir()) / ("grouser_resume_" + std::to_string(getpid()) +
+                                            std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(root_);
     fs::create_directories(root_);
     folder_ = root_ / "resumed";
