@@ -204,7 +204,7 @@ TEST_F(CommandLine, ResumeFindsTheCheckpointByFolderOrByName) {
   ASSERT_EQ(whole.code, 0) << whole.errors;
   const auto hash = [](const Outcome& o) { return o.out.substr(o.out.rfind("state-hash")); };
   ASSERT_EQ(call("run grain.toml --steps 40").code, 0);
-  EXPECT_EQ(hash(call("run grain.toml --resume --steps 70 --hash")).substr(27), "step 70\n");
+  EXPECT_EQ(hash(call("run grain.toml --resume --steps 70 --hash")).substr(28), "step 70\n");
   EXPECT_EQ(hash(call("run grain.toml --resume out/grain/checkpoint.h5 --hash")), hash(whole));
   EXPECT_EQ(contents(folder_ / "out/grain/timeseries.csv"), contents(folder_ / "whole/timeseries.csv"));
   const Outcome filled = call("run grain.toml");
