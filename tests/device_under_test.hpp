@@ -15,4 +15,12 @@ inline base::Exec testExec(int threads = 1) {
   return device && std::string(device) == "cuda" ? base::cudaExec() : base::cpuExec(threads);
 }
 
+#ifdef GROUSER_SOURCE_DIR
+/// A scene of tests/scenes: in the sources, which GROUSER_TEST_SOURCE names where they have moved since the build.
+inline std::string testScene(const std::string& name) {
+  const char* moved = std::getenv("GROUSER_TEST_SOURCE");
+  return std::string(moved ? moved : GROUSER_SOURCE_DIR) + "/tests/scenes/" + name;
+}
+#endif
+
 } // namespace grouser

@@ -17,8 +17,6 @@ namespace {
 /// the physics or of its order of operations, and needs a stated reason in the commit.
 constexpr const char* kCoupledHash = "743431732dce7e4c";
 
-std::string testScene(const std::string& name) { return std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + name; }
-
 void quiet(double, double) {}
 
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {}) {
