@@ -175,7 +175,9 @@ private:
       quanta += load.force;
       torque += load.torque.template as<double>();
       sum.dissipated += load.dissipated;
-      if (load.deepest > sum.deepest) sum.deepest = load.deepest;
+      // Stones do get caught between tooth and track: a part may press a grain deeper than grains may press each other,
+      // but not to its middle.
+      if (load.deepest > d.radius) sum.deepest = load.deepest;
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
