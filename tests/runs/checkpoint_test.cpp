@@ -6,6 +6,7 @@
 #include "runs/hdf5_file.hpp"
 #include "runs/sealed_file.hpp"
 #include "runs/simulation.hpp"
+#include "tests/device_under_test.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +93,7 @@ protected:
 /// the two at `end`.
 void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector<std::string> overrides,
                      const base::Exec& exec, std::int64_t stop, std::int64_t end) {
-  const std::string file = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + scene;
+  const std::string file = testScene(scene);
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
                                           "driver.drive_ramp=0.02"};
   overrides.insert(overrides.end(), ramps.begin(), ramps.end());
