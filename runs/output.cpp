@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <fmt/os.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <optional>
@@ -60,7 +61,16 @@ std::string dotted(std::string path) {
 
 void checkOutputFolder(const fs::path& folder, bool force) {
   std::error_code error;
-  if (!fs::exists(folder, error)) return;
+  if (!fs::exists(folder, error)) {
+    // It will be made when the results begin; find out now whether it can be.
+    fs::path above = fs::absolute(folder, error).parent_path();
+    while (!above.empty() && above != above.root_path() && !fs::exists(above, error)) above = above.parent_path();
+    if (!fs::is_directory(above, error) || access(above.c_str(), W_OK) != 0)
+      throw base::InputError(
+          fmt::format("{}: cannot be made, since nothing may be written in {}; name another with --out",
+                      folder.string(), above.string()));
+    return;
+  }
   if (!fs::is_directory(folder, error))
     throw base::InputError(
         fmt::format("{}: is a file, where the results' folder should be; name another with --out", folder.string()));

@@ -153,7 +153,7 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
 }
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
-  Simulation simulation(loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2"}),
+  Simulation simulation(loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2", "terrain.size=[4.7,2.6]"}),
                         testExec(), quiet);
   const double begin = 0.5;
   const Drive d = drive(simulation, 2.6);
