@@ -75,7 +75,13 @@ hid_t stringType() {
   return type;
 }
 
-void quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// Before the first use of the library: errors become exceptions here, and the library does not tidy up when the
+/// program ends. HDF5 1.10 keeps a file that it could not write (full disk) and crashes on it at exit; ours are closed
+/// by then.
+void quiet() {
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 std::string failure(const std::filesystem::path& path, const char* what) {
   return fmt::format("{}: HDF5 could not {}; is the disk full, or the file open elsewhere?", path.string(), what);
