@@ -178,7 +178,7 @@ TEST_F(ResumedRun, SignalStopsWithACheckpointAndGoesOn) {
     kill(getpid(), SIGINT);
   });
   try {
-    run(folder_, bed());
+    run(folder_, bed({"run.checkpoint_interval=0"}));
     ADD_FAILURE() << "the run went on to its end";
   } catch (const Stopped& stopped) {
     EXPECT_EQ(stopped.signal(), SIGINT);
