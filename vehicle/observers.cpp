@@ -188,7 +188,8 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
   o.groundForce = {kNaN, kNaN, kNaN};
   if (!ground.force.empty()) {
     Vec3d sum;
-    for (const int part : vehicle_->groundParts) sum += ground.force[vehicle_->parts[part].body];
+    // All bodies: a stone caught between track and wheel pushes one back and the other forward.
+    for (const Vec3d& force : ground.force) sum += force;
     const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
     o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};
   }

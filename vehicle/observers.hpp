@@ -50,7 +50,7 @@ struct Observation {
   double heading = 0;          ///< of the hull's x axis from world x towards y [rad]
   double pitchAngle = 0;       ///< nose up positive [rad]
   double rollAngle = 0;        ///< right side down positive [rad]
-  base::Vec3d groundForce;     ///< sum over all shoes: forward along the heading, left, up [N]; NaN if not known
+  base::Vec3d groundForce;     ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
   double grossTraction = 0;    ///< sum of drive torques over the pitch radius [N]
   double drawbarPull = 0;      ///< net thrust that the ground leaves the vehicle, forward along the heading [N]
   double motionResistance = 0; ///< grossTraction - drawbarPull [N]
