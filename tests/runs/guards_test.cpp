@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a vehicle is put, which steps are refused, and that created energy stops a run.
+#include "base/error.hpp"
+#include "runs/bed.hpp"
+#include "runs/placement.hpp"
+#include "runs/simulation.hpp"
+#include "vehicle/spec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grouser::runs {
+namespace {
+
+Scene rigid(const std::vector<std::string>& overrides) {
+  return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides);
+}
+
+TEST(Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
+  for (const char* heading : {"0", "45", "90", "180", "270"}) {
+    const Scene scene = rigid({std::string("vehicle.heading=") + heading, "terrain.size=[5, 5]"});
+    EXPECT_NO_THROW(placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec))) << heading;
+  }
+}
+
+TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
+  const Scene scene = rigid({"vehicle.position=[7.0, 0]"});
+  try {
+    placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
+    FAIL() << "the front would hang over the edge";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("it needs 3.4"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Placement, DrivingOffTheTerrainStopsTheRun) {
+  const Scene scene = rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
+  Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+  EXPECT_THROW(while (simulation.time() < 1.0) simulation.step(), base::SimulationError);
+}
+
+const char* kBall = R"(version = 1
+[run]
+duration = 1.0
+time_step = 1e-4
+[material.soil]
+stiffness = 1e6
+restitution = 1
+[material.hard]
+stiffness = 1e6
+restitution = 1
+[[grain]]
+position = [0, 0, 0.1]
+radius = 0.027
+material = "soil"
+[[plane]]
+point = [0, 0, 0]
+material = "hard"
+)";
+
+TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
+  const double soft = stableTimeStep(parseScene(kBall, "ball.toml"));
+  std::string stiff = kBall;
+  stiff += "[contact.\"soil|hard\"]\nstiffness = 1e9\n";
+  // A plane alone: omega^2 = 2 k / m against 8 k / m of a grain among twelve others, so 250 times softer a limit
+  // squared.
+  EXPECT_NEAR(soft / stableTimeStep(parseScene(stiff, "ball.toml")), std::sqrt(2e9 / 8e6), 1e-3);
+  EXPECT_THROW(chooseTimeStep(parseScene(stiff, "ball.toml")), base::InputError);
+}
+
+TEST(Energy, FromNowhereStopsTheRun) {
+  Simulation simulation(parseScene(kBall, "ball.toml"), base::cpuExec(1), [](double, double) {});
+  for (int i = 0; i < 2000; ++i) simulation.step();
+  Simulation::Ledger now = simulation.ledger();
+  EXPECT_NO_THROW(simulation.checkEnergy(now));
+  now.residual = 10;
+  EXPECT_THROW(simulation.checkEnergy(now), base::SimulationError) << "the ball has 0.15 J";
+}
+
+} // namespace
+} // namespace grouser::runs

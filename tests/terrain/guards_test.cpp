@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must stop a run or keep it from starting: coinciding grains, the end of the range, grains pressed together.
+#include "grain_fixture.hpp"
+
+#include "base/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+TEST(Guards, GrainsAtOnePlaceAreRefusedByTheirNumbers) {
+  try {
+    Grains grains(base::cpuExec(1), ball(1e-6), {}, {{{0, 0, 0}, {}, {}}, {{1, 0, 0}, {}, {}}, {{0, 0, 0}, {}, {}}});
+    FAIL() << "two grains at one place were taken";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("grains 0 and 2"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Guards, LeavingTheRangeStopsTheRun) {
+  GrainModel m = ball(1e-5);
+  m.skin = 1;
+  const double limit = base::positionScale(2 * m.radius).limit();
+  Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 1e-3 - limit}, {0, 0, -50}, {}}});
+  EXPECT_THROW(advance(grains, 100), base::SimulationError) << "positions must not wrap round";
+}
+
+TEST(Guards, DeepOverlapStopsTheRun) {
+  GrainModel m = ball(1e-6);
+  m.maxOverlap = 0.2;
+  Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, {{1.7 * m.radius, 0, 0}, {}, {}}});
+  EXPECT_THROW(advance(grains, 1), base::SimulationError);
+}
+
+TEST(Guards, GrainsFarApartDoNotFeelEachOther) {
+  // 2^32 units apart the low words of the positions agree; far grains widen the cells until both share one.
+  GrainModel m = ball(1e-6);
+  const base::PositionScale scale = base::positionScale(2 * m.radius);
+  const double alias = 4294967296.0 * scale.unit, far = 0.9 * scale.limit();
+  Grains grains(base::cpuExec(1), m, {},
+                {{{0, 0, 0}, {}, {}},
+                 {{alias + 1.9 * m.radius, 0, 0}, {}, {}},
+                 {{far, far, far}, {}, {}},
+                 {{-far, -far, -far}, {}, {}}});
+  advance(grains, 10);
+  for (const base::Vec3f& v : grains.snapshot().velocity) EXPECT_EQ(v, base::Vec3f{});
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
