@@ -59,14 +59,6 @@ struct Maximum {
   }
 };
 
-struct Sum {
-  const std::int64_t* values;
-  std::size_t count;
-  template <class Policy> std::int64_t operator()(const Policy& policy) const {
-    return thrust::reduce(policy, values, values + count, std::int64_t{0}, thrust::plus<std::int64_t>());
-  }
-};
-
 struct Sequence {
   std::uint32_t* out;
   std::size_t count;
@@ -93,10 +85,6 @@ std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint
 
 std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count) {
   return count ? withPolicy(exec, Maximum{values, count}) : 0u;
-}
-
-std::int64_t sum(const Exec& exec, const std::int64_t* values, std::size_t count) {
-  return count ? withPolicy(exec, Sum{values, count}) : std::int64_t{0};
 }
 
 void iota(const Exec& exec, std::uint32_t* out, std::size_t count) {

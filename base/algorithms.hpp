@@ -15,8 +15,6 @@ void sortByKey(const Exec& exec, std::uint64_t* keys, std::uint32_t* values, std
 std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint32_t* out, std::size_t count);
 /// Largest element; 0 for an empty range.
 std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count);
-/// Sum in 64 bits.
-std::int64_t sum(const Exec& exec, const std::int64_t* values, std::size_t count);
 /// out[i] = i.
 void iota(const Exec& exec, std::uint32_t* out, std::size_t count);
 
