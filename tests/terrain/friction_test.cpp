@@ -115,5 +115,28 @@ TEST(Pyramid, StandsJustAboveTheCriticalFriction) {
   EXPECT_GT(pyramidSinks(1.2 * ballLimit, 0.95 * floorLimit), 1e-2);
 }
 
+TEST(TwoBalls, RubbingKeepsTheAngularMomentum) {
+  // Both lever arms must meet in one point: with arms of one radius each, overlap x friction would be lost every step.
+  GrainModel m = ball(2e-6);
+  m.law.friction = 0.5f;
+  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
+  m.maxOverlap = 1;
+  const base::Vec3d spin{0, 0, 400};
+  Grains grains(base::cpuExec(1), m, {},
+                {{{-1.001 * m.radius, 0, 0}, {1, 0, 0}, spin}, {{1.001 * m.radius, 0, 0}, {-1, 0, 0}, spin}});
+  const double inertia = 0.4 * m.mass * m.radius * m.radius;
+  const auto angular = [&] {
+    const GrainSnapshot s = grains.snapshot();
+    double l = 0;
+    for (std::size_t i = 0; i < 2; ++i)
+      l += m.mass * cross(s.position[i], s.velocity[i].as<double>()).z + inertia * static_cast<double>(s.spin[i].z);
+    return l;
+  };
+  const double before = angular();
+  advance(grains, 300);
+  EXPECT_GT(std::fabs(grains.snapshot().velocity[0].y), 0.1) << "they have rubbed";
+  EXPECT_NEAR(angular() / before, 1, 1e-5) << "float forces; arms of a radius would lose 2 %";
+}
+
 } // namespace
 } // namespace grouser::terrain::testing
