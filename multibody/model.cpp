@@ -116,14 +116,18 @@ int Model::addBody(const Body& body) {
   checkName(bodies_, "body", body.name);
   checkPose(what, "pose", body.pose);
   if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity is not finite");
+  if (body.point && (body.fixed || !(body.w_WB == Vec3d{})))
+    refuse(what, "is a point: it can be neither fixed nor turn; leave that out, or give it an inertia");
   if (!body.fixed) {
     if (!(std::isfinite(body.mass) && body.mass > 0)) refuse(what, "mass = " + text(body.mass) + " [kg] must be > 0");
-    checkInertia(what, body.inertia_B);
+    if (!body.point) checkInertia(what, body.inertia_B);
   } else if (!(body.v_WB == Vec3d{}) || !(body.w_WB == Vec3d{})) {
     refuse(what, "is fixed, but has a velocity; leave one of the two out");
   }
   bodies_.push_back(body);
   bodies_.back().pose.orientation = body.pose.orientation.normalized();
+  // Nothing turns a point; a radius of gyration of 1 m keeps its rows of the equations well scaled.
+  if (body.point) bodies_.back().inertia_B = Mat3d::diagonal({body.mass, body.mass, body.mass});
   return static_cast<int>(bodies_.size()) - 1;
 }
 
@@ -139,23 +143,59 @@ void Model::checkBodies(const std::string& what, int bodyA, int bodyB) const {
     refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; leave it out");
 }
 
-void Model::checkAxis(const std::string& what, int joint) const {
+/// Resolves kOnly to the axis there is.
+void Model::checkAxis(const std::string& what, int joint, JointAxis& axis) const {
   if (joint < 0 || joint >= static_cast<int>(joints_.size()))
     refuse(what, "joint index " + std::to_string(joint) + " is outside [0, " + std::to_string(joints_.size()) + ")");
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
-  if (j.type != JointType::kRevolute && j.type != JointType::kPrismatic)
-    refuse(what, "joint '" + j.name + "' has no single free axis; use a revolute or a prismatic joint");
+  const bool turns = j.type == JointType::kRevolute || j.type == JointType::kCylindrical;
+  const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
+  if (!turns && !slides)
+    refuse(what, "joint '" + j.name + "' has no single free axis; use a revolute, prismatic or cylindrical joint");
+  if (turns && slides && axis == JointAxis::kOnly)
+    refuse(what, "joint '" + j.name + "' is cylindrical and has two free axes; say whether angle or slide is meant");
+  if ((axis == JointAxis::kAngle && !turns) || (axis == JointAxis::kSlide && !slides))
+    refuse(what, "joint '" + j.name + "' has no free " +
+                     (turns ? "slide; its axis is an angle" : "angle; its axis is a slide"));
+  if (axis == JointAxis::kOnly) axis = turns ? JointAxis::kAngle : JointAxis::kSlide;
 }
 
-int Model::addJoint(const Joint& joint) {
+void Model::checkPoint(const std::string& what, int body, const Vec3d& point_B, bool mayTurnFreely) const {
+  if (body == kWorld || !bodies_[static_cast<std::size_t>(body)].point) return;
+  if (!mayTurnFreely || !(point_B == Vec3d{}))
+    refuse(what, "'" + bodyName(body) +
+                     "' is a point body: only spherical joints, distance joints and point springs may "
+                     "hold it, at its own origin; give it an inertia for anything else");
+}
+
+int Model::addJoint(const Joint& given) {
+  Joint joint = given;
   const std::string what = "joint '" + joint.name + "'";
   checkName(joints_, "joint", joint.name);
   checkBodies(what, joint.bodyA, joint.bodyB);
   checkPose(what, "frame_A", joint.frame_A);
   checkPose(what, "frame_B", joint.frame_B);
   checkNotNegative(what, "damping", joint.damping, "N m s/rad or N s/m");
-  if (joint.damping > 0 && joint.type != JointType::kRevolute && joint.type != JointType::kPrismatic)
-    refuse(what, "damping acts on the free axis of a revolute or prismatic joint; set it to 0 here");
+  checkNotNegative(what, "slideDamping", joint.slideDamping, "N s/m");
+  checkNotNegative(what, "length", joint.length, "m");
+  const bool cylindrical = joint.type == JointType::kCylindrical, rod = joint.type == JointType::kDistance;
+  const bool axis = joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic || cylindrical;
+  if (joint.damping > 0 && !axis)
+    refuse(what, "damping acts on the free axis of a revolute, prismatic or cylindrical joint; set it to 0 here");
+  if (joint.slideDamping > 0 && !cylindrical)
+    refuse(what, "slideDamping acts on the slide of a cylindrical joint; set it to 0 here");
+  if (joint.length > 0 && !rod) refuse(what, "length belongs to a distance joint; set it to 0 here");
+  const bool ball = rod || joint.type == JointType::kSpherical;
+  checkPoint(what, joint.bodyA, joint.frame_A.position, ball);
+  checkPoint(what, joint.bodyB, joint.frame_B.position, ball);
+  if (rod && joint.length == 0) {
+    const auto placed = [&](int b, const Vec3d& p) {
+      return b == kWorld ? p : bodies_[static_cast<std::size_t>(b)].pose.toWorld(p);
+    };
+    joint.length = norm(placed(joint.bodyB, joint.frame_B.position) - placed(joint.bodyA, joint.frame_A.position));
+    if (!(joint.length > 1e-9))
+      refuse(what, "its two points coincide: a rod needs a length > 0; use a spherical joint");
+  }
   joints_.push_back(joint);
   return static_cast<int>(joints_.size()) - 1;
 }
@@ -171,7 +211,8 @@ int Model::addJointAt(const std::string& name, JointType type, int bodyA, int bo
 int Model::addAxisSpring(const AxisSpring& s) {
   const std::string what = "spring '" + s.name + "'";
   checkName(axisSprings_, "spring", s.name);
-  checkAxis(what, s.joint);
+  AxisSpring spring = s;
+  checkAxis(what, s.joint, spring.axis);
   checkNotNegative(what, "stiffness", s.stiffness, "N/m or N m/rad");
   checkNotNegative(what, "damping", s.damping, "N s/m or N m s/rad");
   checkNotNegative(what, "stopStiffness", s.stopStiffness, "N/m or N m/rad");
@@ -182,7 +223,7 @@ int Model::addAxisSpring(const AxisSpring& s) {
     refuse(what, "lowerLimit = " + text(s.lowerLimit) + " must be below upperLimit = " + text(s.upperLimit));
   if ((std::isfinite(s.lowerLimit) || std::isfinite(s.upperLimit)) && !(s.stopStiffness > 0))
     refuse(what, "has end stops, but stopStiffness = 0; give one > 0");
-  axisSprings_.push_back(s);
+  axisSprings_.push_back(spring);
   return static_cast<int>(axisSprings_.size()) - 1;
 }
 
@@ -195,19 +236,63 @@ int Model::addPointSpring(const PointSpring& s) {
   checkNotNegative(what, "restLength", s.restLength, "m");
   checkFinite(what, "preload", s.preload);
   if (!finite(s.point_A) || !finite(s.point_B)) refuse(what, "its points are not finite");
+  checkPoint(what, s.bodyA, s.point_A, true);
+  checkPoint(what, s.bodyB, s.point_B, true);
   pointSprings_.push_back(s);
   return static_cast<int>(pointSprings_.size()) - 1;
 }
 
-int Model::addDrive(const Drive& drive) {
+int Model::addBushing(const Bushing& bushing) {
+  const std::string what = "bushing '" + bushing.name + "'";
+  checkName(bushings_, "bushing", bushing.name);
+  checkBodies(what, bushing.bodyA, bushing.bodyB);
+  checkPose(what, "frame_A", bushing.frame_A);
+  checkPose(what, "frame_B", bushing.frame_B);
+  for (int i = 0; i < 3; ++i) {
+    checkNotNegative(what, "stiffness", bushing.stiffness[i], "N/m");
+    checkNotNegative(what, "damping", bushing.damping[i], "N s/m");
+    checkNotNegative(what, "rotationStiffness", bushing.rotationStiffness[i], "N m/rad");
+    checkNotNegative(what, "rotationDamping", bushing.rotationDamping[i], "N m s/rad");
+  }
+  checkPoint(what, bushing.bodyA, {}, false);
+  checkPoint(what, bushing.bodyB, {}, false);
+  bushings_.push_back(bushing);
+  return static_cast<int>(bushings_.size()) - 1;
+}
+
+int Model::addDrive(const Drive& given) {
+  Drive drive = given;
   const std::string what = "drive '" + drive.name + "'";
   checkName(drives_, "drive", drive.name);
-  checkAxis(what, drive.joint);
+  checkAxis(what, drive.joint, drive.axis);
   checkFinite(what, "speed", drive.speed);
-  for (const Drive& other : drives_)
-    if (other.joint == drive.joint) refuse(what, "its joint is already driven by '" + other.name + "'");
+  checkTimeLaw(what.c_str(), drive.law);
+  if (drive.kind == DriveKind::kPosition && drive.law.empty())
+    refuse(what, "imposes a position, but has no law; give the position over time");
+  if (drive.kind == DriveKind::kPosition && !drive.law.ramps.times.empty())
+    refuse(what, "a position of straight ramps has jumps in its speed; give a table, polynomial or harmonics");
+  if (drive.kind != DriveKind::kForce)
+    for (const Drive& other : drives_)
+      if (other.joint == drive.joint && other.axis == drive.axis && other.kind != DriveKind::kForce)
+        refuse(what, "its axis is already driven by '" + other.name + "'; leave one of the two out");
   drives_.push_back(drive);
   return static_cast<int>(drives_.size()) - 1;
+}
+
+int Model::addCoupling(const Coupling& given) {
+  Coupling coupling = given;
+  const std::string what = "coupling '" + coupling.name + "'";
+  checkName(couplings_, "coupling", coupling.name);
+  checkAxis(what, coupling.joint1, coupling.axis1);
+  checkAxis(what, coupling.joint2, coupling.axis2);
+  if (coupling.joint1 == coupling.joint2 && coupling.axis1 == coupling.axis2)
+    refuse(what,
+           "couples an axis of joint '" + joints_[static_cast<std::size_t>(coupling.joint1)].name + "' to itself");
+  if (!(std::isfinite(coupling.ratio) && coupling.ratio != 0))
+    refuse(what, "ratio = " + text(coupling.ratio) + " must be finite and not 0");
+  if (std::isinf(coupling.offset)) refuse(what, "offset is infinite");
+  couplings_.push_back(coupling);
+  return static_cast<int>(couplings_.size()) - 1;
 }
 
 int Model::bodyIndex(const std::string& name) const { return indexByName(bodies_, "body", name); }

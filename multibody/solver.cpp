@@ -54,6 +54,9 @@ struct Solver::Impl {
         x(at(system.movableBodies()) + system.constraints().size()), impulse(system.constraints().size()),
         oldRate(system.constraints().size(), 0.0), gyro(at(system.movableBodies())), newTwist(m.bodies().size()),
         trialPose(m.bodies().size()), trialFrames(system.constraints().size()) {
+    if (o.integrator != Integrator::kSymplecticEuler) throw base::InputError("multibody: kRattle is not available");
+    if (options.positionTolerance == 0) options.positionTolerance = 1e-10;
+    if (options.maxIterations == 0) options.maxIterations = 12;
     for (const Body& body : m.bodies()) trialPose.at(static_cast<std::size_t>(&body - m.bodies().data())) = body.pose;
     system.place(trialPose, frames);
     trial = frames;
@@ -356,6 +359,13 @@ double Solver::velocityError(const State& state) const {
   return largest;
 }
 
+double Solver::projectVelocities(State&, const Loads&) { throw base::InputError("multibody: not available"); }
+double Solver::stableStep(const State&, const Loads&, std::string*) {
+  throw base::InputError("multibody: not available");
+}
+std::vector<std::string> Solver::singularRowNames() const { return {}; }
+std::vector<std::string> Solver::redundantRowNames() const { return {}; }
+int Solver::degreesOfFreedom() const { return 0; }
 const StepReport& Solver::lastStep() const { return impl_->last; }
 const std::string& Solver::report() const { return impl_->text; }
 int Solver::redundantRows() const { return static_cast<int>(impl_->redundancy.rows.size()); }

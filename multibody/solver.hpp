@@ -6,14 +6,46 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace grouser::multibody {
 
+enum class Integrator {
+  /// Constrained symplectic Euler (detail/euler_step.cpp). Order 1; the cheapest, for coupling with contacts. Twists
+  /// are
+  /// means over the steps.
+  kSymplecticEuler,
+  /// RATTLE on the rotation group (detail/rattle_step.cpp). Order 2, or 4, 6, 8 by composition (SolverOptions::order);
+  /// symplectic and time-reversible; position and velocity constraints both met at the end of each step.
+  kRattle,
+};
+
+/// How kRattle takes axis springs, point springs and bushings. Dampers and end stops are implicit in both.
+enum class Springs {
+  kExplicit, ///< at the nodes: order 2, cheapest; needs omega dt < 2 and refuses a longer step, naming the spring
+  kImplicit, ///< midpoint along the spring's direction: order 2, stable at any step in the linear case
+};
+
+/// What the solver does about start velocities that break the constraints.
+enum class StartVelocities {
+  kRefuse, ///< InputError naming the joint and the rate at which it would open
+  kAccept, ///< leaves them: the first step, or Solver::projectVelocities(), makes them fit
+};
+
 struct SolverOptions {
-  /// On every hard constraint after a step [m, rad]. What is left of a gap comes back in the next step's constraint
-  /// force as up to mass x gap / dt^2: 0.3 N for a shoe of 8.5 kg at 50 us.
-  double positionTolerance = 1e-10;
-  int maxIterations = 12; ///< of the position solve; typically one or two are used
+  /// On every hard constraint after a step [m, rad]; 0: 1e-10 for kSymplecticEuler, 1e-13 for kRattle. What is left of
+  /// a gap comes back in the next step's constraint force as up to mass x gap / dt^2: 0.3 N for a shoe of 8.5 kg at 50
+  /// us and 1e-10 m.
+  double positionTolerance = 0;
+  int maxIterations =
+      0; ///< of the position solve; 0: 12 for kSymplecticEuler, 40 for kRattle. Typically 1 to 5 are used
+  Integrator integrator = Integrator::kSymplecticEuler;
+  /// Of kRattle: 2, or 4, 6, 8 as symmetric compositions of 5, 9, 17 stages of order 2, some of them backwards in time:
+  /// for smooth motions to high accuracy over long times. Dampers keep their accuracy only while c dt / m << 1.
+  int order = 2;
+  Springs springs = Springs::kExplicit;
+  StartVelocities startVelocities = StartVelocities::kRefuse;
+  double velocityTolerance = 1e-6; ///< of the check of start velocities [m/s, rad/s]
 };
 
 /// How well the last step was solved.
@@ -23,31 +55,52 @@ struct StepReport {
   int singularRows = 0;        ///< rows without a pivot in this step: a singular position is being passed
 };
 
-/// Advances a mechanism by constrained symplectic Euler; solver.cpp states the scheme. Deterministic, one thread,
-/// no allocation in step(). A start velocity belongs to the start pose, half a step before the first mean velocity: the
+/// Advances a mechanism; the integrators' schemes are stated above their code. Deterministic, one thread, no allocation
+/// in step().
+///
+/// With kSymplecticEuler a start velocity belongs to the start pose, half a step before the first mean velocity: the
 /// first step gets a whole step of load where half would do (a shift in time of dt / 2, the scheme's only first-order
 /// error for smooth motions), and needs half the centripetal constraint force.
 class Solver {
 public:
-  /// Orders the elimination and finds redundant constraints. The model must outlive the solver and not change.
-  /// Throws base::InputError if joints are not closed at the start (naming the joint and its gap).
+  /// Orders the elimination, finds redundant constraints, and checks the start. The model must outlive the solver and
+  /// not change. Throws base::InputError if at the start joints are not closed (naming the joint and its gap),
+  /// velocities break a constraint (naming joint and rate), a drive or coupling contradicts the others or a closed loop
+  /// (naming it), a driven axis is not where its law begins, or an option is out of its range.
   explicit Solver(const Model& model, const SolverOptions& options = {});
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
   /// One step of size dt [s], > 0. Throws base::SimulationError (naming step time and joint or body) when the position
-  /// solve fails or a state is not finite.
+  /// solve fails or a state is not finite; base::InputError when dt is beyond the stability limit of explicit springs
+  /// (naming spring, limit and remedy).
   void step(State& state, const Loads& loads, double dt);
 
+  /// Makes the twists of a state fit the constraints and drives by the smallest change in the norm of kinetic energy
+  /// (as a shock would). Returns the kinetic energy taken out [J].
+  double projectVelocities(State& state, const Loads& loads);
+
+  /// Largest step for which explicit springs are stable at a state's poses [s]: 2 / omega, omega the highest frequency
+  /// of all springs against the constrained masses; infinite without springs. `spring`, if given, receives the name of
+  /// the spring with the greatest part in it.
+  double stableStep(const State& state, const Loads& loads, std::string* spring = nullptr);
+
   const StepReport& lastStep() const;
-  /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. The twist is the mean over the step that led there
-  /// and meets the constraints over that step to positionTolerance / dt; at its end it leaves them by O(dt |w|^2 size).
+  /// Rows without a pivot in the last step, by name; empty but in singular positions.
+  std::vector<std::string> singularRowNames() const;
+  /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. With kRattle it is met to round-off. With
+  /// kSymplecticEuler the twist is the mean over the step that led there and meets the constraints over that step to
+  /// positionTolerance / dt; at its end it leaves them by O(dt |w|^2 size).
   double velocityError(const State& state) const;
   /// Size of the problem, independent parts, fill of the factor, and what was done about redundant rows.
   const std::string& report() const;
   /// Rows dropped because others imply them.
   int redundantRows() const;
+  /// Their names: "joint 'pin 7': rotation about x".
+  std::vector<std::string> redundantRowNames() const;
+  /// Degrees of freedom that joints and couplings leave (drives not counted), redundancy taken into account.
+  int degreesOfFreedom() const;
 
 private:
   struct Impl;

@@ -29,6 +29,9 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
   for (auto& p : s.spring) f(p.force), f(p.length);
   f(s.ledger.gravityWork), f(s.ledger.externalWork), f(s.ledger.driveWork), f(s.ledger.springWork);
   f(s.ledger.dissipated);
+  for (auto& a : s.slide) f(a.position), f(a.rate), f(a.axisForce), f(a.driveForce), f(a.springForce);
+  for (auto& b : s.bushing) vec(b.force), vec(b.torque), vec(b.translation), vec(b.rotation);
+  for (auto& c : s.coupling) f(c.force);
 }
 
 double axisRate(const detail::Constraint& c, const detail::JointFrames& f, const std::vector<detail::Frame>& frames,
@@ -87,6 +90,10 @@ State makeState(const Model& model) {
   }
   s.joint.resize(model.joints().size());
   s.spring.resize(model.pointSprings().size());
+  s.bushing.resize(model.bushings().size());
+  s.coupling.resize(model.couplings().size());
+  for (const Joint& joint : model.joints())
+    if (joint.type == JointType::kCylindrical) s.slide.resize(model.joints().size());
   for (std::size_t b = 0; b < s.pose.size(); ++b)
     setTwist(model, s, static_cast<int>(b), {model.bodies()[b].v_WB, model.bodies()[b].w_WB});
   findAxes(model, s);
@@ -98,6 +105,7 @@ Loads makeLoads(const Model& model) {
   loads.external.resize(model.bodies().size());
   loads.axisSprings.resize(model.axisSprings().size());
   loads.pointSprings.resize(model.pointSprings().size());
+  loads.bushings.resize(model.bushings().size());
   for (const Drive& drive : model.drives()) loads.drives.push_back({drive.on, drive.speed});
   return loads;
 }
@@ -114,6 +122,24 @@ void setPose(const Model& model, State& state, int body, const Pose& pose) {
   state.pose[static_cast<std::size_t>(body)] = pose;
   setTwist(model, state, body, state.twist[static_cast<std::size_t>(body)]);
   findAxes(model, state);
+}
+
+AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis) {
+  const auto j = static_cast<std::size_t>(joint);
+  if (model.joints().at(j).type == JointType::kCylindrical && axis == JointAxis::kSlide) return state.slide[j];
+  const JointReading& r = state.joint[j];
+  return {r.position, r.rate, r.axisForce, r.driveForce, r.springForce};
+}
+
+double driveForce(const Model& model, const State& state, int drive) {
+  const Drive& d = model.drives().at(static_cast<std::size_t>(drive));
+  return axisReading(model, state, d.joint, d.axis).driveForce;
+}
+
+double drivePower(const Model& model, const State& state, int drive) {
+  const Drive& d = model.drives().at(static_cast<std::size_t>(drive));
+  const AxisReading axis = axisReading(model, state, d.joint, d.axis);
+  return axis.driveForce * axis.rate;
 }
 
 Totals totals(const Model& model, const State& state, const Loads& loads) {

@@ -18,17 +18,41 @@ struct Wrench {
   Vec3d torque; ///< [N m]
 };
 
-/// What a joint did in the last step.
+/// What a joint did in the last step. Forces: kSymplecticEuler gives the mean over the step, kRattle the values at its
+/// end.
 struct JointReading {
   Vec3d force; ///< on B from A, hard rows and axis force together, world components [N]; for a shoe joint the track
                ///< tension
   Vec3d
       torque; ///< on B from A about the joint point (origin of B's frame), axis torque included, world components [N m]
-  double position = 0;    ///< angle [rad], unwrapped over turns, or slide [m]; 0 where the type has no axis
+  double position = 0;    ///< angle [rad], unwrapped over turns, or slide [m]; 0 where the type has no axis; the angle
+                          ///< of a cylindrical, whose slide is in State::slide
   double rate = 0;        ///< [rad/s] or [m/s]
   double axisForce = 0;   ///< damping, spring, stops and drive along the free axis, on B [N] or [N m]
   double driveForce = 0;  ///< the drive's part of it [N] or [N m]
   double springForce = 0; ///< the springs' part of it, with their dampers and stops [N] or [N m]
+};
+
+/// What the second axis of a joint, the slide of a cylindrical, did in the last step. As in JointReading.
+struct AxisReading {
+  double position = 0;    ///< [m]
+  double rate = 0;        ///< [m/s]
+  double axisForce = 0;   ///< [N]
+  double driveForce = 0;  ///< [N]
+  double springForce = 0; ///< [N]
+};
+
+/// What a bushing did in the last step.
+struct BushingReading {
+  Vec3d force;       ///< on B at the origin of its frame, world components [N]
+  Vec3d torque;      ///< on B, world components [N m]
+  Vec3d translation; ///< d, in the axes of A's frame [m]
+  Vec3d rotation;    ///< phi, in the axes of A's frame [rad]
+};
+
+/// What a coupling did in the last step.
+struct CouplingReading {
+  double force = 0; ///< generalised force on axis 2 along +axis; axis 1 feels -ratio times it [N m] or [N]
 };
 
 /// What a point spring did in the last step.
@@ -47,8 +71,9 @@ struct Ledger {
   double dissipated = 0; ///< in dampers, joint damping and stops
 };
 
-/// Everything that changes. Poses and velocities are staggered, as in any kick-drift scheme: after a step `pose` is at
-/// `time`, `twist` is the mean twist over the step that led there.
+/// Everything that changes. After a step of Integrator::kRattle `pose` and `twist` are both at `time`. After one of
+/// Integrator::kSymplecticEuler they are staggered, as in any kick-drift scheme: `pose` is at `time`, `twist` is the
+/// mean twist over the step that led there.
 struct State {
   double time = 0;
   std::vector<Pose> pose;            ///< X_WB, one a body
@@ -57,6 +82,9 @@ struct State {
   std::vector<JointReading> joint;   ///< one a joint
   std::vector<SpringReading> spring; ///< one a point spring
   Ledger ledger;
+  std::vector<AxisReading> slide; ///< one a joint if the model has cylindrical joints (others' stay 0), else empty
+  std::vector<BushingReading> bushing;
+  std::vector<CouplingReading> coupling;
 
   /// The complete dynamic state as a flat array: a run resumed from it gives the same bits as one straight through.
   std::vector<double> save() const;
@@ -72,7 +100,8 @@ struct SpringControl {
 
 struct DriveControl {
   bool on = true;
-  double speed = 0; ///< [rad/s] or [m/s]
+  double speed = 0; ///< of a speed drive without a law [rad/s] or [m/s]
+  double force = 0; ///< of a force drive without a law [N m] or [N]
 };
 
 /// What is imposed from outside during one step.
@@ -82,6 +111,7 @@ struct Loads {
   std::vector<SpringControl> axisSprings; ///< one an axis spring
   std::vector<SpringControl> pointSprings;
   std::vector<DriveControl> drives;
+  std::vector<SpringControl> bushings; ///< one a bushing; loadFactor is not used
 };
 
 /// The model's state at the start; joint readings hold positions and rates, no forces yet.
@@ -92,6 +122,13 @@ Loads makeLoads(const Model& model);
 void setTwist(const Model& model, State& state, int body, const Twist& twist);
 /// Puts a body elsewhere, keeping its twist. Axis positions follow at the next step.
 void setPose(const Model& model, State& state, int body, const Pose& pose);
+
+/// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly where there is one axis.
+AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
+/// Force a drive exerted on B along its axis in the last step [N m] or [N], and its power [W], positive when it puts
+/// energy into the mechanism.
+double driveForce(const Model& model, const State& state, int drive);
+double drivePower(const Model& model, const State& state, int drive);
 
 /// Energies [J] and momenta of a state.
 struct Totals {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/constraint_system.hpp"
 
+#include "base/error.hpp"
 #include "multibody/detail/rotation.hpp"
 
 #include <algorithm>
@@ -24,6 +25,9 @@ ConstraintKind kindOf(JointType type) {
     return ConstraintKind::kPrismatic;
   case JointType::kFixed:
     return ConstraintKind::kFixed;
+  case JointType::kCylindrical:
+  case JointType::kDistance:
+    throw base::InputError("cylindrical and distance joints are not available");
   }
   return ConstraintKind::kFixed;
 }
@@ -45,6 +49,8 @@ Mat3d inverseOf(const Mat3d& a) {
 } // namespace
 
 ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
+  if (!model.bushings().empty() || !model.couplings().empty())
+    throw base::InputError("bushings and couplings are not available");
   const int worldFrame = static_cast<int>(model.bodies().size());
   std::vector<int> nodeOf(at(worldFrame) + 1, -1);
   for (int b = 0; b < worldFrame; ++b)
