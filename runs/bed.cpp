@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "contact/restitution.hpp"
 #include "runs/laws.hpp"
+#include "runs/mechanism.hpp"
 #include "runs/plan.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
@@ -200,6 +201,7 @@ double stableTimeStep(const Scene& scene) {
 }
 
 double chooseTimeStep(const Scene& scene) {
+  if (!scene.mechanism.empty()) return scene.run.timeStep ? *scene.run.timeStep : mechanismTimeStep(scene);
   const double contact = shortestContact(scene), limit = stableTimeStep(scene);
   const double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit);
   if (!scene.run.timeStep) return automatic;

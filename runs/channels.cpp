@@ -24,8 +24,8 @@ std::vector<Channel> terrainChannels() {
 
 std::vector<Channel> ledgerChannels() {
   return {
-      {"ledger/drive_work", "J", "done by the sprockets' drives", 1, {}},
-      {"ledger/kinetic", "J", "of grains and vehicle", 1, {}},
+      {"ledger/drive_work", "J", "done by drives", 1, {}},
+      {"ledger/kinetic", "J", "of grains, vehicle and bodies", 1, {}},
       {"ledger/potential", "J", "in the field of gravity", 1, {}},
       {"ledger/elastic", "J", "in contacts and springs", 1, {}},
       {"ledger/dissipated", "J", "by friction and damping", 1, {}},

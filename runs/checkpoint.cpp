@@ -41,6 +41,10 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   archive("/settled/agitation", s.settled.agitation);
   archive("/settled/steps", s.settled.steps);
   archive("/undisturbed_surface", s.surface);
+  if (archive.present("/mechanism", s.mechanism)) {
+    archive("/mechanism/bodies", s.mechanism->bodies);
+    archive("/mechanism/worst", s.mechanism->worst);
+  }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;
     archive("/grains/position", g.position);

@@ -7,6 +7,7 @@
 #include "runs/checkpoint.hpp"
 #include "runs/former_output.hpp"
 #include "runs/image.hpp"
+#include "runs/mechanism_output.hpp"
 #include "runs/picture.hpp"
 #include "runs/progress.hpp"
 #include "runs/simulation.hpp"
@@ -83,13 +84,15 @@ public:
   /// `former`: the checkpoint that the run goes on from, or null.
   Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec,
            const Checkpoint* former)
-      : simulation_(simulation), channels_(channelsOf(simulation)), row_(channels_), frames_(scene.output.frames),
+      : simulation_(simulation), channels_(channelsOf(simulation, scene)), row_(channels_),
+        record_(scene.output.record), frames_(scene.output.frames),
         writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
     if (const VehicleRig* rig = simulation.vehicle()) {
       parts_ = frameParts(*rig);
       writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
       writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
     }
+    if (const Mechanism* mechanism = simulation.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
     if (simulation.ground().rigid) ground_ = groundMesh(*simulation.ground().rigid);
     writer_.setParts(parts_, ground_);
   }
@@ -106,13 +109,14 @@ public:
       row_.set("terrain/max_speed", l.fastestGrain);
       row_.set("terrain/rebuilds", static_cast<double>(grains->rebuilds()));
     }
+    if (const Mechanism* mechanism = simulation_.mechanism()) setMechanismRow(row_, *mechanism, record_);
     row_.set("ledger/drive_work", l.driveWork);
     row_.set("ledger/kinetic", l.kinetic);
     row_.set("ledger/potential", l.potential);
     row_.set("ledger/elastic", l.elastic);
     row_.set("ledger/dissipated", l.dissipated);
     row_.set("ledger/residual", l.residual);
-    row_.set("ledger/impulse_residual", l.impulseResidual);
+    if (!simulation_.mechanism()) row_.set("ledger/impulse_residual", l.impulseResidual);
     writer_.row(row_.row());
     simulation_.restartMeans();
   }
@@ -135,6 +139,7 @@ public:
     }
     if (const VehicleRig* rig = simulation_.vehicle())
       for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
+    if (const Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
     return frame;
   }
 
@@ -146,14 +151,16 @@ public:
   RunWriter& writer() { return writer_; }
 
 private:
-  static std::vector<Channel> channelsOf(const Simulation& simulation) {
+  static std::vector<Channel> channelsOf(const Simulation& simulation, const Scene& scene) {
     std::vector<Channel> channels;
+    if (simulation.mechanism()) channels = mechanismChannels(simulation.mechanism()->model(), scene.output.record);
     if (simulation.vehicle())
       for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
         channels.push_back(channelOf(q));
     if (simulation.ground().grains)
       for (const Channel& c : terrainChannels()) channels.push_back(c);
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
+    if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
     return channels;
   }
   static RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, const base::Exec& exec,
@@ -180,6 +187,7 @@ private:
   Simulation& simulation_;
   std::vector<Channel> channels_;
   RowBuilder row_;
+  const std::vector<std::string> record_;
   bool frames_;
   std::vector<FramePart> parts_;
   base::TriangleMesh ground_;
@@ -199,6 +207,7 @@ void describeBuild(const Simulation& simulation, const base::Exec& exec) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
   }
+  if (const Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", mechanism->solver().report());
   std::fflush(stdout);
 }
 
@@ -346,8 +355,9 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
              "dissipated {:+.4g}; left over {:.3g}\n",
              l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
-  fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
-             l.impulseResidual.z);
+  if (!simulation.mechanism())
+    fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
+               l.impulseResidual.z);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
              simulation.steps() - begin, simulation.timeStep(), summary.figures["microseconds_a_step"]);
   recorder.writer().finish(summary);

@@ -4,6 +4,7 @@
 #include "base/table.hpp"
 #include "runs/detail/scene_tables.hpp"
 #include "runs/locations.hpp"
+#include "runs/mechanism_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +17,8 @@ using base::Section;
 
 namespace {
 
-const std::vector<std::string> kSections = {"version", "run",     "material", "contact", "grain",
-                                            "plane",   "terrain", "vehicle",  "driver",  "output"};
+const std::vector<std::string> kSections = {"version", "run",   "material", "contact", "grain",   "plane",  "terrain",
+                                            "body",    "joint", "spring",   "drive",   "vehicle", "driver", "output"};
 
 /// One of the two ways to say how lossy a contact is.
 template <class S> void checkOneLoss(const Section& section, const S& s) {
@@ -196,12 +197,13 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   readContacts(root, scene);
   readGrainsAndPlanes(root, scene);
   if (root.has("terrain")) readTerrain(root.section("terrain"), scene);
+  readMechanism(root, scene);
   if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
-  if (scene.grains.empty() && !scene.terrain && !scene.vehicle)
-    throw InputError(
-        fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle] or [[grain]]", file.string()));
+  if (scene.grains.empty() && !scene.terrain && !scene.vehicle && scene.mechanism.empty())
+    throw InputError(fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]] or [[body]]",
+                                 file.string()));
   return scene;
 }
 
@@ -248,6 +250,7 @@ std::string resolvedToml(const Scene& scene) {
   for (const Grain& g : scene.grains) text += block("[[grain]]", detail::grainTable(), g);
   for (const Plane& p : scene.planes) text += block("[[plane]]", detail::planeTable(), p);
   if (scene.terrain) text += block("[terrain]", detail::terrainTable(), *scene.terrain);
+  text += mechanismToml(scene.mechanism);
   if (scene.vehicle) {
     text += block("[vehicle]", detail::vehicleTable(), *scene.vehicle);
     text += block("[driver]", detail::driverTable(), scene.driver);
@@ -263,6 +266,7 @@ std::string fieldHelp() {
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
   add(detail::grainTable()), add(detail::planeTable()), add(detail::terrainTable());
+  add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable()), add(detail::driveTable());
   add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());
   return text;
 }

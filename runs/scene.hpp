@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "runs/mechanism_sections.hpp"
 
 #include <array>
 #include <cstdint>
@@ -24,10 +25,12 @@ struct RunSettings {
   double frameInterval = 0.1;
   double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
-  std::string device = "auto"; ///< auto | cpu | cuda
-  int threads = 0;             ///< 0: all
-  double skin = 0.3;           ///< [-] of a grain's radius
-  double maxOverlap = 0.2;     ///< [-] of a grain's radius; beyond it the run stops
+  std::string device = "auto";                 ///< auto | cpu | cuda
+  int threads = 0;                             ///< 0: all
+  std::string integrator = "symplectic_euler"; ///< of mechanisms
+  double constraintTolerance = 1e-10;          ///< [m], [rad] to which joints of mechanisms are closed
+  double skin = 0.3;                           ///< [-] of a grain's radius
+  double maxOverlap = 0.2;                     ///< [-] of a grain's radius; beyond it the run stops
   bool operator==(const RunSettings&) const = default;
 };
 
@@ -125,7 +128,8 @@ struct Driver {
 
 /// [output]
 struct Output {
-  std::string folder; ///< empty: out/NAME of the scene file
+  std::string folder;              ///< empty: out/NAME of the scene file
+  std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
   bool frames = true;
   bool picture = true;
   bool plots = true;
@@ -143,6 +147,7 @@ struct Scene {
   std::vector<Grain> grains;
   std::vector<Plane> planes;
   std::optional<Terrain> terrain;
+  MechanismSections mechanism;
   std::optional<Vehicle> vehicle;
   Driver driver;
   Output output;

@@ -27,6 +27,10 @@ Table<RunSettings> runTable() {
   t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
       .atLeast(0)
       .atMost(1024);
+  t.add("integrator", &S::integrator, "", "of mechanisms").oneOf({"symplectic_euler"});
+  t.add("constraint_tolerance", &S::constraintTolerance, "m or rad", "to which every joint of a mechanism is closed")
+      .atLeast(1e-14)
+      .atMost(1e-3);
   t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);
   t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
       .above(0)
@@ -116,6 +120,83 @@ Table<Terrain> terrainTable() {
   return t;
 }
 
+Table<BodySection> bodyTable() {
+  using S = BodySection;
+  Table<S> t("[body]", "A rigid body of a mechanism");
+  t.add("name", &S::name, "", "what joints and springs call it; \"world\" is the ground's").required();
+  t.add("mass", &S::mass, "kg", "required unless the body is fixed").above(0).atMost(1e12);
+  t.add("inertia", &S::inertia, "kg m2",
+        "about the centre of mass in the body's axes: xx, yy, zz, or these with the entries xy, xz, yz of the matrix; "
+        "of a uniform box where not given");
+  t.add("box", &S::box, "m", "edges of the box that is drawn; without one it follows from mass and inertia")
+      .above(0)
+      .atMost(1e5);
+  t.add("position", &S::position, "m", "of the centre of mass at the start").atLeast(-1e6).atMost(1e6);
+  t.add("axis", &S::axis, "-", "about which the body's axes are turned from the world's, with angle");
+  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
+  t.add("orientation", &S::orientation, "-",
+        "unit quaternion w, x, y, z from body to world, instead of axis and angle");
+  t.add("velocity", &S::velocity, "m/s", "of the centre of mass at the start, world components");
+  t.add("spin", &S::spin, "rad/s", "angular velocity at the start, world components");
+  t.add("fixed", &S::fixed, "", "never moves");
+  return t;
+}
+
+Table<JointSection> jointTable() {
+  using S = JointSection;
+  Table<S> t("[joint]", "Holds two bodies together; what it leaves free is measured from the first to the second");
+  t.add("name", &S::name, "", "what springs and drives call it").required();
+  t.add("type", &S::type, "",
+        "what stays free: one turn, all turns, two turns, a slide, turn and slide, nothing, or all "
+        "but a distance")
+      .oneOf({"revolute", "spherical", "universal", "prismatic", "cylindrical", "fixed", "distance"});
+  t.add("bodies", &S::bodies, "", "names of the two, e.g. [\"world\", \"rod\"]").required();
+  t.add("point", &S::point, "m", "where it is at the start, in the world");
+  t.add("axis", &S::axis, "-", "of turn or slide at the start, in the world; of a universal joint the first body's");
+  t.add("second_axis", &S::secondAxis, "-", "of a universal joint, the second body's, perpendicular to axis");
+  t.add("point_a", &S::pointA, "m", "instead of point: in the first body's frame, together with point_b");
+  t.add("point_b", &S::pointB, "m", "the same in the second body's frame");
+  t.add("axis_a", &S::axisA, "-", "instead of axis: in the first body's frame, together with axis_b");
+  t.add("axis_b", &S::axisB, "-", "the same in the second body's frame; of a universal joint its own axis");
+  t.add("length", &S::length, "m", "between point_a and point_b of a distance joint; as at the start where not given")
+      .above(0)
+      .atMost(1e5);
+  t.add("damping", &S::damping, "N m s/rad or N s/m", "on the free axis").atLeast(0);
+  t.add("limits", &S::limits, "rad or m", "end stops on the free axis, lower and upper, from its position 0");
+  t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
+  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
+  return t;
+}
+
+Table<SpringSection> springTable() {
+  using S = SpringSection;
+  Table<S> t("[spring]", "Spring and damper between two points, or on the free axis of a joint");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("bodies", &S::bodies, "", "names of the two that it pushes apart; or joint");
+  t.add("point_a", &S::pointA, "m", "its end on the first body, in that body's frame; (0, 0, 0) where not given");
+  t.add("point_b", &S::pointB, "m", "its end on the second body, in that body's frame");
+  t.add("joint", &S::joint, "", "name of a revolute or prismatic joint on whose axis it acts; instead of bodies");
+  t.add("stiffness", &S::stiffness, "N/m or N m/rad", "implicit: any size is stable").atLeast(0);
+  t.add("damping", &S::damping, "N s/m or N m s/rad", "implicit: any size is stable").atLeast(0);
+  t.add("preload", &S::preload, "N or N m", "force at free_position, positive pushes apart");
+  t.add("free_position", &S::freePosition, "m or rad",
+        "length, or position of the axis, where only the preload acts; as at the start where not given");
+  return t;
+}
+
+Table<DriveSection> driveTable() {
+  using S = DriveSection;
+  Table<S> t("[drive]", "Motor on the free axis of a joint; what it takes is in the results");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("joint", &S::joint, "", "name of a revolute or prismatic joint").required();
+  t.add("imposes", &S::imposes, "", "what value is: speed or position of the axis, or the torque (force of a slide)")
+      .oneOf({"speed", "position", "torque"});
+  t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times; this, or time with values");
+  t.add("time", &S::time, "s", "increasing; values are linear between these times and constant outside").atLeast(0);
+  t.add("values", &S::values, "as value", "one for each time");
+  return t;
+}
+
 Table<Vehicle> vehicleTable() {
   using S = Vehicle;
   Table<S> t("vehicle", "A tracked vehicle");
@@ -168,6 +249,7 @@ Table<Output> outputTable() {
   using S = Output;
   Table<S> t("output", "What a run leaves; intervals stand in [run]");
   t.add("folder", &S::folder, "", "of the results, from where grouser is called; out/NAME where not given");
+  t.add("record", &S::record, "", "names of what of a mechanism goes into the time series; all where empty");
   t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
   t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
   t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);

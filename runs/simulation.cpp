@@ -24,6 +24,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleP
   if (bed) keepSurface(ground_);
   surface_ = surfaceHeight(ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
+  if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
   if (ground_.grains) ground_.grains->setSteps(0);
   start_ = ledger();
 }
@@ -41,6 +42,7 @@ void Simulation::step() {
   // The device works on the grains while the host solves the vehicle.
   if (grains) grains->beginStep(vehicle_ ? vehicle_->grainLoads() : nullptr);
   if (vehicle_) vehicle_->advance();
+  if (mechanism_) mechanism_->advance();
   if (grains) grains->endStep();
   ++steps_;
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
@@ -73,6 +75,12 @@ Simulation::Ledger Simulation::ledger() {
     ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
     ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
   }
+  if (mechanism_) {
+    const Mechanism::Ledger m = mechanism_->ledger();
+    ledger.driveWork = m.driveWork;
+    ledger.kinetic = m.kinetic, ledger.potential = m.potential;
+    ledger.elastic = m.elastic, ledger.dissipated = m.dissipated;
+  }
   ledger.kinetic -= start_.kinetic, ledger.potential -= start_.potential;
   ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;
   ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork;
@@ -81,14 +89,15 @@ Simulation::Ledger Simulation::ledger() {
 
 void Simulation::checkEnergy(const Ledger& now) {
   mostPutIn_ = std::max(mostPutIn_, std::max(0.0, now.driveWork) + std::max(0.0, -now.potential));
-  const double available = start_.kinetic + start_.elastic + mostPutIn_;
+  const double available = start_.kinetic + std::max(start_.elastic, -now.elastic) + mostPutIn_;
   // A vehicle is set down with small overlaps between its parts, whose energy nobody put in.
   const double floor = kEnergyFloor + (vehicle_ ? kVehicleFloor * vehicle_->assembly().mass : 0.0);
   if (now.residual <= kMostCreated * available + floor) return;
   throw base::SimulationError(
-      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; the "
-                  "contacts are unstable: use a smaller time_step or softer contacts",
-                  steps_, time(), now.residual, available));
+      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; the {}", steps_,
+                  time(), now.residual, available,
+                  mechanism_ ? "steps are too long for this motion: use a smaller time_step"
+                             : "contacts are unstable: use a smaller time_step or softer contacts"));
 }
 
 } // namespace grouser::runs

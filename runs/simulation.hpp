@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/bed.hpp"
+#include "runs/mechanism.hpp"
 #include "runs/output.hpp"
 #include "runs/scene.hpp"
 #include "runs/simulation_state.hpp"
@@ -12,7 +13,7 @@
 
 namespace grouser::runs {
 
-/// A scene that runs: grains, vehicle, or both. Built settled; `step()` is the whole of the physics.
+/// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
 class Simulation {
 public:
   Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress);
@@ -30,9 +31,11 @@ public:
 
   const Ground& ground() const { return ground_; }
   const VehicleRig* vehicle() const { return vehicle_.get(); }
+  const Mechanism* mechanism() const { return mechanism_.get(); }
   /// Means of the observers begin anew: after every row.
   void restartMeans() {
     if (vehicle_) vehicle_->restartMeans();
+    if (mechanism_) mechanism_->restartMeans();
   }
   const SettleReport& settled() const { return settled_; }
   const std::function<double(double, double)>& surface() const { return surface_; }
@@ -65,6 +68,7 @@ private:
   SettleReport settled_;
   std::function<double(double, double)> surface_;
   std::unique_ptr<VehicleRig> vehicle_;
+  std::unique_ptr<Mechanism> mechanism_;
   std::int64_t steps_{0};
   double mostPutIn_{0}; ///< by drives and gravity, the most at any row so far [J]
   Ledger start_; ///< before the first step; the ledger counts from here

@@ -10,6 +10,7 @@ std::string SimulationState::hash() const {
   base::StateHash hash;
   if (grains) hash.add(grains->words());
   if (vehicle) hash.add(vehicle->words());
+  if (mechanism) hash.add(mechanism->words());
   return hash.hex();
 }
 
@@ -24,6 +25,7 @@ SimulationState Simulation::save() const {
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
   if (vehicle_) state.vehicle = vehicle_->save();
+  if (mechanism_) state.mechanism = mechanism_->save();
   return state;
 }
 
@@ -32,7 +34,8 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
       settled_(state.settled), steps_(state.steps) {
   const bool bed = ground_.grains && ground_.walls;
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
-      state.vehicle.has_value() != scene.vehicle.has_value() || state.energyAtStart.size() != 4)
+      state.vehicle.has_value() != scene.vehicle.has_value() ||
+      state.mechanism.has_value() == scene.mechanism.empty() || state.energyAtStart.size() != 4)
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (bed) keepSurface(ground_, state.surface);
   surface_ = surfaceHeight(ground_);
@@ -44,6 +47,10 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
     // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
     vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
     vehicle_->restore(*state.vehicle);
+  }
+  if (!scene.mechanism.empty()) {
+    mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
+    mechanism_->restore(*state.mechanism);
   }
   const std::vector<double>& e = state.energyAtStart;
   start_.kinetic = e[0], start_.potential = e[1], start_.elastic = e[2], start_.dissipated = e[3];

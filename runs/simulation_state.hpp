@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/bed.hpp"
+#include "runs/mechanism_state.hpp"
 #include "runs/vehicle_state.hpp"
 #include "terrain/grain_state.hpp"
 
@@ -20,6 +21,7 @@ struct SimulationState {
   double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
   std::optional<terrain::GrainState> grains;
   std::optional<VehicleState> vehicle;
+  std::optional<MechanismState> mechanism;
 
   /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash.
   std::string hash() const;

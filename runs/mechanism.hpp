@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/solver.hpp"
+#include "runs/mechanism_state.hpp"
+#include "runs/scene.hpp"
+
+#include <vector>
+
+namespace grouser::runs {
+
+/// A mechanism of a scene that moves: model, state and solver, with drives that follow their tables.
+class Mechanism {
+public:
+  /// Throws base::InputError where the sections make no mechanism.
+  Mechanism(const Scene& scene, double timeStep);
+  Mechanism(const Mechanism&) = delete;
+  Mechanism& operator=(const Mechanism&) = delete;
+
+  /// One step. Throws base::SimulationError.
+  void advance();
+
+  const multibody::Model& model() const { return model_; }
+  const multibody::State& state() const { return state_; }
+  const multibody::Solver& solver() const { return solver_; }
+  const multibody::Loads& loads() const { return loads_; }
+
+  /// What a drive does now.
+  struct DriveReading {
+    double value = 0;  ///< what it imposes [rad/s, rad, N m, or m/s, m, N]
+    double torque = 0; ///< [N m] or [N]
+    double power = 0;  ///< [W]
+  };
+  DriveReading drive(int index) const;
+  /// Force [N] or torque [N m] of a spring on the axis of a joint at its present position and rate.
+  double axisSpringForce(int index) const;
+
+  /// Energies [J] and momenta since the start of the world; work of drives and dissipation since the first step.
+  struct Ledger {
+    double driveWork{}, kinetic{}, potential{}, elastic{}, dissipated{};
+    base::Vec3d linearMomentum, angularMomentum;
+  };
+  Ledger ledger() const;
+
+  /// How well the joints are closed.
+  struct Drift {
+    double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
+    double velocity = 0;   ///< now [m/s, rad/s]
+    int iterations = 0;    ///< most of a step since then
+    int singularSteps = 0; ///< steps through a singular position since then
+  };
+  Drift drift() const;
+  void restartMeans() { worst_ = {}; }
+
+  MechanismState save() const;
+  /// Throws base::InputError where the state is of another mechanism.
+  void restore(const MechanismState& saved);
+
+private:
+  void setDrives();
+
+  const MechanismSections sections_;
+  const double timeStep_;
+  const multibody::Model model_;
+  multibody::State state_;
+  multibody::Loads loads_;
+  multibody::Solver solver_;
+  Drift worst_;
+};
+
+/// The solver's options as a scene's [run] gives them.
+multibody::SolverOptions solverOptions(const RunSettings& run);
+
+/// The step that "auto" stands for: a hundredth of the shortest period or turn at the start, of springs one by one and
+/// of the bodies' spins, at most 1 ms.
+double mechanismTimeStep(const Scene& scene);
+
+} // namespace grouser::runs

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/mechanism_scene.hpp"
+
+#include "runs/detail/scene_tables.hpp"
+#include "runs/mechanism_model.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+using base::Section;
+
+namespace {
+
+/// Reads all of [[key]] by `table`, and has the builder check each; a fault gets the place of its key.
+template <class S> void readAll(const Section& root, const std::string& key, const base::Table<S>& table,
+                                MechanismBuilder& builder, std::vector<S>& sections) {
+  for (const Section& section : root.list(key)) {
+    sections.push_back(section.read(table));
+    try {
+      builder.add(sections.back());
+    } catch (const SectionFault& fault) {
+      section.fail(fault.key(), fault.what());
+    }
+  }
+}
+
+template <class S>
+void writeAll(std::string& text, const std::string& key, const base::Table<S>& table, const std::vector<S>& sections) {
+  for (const S& s : sections) {
+    text += "\n[[" + key + "]]\n";
+    // A list without entries says that the key was not given.
+    std::string lines = table.write(s);
+    for (std::size_t at = 0; at < lines.size();) {
+      const std::size_t end = lines.find('\n', at);
+      const std::string line = lines.substr(at, end - at);
+      if (!line.ends_with("= []") && !line.ends_with("= \"\"")) text += line + "\n";
+      at = end + 1;
+    }
+  }
+}
+
+} // namespace
+
+void readMechanism(const Section& root, Scene& scene) {
+  MechanismSections& m = scene.mechanism;
+  MechanismBuilder builder;
+  readAll(root, "body", detail::bodyTable(), builder, m.bodies);
+  readAll(root, "joint", detail::jointTable(), builder, m.joints);
+  readAll(root, "spring", detail::springTable(), builder, m.springs);
+  readAll(root, "drive", detail::driveTable(), builder, m.drives);
+  if (m.bodies.empty()) {
+    for (const char* key : {"joint", "spring", "drive"})
+      for (const Section& section : root.list(key)) section.fail("", "has no body to act on; add a [[body]]");
+    return;
+  }
+  const std::vector<Section> joints = root.list("joint");
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    try {
+      checkStartVelocity(builder.model(), static_cast<int>(j));
+    } catch (const SectionFault& fault) {
+      joints[j].fail(fault.key(), fault.what());
+    }
+  }
+  for (const char* other : {"grain", "plane", "terrain", "vehicle"})
+    if (root.has(other))
+      root.list("body").front().fail("",
+                                     fmt::format("stands beside {}, but free bodies touch neither ground nor grains "
+                                                 "nor a vehicle; give the mechanism a scene of its own",
+                                                 other));
+}
+
+std::string mechanismToml(const MechanismSections& m) {
+  std::string text;
+  writeAll(text, "body", detail::bodyTable(), m.bodies);
+  writeAll(text, "joint", detail::jointTable(), m.joints);
+  writeAll(text, "spring", detail::springTable(), m.springs);
+  writeAll(text, "drive", detail::driveTable(), m.drives);
+  return text;
+}
+
+} // namespace grouser::runs

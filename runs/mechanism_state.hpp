@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::runs {
+
+/// All of a mechanism on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
+struct MechanismState {
+  std::vector<double> bodies; ///< multibody::State::save()
+  std::vector<double> worst;  ///< what the next row says of the steps since the last one
+
+  /// For the hash: what the next step depends on.
+  std::vector<std::uint32_t> words() const;
+};
+
+} // namespace grouser::runs
