@@ -17,6 +17,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Steps of a period or turn that "auto" gives [-], and the longest step it gives [s].
 constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
+/// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
+constexpr double kRoundedRate = 1e-12;
 
 /// The solver's errors about the mechanism as a whole, with the file.
 multibody::Solver makeSolver(const Scene& scene, const multibody::Model& model) {
@@ -31,24 +33,24 @@ multibody::Solver makeSolver(const Scene& scene, const multibody::Model& model) 
 
 multibody::SolverOptions solverOptions(const RunSettings& run) {
   multibody::SolverOptions options;
-  options.positionTolerance = run.constraintTolerance;
+  options.integrator =
+      run.integrator == "rattle" ? multibody::Integrator::kRattle : multibody::Integrator::kSymplecticEuler;
+  options.order = run.integratorOrder;
+  options.springs = run.springs == "implicit" ? multibody::Springs::kImplicit : multibody::Springs::kExplicit;
+  options.positionTolerance = run.constraintTolerance.value_or(0);
+  // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
+  options.startVelocities = multibody::StartVelocities::kAccept;
   return options;
 }
 
 Mechanism::Mechanism(const Scene& scene, double timeStep)
-    : sections_(scene.mechanism), timeStep_(timeStep), model_(buildModel(scene.mechanism)),
-      state_(multibody::makeState(model_)), loads_(multibody::makeLoads(model_)), solver_(makeSolver(scene, model_)) {
+    : timeStep_(timeStep), model_(buildModel(scene.mechanism)), state_(multibody::makeState(model_)),
+      loads_(multibody::makeLoads(model_)), solver_(makeSolver(scene, model_)) {
   loads_.gravity = scene.run.gravity;
-}
-
-void Mechanism::setDrives() {
-  // A rate over the step is met best by the value in its middle.
-  for (std::size_t d = 0; d < sections_.drives.size(); ++d)
-    loads_.drives[d].speed = driveValue(sections_.drives[d], state_.time + 0.5 * timeStep_);
+  if (solver_.velocityError(state_) > kRoundedRate) solver_.projectVelocities(state_, loads_);
 }
 
 void Mechanism::advance() {
-  setDrives();
   solver_.step(state_, loads_, timeStep_);
   const multibody::StepReport& report = solver_.lastStep();
   worst_.position = std::max(worst_.position, report.maxPositionError);
@@ -57,14 +59,14 @@ void Mechanism::advance() {
 }
 
 Mechanism::DriveReading Mechanism::drive(int index) const {
-  const multibody::JointReading& joint = state_.joint[at(model_.drives()[at(index)].joint)];
-  return {driveValue(sections_.drives[at(index)], state_.time), joint.driveForce, joint.driveForce * joint.rate};
+  return {model_.drives()[at(index)].law.value(state_.time), multibody::driveForce(model_, state_, index),
+          multibody::drivePower(model_, state_, index)};
 }
 
 double Mechanism::axisSpringForce(int index) const {
   const multibody::AxisSpring& s = model_.axisSprings()[at(index)];
-  const multibody::JointReading& joint = state_.joint[at(s.joint)];
-  return s.preload - s.stiffness * (joint.position - s.freePosition) - s.damping * joint.rate;
+  const multibody::AxisReading axis = multibody::axisReading(model_, state_, s.joint, s.axis);
+  return s.preload - s.stiffness * (axis.position - s.freePosition) - s.damping * axis.rate;
 }
 
 Mechanism::Ledger Mechanism::ledger() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "multibody/solver.hpp"
+#include "multibody/state.hpp"
 #include "runs/mechanism_state.hpp"
 #include "runs/scene.hpp"
 
@@ -9,7 +10,7 @@
 
 namespace grouser::runs {
 
-/// A mechanism of a scene that moves: model, state and solver, with drives that follow their tables.
+/// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
 class Mechanism {
 public:
   /// Throws base::InputError where the sections make no mechanism.
@@ -32,7 +33,7 @@ public:
     double power = 0;  ///< [W]
   };
   DriveReading drive(int index) const;
-  /// Force [N] or torque [N m] of a spring on the axis of a joint at its present position and rate.
+  /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
   double axisSpringForce(int index) const;
 
   /// Energies [J] and momenta since the start of the world; work of drives and dissipation since the first step.
@@ -57,9 +58,6 @@ public:
   void restore(const MechanismState& saved);
 
 private:
-  void setDrives();
-
-  const MechanismSections sections_;
   const double timeStep_;
   const multibody::Model model_;
   multibody::State state_;

@@ -3,11 +3,13 @@
 
 #include "base/math.hpp"
 #include "base/table.hpp"
+#include "runs/mechanism_frames.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace grouser::runs {
 
@@ -15,16 +17,13 @@ using base::Mat3d;
 using base::Pose;
 using base::Quat;
 using base::Vec3d;
+using multibody::JointAxis;
 using multibody::JointType;
 
 namespace {
 
-/// Frames given twice, once a body, must meet this well at the start [m, rad].
-constexpr double kStartGap = 1e-6;
 /// Quaternions are typed with a few digits: their length may be off 1 by this.
 constexpr double kQuaternionLength = 1e-3;
-
-std::string text(const Vec3d& v) { return fmt::format("({:.7g}, {:.7g}, {:.7g})", v.x, v.y, v.z); }
 
 Quat orientationOf(const BodySection& b) {
   if (!b.orientation.empty()) {
@@ -61,19 +60,41 @@ Mat3d inertiaOf(const BodySection& b) {
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
 }
 
+const std::pair<const char*, JointType> kTypes[] = {
+    {"revolute", JointType::kRevolute},   {"spherical", JointType::kSpherical},
+    {"universal", JointType::kUniversal}, {"prismatic", JointType::kPrismatic},
+    {"fixed", JointType::kFixed},         {"cylindrical", JointType::kCylindrical},
+    {"distance", JointType::kDistance}};
+
 JointType typeOf(const std::string& word) {
-  if (word == "revolute") return JointType::kRevolute;
-  if (word == "spherical") return JointType::kSpherical;
-  if (word == "universal") return JointType::kUniversal;
-  if (word == "prismatic") return JointType::kPrismatic;
-  if (word == "fixed") return JointType::kFixed;
-  throw SectionFault("type", "is not possible so far; use another joint");
+  for (const auto& [name, type] : kTypes)
+    if (word == name) return type;
+  throw SectionFault("type", "is no type of joint");
 }
 
-/// Where the two frames of a joint stand in the world.
-struct Placed {
-  Pose A, B;
-};
+/// Everything that a drive says over time, added up.
+multibody::TimeLaw lawOf(const DriveSection& d) {
+  multibody::TimeLaw law;
+  law.polynomial = d.polynomial;
+  if (d.value) law.polynomial = {*d.value};
+  if (d.value && !d.polynomial.empty())
+    throw SectionFault("polynomial", "stands beside value, which is its first entry; remove one of the two");
+  if (d.amplitude != 0) {
+    if (!(d.frequency > 0)) throw SectionFault("frequency", "[Hz] must be above 0 beside amplitude; add it");
+    law.harmonics.push_back({d.amplitude, 2 * base::kPi * d.frequency, d.phase * (base::kPi / 180)});
+  }
+  if (d.values.size() != d.time.size())
+    throw SectionFault("values",
+                       fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
+  if (d.time.size() == 1) throw SectionFault("time", "[s] has one entry; give two at least, or value");
+  for (std::size_t i = 1; i < d.time.size(); ++i)
+    if (!(d.time[i] > d.time[i - 1]))
+      throw SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+  // A kink in a position would be a blow.
+  (d.imposes == "position" ? law.table : law.ramps) = {d.time, d.values};
+  if (law.empty()) throw SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
+  return law;
+}
 
 /// A message of the model begins with the name of the part, then often with a key.
 [[noreturn]] void hand(const base::InputError& error, const std::vector<std::string>& keys) {
@@ -89,73 +110,20 @@ struct Placed {
   throw SectionFault("", rest);
 }
 
-/// Direction given for a key, not zero.
-Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
-  if (!v) throw SectionFault(key, "[-] is missing, which this type of joint needs; add it, e.g. [0, 0, 1]");
-  if (norm2(*v) == 0) throw SectionFault(key, "[-] is zero; give a direction, e.g. [0, 0, 1]");
-  return normalized(*v);
+/// Adds to the model; what it refuses becomes a fault of the key that its message begins with.
+template <class Add> int handed(const std::vector<std::string>& keys, Add add) {
+  try {
+    return add();
+  } catch (const base::InputError& error) {
+    hand(error, keys);
+  }
 }
 
-bool hasAxis(const std::string& type) { return type != "spherical" && type != "fixed" && type != "distance"; }
-
-/// Both frames from what is said in the world.
-Placed placedInWorld(const JointSection& j) {
-  for (const auto& [key, given] : {std::pair{"point_a", j.pointA.has_value()},
-                                   {"point_b", j.pointB.has_value()},
-                                   {"axis_a", j.axisA.has_value()},
-                                   {"axis_b", j.axisB.has_value()}})
-    if (given)
-      throw SectionFault(key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
-  if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
-  const Vec3d z = direction("axis", j.axis);
-  Pose X = multibody::frameWithZ(*j.point, z);
-  if (j.type == "universal") {
-    const Vec3d x = direction("second_axis", j.secondAxis);
-    if (std::fabs(dot(x, z)) > kStartGap)
-      throw SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
-                                                    "perpendicular at the start",
-                                                    std::fabs(dot(x, z))));
-    X = multibody::frameWithZX(*j.point, z, x);
-  }
-  return {X, X};
-}
-
-/// Both frames from what is said in the bodies; they must meet.
-Placed placedInBodies(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
-  if (!j.pointA) throw SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
-  if (!j.pointB) throw SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
-  const Vec3d p_A = X_WA.toWorld(*j.pointA), p_B = X_WB.toWorld(*j.pointB);
-  const auto apart = [&](const Vec3d& gap, const char* where) {
-    if (!(norm(gap) <= kStartGap))
-      throw SectionFault("point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
-                                                "at {}; allowed are {:g} m: correct the points or the bodies' places",
-                                                text(p_B), norm(gap), where, text(p_A), kStartGap));
-  };
-  if (j.type == "distance") return {{p_A, X_WA.orientation}, {p_B, X_WB.orientation}};
-  if (!hasAxis(j.type)) {
-    apart(p_B - p_A, "");
-    return {{p_A, X_WA.orientation}, {p_A, X_WA.orientation}};
-  }
-  const Vec3d z = rotate(X_WA.orientation, direction("axis_a", j.axisA));
-  const Vec3d b = rotate(X_WB.orientation, direction("axis_b", j.axisB));
-  if (j.type == "universal") {
-    apart(p_B - p_A, "");
-    if (std::fabs(dot(z, b)) > kStartGap)
-      throw SectionFault("axis_b", fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
-                                               "them perpendicular",
-                                               std::fabs(dot(z, b))));
-    const Pose X = multibody::frameWithZX(p_A, z, b);
-    return {X, X};
-  }
-  if (!(norm(cross(z, b)) <= kStartGap && dot(z, b) > 0))
-    throw SectionFault("axis_b", fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
-                                             "apart; turn a body or an axis so that they are parallel",
-                                             text(b), text(z), norm(b - z)));
-  const bool slides = j.type == "prismatic" || j.type == "cylindrical";
-  const double slide = slides ? dot(p_B - p_A, z) : 0;
-  apart(p_B - p_A - slide * z, slides ? " beside the axis" : "");
-  const Pose X = multibody::frameWithZ(p_A, z);
-  return {X, {p_A + slide * z, X.orientation}};
+void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits, double stiffness, double damping) {
+  if (!(limits[0] < limits[1])) throw SectionFault("limits", "[rad or m] must be the lower, then the upper; swap them");
+  if (!(stiffness > 0)) throw SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
+  spring.lowerLimit = limits[0], spring.upperLimit = limits[1];
+  spring.stopStiffness = stiffness, spring.stopDamping = damping;
 }
 
 } // namespace
@@ -166,91 +134,100 @@ void MechanismBuilder::checkName(const std::string& kind, const std::string& nam
   if (name.find_first_of("/.\",\n") != std::string::npos)
     throw SectionFault("name",
                        "has one of the characters / . , \" in it, which results use between names; leave it out");
-  for (const auto& [k, n] : names_)
-    if (k == kind && n == name)
-      throw SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
-  names_.emplace_back(kind, name);
+  if (!names_.insert(kind + " " + name).second)
+    throw SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
 }
 
 int MechanismBuilder::body(const std::string& key, const std::string& name) const {
   if (name == "world") return multibody::kWorld;
+  if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
   std::vector<std::string> known = {"world"};
-  for (std::size_t i = 0; i < model_.bodies().size(); ++i) {
-    if (model_.bodies()[i].name == name) return static_cast<int>(i);
-    known.push_back(model_.bodies()[i].name);
-  }
+  for (const multibody::Body& b : model_.bodies()) known.push_back(b.name);
   throw SectionFault(key,
                      fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
 }
 
-int MechanismBuilder::axisJoint(const std::string& key, const std::string& name) const {
+std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& names) const {
+  if (names.size() != 2)
+    throw SectionFault("bodies", "must name two bodies, e.g. [\"world\", \"rod\"]; correct the list");
+  return {body("bodies", names[0]), body("bodies", names[1])};
+}
+
+int MechanismBuilder::joint(const std::string& key, const std::string& name) const {
+  if (const auto found = joints_.find(name); found != joints_.end()) return found->second;
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < model_.joints().size(); ++i) {
-    const multibody::Joint& j = model_.joints()[i];
-    if (j.name == name) {
-      if (j.type == JointType::kRevolute || j.type == JointType::kPrismatic) return static_cast<int>(i);
-      throw SectionFault(key, "has no single free axis; use a revolute or prismatic joint");
-    }
-    known.push_back(j.name);
+  for (const multibody::Joint& j : model_.joints()) known.push_back(j.name);
+  throw SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
+                                        : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
+                                                      base::nearestWord(name, known)));
+}
+
+JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::string& word) const {
+  const multibody::Joint& j = model_.joints()[static_cast<std::size_t>(index)];
+  const bool turns = j.type == JointType::kRevolute || j.type == JointType::kCylindrical;
+  const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
+  if (!turns && !slides)
+    throw SectionFault("", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
+                                       "cylindrical joint",
+                                       j.name));
+  if (word.empty()) {
+    if (turns && slides)
+      throw SectionFault(
+          key, fmt::format("is missing, for joint \"{}\" has two axes; add {} = \"angle\" or \"slide\"", j.name, key));
+    return JointAxis::kOnly;
   }
-  throw SectionFault(key, known.empty()
-                              ? "names no joint, for there is none; add a [[joint]]"
-                              : fmt::format("names no joint; did you mean \"{}\"?", base::nearestWord(name, known)));
+  if (word == "angle" ? !turns : !slides)
+    throw SectionFault(key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
+  return word == "angle" ? JointAxis::kAngle : JointAxis::kSlide;
+}
+
+Pose MechanismBuilder::pose(int index) const {
+  return index == multibody::kWorld ? Pose{} : model_.bodies()[static_cast<std::size_t>(index)].pose;
 }
 
 void MechanismBuilder::add(const BodySection& b) {
   checkName("body", b.name);
   multibody::Body body;
-  body.name = b.name, body.fixed = b.fixed;
+  body.name = b.name, body.fixed = b.fixed, body.point = b.point;
   body.pose = {b.position, orientationOf(b)};
   body.v_WB = b.velocity, body.w_WB = b.spin;
   if (!b.fixed) {
     if (!b.mass) throw SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
     body.mass = *b.mass;
-    body.inertia_B = inertiaOf(b);
+    if (b.point && !b.inertia.empty())
+      throw SectionFault("inertia", "[kg m2] stands beside point = true; a point has none: remove one of the two");
+    if (!b.point) body.inertia_B = inertiaOf(b);
   }
-  try {
-    model_.addBody(body);
-  } catch (const SectionFault&) {
-    throw;
-  } catch (const base::InputError& error) {
-    hand(error, {"inertia", "mass", "velocity"});
-  }
+  bodies_[b.name] = handed({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
 }
 
 void MechanismBuilder::add(const JointSection& j) {
   checkName("joint", j.name);
-  if (j.bodies.size() != 2)
-    throw SectionFault("bodies", "must name two bodies, e.g. [\"world\", \"rod\"]; correct the list");
   multibody::Joint joint;
-  joint.name = j.name, joint.type = typeOf(j.type), joint.damping = j.damping;
-  joint.bodyA = body("bodies", j.bodies[0]), joint.bodyB = body("bodies", j.bodies[1]);
-  const auto pose = [&](int b) {
-    return b == multibody::kWorld ? Pose{} : model_.bodies()[static_cast<std::size_t>(b)].pose;
-  };
-  if (j.secondAxis && j.type != "universal")
-    throw SectionFault("second_axis", "has a meaning for a universal joint only; remove it");
-  if (!j.point && !j.pointA && !j.pointB)
-    throw SectionFault("point", "[m] is missing; add where the joint is at the start, or point_a and point_b");
+  joint.name = j.name, joint.type = typeOf(j.type);
+  joint.damping = j.damping, joint.slideDamping = j.slideDamping, joint.length = j.length.value_or(0);
+  std::tie(joint.bodyA, joint.bodyB) = twoBodies(j.bodies);
   const Pose X_WA = pose(joint.bodyA), X_WB = pose(joint.bodyB);
-  const Placed placed = j.point ? placedInWorld(j) : placedInBodies(j, X_WA, X_WB);
+  const JointFrames placed = placeJoint(j, X_WA, X_WB);
   joint.frame_A = multibody::compose(multibody::inverse(X_WA), placed.A);
   joint.frame_B = multibody::compose(multibody::inverse(X_WB), placed.B);
-  if (j.limits && !(j.stopStiffness > 0))
-    throw SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
-  try {
-    const int index = model_.addJoint(joint);
-    if (!j.limits) return;
-    multibody::AxisSpring stops;
-    stops.name = j.name + " stops", stops.joint = index;
-    stops.lowerLimit = (*j.limits)[0], stops.upperLimit = (*j.limits)[1];
-    stops.stopStiffness = j.stopStiffness, stops.stopDamping = j.stopDamping;
-    model_.addAxisSpring(stops);
-  } catch (const SectionFault&) {
-    throw;
-  } catch (const base::InputError& error) {
-    hand(error, {"damping"});
+  if (j.type == "distance") {
+    // Exactly the points that were given.
+    joint.frame_A.position = j.pointA.value_or(Vec3d{}), joint.frame_B.position = j.pointB.value_or(Vec3d{});
+    const double apart = norm(placed.B.position - placed.A.position);
+    if (j.length && !(std::fabs(apart - *j.length) <= 1e-6 * *j.length))
+      throw SectionFault("length", fmt::format("[m] is not met at the start, where the points are {:.9g} m apart; "
+                                               "correct it or the bodies' places, or leave it out",
+                                               apart));
   }
+  const int index = handed({"damping", "slide_damping", "length"}, [&] { return model_.addJoint(joint); });
+  joints_[j.name] = index;
+  if (!j.limits) return;
+  multibody::AxisSpring stops;
+  stops.name = j.name + " stops", stops.joint = index;
+  stops.axis = j.type == "cylindrical" ? JointAxis::kAngle : axis(index, "limits", "");
+  setStops(stops, *j.limits, j.stopStiffness, j.stopDamping);
+  handed({"limits"}, [&] { return model_.addAxisSpring(stops); });
 }
 
 void MechanismBuilder::add(const SpringSection& s) {
@@ -259,85 +236,95 @@ void MechanismBuilder::add(const SpringSection& s) {
     throw SectionFault(s.joint.empty() ? "" : "joint", s.joint.empty()
                                                            ? "has neither bodies nor joint; say where it acts"
                                                            : "stands beside bodies; a spring acts on one of the two");
-  try {
-    if (!s.joint.empty()) {
-      if (s.pointA || s.pointB)
-        throw SectionFault(s.pointA ? "point_a" : "point_b", "[m] has no meaning on the axis of a joint; remove it");
-      multibody::AxisSpring spring;
-      spring.name = s.name, spring.joint = axisJoint("joint", s.joint);
-      spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
-      spring.freePosition = s.freePosition.value_or(0);
-      model_.addAxisSpring(spring);
-      return;
-    }
-    if (s.bodies.size() != 2)
-      throw SectionFault("bodies", "must name two bodies, e.g. [\"world\", \"rod\"]; correct the list");
-    multibody::PointSpring spring;
-    spring.name = s.name;
-    spring.bodyA = body("bodies", s.bodies[0]), spring.bodyB = body("bodies", s.bodies[1]);
-    spring.point_A = s.pointA.value_or(Vec3d{}), spring.point_B = s.pointB.value_or(Vec3d{});
-    spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
-    const auto place = [&](int b, const Vec3d& p) {
-      return b == multibody::kWorld ? p : model_.bodies()[static_cast<std::size_t>(b)].pose.toWorld(p);
-    };
-    const double length = norm(place(spring.bodyB, spring.point_B) - place(spring.bodyA, spring.point_A));
-    if (s.freePosition && *s.freePosition < 0)
-      throw SectionFault("free_position", "[m] is a length here and must be at least 0; correct it");
-    if (!(length > 0))
-      throw SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the spring has no "
-                                    "direction; move one of them");
-    spring.restLength = s.freePosition.value_or(length);
-    model_.addPointSpring(spring);
-  } catch (const SectionFault&) {
-    throw;
-  } catch (const base::InputError& error) {
-    hand(error, {"stiffness", "damping", "preload"});
+  if (s.joint.empty())
+    addBetweenPoints(s);
+  else
+    addOnAxis(s);
+}
+
+void MechanismBuilder::addOnAxis(const SpringSection& s) {
+  if (s.pointA || s.pointB)
+    throw SectionFault(s.pointA ? "point_a" : "point_b", "[m] has no meaning on the axis of a joint; remove it");
+  multibody::AxisSpring spring;
+  spring.name = s.name, spring.joint = joint("joint", s.joint), spring.axis = axis(spring.joint, "acts_on", s.actsOn);
+  spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
+  spring.freePosition = s.freePosition.value_or(0);
+  if (s.limits) setStops(spring, *s.limits, s.stopStiffness, s.stopDamping);
+  handed({"stiffness", "damping", "preload"}, [&] { return model_.addAxisSpring(spring); });
+}
+
+void MechanismBuilder::addBetweenPoints(const SpringSection& s) {
+  if (s.limits) throw SectionFault("limits", "have a meaning on the axis of a joint only; remove them");
+  multibody::PointSpring spring;
+  spring.name = s.name;
+  std::tie(spring.bodyA, spring.bodyB) = twoBodies(s.bodies);
+  spring.point_A = s.pointA.value_or(Vec3d{}), spring.point_B = s.pointB.value_or(Vec3d{});
+  spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
+  const double length = norm(pose(spring.bodyB).toWorld(spring.point_B) - pose(spring.bodyA).toWorld(spring.point_A));
+  if (s.freePosition && *s.freePosition < 0)
+    throw SectionFault("free_position", "[m] is a length here and must be at least 0; correct it");
+  if (!(length > 0))
+    throw SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the spring has no "
+                                  "direction; move one of them");
+  spring.restLength = s.freePosition.value_or(length);
+  handed({"stiffness", "damping", "preload"}, [&] { return model_.addPointSpring(spring); });
+}
+
+void MechanismBuilder::add(const BushingSection& b) {
+  checkName("bushing", b.name);
+  multibody::Bushing bushing;
+  bushing.name = b.name;
+  std::tie(bushing.bodyA, bushing.bodyB) = twoBodies(b.bodies);
+  Pose X{b.point, {}};
+  if (b.axis) {
+    if (norm2(*b.axis) == 0) throw SectionFault("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
+    X = multibody::frameWithZ(b.point, *b.axis);
   }
+  bushing.frame_A = multibody::compose(multibody::inverse(pose(bushing.bodyA)), X);
+  bushing.frame_B = multibody::compose(multibody::inverse(pose(bushing.bodyB)), X);
+  bushing.stiffness = b.stiffness, bushing.damping = b.damping;
+  bushing.rotationStiffness = b.rotationStiffness, bushing.rotationDamping = b.rotationDamping;
+  handed({"stiffness", "damping"}, [&] { return model_.addBushing(bushing); });
 }
 
 void MechanismBuilder::add(const DriveSection& d) {
   checkName("drive", d.name);
   multibody::Drive drive;
-  drive.name = d.name, drive.joint = axisJoint("joint", d.joint);
-  if (d.value.has_value() == !d.time.empty())
-    throw SectionFault(d.value ? "value" : "", d.value ? "stands beside time; keep one of value, and time with values"
-                                                       : "lacks value, or time with values; add one of them");
-  if (d.values.size() != d.time.size())
-    throw SectionFault("values",
-                       fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
-  for (std::size_t i = 1; i < d.time.size(); ++i)
-    if (!(d.time[i] > d.time[i - 1]))
-      throw SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
-  if (d.imposes != "speed") throw SectionFault("imposes", "is not possible so far; use \"speed\"");
+  drive.name = d.name, drive.joint = joint("joint", d.joint), drive.axis = axis(drive.joint, "acts_on", d.actsOn);
+  drive.law = lawOf(d);
+  drive.kind = d.imposes == "speed"      ? multibody::DriveKind::kSpeed
+               : d.imposes == "position" ? multibody::DriveKind::kPosition
+                                         : multibody::DriveKind::kForce;
   for (const multibody::Drive& other : model_.drives())
-    if (other.joint == drive.joint)
+    if (other.joint == drive.joint && other.axis == drive.axis && other.kind != multibody::DriveKind::kForce &&
+        drive.kind != multibody::DriveKind::kForce)
       throw SectionFault("joint", fmt::format("is driven by \"{}\" already, and two drives contradict each other; "
                                               "remove one",
                                               other.name));
-  drive.speed = driveValue(d, 0);
-  try {
-    model_.addDrive(drive);
-  } catch (const base::InputError& error) {
-    hand(error, {"speed"});
-  }
+  handed({"joint", "speed"}, [&] { return model_.addDrive(drive); });
+}
+
+void MechanismBuilder::add(const CouplingSection& c) {
+  checkName("coupling", c.name);
+  if (c.joints.size() != 2) throw SectionFault("joints", "must name two joints; correct the list");
+  if (!c.actsOn.empty() && c.actsOn.size() != 2)
+    throw SectionFault("acts_on", "must have two entries, \"angle\" or \"slide\", one a joint; correct the list");
+  multibody::Coupling coupling;
+  coupling.name = c.name, coupling.ratio = c.ratio;
+  coupling.joint1 = joint("joints", c.joints[0]), coupling.joint2 = joint("joints", c.joints[1]);
+  coupling.axis1 = axis(coupling.joint1, "acts_on", c.actsOn.empty() ? "" : c.actsOn[0]);
+  coupling.axis2 = axis(coupling.joint2, "acts_on", c.actsOn.empty() ? "" : c.actsOn[1]);
+  if (c.ratio == 0) throw SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
+  if (c.offset) coupling.offset = *c.offset;
+  handed({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }
 
 multibody::Model buildModel(const MechanismSections& sections) {
   MechanismBuilder builder;
-  for (const BodySection& s : sections.bodies) builder.add(s);
-  for (const JointSection& s : sections.joints) builder.add(s);
-  for (const SpringSection& s : sections.springs) builder.add(s);
-  for (const DriveSection& s : sections.drives) builder.add(s);
+  forEachKind(sections, [&](const char*, const auto& list) {
+    for (const auto& section : list) builder.add(section);
+  });
   return builder.model();
-}
-
-double driveValue(const DriveSection& d, double t) {
-  if (d.time.empty()) return d.value.value_or(0);
-  if (t <= d.time.front()) return d.values.front();
-  if (t >= d.time.back()) return d.values.back();
-  const auto later = static_cast<std::size_t>(std::upper_bound(d.time.begin(), d.time.end(), t) - d.time.begin());
-  const double t0 = d.time[later - 1], t1 = d.time[later];
-  return d.values[later - 1] + (d.values[later] - d.values[later - 1]) * ((t - t0) / (t1 - t0));
 }
 
 } // namespace grouser::runs

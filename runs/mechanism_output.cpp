@@ -19,8 +19,40 @@ bool isKept(const std::vector<std::string>& record, const std::string& name) {
   return record.empty() || std::find(record.begin(), record.end(), name) != record.end();
 }
 
-bool hasAxis(const multibody::Joint& joint) {
-  return joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic;
+bool hasAngle(const multibody::Joint& j) { return j.type == JointType::kRevolute || j.type == JointType::kCylindrical; }
+bool hasSlide(const multibody::Joint& j) {
+  return j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
+}
+
+/// Free axes of a joint with the names of their quantities.
+struct NamedAxis {
+  multibody::JointAxis axis;
+  std::string prefix; ///< of the quantities: "" for the only axis
+  bool turns;
+};
+std::vector<NamedAxis> axesOf(const multibody::Joint& j) {
+  if (j.type == JointType::kCylindrical)
+    return {{multibody::JointAxis::kAngle, "angle_", true}, {multibody::JointAxis::kSlide, "slide_", false}};
+  if (hasAngle(j) || hasSlide(j)) return {{multibody::JointAxis::kOnly, "", hasAngle(j)}};
+  return {};
+}
+
+/// Whether an axis is one of angles.
+bool turns(const multibody::Joint& j, multibody::JointAxis axis) {
+  return axis == multibody::JointAxis::kAngle || (axis == multibody::JointAxis::kOnly && hasAngle(j));
+}
+
+const multibody::Joint& jointOf(const multibody::Model& model, int joint) {
+  return model.joints()[static_cast<std::size_t>(joint)];
+}
+
+/// The end stops of a joint alone are no spring of their own.
+bool isSpring(const multibody::AxisSpring& s) { return s.stiffness > 0 || s.damping > 0 || s.preload != 0; }
+
+std::string driveUnit(multibody::DriveKind kind, bool turning) {
+  if (kind == multibody::DriveKind::kSpeed) return turning ? "rad/s" : "m/s";
+  if (kind == multibody::DriveKind::kPosition) return turning ? "rad" : "m";
+  return turning ? "N m" : "N";
 }
 
 /// Shares of a mechanism's size: thickness of a bar, least and greatest edge of a body that gives no box [-].
@@ -82,11 +114,15 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
     const std::string path = "joints/" + j.name + "/";
     c.push_back({path + "force", "N", "on the second body from the first, world components", 3, kAxes});
     c.push_back({path + "torque", "N m", "the same, about the joint", 3, kAxes});
-    if (!hasAxis(j)) continue;
-    const bool turns = j.type == JointType::kRevolute;
-    c.push_back({path + "position", turns ? "rad" : "m", "of the free axis", 1, {}});
-    c.push_back({path + "rate", turns ? "rad/s" : "m/s", "of the free axis", 1, {}});
-    c.push_back({path + "axis_force", turns ? "N m" : "N", "of damping, springs, stops and drive along it", 1, {}});
+    for (const NamedAxis& a : axesOf(j)) {
+      c.push_back({path + a.prefix + "position", a.turns ? "rad" : "m", "of the free axis", 1, {}});
+      c.push_back({path + a.prefix + "rate", a.turns ? "rad/s" : "m/s", "of the free axis", 1, {}});
+      c.push_back({path + a.prefix + "force_along",
+                   a.turns ? "N m" : "N",
+                   "of damping, springs, stops and drive along the free axis",
+                   1,
+                   {}});
+    }
   }
   for (const multibody::PointSpring& s : model.pointSprings()) {
     if (!isKept(record, s.name)) continue;
@@ -94,17 +130,37 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
     c.push_back({"springs/" + s.name + "/length", "m", "between its ends", 1, {}});
   }
   for (const multibody::AxisSpring& s : model.axisSprings()) {
-    if (!isKept(record, s.name) || s.stopStiffness > 0) continue;
-    const bool turns = model.joints()[static_cast<std::size_t>(s.joint)].type == JointType::kRevolute;
-    c.push_back({"springs/" + s.name + "/force", turns ? "N m" : "N", "on the second body along the axis", 1, {}});
+    if (!isSpring(s) || !isKept(record, s.name)) continue;
+    c.push_back({"springs/" + s.name + "/force",
+                 turns(jointOf(model, s.joint), s.axis) ? "N m" : "N",
+                 "on the second body along the axis",
+                 1,
+                 {}});
+  }
+  for (const multibody::Bushing& b : model.bushings()) {
+    if (!isKept(record, b.name)) continue;
+    const std::string path = "bushings/" + b.name + "/";
+    c.push_back({path + "force", "N", "on the second body, world components", 3, kAxes});
+    c.push_back({path + "torque", "N m", "on the second body, world components", 3, kAxes});
+    c.push_back({path + "translation", "m", "in the bushing's axes on the first body", 3, kAxes});
+    c.push_back({path + "rotation", "rad", "rotation vector in the same axes", 3, kAxes});
   }
   for (const multibody::Drive& d : model.drives()) {
     if (!isKept(record, d.name)) continue;
-    const bool turns = model.joints()[static_cast<std::size_t>(d.joint)].type == JointType::kRevolute;
+    const bool turning = turns(jointOf(model, d.joint), d.axis);
     const std::string path = "drives/" + d.name + "/";
-    c.push_back({path + "value", "-", "what it imposes, in the unit of that", 1, {}});
-    c.push_back({path + "torque", turns ? "N m" : "N", "that it takes", 1, {}});
+    c.push_back({path + "value", driveUnit(d.kind, turning), "what it imposes", 1, {}});
+    c.push_back({path + "torque", turning ? "N m" : "N", "that it takes", 1, {}});
     c.push_back({path + "power", "W", "that it gives to the mechanism", 1, {}});
+  }
+  for (std::size_t i = 0; i < model.couplings().size(); ++i) {
+    const multibody::Coupling& coupling = model.couplings()[i];
+    if (!isKept(record, coupling.name)) continue;
+    c.push_back({"couplings/" + coupling.name + "/force",
+                 turns(jointOf(model, coupling.joint2), coupling.axis2) ? "N m" : "N",
+                 "on the second axis",
+                 1,
+                 {}});
   }
   c.push_back({"momentum/linear", "kg m/s", "of all bodies", 3, kAxes});
   c.push_back({"momentum/angular", "kg m2/s", "of all bodies about the world's origin", 3, kAxes});
@@ -134,10 +190,12 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
     const multibody::JointReading& r = state.joint[i];
     row.set(path + "force", r.force);
     row.set(path + "torque", r.torque);
-    if (!hasAxis(j)) continue;
-    row.set(path + "position", r.position);
-    row.set(path + "rate", r.rate);
-    row.set(path + "axis_force", r.axisForce);
+    for (const NamedAxis& a : axesOf(j)) {
+      const multibody::AxisReading axis = multibody::axisReading(model, state, static_cast<int>(i), a.axis);
+      row.set(path + a.prefix + "position", axis.position);
+      row.set(path + a.prefix + "rate", axis.rate);
+      row.set(path + a.prefix + "force_along", axis.axisForce);
+    }
   }
   for (std::size_t i = 0; i < model.pointSprings().size(); ++i) {
     const std::string& name = model.pointSprings()[i].name;
@@ -147,8 +205,17 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
   }
   for (std::size_t i = 0; i < model.axisSprings().size(); ++i) {
     const multibody::AxisSpring& s = model.axisSprings()[i];
-    if (!isKept(record, s.name) || s.stopStiffness > 0) continue;
+    if (!isSpring(s) || !isKept(record, s.name)) continue;
     row.set("springs/" + s.name + "/force", mechanism.axisSpringForce(static_cast<int>(i)));
+  }
+  for (std::size_t i = 0; i < model.bushings().size(); ++i) {
+    if (!isKept(record, model.bushings()[i].name)) continue;
+    const std::string path = "bushings/" + model.bushings()[i].name + "/";
+    const multibody::BushingReading& r = state.bushing[i];
+    row.set(path + "force", r.force);
+    row.set(path + "torque", r.torque);
+    row.set(path + "translation", r.translation);
+    row.set(path + "rotation", r.rotation);
   }
   for (std::size_t i = 0; i < model.drives().size(); ++i) {
     const std::string& name = model.drives()[i].name;
@@ -158,6 +225,9 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
     row.set("drives/" + name + "/torque", r.torque);
     row.set("drives/" + name + "/power", r.power);
   }
+  for (std::size_t i = 0; i < model.couplings().size(); ++i)
+    if (isKept(record, model.couplings()[i].name))
+      row.set("couplings/" + model.couplings()[i].name + "/force", state.coupling[i].force);
   const Mechanism::Ledger ledger = mechanism.ledger();
   row.set("momentum/linear", ledger.linearMomentum);
   row.set("momentum/angular", ledger.angularMomentum);

@@ -12,6 +12,13 @@ using base::Section;
 
 namespace {
 
+auto tableOf(const std::vector<BodySection>&) { return detail::bodyTable(); }
+auto tableOf(const std::vector<JointSection>&) { return detail::jointTable(); }
+auto tableOf(const std::vector<SpringSection>&) { return detail::springTable(); }
+auto tableOf(const std::vector<BushingSection>&) { return detail::bushingTable(); }
+auto tableOf(const std::vector<DriveSection>&) { return detail::driveTable(); }
+auto tableOf(const std::vector<CouplingSection>&) { return detail::couplingTable(); }
+
 /// Reads all of [[key]] by `table`, and has the builder check each; a fault gets the place of its key.
 template <class S> void readAll(const Section& root, const std::string& key, const base::Table<S>& table,
                                 MechanismBuilder& builder, std::vector<S>& sections) {
@@ -45,12 +52,9 @@ void writeAll(std::string& text, const std::string& key, const base::Table<S>& t
 void readMechanism(const Section& root, Scene& scene) {
   MechanismSections& m = scene.mechanism;
   MechanismBuilder builder;
-  readAll(root, "body", detail::bodyTable(), builder, m.bodies);
-  readAll(root, "joint", detail::jointTable(), builder, m.joints);
-  readAll(root, "spring", detail::springTable(), builder, m.springs);
-  readAll(root, "drive", detail::driveTable(), builder, m.drives);
+  forEachKind(m, [&](const char* key, auto& sections) { readAll(root, key, tableOf(sections), builder, sections); });
   if (m.bodies.empty()) {
-    for (const char* key : {"joint", "spring", "drive"})
+    for (const char* key : {"joint", "spring", "bushing", "drive", "coupling"})
       for (const Section& section : root.list(key)) section.fail("", "has no body to act on; add a [[body]]");
     return;
   }
@@ -72,10 +76,7 @@ void readMechanism(const Section& root, Scene& scene) {
 
 std::string mechanismToml(const MechanismSections& m) {
   std::string text;
-  writeAll(text, "body", detail::bodyTable(), m.bodies);
-  writeAll(text, "joint", detail::jointTable(), m.joints);
-  writeAll(text, "spring", detail::springTable(), m.springs);
-  writeAll(text, "drive", detail::driveTable(), m.drives);
+  forEachKind(m, [&](const char* key, const auto& sections) { writeAll(text, key, tableOf(sections), sections); });
   return text;
 }
 

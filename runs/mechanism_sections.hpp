@@ -24,6 +24,7 @@ struct BodySection {
   std::vector<double> orientation; ///< w, x, y, z instead; empty: not given
   base::Vec3d velocity, spin;      ///< [m/s], [rad/s], world components
   bool fixed = false;
+  bool point = false; ///< a mass without extent
   bool operator==(const BodySection&) const = default;
 };
 
@@ -34,29 +35,52 @@ struct JointSection {
   std::optional<base::Vec3d> point, axis, secondAxis;      ///< world, at the start
   std::optional<base::Vec3d> pointA, pointB, axisA, axisB; ///< each in its body's frame
   std::optional<double> length;                            ///< of a distance joint [m]
-  double damping = 0;
+  double damping = 0, slideDamping = 0;
   std::optional<std::array<double, 2>> limits; ///< [rad] or [m] from the start
   double stopStiffness = 0, stopDamping = 0;
   bool operator==(const JointSection&) const = default;
 };
 
-/// [[spring]]: between two points, or on the axis of a joint.
+/// [[spring]]: between two points, or on an axis of a joint.
 struct SpringSection {
   std::string name;
   std::vector<std::string> bodies;
   std::optional<base::Vec3d> pointA, pointB; ///< each in its body's frame [m]
-  std::string joint;
+  std::string joint, actsOn;                 ///< actsOn: "angle" or "slide"; empty: the only one
   double stiffness = 0, damping = 0, preload = 0;
   std::optional<double> freePosition; ///< length [m], or axis position [m] or [rad]; empty: as at the start
+  std::optional<std::array<double, 2>> limits;
+  double stopStiffness = 0, stopDamping = 0;
   bool operator==(const SpringSection&) const = default;
 };
 
-/// [[drive]]
+/// [[bushing]]
+struct BushingSection {
+  std::string name;
+  std::vector<std::string> bodies;
+  base::Vec3d point;               ///< world, at the start [m]
+  std::optional<base::Vec3d> axis; ///< its z, in the world; empty: the world's axes
+  base::Vec3d stiffness, damping, rotationStiffness, rotationDamping;
+  bool operator==(const BushingSection&) const = default;
+};
+
+/// [[drive]]: the sum of what is given.
 struct DriveSection {
-  std::string name, joint, imposes = "speed";
+  std::string name, joint, actsOn, imposes = "speed";
   std::optional<double> value;
-  std::vector<double> time, values; ///< instead of one value
+  std::vector<double> polynomial;
+  double amplitude = 0, frequency = 0, phase = 0; ///< sine; [Hz], [deg]
+  std::vector<double> time, values;
   bool operator==(const DriveSection&) const = default;
+};
+
+/// [[coupling]]: position of the second axis = ratio x position of the first + offset.
+struct CouplingSection {
+  std::string name;
+  std::vector<std::string> joints, actsOn;
+  double ratio = 1;
+  std::optional<double> offset;
+  bool operator==(const CouplingSection&) const = default;
 };
 
 /// All of a mechanism, in the file's order.
@@ -64,9 +88,17 @@ struct MechanismSections {
   std::vector<BodySection> bodies;
   std::vector<JointSection> joints;
   std::vector<SpringSection> springs;
+  std::vector<BushingSection> bushings;
   std::vector<DriveSection> drives;
+  std::vector<CouplingSection> couplings;
   bool empty() const { return bodies.empty(); }
   bool operator==(const MechanismSections&) const = default;
 };
+
+/// Hands each kind, with its key in a file, to `f`, in an order in which each refers to former ones only.
+template <class Sections, class F> void forEachKind(Sections& s, F f) {
+  f("body", s.bodies), f("joint", s.joints), f("spring", s.springs), f("bushing", s.bushings);
+  f("drive", s.drives), f("coupling", s.couplings);
+}
 
 } // namespace grouser::runs

@@ -63,6 +63,14 @@ void checkStartVelocity(const multibody::Model& model, int index) {
     break;
   case JointType::kFixed:
     break;
+  case JointType::kCylindrical:
+    slip = beside(slip, z), turn = beside(turn, z);
+    break;
+  case JointType::kDistance: {
+    const Vec3d along = normalized(p - X_WA.position);
+    slip = dot(B.at(p) - A.at(X_WA.position), along) * along, turn = {};
+    break;
+  }
   }
   const double speed = std::max(norm(A.at(p)), norm(B.at(p))) + norm(A.v) + norm(B.v), spin = norm(A.w) + norm(B.w);
   const auto bodies = [&] {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grouser::runs {
 
@@ -17,8 +18,9 @@ using base::Section;
 
 namespace {
 
-const std::vector<std::string> kSections = {"version", "run",   "material", "contact", "grain",   "plane",  "terrain",
-                                            "body",    "joint", "spring",   "drive",   "vehicle", "driver", "output"};
+const std::vector<std::string> kSections = {"version",  "run",     "material", "contact", "grain",   "plane",
+                                            "terrain",  "body",    "joint",    "spring",  "bushing", "drive",
+                                            "coupling", "vehicle", "driver",   "output",  "parallel"};
 
 /// One of the two ways to say how lossy a contact is.
 template <class S> void checkOneLoss(const Section& section, const S& s) {
@@ -173,6 +175,14 @@ void readDriver(const Section& section, Scene& scene) {
   scene.driver = std::move(d);
 }
 
+void readParallel(const Section& section, Scene& scene) {
+  scene.parallel = section.read(detail::parallelTable());
+  if (const auto& n = scene.parallel.subdomains)
+    for (int a = 0; a < 3; ++a)
+      if ((*n)[a] != std::floor((*n)[a]))
+        section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
+}
+
 void checkIntervals(const Section& section, const RunSettings& run) {
   if (!run.timeStep) return;
   if (*run.timeStep > run.duration)
@@ -201,6 +211,7 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
+  if (root.has("parallel")) readParallel(root.section("parallel"), scene);
   if (scene.grains.empty() && !scene.terrain && !scene.vehicle && scene.mechanism.empty())
     throw InputError(fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]] or [[body]]",
                                  file.string()));
@@ -256,7 +267,8 @@ std::string resolvedToml(const Scene& scene) {
     text += block("[driver]", detail::driverTable(), scene.driver);
     if (scene.driver.table) text += block("[driver.table]", detail::speedTable(), *scene.driver.table);
   }
-  return text + block("[output]", detail::outputTable(), scene.output);
+  return text + block("[output]", detail::outputTable(), scene.output) +
+         block("[parallel]", detail::parallelTable(), scene.parallel);
 }
 
 std::string fieldHelp() {
@@ -266,8 +278,10 @@ std::string fieldHelp() {
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
   add(detail::grainTable()), add(detail::planeTable()), add(detail::terrainTable());
-  add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable()), add(detail::driveTable());
+  add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable());
+  add(detail::bushingTable()), add(detail::driveTable()), add(detail::couplingTable());
   add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());
+  add(detail::parallelTable());
   return text;
 }
 

@@ -25,12 +25,14 @@ struct RunSettings {
   double frameInterval = 0.1;
   double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
-  std::string device = "auto";                 ///< auto | cpu | cuda
-  int threads = 0;                             ///< 0: all
-  std::string integrator = "symplectic_euler"; ///< of mechanisms
-  double constraintTolerance = 1e-10;          ///< [m], [rad] to which joints of mechanisms are closed
-  double skin = 0.3;                           ///< [-] of a grain's radius
-  double maxOverlap = 0.2;                     ///< [-] of a grain's radius; beyond it the run stops
+  std::string device = "auto";               ///< auto | cpu | cuda
+  int threads = 0;                           ///< 0: all
+  std::string integrator = "rattle";         ///< of mechanisms: rattle | symplectic_euler
+  int integratorOrder = 2;                   ///< of rattle: 2, 4, 6, 8
+  std::string springs = "implicit";          ///< of rattle: explicit | implicit
+  std::optional<double> constraintTolerance; ///< [m], [rad] to which joints are closed; empty: the solver's own
+  double skin = 0.3;                         ///< [-] of a grain's radius
+  double maxOverlap = 0.2;                   ///< [-] of a grain's radius; beyond it the run stops
   bool operator==(const RunSettings&) const = default;
 };
 
@@ -137,6 +139,13 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
+/// [parallel]: how a run on several ranks shares out its grains. No bit of the answer depends on it.
+struct Parallel {
+  std::optional<base::Vec3d> subdomains; ///< whole numbers along x, y, z, 0 where free; empty: chosen
+  bool rebalance = true;                 ///< move the cuts when one rank has clearly more work than the others
+  bool operator==(const Parallel&) const = default;
+};
+
 /// One scene file with overrides applied and everything checked that can be checked without building it.
 struct Scene {
   std::filesystem::path file;
@@ -151,6 +160,7 @@ struct Scene {
   std::optional<Vehicle> vehicle;
   Driver driver;
   Output output;
+  Parallel parallel;
 
   std::string name() const { return file.stem().string(); }
   /// The material `name`; loading has made sure that it exists.

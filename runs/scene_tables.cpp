@@ -27,10 +27,19 @@ Table<RunSettings> runTable() {
   t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
       .atLeast(0)
       .atMost(1024);
-  t.add("integrator", &S::integrator, "", "of mechanisms").oneOf({"symplectic_euler"});
-  t.add("constraint_tolerance", &S::constraintTolerance, "m or rad", "to which every joint of a mechanism is closed")
-      .atLeast(1e-14)
-      .atMost(1e-3);
+  t.add("integrator", &S::integrator, "",
+        "of mechanisms: symplectic Euler (order 1, springs implicit) or RATTLE (order 2 and higher)")
+      .oneOf({"symplectic_euler", "rattle"});
+  t.add("integrator_order", &S::integratorOrder, "-", "of rattle: 2, or 4, 6, 8 by 5, 9, 17 stages a step")
+      .atLeast(1)
+      .atMost(8);
+  t.add("springs", &S::springs, "", "of rattle: explicit needs a step below 2 / omega, implicit takes any")
+      .oneOf({"explicit", "implicit"});
+  t.add("constraint_tolerance", &S::constraintTolerance, "m or rad",
+        "to which joints of a mechanism are closed; \"auto\": 1e-10 for symplectic_euler, 1e-13 for rattle")
+      .atLeast(1e-15)
+      .atMost(1e-3)
+      .orWord("auto");
   t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);
   t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
       .above(0)
@@ -139,6 +148,7 @@ Table<BodySection> bodyTable() {
   t.add("velocity", &S::velocity, "m/s", "of the centre of mass at the start, world components");
   t.add("spin", &S::spin, "rad/s", "angular velocity at the start, world components");
   t.add("fixed", &S::fixed, "", "never moves");
+  t.add("point", &S::point, "", "a mass without extent or inertia, for spherical and distance joints and springs");
   return t;
 }
 
@@ -161,7 +171,9 @@ Table<JointSection> jointTable() {
   t.add("length", &S::length, "m", "between point_a and point_b of a distance joint; as at the start where not given")
       .above(0)
       .atMost(1e5);
-  t.add("damping", &S::damping, "N m s/rad or N s/m", "on the free axis").atLeast(0);
+  t.add("damping", &S::damping, "N m s/rad or N s/m", "on the free axis; of a cylindrical joint on its angle")
+      .atLeast(0);
+  t.add("slide_damping", &S::slideDamping, "N s/m", "of a cylindrical joint on its slide").atLeast(0);
   t.add("limits", &S::limits, "rad or m", "end stops on the free axis, lower and upper, from its position 0");
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
   t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
@@ -175,25 +187,68 @@ Table<SpringSection> springTable() {
   t.add("bodies", &S::bodies, "", "names of the two that it pushes apart; or joint");
   t.add("point_a", &S::pointA, "m", "its end on the first body, in that body's frame; (0, 0, 0) where not given");
   t.add("point_b", &S::pointB, "m", "its end on the second body, in that body's frame");
-  t.add("joint", &S::joint, "", "name of a revolute or prismatic joint on whose axis it acts; instead of bodies");
-  t.add("stiffness", &S::stiffness, "N/m or N m/rad", "implicit: any size is stable").atLeast(0);
-  t.add("damping", &S::damping, "N s/m or N m s/rad", "implicit: any size is stable").atLeast(0);
+  t.add("joint", &S::joint, "",
+        "name of a revolute, prismatic or cylindrical joint on whose axis it acts; instead of "
+        "bodies");
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
+  t.add("stiffness", &S::stiffness, "N/m or N m/rad", "of the spring").atLeast(0);
+  t.add("damping", &S::damping, "N s/m or N m s/rad", "of the damper; taken implicitly: any size is stable").atLeast(0);
   t.add("preload", &S::preload, "N or N m", "force at free_position, positive pushes apart");
   t.add("free_position", &S::freePosition, "m or rad",
         "length, or position of the axis, where only the preload acts; as at the start where not given");
+  t.add("limits", &S::limits, "rad or m", "end stops on the axis of a joint, lower and upper");
+  t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
+  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
+  return t;
+}
+
+Table<BushingSection> bushingTable() {
+  using S = BushingSection;
+  Table<S> t("[bushing]", "Elastic bearing: springs and dampers between two bodies in all six directions, relaxed at "
+                          "the start");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("bodies", &S::bodies, "", "names of the two").required();
+  t.add("point", &S::point, "m", "its middle at the start, in the world").required();
+  t.add("axis", &S::axis, "-", "its z direction at the start, in the world; the world's axes where not given");
+  t.add("stiffness", &S::stiffness, "N/m", "along its x, y, z").atLeast(0);
+  t.add("damping", &S::damping, "N s/m", "along its x, y, z").atLeast(0);
+  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "about its x, y, z").atLeast(0);
+  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "about its x, y, z").atLeast(0);
   return t;
 }
 
 Table<DriveSection> driveTable() {
   using S = DriveSection;
-  Table<S> t("[drive]", "Motor on the free axis of a joint; what it takes is in the results");
+  Table<S> t("[drive]", "Motor on a free axis of a joint: value, polynomial, sine and table over time add up; what it "
+                        "takes is in the results");
   t.add("name", &S::name, "", "in results and messages").required();
-  t.add("joint", &S::joint, "", "name of a revolute or prismatic joint").required();
-  t.add("imposes", &S::imposes, "", "what value is: speed or position of the axis, or the torque (force of a slide)")
+  t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
+  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)")
       .oneOf({"speed", "position", "torque"});
-  t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times; this, or time with values");
-  t.add("time", &S::time, "s", "increasing; values are linear between these times and constant outside").atLeast(0);
-  t.add("values", &S::values, "as value", "one for each time");
+  t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times");
+  t.add("polynomial", &S::polynomial, "of value over s^i", "c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
+  t.add("amplitude", &S::amplitude, "as value", "of a sine");
+  t.add("frequency", &S::frequency, "Hz", "of that sine").atLeast(0).atMost(1e6);
+  t.add("phase", &S::phase, "deg", "of that sine at t = 0").atLeast(-3600).atMost(3600);
+  t.add("time", &S::time, "s", "increasing; of the table").atLeast(0);
+  t.add("values", &S::values, "as value",
+        "of the table: straight between its times for speed and torque, a smooth spline for a position; constant "
+        "outside");
+  return t;
+}
+
+Table<CouplingSection> couplingTable() {
+  using S = CouplingSection;
+  Table<S> t("[coupling]",
+             "Ties two axes as gears, belts, rack and pinion or a screw do: position of the second = ratio x "
+             "position of the first + offset");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("joints", &S::joints, "", "names of the two").required();
+  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis over that of the first").required();
+  t.add("offset", &S::offset, "rad or m", "as at the start where not given");
+  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]")
+      .oneOf({"angle", "slide"});
   return t;
 }
 
@@ -254,6 +309,18 @@ Table<Output> outputTable() {
   t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
   t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);
   t.add("plots", &S::plots, "", "plots of the time series, by Python and matplotlib");
+  return t;
+}
+
+Table<Parallel> parallelTable() {
+  using S = Parallel;
+  Table<S> t("parallel", "Runs on several ranks (mpirun -np N); the answer is the same for any number of them");
+  t.add("subdomains", &S::subdomains, "-",
+        "lattice of subdomains along x, y and z, whose product is the number of ranks; 0 leaves an axis free")
+      .atLeast(0)
+      .atMost(64)
+      .orWord("auto");
+  t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
   return t;
 }
 

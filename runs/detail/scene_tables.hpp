@@ -15,10 +15,13 @@ base::Table<Terrain> terrainTable();
 base::Table<BodySection> bodyTable();
 base::Table<JointSection> jointTable();
 base::Table<SpringSection> springTable();
+base::Table<BushingSection> bushingTable();
 base::Table<DriveSection> driveTable();
+base::Table<CouplingSection> couplingTable();
 base::Table<Vehicle> vehicleTable();
 base::Table<Driver> driverTable();
 base::Table<SpeedTable> speedTable();
 base::Table<Output> outputTable();
+base::Table<Parallel> parallelTable();
 
 } // namespace grouser::runs::detail
