@@ -142,6 +142,9 @@ void FramesFile::add(const Frame& frame) {
       for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
     file_.write(group + "/parts/position", flat(world), {partVertices_, 3});
   }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const std::vector<double>& places = frame.borders[axis]; !places.empty())
+      file_.write(group + "/partition/" + "xyz"[axis], places, {places.size()});
   file_.flush();
   describe(grains, frame.step, frame.time);
   if (!steps_.empty()) writeXdmf();

@@ -13,7 +13,8 @@ namespace grouser::runs {
 /// Grains, parts and ground over time for ParaView: numbers in frames.h5, their meaning in frames.xdmf beside it.
 ///
 /// frames.h5:  /parts/triangles [t, 3], /parts/part [t], /parts/kind [t];  /ground/position [v, 3], /ground/triangles;
-///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3]
+///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3],
+///             /000012/partition/{x, y, z} [b]: where borders of subdomains cross that axis [m]; absent where none does
 /// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground". It is written anew after each
 /// frame and put in place by renaming, so that it always names complete frames only.
 class FramesFile {

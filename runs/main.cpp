@@ -4,6 +4,7 @@
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
 #include "runs/option_checks.hpp"
+#include "runs/render_command.hpp"
 #include "runs/scene.hpp"
 #include "runs/stop_signals.hpp"
 
@@ -113,6 +114,53 @@ void addBench(CLI::App& app, runs::BenchCommand& c) {
   step->callback([&c] { runs::benchStepCommand(c); });
 }
 
+void addRender(CLI::App& app, runs::RenderCommand& c) {
+  CLI::App* render = app.add_subcommand("render", "Pictures and a film of a run's frames, without a display");
+  render->add_option("frames", c.frames, "frames.h5 of a run")->required();
+  render->add_option("--out", c.folder, "folder of the pictures; default: pictures/ beside the file");
+  render->add_option("--film", c.film, "make the pictures into this film: .mp4, .mkv or .mov; needs ffmpeg");
+  render->add_option("--fps", c.framesPerSecond, "pictures a second of the film")
+      ->check(runs::positive("a number"))
+      ->capture_default_str();
+  render->add_option("--color", c.color, "of the grains: depth, speed, subdomain, role or white")
+      ->capture_default_str();
+  render->add_option("--range", c.range, "values at the ends of the colours [m or m/s]; default: from the file")
+      ->expected(2)
+      ->type_name("LOW HIGH");
+  render->add_option("--borders", c.borders, "between subdomains [m], e.g. x=0.5 or y=-1,1; default: those in the file")
+      ->allow_extra_args(false);
+  render->add_option("--look-at", c.lookAt,
+                     "vehicle (moves with it), bed (all there is) or a place X,Y,Z [m]; default: vehicle, or bed where "
+                     "there is none");
+  render->add_option("--azimuth", c.azimuth, "of the camera about the vertical, 0 is +x [deg]")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  render->add_option("--elevation", c.elevation, "of the camera above the horizon [deg]; default: 14, or 30 for a bed")
+      ->check(CLI::Range(-90.0, 90.0));
+  render->add_option("--distance", c.distance, "of the camera from what it looks at [m]; default: it fills the picture")
+      ->check(runs::positive("a length in metres"));
+  render->add_option("--size", c.size, "of a picture in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  CLI::Option* frame = render->add_option("--frame", c.frame, "only the frame of this number; may be repeated")
+                           ->check(runs::wholeNumber(0))
+                           ->allow_extra_args(false);
+  CLI::Option* every = render->add_option("--every", c.every, "only each so-manieth frame")
+                           ->check(runs::wholeNumber(1))
+                           ->capture_default_str();
+  CLI::Option* from = render->add_option("--from", c.from, "leave out the frames before this time [s]")
+                          ->check(runs::notNegative("a time in seconds"));
+  CLI::Option* to = render->add_option("--to", c.to, "leave out the frames after this time [s]")
+                        ->check(runs::notNegative("a time in seconds"));
+  frame->excludes(every)->excludes(from)->excludes(to);
+  render->add_flag("!--no-labels", c.labels, "leave out time and colour scale");
+  render->add_option("--processes", c.processes, "that share the frames")
+      ->check(runs::wholeNumber(1, 1024))
+      ->capture_default_str();
+  render->add_option("--threads", c.threads, "CPU threads of each process; default: all cores shared among them")
+      ->check(runs::wholeNumber(0, 1024));
+  render->add_flag("--force", c.force, "overwrite pictures and film");
+  render->callback([&c] { runs::renderCommand(c); });
+}
+
 void addHash(CLI::App& app, runs::HashCommand& c) {
   CLI::App* hash = app.add_subcommand("hash", "Hash of the state in a checkpoint, as run --hash prints it");
   hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run")->required();
@@ -183,6 +231,7 @@ int main(int argc, char** argv) {
   runs::SweepCommand sweep;
   runs::BenchCommand bench;
   runs::HashCommand hash;
+  runs::RenderCommand render;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
   runs::SpheresCommand spheres;
@@ -191,6 +240,7 @@ int main(int argc, char** argv) {
   addSweep(app, sweep);
   addBench(app, bench);
   addHash(app, hash);
+  addRender(app, render);
   addOthers(app, sinkage, plan, spheres);
   if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())
     return fail(kInput, unknown.c_str());

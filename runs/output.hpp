@@ -5,6 +5,7 @@
 #include "base/vec.hpp"
 #include "runs/scene.hpp"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -52,6 +53,8 @@ struct Frame {
   std::vector<float> speeds;          ///< [m/s]
   std::vector<std::uint32_t> ids;
   std::vector<base::Pose> partPoses; ///< one a part
+  /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
+  std::array<std::vector<double>, 3> borders;
 };
 
 /// What is known when a run ends.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/picture.hpp"
 
-#include "runs/render.hpp"
-
 #include <algorithm>
 
 namespace grouser::runs {
@@ -11,10 +9,20 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kAzimuth = -55;                             ///< [deg] of the camera
-constexpr double kVehicleElevation = 14, kBedElevation = 30; ///< [deg] of the camera above the vehicle, or a bed alone
-constexpr double kVehicleTight = 0.8;                        ///< share of its bounding ball that is seen filled
+constexpr double kAzimuth = -55;      ///< [deg] of the camera
+constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
 constexpr double kAspect = 16.0 / 9;
+
+struct Box {
+  Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  void take(const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); }
+  Vec3d middle() const { return (low + high) * 0.5; }
+  double radius() const { return 0.5 * norm(high - low); }
+};
+
+} // namespace
+
+Colour groundColour() { return srgb(168, 152, 128); }
 
 Colour partColour(const std::string& kind) {
   if (kind == "chassis") return srgb(112, 122, 92);
@@ -26,13 +34,7 @@ Colour partColour(const std::string& kind) {
   return srgb(150, 150, 150);
 }
 
-struct Box {
-  Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  void take(const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); }
-  bool empty() const { return low.x > high.x; }
-  Vec3d middle() const { return (low + high) * 0.5; }
-  double radius() const { return 0.5 * norm(high - low); }
-};
+namespace {
 
 /// Heights between which the colours run: all but the lowest and highest hundredth, so that a thrown grain does not
 /// wash out the rest.
@@ -44,32 +46,36 @@ std::pair<float, float> heightRange(const Frame& frame) {
   return {heights[cut], heights[heights.size() - 1 - cut]};
 }
 
-/// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
-/// grains, axis by axis, than these are wide; of less than 100 grains none.
-std::vector<Ball> seenGrains(const Frame& frame) {
-  const std::size_t count = frame.positions.size(), cut = count / 100;
+} // namespace
+
+std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii) {
+  const std::size_t count = positions.size(), cut = count / 100;
   Vec3d low, high;
   for (int k = 0; k < 3; ++k) {
     std::vector<float> places;
-    for (const base::Vec3f& p : frame.positions) places.push_back(p[k]);
+    for (const base::Vec3f& p : positions) places.push_back(p[k]);
     std::sort(places.begin(), places.end());
     low[k] = places[cut], high[k] = places[count - 1 - cut];
   }
-  const Vec3d reach = high - low + Vec3d{1, 1, 1} * (2.0 * frame.radii.front());
+  const Vec3d reach = high - low + Vec3d{1, 1, 1} * (2.0 * radii.front());
   std::vector<Ball> balls;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3d p = frame.positions[i].as<double>();
+    const Vec3d p = positions[i].as<double>();
     if (cut == 0 || (base::min(p, low - reach) == low - reach && base::max(p, high + reach) == high + reach))
-      balls.push_back({p, frame.radii[i]});
+      balls.push_back({p, radii[i]});
   }
   return balls;
 }
 
-} // namespace
+Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect) {
+  Box box;
+  for (const base::Vec3f& v : vertices) box.take(v.as<double>());
+  return cameraTowards(box.middle(), std::max(1e-3, box.radius()) * kVehicleTight, azimuth, elevation, aspect);
+}
 
 Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width) {
   RenderScene scene;
-  Box vehicle;
+  std::vector<base::Vec3f> vehicle;
   if (!frame.positions.empty()) {
     const auto [low, high] = heightRange(frame);
     const float range = std::max(high - low, frame.radii.front());
@@ -80,16 +86,14 @@ Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const b
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind)});
-    for (const Vec3d& v : parts[i].mesh.vertices) vehicle.take(frame.partPoses[i].toWorld(v));
+    for (const Vec3d& v : parts[i].mesh.vertices) vehicle.push_back(frame.partPoses[i].toWorld(v).as<float>());
   }
-  if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, srgb(168, 152, 128)});
+  if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
   const int height = std::max(1, width * 9 / 16);
-  if (!vehicle.empty()) {
-    const double radius = std::max(1e-3, vehicle.radius()) * kVehicleTight;
-    return render(scene, cameraTowards(vehicle.middle(), radius, kAzimuth, kVehicleElevation, kAspect), width, height);
-  }
+  if (!vehicle.empty())
+    return render(scene, cameraOnParts(vehicle, kAzimuth, kVehicleElevation, kAspect), width, height);
   std::vector<Ball> seen;
-  if (!frame.positions.empty()) seen = seenGrains(frame);
+  if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
   for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
   if (seen.empty()) return render(scene, {}, width, height);
   return render(scene, cameraAround(seen, kAzimuth, kBedElevation, kAspect), width, height);

@@ -3,8 +3,22 @@
 
 #include "runs/image.hpp"
 #include "runs/output.hpp"
+#include "runs/render.hpp"
 
 namespace grouser::runs {
+
+/// Elevation of the camera above a vehicle, and above a bed alone [deg].
+inline constexpr double kVehicleElevation = 14, kBedElevation = 30;
+
+Colour partColour(const std::string& kind);
+Colour groundColour();
+
+/// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
+/// grains, axis by axis, than these are wide; of less than 100 grains none.
+std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
+
+/// A camera whose picture the parts fill; their farthest corners may lie outside.
+Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect);
 
 /// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle filling the picture, or where
 /// there is none all grains but a few strays; seen from the front right above. Height of the picture: nine sixteenths

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace grouser::runs {
 
@@ -24,12 +25,9 @@ constexpr float kNear = 0.002f; ///< nearest depth seen, of the distance to what
 constexpr double kMargin = 1.1; ///< room about what a camera is placed around
 constexpr double kSunAzimuth = -100, kSunElevation = 50; ///< [deg]
 const Colour kSun{1.00f, 0.95f, 0.86f}, kSky{0.52f, 0.62f, 0.75f}, kEarth{0.30f, 0.27f, 0.24f};
+constexpr float kUnknown = -1;                                     ///< openness where it was not looked at
+constexpr float kNothing = std::numeric_limits<float>::infinity(); ///< depth where nothing is
 const Colour kHorizon{0.90f, 0.92f, 0.94f}, kZenith{0.55f, 0.68f, 0.82f};
-
-float toSrgb(float linear) {
-  linear = std::clamp(linear, 0.0f, 1.0f);
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
 
 Vec3d direction(double azimuth, double elevation) {
   const double a = azimuth * base::kPi / 180, e = elevation * base::kPi / 180;
@@ -49,11 +47,28 @@ Ball around(const RenderScene& scene) {
   return {(low + high) * 0.5, 0.5 * norm(high - low) * 1.001};
 }
 
-/// The scene as the sun sees it.
-Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& facets, const Ball& ball) {
+/// The scene as the sun sees it: as much of it as holds what the camera sees, so that shadows are as sharp as they can
+/// be.
+Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& facets, const Ball& ball,
+                 const Surfaces& seen) {
   View v = detail::viewTowards(ball.centre + direction(kSunAzimuth, kSunElevation) * (2 * ball.radius), ball.centre,
                                {0, 0, 1});
-  v.perspective = false, v.halfHeight = static_cast<float>(ball.radius), v.width = v.height = kShadowPixels;
+  v.perspective = false, v.width = v.height = kShadowPixels;
+  Vec3f low{1e30f, 1e30f, 0}, high = -low;
+  for (int row = 0; row < seen.view.height; row += kSamples)
+    for (int column = 0; column < seen.view.width; column += kSamples) {
+      const std::size_t i = seen.index(column, row);
+      if (seen.object[i] < 0) continue;
+      const Vec3f p = v.toCamera(seen.view.toWorld(seen.view.at(column, row, seen.depth[i])));
+      low = base::min(low, p), high = base::max(high, p);
+    }
+  v.halfHeight = static_cast<float>(ball.radius);
+  if (low.x <= high.x) {
+    const Vec3f middle = (low + high) * 0.5f;
+    v.eye += v.right * middle.x + v.up * middle.y;
+    // Room for the texels that a point's shadow looks at beside its own.
+    v.halfHeight = std::min(v.halfHeight, 0.51f * std::max(high.x - low.x, high.y - low.y) + 1e-6f);
+  }
   Surfaces s(v);
   detail::rasterise(scene.spheres, facets, s);
   return s;
@@ -86,25 +101,29 @@ std::array<std::array<float, 2>, kOcclusionTaps> spiral(int turn) {
   return taps;
 }
 
+/// Of |x| below 8192; much cheaper than lround.
+int nearestInt(float x) { return static_cast<int>(x + 8192.5f) - 8192; }
+
 /// How open each pixel's surroundings are, 0 to 1, from the depth buffer: neighbours within `reach` [m] that stand
-/// above the tangent plane close it.
+/// above the tangent plane close it. Looked at for every second pixel, as on a chessboard; kUnknown elsewhere.
 std::vector<float> openness(const Surfaces& s, float reach) {
   std::array<std::array<std::array<float, 2>, kOcclusionTaps>, 16> patterns;
   for (int turn = 0; turn < 16; ++turn) patterns[static_cast<std::size_t>(turn)] = spiral(turn * 7 % 16);
-  std::vector<float> open(s.depth.size(), 1.0f);
+  std::vector<float> open(s.depth.size(), kUnknown);
 #pragma omp parallel for schedule(dynamic, 16)
   for (int row = 0; row < s.view.height; ++row)
     for (int column = 0; column < s.view.width; ++column) {
       const std::size_t i = s.index(column, row);
-      if (s.object[i] < 0) continue;
-      const Vec3f p = s.view.toWorld(s.view.at(column, row, s.depth[i])), n = s.normalAt(i);
+      if (s.object[i] < 0 || (row + column) % 2) continue;
+      const Vec3f p = s.view.at(column, row, s.depth[i]), n = s.view.toCameraFrame(s.normalAt(i));
       const float pixels = std::clamp(reach * s.view.pixelsPerUnit() / s.depth[i], 2.0f, 200.0f);
       float closed = 0;
       for (const auto& tap : patterns[static_cast<std::size_t>(row % 4 * 4 + column % 4)]) {
-        const int x = column + static_cast<int>(std::lround(tap[0] * pixels)),
-                  y = row + static_cast<int>(std::lround(tap[1] * pixels));
-        if (x < 0 || y < 0 || x >= s.view.width || y >= s.view.height || s.object[s.index(x, y)] < 0) continue;
-        const Vec3f d = s.view.toWorld(s.view.at(x, y, s.depth[s.index(x, y)])) - p;
+        const int x = column + nearestInt(tap[0] * pixels), y = row + nearestInt(tap[1] * pixels);
+        if (x < 0 || y < 0 || x >= s.view.width || y >= s.view.height) continue;
+        const float depth = s.depth[s.index(x, y)];
+        if (depth == kNothing) continue;
+        const Vec3f d = s.view.at(x, y, depth) - p;
         const float d2 = dot(d, d) + 1e-12f;
         closed += std::max(0.0f, dot(d, n) / std::sqrt(d2) - 0.1f) / (1 + d2 / (reach * reach));
       }
@@ -120,7 +139,7 @@ float smoothed(const Surfaces& s, const std::vector<float>& open, int column, in
   for (int y = std::max(0, row - 2); y < std::min(s.view.height, row + 2); ++y)
     for (int x = std::max(0, column - 2); x < std::min(s.view.width, column + 2); ++x) {
       const std::size_t i = s.index(x, y);
-      if (std::fabs(s.depth[i] - depth) > 0.5f * reach) continue;
+      if (open[i] == kUnknown || std::fabs(s.depth[i] - depth) > 0.5f * reach) continue;
       sum += open[i], count += 1;
     }
   return count > 0 ? sum / count : 1;
@@ -161,6 +180,24 @@ Colour srgb(int red, int green, int blue) {
     return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
   };
   return {linear(red), linear(green), linear(blue)};
+}
+
+std::array<std::uint8_t, 3> toSrgb(const Colour& colour) {
+  // 255 levels do not show the steps of 4096.
+  static const std::array<std::uint8_t, 4097> kCurve = [] {
+    std::array<std::uint8_t, 4097> curve;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      const float linear = static_cast<float>(i) / 4096;
+      const float v = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+      curve[i] = static_cast<std::uint8_t>(std::lround(255 * v));
+    }
+    return curve;
+  }();
+  std::array<std::uint8_t, 3> c;
+  for (int k = 0; k < 3; ++k)
+    c[static_cast<std::size_t>(k)] =
+        kCurve[static_cast<std::size_t>(std::lround(4096 * std::clamp(colour[k], 0.0f, 1.0f)))];
+  return c;
 }
 
 Colour heightColour(float value) {
@@ -218,7 +255,7 @@ Image render(const RenderScene& scene, const Camera& camera, int width, int heig
   view.width = kSamples * width, view.height = kSamples * height;
   Surfaces seen(view);
   detail::rasterise(scene.spheres, facets, seen);
-  const Surfaces sun = sunView(scene, facets, ball);
+  const Surfaces sun = sunView(scene, facets, ball, seen);
   const float reach = occlusionReach(scene, ball);
   const std::vector<float> open = openness(seen, reach);
 
@@ -237,9 +274,8 @@ Image render(const RenderScene& scene, const Camera& camera, int width, int heig
       Colour sum;
       for (int k = 0; k < kSamples * kSamples; ++k)
         sum += sample(kSamples * column + k % kSamples, kSamples * row + k / kSamples);
-      for (int c = 0; c < 3; ++c)
-        image.rgb[3 * (static_cast<std::size_t>(row) * width + column) + static_cast<std::size_t>(c)] =
-            static_cast<std::uint8_t>(std::lround(255 * toSrgb(sum[c] / (kSamples * kSamples))));
+      const std::array<std::uint8_t, 3> rgb = toSrgb(sum * (1.0f / (kSamples * kSamples)));
+      std::copy(rgb.begin(), rgb.end(), image.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(row) * width + column));
     }
   return image;
 }

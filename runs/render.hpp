@@ -5,6 +5,8 @@
 #include "base/vec.hpp"
 #include "runs/image.hpp"
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 /// Pictures without a GPU, a display or a library: spheres and meshes into a depth buffer, then light, shadow and
@@ -16,6 +18,8 @@ using Colour = base::Vec3f;
 
 /// Linear colour of an sRGB triple 0 to 255.
 Colour srgb(int red, int green, int blue);
+/// The sRGB triple of a linear colour.
+std::array<std::uint8_t, 3> toSrgb(const Colour& colour);
 
 /// A perceptually even colour map from dark violet over green to yellow; `value` 0 to 1, clamped.
 Colour heightColour(float value);
@@ -30,6 +34,7 @@ struct RenderMesh {
   base::TriangleMesh mesh;
   base::Pose pose; ///< X_WB
   Colour colour;
+  bool oneSided = false; ///< not seen from behind: a container's near wall does not hide what is in it
 };
 
 struct RenderScene {

@@ -26,6 +26,7 @@ struct View {
   }
   Vec3f toWorld(const Vec3f& p_C) const { return eye + turn(p_C); }
   Vec3f turn(const Vec3f& v_C) const { return right * v_C.x + up * v_C.y + forward * v_C.z; }
+  Vec3f toCameraFrame(const Vec3f& v_W) const { return {dot(v_W, right), dot(v_W, up), dot(v_W, forward)}; }
   float pixelsPerUnit() const { return 0.5f * static_cast<float>(height) / halfHeight; }
   /// Camera-frame coordinates (x, y) at depth 1 of a pixel's middle; for a parallel view at any depth.
   float planeX(int column) const {
@@ -65,6 +66,7 @@ struct Surfaces {
 struct Facet {
   std::array<Vec3f, 3> corner, normal;
   std::int32_t object{};
+  bool oneSided{};
 };
 
 /// All triangles of a scene; corners are smooth where neighbouring faces differ by less than 35 degrees.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace grouser::runs {
+
+/// Throws base::InputError where no film could be made into this file: its name is not that of a film, its folder is
+/// not there, or the program ffmpeg is not installed.
+void checkFilm(const std::filesystem::path& film);
+
+/// Makes PNG pictures of the same size, in this order, into a film (H.264; MP4, MKV or MOV by the file's name) by the
+/// program ffmpeg. The file is put in place by renaming when it is whole. Throws std::runtime_error with ffmpeg's
+/// words.
+void makeFilm(const std::vector<std::filesystem::path>& pictures, double framesPerSecond,
+              const std::filesystem::path& film);
+
+} // namespace grouser::runs

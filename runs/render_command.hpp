@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// `grouser render`: pictures and a film of a run's frames.h5.
+namespace grouser::runs {
+
+/// The ranks that mpirun has started together; by default one alone.
+struct RenderRanks {
+  int rank = 0, size = 1;
+  std::function<void()> wait = [] {}; ///< for all of them
+};
+
+struct RenderCommand {
+  std::string frames;               ///< the file
+  std::string folder;               ///< empty: pictures/ beside the file
+  std::string film;                 ///< file; empty: none
+  double framesPerSecond = 25;      ///< of the film
+  std::string color = "depth";      ///< grainQuantity's words
+  std::vector<double> range;        ///< lowest and highest value of the colours; empty: from the file
+  std::vector<std::string> borders; ///< bordersOf's words
+  std::string lookAt;               ///< vehicle, bed or X,Y,Z [m]; empty: the vehicle where there is one
+  double azimuth = -55;             ///< [deg]
+  std::optional<double> elevation;  ///< [deg]
+  std::optional<double> distance;   ///< [m]
+  std::string size = "1600x900";    ///< WIDTHxHEIGHT
+  std::size_t every = 1;            ///< frames
+  double from = 0;                  ///< [s]
+  std::optional<double> to;         ///< [s]
+  std::vector<std::size_t> frame;   ///< numbers of single frames; empty: all
+  bool labels = true;
+  int processes = 1;
+  int threads = 0;    ///< of each process; 0: all cores shared among them
+  bool force = false; ///< overwrite pictures and film
+  RenderRanks ranks;  ///< that share the frames
+};
+
+/// Width and height of "1600x900"; throws base::InputError.
+std::pair<int, int> pictureSize(const std::string& text);
+
+/// The ranks share the frames, and the processes of a rank its share. Pictures are put in place by renaming when they
+/// are whole. Throws base::InputError before anything is written, and Stopped after a signal.
+void renderCommand(const RenderCommand& command);
+
+} // namespace grouser::runs
