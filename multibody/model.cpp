@@ -2,6 +2,7 @@
 #include "multibody/model.hpp"
 
 #include "base/error.hpp"
+#include "multibody/detail/rotation.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -78,21 +79,6 @@ Vec3d perpendicularTo(const Vec3d& z) {
   const double ax = std::fabs(z.x), ay = std::fabs(z.y), az = std::fabs(z.z);
   const Vec3d e = ax <= ay && ax <= az ? Vec3d{1, 0, 0} : ay <= az ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
   return normalized(e - z * dot(e, z));
-}
-
-/// Unit quaternion of the rotation matrix with columns x, y, z, by the largest of its four components.
-Quat quaternionOf(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
-  const double tw = 1 + x.x + y.y + z.z, tx = 1 + x.x - y.y - z.z, ty = 1 - x.x + y.y - z.z, tz = 1 - x.x - y.y + z.z;
-  Quat q;
-  if (tw >= tx && tw >= ty && tw >= tz)
-    q = {tw, y.z - z.y, z.x - x.z, x.y - y.x};
-  else if (tx >= ty && tx >= tz)
-    q = {y.z - z.y, tx, y.x + x.y, z.x + x.z};
-  else if (ty >= tz)
-    q = {z.x - x.z, y.x + x.y, ty, z.y + y.z};
-  else
-    q = {x.y - y.x, z.x + x.z, z.y + y.z, tz};
-  return q.normalized();
 }
 
 template <class Named>
@@ -304,12 +290,12 @@ const std::string& Model::bodyName(int body) const {
 
 Pose frameWithZ(const Vec3d& position, const Vec3d& axis) {
   const Vec3d z = normalized(axis), x = perpendicularTo(z);
-  return {position, quaternionOf(x, cross(z, x), z)};
+  return {position, detail::quaternionOf(x, cross(z, x), z)};
 }
 
 Pose frameWithZX(const Vec3d& position, const Vec3d& axis, const Vec3d& along) {
   const Vec3d z = normalized(axis), x = normalized(along - z * dot(along, z));
-  return {position, quaternionOf(x, cross(z, x), z)};
+  return {position, detail::quaternionOf(x, cross(z, x), z)};
 }
 
 Pose compose(const Pose& X_WB, const Pose& X_BC) {

@@ -13,6 +13,9 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Weak rows while closing: pivots below 1e-6 of a row alone.
+constexpr double kWeakPivot = 1e5;
+
 /// A number in [-1, 1) from a counter (SplitMix64, Steele, Lea and Flood 2014): generic, and the same everywhere.
 double generic(std::uint64_t counter) {
   std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15ull;
@@ -26,8 +29,7 @@ double generic(std::uint64_t counter) {
 class Explorer {
 public:
   Explorer(ConstraintSystem& system, const Model& model)
-      : system_(system), model_(model), laws_(system.constraints().size()),
-        x_(at(system.movableBodies()) + system.constraints().size()) {
+      : system_(system), model_(model), laws_(system.axes().size()), x_(at(system.nodes())) {
     for (const Body& body : model.bodies()) poses_.push_back(body.pose);
     system_.place(poses_, frames_);
   }
@@ -68,8 +70,17 @@ public:
     return true;
   }
 
-  /// Newton's method on C = 0, factored anew each time. Returns whether it arrived.
-  bool close(const ConstraintSystem::Part& part) {
+  /// Newton's method on C = 0, factored anew each time. Returns whether it arrived. Away from C = 0 rows that depend on
+  /// others there have small pivots, which would throw the iterate far off: those below `weak` times the usual
+  /// threshold are left out (Gauss-Newton with truncated rank).
+  bool close(const ConstraintSystem::Part& part, double weak) {
+    system_.scalePivotThreshold(weak);
+    const bool arrived = closeAtThreshold(part);
+    system_.scalePivotThreshold(1);
+    return arrived;
+  }
+
+  bool closeAtThreshold(const ConstraintSystem::Part& part) {
     for (int iteration = 0; iteration < 30; ++iteration) {
       factor(part);
       clear(part);
@@ -127,6 +138,7 @@ private:
 
 Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
   Redundancy found;
+  system.setCouplingsOn(false);
   Explorer explorer(system, model);
   for (const auto& part : system.parts()) {
     const int atStart = explorer.factor(part);
@@ -137,7 +149,8 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
     for (int attempt = 0; attempt < 4; ++attempt) {
       explorer.reset();
       explorer.factor(part);
-      if (!explorer.wander(part, attempt, 0.05 * (1 + attempt)) || !explorer.close(part)) continue;
+      if (!explorer.wander(part, attempt, 0.05 * (1 + attempt))) continue;
+      if (!explorer.close(part, kWeakPivot) && !explorer.close(part, 1)) continue;
       explorer.factor(part);
       const auto lost = explorer.rowsWithoutPivot(part);
       if (!explored || lost.size() < rows.size()) rows = lost;
@@ -146,6 +159,7 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
     found.singularAtStart += atStart - static_cast<int>(rows.size());
     found.rows.insert(found.rows.end(), rows.begin(), rows.end());
   }
+  system.setCouplingsOn(true);
   std::sort(found.rows.begin(), found.rows.end());
   for (const auto& [constraint, row] : found.rows) system.dropRow(constraint, row);
   return found;

@@ -2,8 +2,10 @@
 #include "multibody/state.hpp"
 
 #include "base/error.hpp"
+#include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/constraint_system.hpp"
 #include "multibody/detail/rotation.hpp"
+#include "multibody/detail/start.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -34,35 +36,6 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
   for (auto& c : s.coupling) f(c.force);
 }
 
-double axisRate(const detail::Constraint& c, const detail::JointFrames& f, const std::vector<detail::Frame>& frames,
-                const State& state) {
-  const detail::RowDirections rows = detail::rowDirections(c, f);
-  const Vec3d &e = rows.force[detail::kAxisRow], &t = rows.torque[detail::kAxisRow];
-  const auto share = [&](int node, int body) {
-    if (node < 0) return 0.0;
-    const auto b = static_cast<std::size_t>(body);
-    return dot(e, state.twist[b].v) + dot(cross(f.p_B - frames[b].p, e) + t, state.twist[b].w);
-  };
-  return share(c.nodeB, c.bodyB) - share(c.nodeA, c.bodyA);
-}
-
-/// Axis positions and rates of a state whose poses or twists were set from outside.
-void findAxes(const Model& model, State& state) {
-  const detail::ConstraintSystem system(model);
-  std::vector<detail::Frame> frames;
-  system.place(state.pose, frames);
-  for (const detail::Constraint& c : system.constraints()) {
-    const auto f =
-        detail::framesOf(c, frames[static_cast<std::size_t>(c.bodyA)], frames[static_cast<std::size_t>(c.bodyB)]);
-    const double x = detail::axisPosition(c, f);
-    if (c.kind == detail::ConstraintKind::kPointSpring)
-      state.spring[static_cast<std::size_t>(c.source)].length = x;
-    else
-      state.joint[static_cast<std::size_t>(c.source)].position = x;
-    if (detail::hasAxis(c.kind)) state.joint[static_cast<std::size_t>(c.source)].rate = axisRate(c, f, frames, state);
-  }
-}
-
 } // namespace
 
 std::vector<double> State::save() const {
@@ -81,6 +54,40 @@ void State::restore(const std::vector<double>& flat) {
   forEachNumber(*this, [&](double& x) { x = flat[i++]; });
 }
 
+void detail::findAxes(const ConstraintSystem& system, State& state) {
+  std::vector<Frame> frames;
+  system.place(state.pose, frames);
+  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
+    const Constraint& c = system.constraints()[k];
+    const auto source = static_cast<std::size_t>(c.source);
+    const auto a = static_cast<std::size_t>(c.bodyA), b = static_cast<std::size_t>(c.bodyB);
+    const JointFrames f = framesOf(c, frames[a], frames[b]);
+    const RowDirections rows = rowDirections(c, f);
+    const auto rate = [&](int row) {
+      const auto r = static_cast<std::size_t>(row);
+      const auto share = [&](int node, std::size_t body) {
+        return node < 0 ? 0.0
+                        : dot(rows.force[r], state.twist[body].v) +
+                              dot(cross(f.p_B - frames[body].p, rows.force[r]) + rows.torque[r], state.twist[body].w);
+      };
+      return share(c.nodeB, b) - share(c.nodeA, a);
+    };
+    if (c.kind == ConstraintKind::kPointSpring) {
+      state.spring[source].length = axisPosition(c, f, 0);
+    } else if (c.kind == ConstraintKind::kBushing) {
+      state.bushing[source].translation = {axisPosition(c, f, 0), axisPosition(c, f, 1), axisPosition(c, f, 2)};
+      state.bushing[source].rotation = relativeRotation(f);
+    } else if (axisRows(c.kind) >> kAxisRow & 1u) {
+      state.joint[source].position = axisPosition(c, f, kAxisRow);
+      state.joint[source].rate = rate(kAxisRow);
+      if (c.kind == ConstraintKind::kCylindrical) {
+        state.slide[source].position = axisPosition(c, f, kSlideRow);
+        state.slide[source].rate = rate(kSlideRow);
+      }
+    }
+  }
+}
+
 State makeState(const Model& model) {
   State s;
   for (const Body& body : model.bodies()) {
@@ -96,7 +103,7 @@ State makeState(const Model& model) {
     if (joint.type == JointType::kCylindrical) s.slide.resize(model.joints().size());
   for (std::size_t b = 0; b < s.pose.size(); ++b)
     setTwist(model, s, static_cast<int>(b), {model.bodies()[b].v_WB, model.bodies()[b].w_WB});
-  findAxes(model, s);
+  detail::findAxes(detail::ConstraintSystem(model), s);
   return s;
 }
 
@@ -121,7 +128,7 @@ void setTwist(const Model& model, State& state, int body, const Twist& twist) {
 void setPose(const Model& model, State& state, int body, const Pose& pose) {
   state.pose[static_cast<std::size_t>(body)] = pose;
   setTwist(model, state, body, state.twist[static_cast<std::size_t>(body)]);
-  findAxes(model, state);
+  detail::findAxes(detail::ConstraintSystem(model), state);
 }
 
 AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis) {
@@ -158,11 +165,9 @@ Totals totals(const Model& model, const State& state, const Loads& loads) {
   for (std::size_t s = 0; s < model.axisSprings().size(); ++s) {
     const AxisSpring& spring = model.axisSprings()[s];
     const SpringControl& control = loads.axisSprings[s];
-    const double q = state.joint[static_cast<std::size_t>(spring.joint)].position, x = q - spring.freePosition;
+    const double q = axisReading(model, state, spring.joint, spring.axis).position, x = q - spring.freePosition;
     t.elastic += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
-    const double over = q > spring.upperLimit   ? q - spring.upperLimit
-                        : q < spring.lowerLimit ? q - spring.lowerLimit
-                                                : 0;
+    const double over = detail::overLimit(spring, q);
     t.elastic += 0.5 * spring.stopStiffness * over * over;
   }
   for (std::size_t s = 0; s < model.pointSprings().size(); ++s) {
@@ -170,6 +175,15 @@ Totals totals(const Model& model, const State& state, const Loads& loads) {
     const SpringControl& control = loads.pointSprings[s];
     const double x = state.spring[s].length - spring.restLength;
     t.elastic += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
+  }
+  for (std::size_t b = 0; b < model.bushings().size(); ++b) {
+    const Bushing& bushing = model.bushings()[b];
+    const BushingReading& r = state.bushing[b];
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+      sum += bushing.stiffness[i] * r.translation[i] * r.translation[i] +
+             bushing.rotationStiffness[i] * r.rotation[i] * r.rotation[i];
+    t.elastic += 0.5 * loads.bushings[b].stiffnessFactor * sum;
   }
   return t;
 }

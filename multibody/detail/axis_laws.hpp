@@ -10,26 +10,36 @@ struct AxisWork {
   double drive = 0, spring = 0, dissipated = 0;
 };
 
-/// Puts together what acts along the free axis of each joint and along each point spring in one step: joint damping,
-/// springs, end stops, drive. A spring is taken implicitly,
+/// Puts together what acts along each axis row in one step of the symplectic Euler scheme: joint damping, springs, end
+/// stops, drives. A spring is taken implicitly,
 ///   F = F_0 - k (x + dt x'_new - x_0) - c x'_new  =  [F_0 - k (x - x_0)]  -  (c + dt k) x'_new,
 /// the bracket being known at the start of the step, the rest a soft row with compliance 1 / (dt c + dt^2 k).
 class AxisLaws {
 public:
-  AxisLaws(const Model& model, const std::vector<Constraint>& constraints);
+  explicit AxisLaws(const Model& model) : model_(&model) {}
 
-  /// Row along the free axis or the spring; -1 if the kind has none.
-  int row(int constraint) const { return row_[static_cast<std::size_t>(constraint)]; }
-
+  /// `laws`: one an axis. `start`: positions of the driven axes when their laws began, one a drive.
   void evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
-                const std::vector<Frame>& frames, std::vector<AxisLaw>& laws) const;
+                const std::vector<Frame>& frames, const std::vector<double>& start, std::vector<AxisLaw>& laws) const;
 
   /// `multiplier`: impulse of the row / dt; `path`: mean rate times dt.
   AxisWork work(const AxisLaw& law, double multiplier, double newRate, double path, double dt) const;
 
 private:
   const Model* model_;
-  std::vector<int> row_;
 };
+
+/// How far a position is beyond the limits of a spring's end stops, with sign; 0 between them.
+double overLimit(const AxisSpring& spring, double position);
+
+/// Where an axis is, its rate, and where those are kept in a state.
+double& axisPositionIn(State& state, const ConstraintSystem& system, int axis);
+double axisPositionIn(const State& state, const ConstraintSystem& system, int axis);
+double axisRateIn(const State& state, const ConstraintSystem& system, int axis);
+
+/// Position that a drive's law wants at time t [rad, m]; `start`: where the axis was at t = 0.
+double drivenPosition(const Drive& drive, double start, double t);
+/// Rate that belongs to it.
+double drivenRate(const Drive& drive, double t);
 
 } // namespace grouser::multibody::detail

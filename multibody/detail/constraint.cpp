@@ -2,6 +2,7 @@
 #include "multibody/detail/constraint.hpp"
 
 #include "base/math.hpp"
+#include "multibody/detail/rotation.hpp"
 
 #include <cstddef>
 
@@ -41,6 +42,16 @@ void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]
   for (double& e : error) e = 0;
   switch (c.kind) {
   case ConstraintKind::kPointSpring:
+  case ConstraintKind::kBushing:
+    return;
+  case ConstraintKind::kDistance:
+    error[0] = norm(d) - c.length;
+    return;
+  case ConstraintKind::kCylindrical:
+    error[0] = dot(f.x_A, d);
+    error[1] = dot(f.y_A, d);
+    error[2] = dot(f.x_A, f.z_B);
+    error[3] = dot(f.y_A, f.z_B);
     return;
   case ConstraintKind::kPrismatic:
     error[0] = dot(f.x_A, d);
@@ -76,6 +87,7 @@ RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
 /// Writes the rows that the kind has; the others stay zero.
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows) {
   switch (c.kind) {
+  case ConstraintKind::kDistance:
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
@@ -91,6 +103,26 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
     rows.torque[4] = cross(f.x_B, f.y_A);
     rows.force[kAxisRow] = f.z_A;
     return;
+  case ConstraintKind::kCylindrical:
+    rows.force[0] = f.x_A;
+    rows.force[1] = f.y_A;
+    rows.torque[2] = cross(f.z_B, f.x_A);
+    rows.torque[3] = cross(f.z_B, f.y_A);
+    rows.force[kSlideRow] = f.z_A;
+    rows.torque[kAxisRow] = f.z_A;
+    return;
+  case ConstraintKind::kBushing: {
+    // Columns of R_A Y^T: Y^T e = e + phi x e / 2 + beta phi x (phi x e).
+    const Vec3d phi = relativeRotation(f);
+    const double beta = inverseTangentFactor(0.25 * norm2(phi));
+    for (int i = 0; i < 3; ++i) {
+      Vec3d e;
+      e[i] = 1;
+      const Vec3d first = cross(phi, e), t = e + 0.5 * first + beta * cross(phi, first);
+      rows.torque[static_cast<std::size_t>(3 + i)] = t.x * f.x_A + t.y * f.y_A + t.z * f.z_A;
+    }
+    break;
+  }
   case ConstraintKind::kFixed:
     rows.torque[3] = cross(f.z_B, f.x_A);
     rows.torque[4] = cross(f.z_B, f.y_A);
@@ -125,24 +157,37 @@ void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, 
   }
 }
 
-double axisPosition(const Constraint& c, const JointFrames& f) {
+Vec3d relativeRotation(const JointFrames& f) {
+  const Vec3d y_B = cross(f.z_B, f.x_B);
+  const auto inA = [&](const Vec3d& v) { return Vec3d{dot(f.x_A, v), dot(f.y_A, v), dot(f.z_A, v)}; };
+  return rotationVector(quaternionOf(inA(f.x_B), inA(y_B), inA(f.z_B)));
+}
+
+double axisPosition(const Constraint& c, const JointFrames& f, int row) {
+  const Vec3d d = f.p_B - f.p_A;
   switch (c.kind) {
+  case ConstraintKind::kCylindrical:
+    if (row == kSlideRow) return dot(f.z_A, d);
+    [[fallthrough]];
   case ConstraintKind::kRevolute: {
     double cosine, sine;
     cosSin(f, cosine, sine);
     return base::atan2(sine, cosine);
   }
   case ConstraintKind::kPrismatic:
-    return dot(f.z_A, f.p_B - f.p_A);
+    return dot(f.z_A, d);
   case ConstraintKind::kPointSpring:
-    return norm(f.p_B - f.p_A);
+    return norm(d);
+  case ConstraintKind::kBushing:
+    return row < 3 ? dot(row == 0 ? f.x_A : row == 1 ? f.y_A : f.z_A, d) : relativeRotation(f)[row - 3];
   default:
     return 0;
   }
 }
 
-double axisPositionAfter(const Constraint& c, const JointFrames& f0, const JointFrames& f1, double before) {
-  if (c.kind != ConstraintKind::kRevolute) return axisPosition(c, f1);
+double axisPositionAfter(const Constraint& c, const JointFrames& f0, const JointFrames& f1, int row, double before) {
+  const bool angle = row == kAxisRow && (c.kind == ConstraintKind::kRevolute || c.kind == ConstraintKind::kCylindrical);
+  if (!angle) return axisPosition(c, f1, row);
   double c0, s0, c1, s1;
   cosSin(f0, c0, s0);
   cosSin(f1, c1, s1);
@@ -153,13 +198,72 @@ double axisPositionAfter(const Constraint& c, const JointFrames& f0, const Joint
   return before + base::atan2(s, c1 * c0 + s1 * s0);
 }
 
+void rowBias(const Constraint& c, const JointFrames& f, const Frame& A, const Frame& B, const Twist& V_A,
+             const Twist& V_B, double (&bias)[6]) {
+  const Vec3d d = f.p_B - f.p_A, r_A = f.p_A - A.p, r_B = f.p_B - B.p;
+  const Vec3d &w_A = V_A.w, &w_B = V_B.w;
+  // d' and the part of d'' that holds without accelerations.
+  const Vec3d d1 = V_B.v + cross(w_B, r_B) - V_A.v - cross(w_A, r_A);
+  const Vec3d d2 = cross(w_B, cross(w_B, r_B)) - cross(w_A, cross(w_A, r_A));
+  // C = u . d, u fixed in A:  u'' . d + 2 u' . d' + u . d''.
+  const auto point = [&](const Vec3d& u) {
+    const Vec3d u1 = cross(w_A, u);
+    return dot(cross(w_A, u1), d) + 2 * dot(u1, d1) + dot(u, d2);
+  };
+  // C = u . t, u fixed in A, t in B.
+  const auto angle = [&](const Vec3d& u, const Vec3d& t) {
+    const Vec3d u1 = cross(w_A, u), t1 = cross(w_B, t);
+    return dot(cross(w_A, u1), t) + 2 * dot(u1, t1) + dot(u, cross(w_B, t1));
+  };
+  // C' = z_A . (w_B - w_A).
+  const auto turn = [&] { return dot(cross(w_A, f.z_A), w_B - w_A); };
+  for (double& x : bias) x = 0;
+  switch (c.kind) {
+  case ConstraintKind::kPointSpring:
+  case ConstraintKind::kBushing:
+    return;
+  case ConstraintKind::kDistance: {
+    // C' = n . d', n' = (d' - n (n . d')) / |d|.
+    const double l = norm(d), rate = dot(d, d1) / l;
+    bias[0] = dot(d, d2) / l + (norm2(d1) - rate * rate) / l;
+    return;
+  }
+  case ConstraintKind::kPrismatic:
+    bias[0] = point(f.x_A), bias[1] = point(f.y_A);
+    bias[2] = angle(f.x_A, f.z_B), bias[3] = angle(f.y_A, f.z_B), bias[4] = angle(f.y_A, f.x_B);
+    bias[kAxisRow] = point(f.z_A);
+    return;
+  case ConstraintKind::kCylindrical:
+    bias[0] = point(f.x_A), bias[1] = point(f.y_A);
+    bias[2] = angle(f.x_A, f.z_B), bias[3] = angle(f.y_A, f.z_B);
+    bias[kSlideRow] = point(f.z_A), bias[kAxisRow] = turn();
+    return;
+  case ConstraintKind::kFixed:
+    bias[5] = angle(f.y_A, f.x_B);
+    [[fallthrough]];
+  case ConstraintKind::kRevolute:
+    bias[3] = angle(f.x_A, f.z_B), bias[4] = angle(f.y_A, f.z_B);
+    if (c.kind == ConstraintKind::kRevolute) bias[kAxisRow] = turn();
+    break;
+  case ConstraintKind::kUniversal:
+    bias[3] = angle(f.z_A, f.x_B);
+    break;
+  case ConstraintKind::kSpherical:
+    break;
+  }
+  bias[0] = point(f.x_A), bias[1] = point(f.y_A), bias[2] = point(f.z_A);
+}
+
 const char* rowName(ConstraintKind kind, int row) {
   static constexpr const char* kPoint[6] = {"translation along x", "translation along y", "translation along z",
                                             "rotation about y",    "rotation about x",    "rotation about z"};
   static constexpr const char* kSlide[6] = {"translation along x", "translation along y", "rotation about y",
                                             "rotation about x",    "rotation about z",    "translation along z"};
   if (kind == ConstraintKind::kUniversal && row == 3) return "rotation about y";
-  return kind == ConstraintKind::kPrismatic ? kSlide[row] : kPoint[row];
+  if (kind == ConstraintKind::kDistance || kind == ConstraintKind::kPointSpring) return "distance";
+  if (kind == ConstraintKind::kCylindrical && row >= 4) return kPoint[row == kSlideRow ? 2 : 5];
+  if (kind == ConstraintKind::kBushing && row >= 3) return kPoint[row == 3 ? 4 : row == 4 ? 3 : 5];
+  return kind == ConstraintKind::kPrismatic || kind == ConstraintKind::kCylindrical ? kSlide[row] : kPoint[row];
 }
 
 } // namespace grouser::multibody::detail

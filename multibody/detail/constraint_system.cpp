@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/constraint_system.hpp"
 
-#include "base/error.hpp"
 #include "multibody/detail/rotation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace grouser::multibody::detail {
@@ -26,8 +26,9 @@ ConstraintKind kindOf(JointType type) {
   case JointType::kFixed:
     return ConstraintKind::kFixed;
   case JointType::kCylindrical:
+    return ConstraintKind::kCylindrical;
   case JointType::kDistance:
-    throw base::InputError("cylindrical and distance joints are not available");
+    return ConstraintKind::kDistance;
   }
   return ConstraintKind::kFixed;
 }
@@ -49,8 +50,6 @@ Mat3d inverseOf(const Mat3d& a) {
 } // namespace
 
 ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
-  if (!model.bushings().empty() || !model.couplings().empty())
-    throw base::InputError("bushings and couplings are not available");
   const int worldFrame = static_cast<int>(model.bodies().size());
   std::vector<int> nodeOf(at(worldFrame) + 1, -1);
   for (int b = 0; b < worldFrame; ++b)
@@ -67,23 +66,34 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
     c.nodeB = nodeOf[at(c.bodyB)];
     constraints_.push_back(c);
     hard_.push_back(hardRows(c.kind));
-    edges.push_back({c.nodeA, c.nodeB, c.kind == ConstraintKind::kPointSpring});
+    edges.push_back({c.nodeA, c.nodeB, !isJoint(c.kind)});
   };
   for (int j = 0; j < static_cast<int>(model.joints().size()); ++j) {
     const Joint& joint = model.joints()[at(j)];
     add({kindOf(joint.type), joint.bodyA, joint.bodyB, -1, -1, j, joint.frame_A.orientation.matrix(),
-         joint.frame_B.orientation.matrix(), joint.frame_A.position, joint.frame_B.position});
+         joint.frame_B.orientation.matrix(), joint.frame_A.position, joint.frame_B.position, joint.length});
   }
   for (int s = 0; s < static_cast<int>(model.pointSprings().size()); ++s) {
     const PointSpring& spring = model.pointSprings()[at(s)];
     add({ConstraintKind::kPointSpring, spring.bodyA, spring.bodyB, -1, -1, s, Mat3d::identity(), Mat3d::identity(),
          spring.point_A, spring.point_B});
   }
+  for (int s = 0; s < static_cast<int>(model.bushings().size()); ++s) {
+    const Bushing& bushing = model.bushings()[at(s)];
+    add({ConstraintKind::kBushing, bushing.bodyA, bushing.bodyB, -1, -1, s, bushing.frame_A.orientation.matrix(),
+         bushing.frame_B.orientation.matrix(), bushing.frame_A.position, bushing.frame_B.position});
+  }
+  for (int k = 0; k < static_cast<int>(constraints_.size()); ++k) {
+    firstAxis_.push_back(static_cast<int>(axes_.size()));
+    for (int r = 0; r < 6; ++r)
+      if (axisRows(constraints_[at(k)].kind) >> r & 1u) axes_.push_back({k, r});
+  }
+  firstAxis_.push_back(static_cast<int>(axes_.size()));
 
   elimination_ = std::make_unique<Elimination>(movableBodies(), edges);
   for (const auto& steps : elimination_->parts()) {
     Part part;
-    part.steps = steps;
+    part.steps = {steps};
     for (int k = steps.firstStep; k < steps.endStep; ++k) {
       const int node = elimination_->order()[at(k)];
       if (node < movableBodies())
@@ -93,6 +103,17 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
     }
     parts_.push_back(std::move(part));
   }
+  for (const Coupling& c : model.couplings())
+    couplings_.push_back({axisOf(c.joint1, c.axis1), axisOf(c.joint2, c.axis2), c.ratio, c.offset});
+  setOffsets();
+  mergeCoupledParts();
+  for (std::size_t p = 0; p < parts_.size(); ++p) parts_[p].index = static_cast<int>(p);
+  linearisation_.assign(parts_.size(), 0);
+  couplingSolution_.assign(couplings_.size(), std::vector<Vector6>(at(nodes())));
+  couplingFactor_.assign(couplings_.size(), std::vector<double>(couplings_.size()));
+  couplingKept_.assign(couplings_.size(), 1);
+  couplingWork_.resize(couplings_.size());
+  size_.resize(constraints_.size());
   active_ = hard_;
   rows_.resize(constraints_.size());
   frames_.resize(constraints_.size());
@@ -101,6 +122,25 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
   sized_.assign(constraints_.size(), 0);
   com_A_.resize(constraints_.size());
   com_B_.resize(constraints_.size());
+}
+
+/// Offsets that were not given: as the bodies are placed.
+void ConstraintSystem::setOffsets() {
+  std::vector<Pose> poses;
+  for (const Body& body : model_->bodies()) poses.push_back(body.pose);
+  std::vector<Frame> frames;
+  place(poses, frames);
+  const auto position = [&](int axis) {
+    const Constraint& c = constraints_[at(axes_[at(axis)].constraint)];
+    return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), axes_[at(axis)].row);
+  };
+  for (CouplingRow& c : couplings_)
+    if (!std::isfinite(c.offset)) c.offset = position(c.axis2) - c.ratio * position(c.axis1);
+}
+
+int ConstraintSystem::axisOf(int joint, JointAxis axis) const {
+  // Axis rows of a cylindrical: the slide first, then the angle. The model has resolved kOnly.
+  return axis == JointAxis::kAngle ? firstAxis(joint + 1) - 1 : firstAxis(joint);
 }
 
 void ConstraintSystem::placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const {
@@ -126,9 +166,15 @@ void ConstraintSystem::setSize(int k, const Block& jacobianA, const Block& jacob
   };
   add(constraints_[at(k)].nodeA, jacobianA);
   add(constraints_[at(k)].nodeB, jacobianB);
-  for (double& s : smallest) s *= Elimination::kPivotTolerance;
+  std::copy(smallest, smallest + 6, size_[at(k)].begin());
+  for (double& s : smallest) s *= pivotScale_ * Elimination::kPivotTolerance;
   elimination_->setSmallestPivots(k, smallest);
   sized_[at(k)] = 1;
+}
+
+void ConstraintSystem::scalePivotThreshold(double scale) {
+  pivotScale_ = scale;
+  std::fill(sized_.begin(), sized_.end(), static_cast<char>(0));
 }
 
 int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
@@ -143,7 +189,6 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
   }
   for (const int k : part.constraints) {
     const Constraint& c = constraints_[at(k)];
-    const AxisLaw& law = laws[at(k)];
     placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], frames_[at(k)]);
     setRowDirections(c, frames_[at(k)], rows_[at(k)]);
     com_A_[at(k)] = frames[at(c.bodyA)].p;
@@ -152,9 +197,11 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
     // A soft row has compliance; a driven row is hard; a free axis and a dropped row are out of the system.
     double compliance[6] = {};
     unsigned active = hard_[at(k)];
-    if (const int row = softRow(c.kind); row >= 0) {
-      if (law.driven || law.softness > 0) active |= 1u << row;
-      if (!law.driven && law.softness > 0) compliance[row] = 1 / law.softness;
+    for (int a = firstAxis(k); a < firstAxis(k + 1); ++a) {
+      const AxisLaw& law = laws[at(a)];
+      const int row = axes_[at(a)].row;
+      if (law.driven || law.softness != 0) active |= 1u << row;
+      if (!law.driven && law.softness != 0) compliance[row] = 1 / law.softness;
     }
     active_[at(k)] = active;
 
@@ -163,14 +210,19 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
     if (!sized_[at(k)]) setSize(k, jacobianA, jacobianB);
     elimination_->setConstraint(k, jacobianA, jacobianB, compliance, active);
   }
-  return elimination_->factor(part.steps);
+  ++linearisation_[at(part.index)];
+  int leftOut = 0;
+  for (const Elimination::Part& steps : part.steps) leftOut += elimination_->factor(steps);
+  if (couplingsOn_ && !part.couplings.empty()) factorCouplings(part);
+  return leftOut;
 }
 
 void ConstraintSystem::solve(const Part& part, std::vector<Vector6>& x) const {
-  elimination_->solve(part.steps, x.data());
+  for (const Elimination::Part& steps : part.steps) elimination_->solve(steps, x.data());
   // The symmetric system is solved for -dLambda.
   for (const int k : part.constraints)
     for (double& lambda : x[at(movableBodies() + k)]) lambda *= -1;
+  if (couplingsOn_ && !part.couplings.empty()) solveCouplings(part, x);
 }
 
 double ConstraintSystem::rate(int k, int row, const std::vector<Twist>& twist) const {
@@ -191,6 +243,7 @@ double ConstraintSystem::rate(int k, int row, const std::vector<Twist>& twist) c
 std::string ConstraintSystem::describe(int k, int row) const {
   const Constraint& c = constraints_[at(k)];
   if (c.kind == ConstraintKind::kPointSpring) return "spring '" + model_->pointSprings()[at(c.source)].name + "'";
+  if (c.kind == ConstraintKind::kBushing) return "bushing '" + model_->bushings()[at(c.source)].name + "'";
   return "joint '" + model_->joints()[at(c.source)].name + "': " + rowName(c.kind, row);
 }
 

@@ -5,6 +5,7 @@
 #include "multibody/detail/elimination.hpp"
 #include "multibody/state.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,11 +13,12 @@
 
 namespace grouser::multibody::detail {
 
-/// What acts along the free axis of a joint, or along a point spring, in one step (axis_laws.hpp).
+/// What acts along an axis row (of a joint, point spring or bushing) in one step (axis_laws.hpp).
 struct AxisLaw {
   double force = 0;          ///< applied along the row as a known force [N, N m]
   double known = 0;          ///< springs' and stops' part of it that does not depend on the new rate
-  double softness = 0;       ///< dt c + dt^2 k of all dampers and springs; 0: no soft row
+  double driveForce = 0;     ///< of force drives, included in `force`
+  double softness = 0;       ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
   double dampingPart = 0;    ///< dt c of all dampers
   double springKnown = 0;    ///< `known`, and
   double springSoftness = 0; ///< `softness` without the joint's own damping
@@ -24,9 +26,25 @@ struct AxisLaw {
   double speed = 0; ///< imposed rate
 };
 
+/// An axis row: a place where springs, dampers, drives and couplings act.
+struct Axis {
+  int constraint;
+  int row;
+};
+
+/// Ties axis 2 to axis 1: x_2 - ratio x_1 - offset = 0. A row over the bodies of both axes.
+struct CouplingRow {
+  int axis1, axis2;
+  double ratio, offset;
+};
+
 /// The mechanism linearised at given poses: rows, masses and their factorisation. Knows nothing of time integration:
 /// integrators ask it for position errors and for solutions of
 ///   M dv - J^T dLambda = bodyResidual,   J dv + G dLambda = rowResidual.
+///
+/// Nodes are the movable bodies, the constraints, the couplings, in this order. A coupling's row b acts on up to four
+/// bodies and lies outside the blocks of the factor: with Y = K^-1 b^T and the small matrix S = b Y (symmetric, not
+/// negative), a solution x of the rest is completed to x + Y mu by S mu = residual - b x.
 class ConstraintSystem {
 public:
   explicit ConstraintSystem(const Model& model);
@@ -36,12 +54,24 @@ public:
   int movableBodies() const { return static_cast<int>(movable_.size()); }
   int bodyOf(int node) const { return movable_[static_cast<std::size_t>(node)]; } ///< model's index of a movable body
 
+  /// What depends on one another through constraints, springs or couplings.
   struct Part {
-    Elimination::Part steps;
+    int index = 0;
+    std::vector<Elimination::Part> steps;
     std::vector<int> bodies; ///< movable bodies (nodes)
     std::vector<int> constraints;
+    std::vector<int> couplings;
   };
   const std::vector<Part>& parts() const { return parts_; }
+
+  /// Axis rows in the order of the constraints; those of constraint k are firstAxis(k) to firstAxis(k + 1) - 1.
+  const std::vector<Axis>& axes() const { return axes_; }
+  int firstAxis(int constraint) const { return firstAxis_[static_cast<std::size_t>(constraint)]; }
+  /// Index of a joint's axis.
+  int axisOf(int joint, JointAxis axis) const;
+  const std::vector<CouplingRow>& couplings() const { return couplings_; }
+  int couplingNode(int coupling) const { return movableBodies() + static_cast<int>(constraints_.size()) + coupling; }
+  int nodes() const { return couplingNode(static_cast<int>(couplings_.size())); }
 
   /// Hard rows in use: those of the kind without the redundant ones.
   unsigned hardRowsOf(int constraint) const { return hard_[static_cast<std::size_t>(constraint)]; }
@@ -51,7 +81,7 @@ public:
   void place(const std::vector<Pose>& poses, std::vector<Frame>& frames) const;
   void placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const;
 
-  /// Sets up and factors one part at `frames`. `laws`: one a constraint. Returns the rows left out as singular.
+  /// Sets up and factors one part at `frames`. `laws`: one an axis. Returns the rows left out as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
 
   /// In: one vector a node (bodies: momentum residual; constraints: row residual). Out: dv and dLambda.
@@ -62,14 +92,37 @@ public:
   const JointFrames& jointFrames(int constraint) const { return frames_[static_cast<std::size_t>(constraint)]; }
   const Mat3d& inertia(int node) const { return inertia_[static_cast<std::size_t>(node)]; }
   unsigned activeRows(int constraint) const { return active_[static_cast<std::size_t>(constraint)]; }
+  /// Which linearise() of a part the system holds: changes with each.
+  long long linearisation(const Part& part) const { return linearisation_[static_cast<std::size_t>(part.index)]; }
+  /// J M^-1 J^T of a row alone.
+  double rowSize(int constraint, int row) const {
+    return size_[static_cast<std::size_t>(constraint)][static_cast<std::size_t>(row)];
+  }
   /// Rate of one row: J (v, w).
   double rate(int constraint, int row, const std::vector<Twist>& twist) const;
+  double rateOfAxis(int axis, const std::vector<Twist>& twist) const {
+    return rate(axes_[static_cast<std::size_t>(axis)].constraint, axes_[static_cast<std::size_t>(axis)].row, twist);
+  }
+  /// Adds the momentum that `impulse` along one row gives the bodies to their vectors in `x`.
+  void addImpulse(int constraint, int row, double impulse, std::vector<Vector6>& x) const;
+  /// J x of one row, x one vector a node.
+  double rowTimes(int constraint, int row, const std::vector<Vector6>& x) const;
+  /// Couplings whose row the others imply, found by the last linearise().
+  bool couplingKept(int coupling) const { return couplingKept_[static_cast<std::size_t>(coupling)] != 0; }
+  /// Leaves couplings out of linearise() and solve() (to explore the joints alone).
+  void setCouplingsOn(bool on) { couplingsOn_ = on; }
+  /// Leaves out rows whose pivot is below `scale` times the usual threshold.
+  void scalePivotThreshold(double scale);
 
   /// "joint 'pin 7': rotation about x".
   std::string describe(int constraint, int row) const;
 
 private:
   void setSize(int constraint, const Block& jacobianA, const Block& jacobianB);
+  void setOffsets();
+  void mergeCoupledParts();
+  void factorCouplings(const Part& part);
+  void solveCouplings(const Part& part, std::vector<Vector6>& x) const;
 
   const Model* model_;
   std::vector<int> movable_;
@@ -82,11 +135,24 @@ private:
   std::vector<Mat3d> inertia_, inverseInertia_; ///< in world axes; inverse in the body's own
   std::vector<char> sized_;                     ///< of each constraint: its smallest pivots are set
   std::vector<Vec3d> com_A_, com_B_;
+  std::vector<std::array<double, 6>> size_; ///< J M^-1 J^T of each row alone
+  double pivotScale_ = 1;
+  std::vector<long long> linearisation_;
+
+  std::vector<Axis> axes_;
+  std::vector<int> firstAxis_;
+  std::vector<CouplingRow> couplings_;
+  std::vector<std::vector<Vector6>> couplingSolution_; ///< Y, one vector a node for each coupling
+  std::vector<std::vector<double>> couplingFactor_;    ///< lower Cholesky factor of S within the part
+  std::vector<char> couplingKept_;
+  mutable std::vector<double> couplingWork_;
+  bool couplingsOn_ = true;
 };
 
 /// A redundant row and what implies it, found at set-up.
 struct Redundancy {
   std::vector<std::pair<int, int>> rows; ///< constraint, row: dropped
+  std::vector<int> couplings;            ///< implied by others
   int singularAtStart = 0;               ///< rows without pivot only at the starting poses: a singular position
 };
 

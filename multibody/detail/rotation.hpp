@@ -39,6 +39,45 @@ inline Mat3d rotatedInertia(const Mat3d& R, const Mat3d& I) {
   return W;
 }
 
+/// beta(s) = (1 - h cot h) / (4 h^2), s = h^2: the factor of the second-order term in the inverse of the derivative of
+/// exp on the rotation group, Y(theta) = 1 - theta x / 2 + beta theta x theta x, h = |theta| / 2.
+inline double inverseTangentFactor(double s) {
+  if (s < 0.01) {
+    // (1 - h cot h) / h^2 = 1/3 + h^2/45 + 2 h^4/945 + h^6/4725 + 2 h^8/93555 + ...
+    return 0.25 * (1.0 / 3 + s * (1.0 / 45 + s * (2.0 / 945 + s * (1.0 / 4725 + s * (2.0 / 93555)))));
+  }
+  const double h = sqrt(s);
+  return 0.25 * (1 - h * base::cos(h) / base::sin(h)) / s;
+}
+
+/// Unit quaternion of the rotation matrix with columns x, y, z, by the largest of its four components.
+inline Quat quaternionOf(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
+  const double tw = 1 + x.x + y.y + z.z, tx = 1 + x.x - y.y - z.z, ty = 1 - x.x + y.y - z.z, tz = 1 - x.x - y.y + z.z;
+  Quat q;
+  if (tw >= tx && tw >= ty && tw >= tz)
+    q = {tw, y.z - z.y, z.x - x.z, x.y - y.x};
+  else if (tx >= ty && tx >= tz)
+    q = {y.z - z.y, tx, y.x + x.y, z.x + x.z};
+  else if (ty >= tz)
+    q = {z.x - x.z, y.x + x.y, ty, z.y + y.z};
+  else
+    q = {x.y - y.x, z.x + x.z, z.y + y.z, tz};
+  return q.normalized();
+}
+
+/// Rotation vector phi of a unit quaternion, |phi| <= pi: the inverse of rotationBy.
+inline Vec3d rotationVector(const Quat& given) {
+  const double sign = given.w < 0 ? -1 : 1;
+  const double w = sign * given.w;
+  const Vec3d v{sign * given.x, sign * given.y, sign * given.z};
+  const double q = norm2(v), r2 = q / (w * w);
+  // |phi| / |v| = 2 atan(r) / (r w), r = |v| / w; the first term left out of the series is below 1e-17.
+  if (w > 0.5 && r2 < 4e-4)
+    return (2 / w * (1 + r2 * (-1.0 / 3 + r2 * (1.0 / 5 + r2 * (-1.0 / 7 + r2 * (1.0 / 9)))))) * v;
+  const double n = sqrt(q);
+  return (2 * base::atan2(n, w) / n) * v;
+}
+
 /// Gyroscopic part g of the discrete angular momentum S(w) = I w + g at the node where a step starts.
 ///
 /// The body turns by exp(theta), theta = dt w, with constant w. The discrete Legendre transform of the Lagrangian
@@ -51,15 +90,7 @@ inline Vec3d gyroscopicMomentum(const Mat3d& I_W, const Vec3d& w, double dt) {
   const Vec3d theta = dt * w, y = I_W * w;
   const Vec3d first = cross(theta, y);
   if (first == Vec3d{}) return {};
-  const double s = 0.25 * norm2(theta);
-  double beta;
-  if (s < 0.01) {
-    // (1 - h cot h) / h^2 = 1/3 + h^2/45 + 2 h^4/945 + h^6/4725 + 2 h^8/93555 + ...
-    beta = 0.25 * (1.0 / 3 + s * (1.0 / 45 + s * (2.0 / 945 + s * (1.0 / 4725 + s * (2.0 / 93555)))));
-  } else {
-    const double h = sqrt(s);
-    beta = 0.25 * (1 - h * base::cos(h) / base::sin(h)) / s;
-  }
+  const double beta = inverseTangentFactor(0.25 * norm2(theta));
   return 0.5 * first + beta * cross(theta, first);
 }
 

@@ -50,8 +50,8 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
   const auto values = [&](const Pose& A, const Pose& B, double(&C)[6]) {
     const JointFrames g = framesOf(p.c, frameOf(A), frameOf(B));
     positionError(p.c, g, C);
-    if (p.c.kind == ConstraintKind::kPrismatic) C[kAxisRow] = axisPosition(p.c, g);
-    if (p.c.kind == ConstraintKind::kPointSpring) C[0] = axisPosition(p.c, g);
+    if (p.c.kind == ConstraintKind::kPrismatic) C[kAxisRow] = axisPosition(p.c, g, kAxisRow);
+    if (p.c.kind == ConstraintKind::kPointSpring) C[0] = axisPosition(p.c, g, 0);
   };
   // Central differences with h = 1e-5: truncation h^2 / 6 of third derivatives of order one, round-off 1e-16 / h.
   const double h = 1e-5, tolerance = 2e-10;
@@ -100,7 +100,7 @@ TEST(MultibodyAngle, GrowsWithTheRelativeRotationOverManyTurns) {
   p.B = compose(X_WJ, inverse({p.c.point_B, rotationBy({0.3, -0.1, 0.2})}));
   const Vec3d z = rotate(X_WJ.orientation, {0, 0, 1});
   JointFrames f = framesOf(p.c, frameOf(p.A), frameOf(p.B));
-  double angle = axisPosition(p.c, f);
+  double angle = axisPosition(p.c, f, kAxisRow);
   EXPECT_NEAR(angle, 0, 1e-15);
   for (const double increment : {0.003, 1.4}) {
     const int turns = static_cast<int>(40 / increment);
@@ -109,7 +109,7 @@ TEST(MultibodyAngle, GrowsWithTheRelativeRotationOverManyTurns) {
       const Quat q = rotationBy(increment * z);
       p.B = {X_WJ.position + rotate(q, p.B.position - X_WJ.position), (q * p.B.orientation).normalized()};
       const JointFrames g = framesOf(p.c, frameOf(p.A), frameOf(p.B));
-      angle = axisPositionAfter(p.c, f, g, angle);
+      angle = axisPositionAfter(p.c, f, g, kAxisRow, angle);
       f = g;
     }
     EXPECT_NEAR(angle - before, increment * turns, 1e-11); // round-off of thousands of turns

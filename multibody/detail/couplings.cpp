@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/constraint_system.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+void ConstraintSystem::addImpulse(int k, int row, double impulse, std::vector<Vector6>& x) const {
+  const Constraint& c = constraints_[at(k)];
+  const Vec3d force = impulse * rows_[at(k)].force[at(row)], torque = impulse * rows_[at(k)].torque[at(row)];
+  const auto add = [&](int node, double sign, const Vec3d& com) {
+    if (node < 0) return;
+    const Vec3d moment = cross(frames_[at(k)].p_B - com, force) + torque;
+    for (int i = 0; i < 3; ++i) x[at(node)][at(i)] += sign * force[i], x[at(node)][at(3 + i)] += sign * moment[i];
+  };
+  add(c.nodeB, 1, com_B_[at(k)]);
+  add(c.nodeA, -1, com_A_[at(k)]);
+}
+
+double ConstraintSystem::rowTimes(int k, int row, const std::vector<Vector6>& x) const {
+  const Constraint& c = constraints_[at(k)];
+  const Vec3d &e = rows_[at(k)].force[at(row)], &t = rows_[at(k)].torque[at(row)];
+  const auto share = [&](int node, const Vec3d& com) {
+    if (node < 0) return 0.0;
+    const Vector6& v = x[at(node)];
+    return dot(e, {v[0], v[1], v[2]}) + dot(cross(frames_[at(k)].p_B - com, e) + t, {v[3], v[4], v[5]});
+  };
+  return share(c.nodeB, com_B_[at(k)]) - share(c.nodeA, com_A_[at(k)]);
+}
+
+/// A coupling makes one part of the parts that its joints belong to.
+void ConstraintSystem::mergeCoupledParts() {
+  std::vector<int> partOf(constraints_.size());
+  const auto mark = [&] {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const int k : parts_[p].constraints) partOf[at(k)] = static_cast<int>(p);
+  };
+  mark();
+  for (int c = 0; c < static_cast<int>(couplings_.size()); ++c) {
+    int first = partOf[at(axes_[at(couplings_[at(c)].axis1)].constraint)];
+    int second = partOf[at(axes_[at(couplings_[at(c)].axis2)].constraint)];
+    if (second < first) std::swap(first, second);
+    Part& into = parts_[at(first)];
+    into.couplings.push_back(c);
+    if (first == second) continue;
+    const Part& from = parts_[at(second)];
+    into.steps.insert(into.steps.end(), from.steps.begin(), from.steps.end());
+    into.bodies.insert(into.bodies.end(), from.bodies.begin(), from.bodies.end());
+    into.constraints.insert(into.constraints.end(), from.constraints.begin(), from.constraints.end());
+    into.couplings.insert(into.couplings.end(), from.couplings.begin(), from.couplings.end());
+    parts_.erase(parts_.begin() + second);
+    mark();
+  }
+}
+
+/// Y and the Cholesky factor of S = b Y. A coupling whose pivot vanishes follows from the others and is left out.
+void ConstraintSystem::factorCouplings(const Part& part) {
+  for (std::size_t i = 0; i < part.couplings.size(); ++i) {
+    const int c = part.couplings[i];
+    const CouplingRow& row = couplings_[at(c)];
+    const Axis &one = axes_[at(row.axis1)], &two = axes_[at(row.axis2)];
+    std::vector<Vector6>& y = couplingSolution_[at(c)];
+    for (const int node : part.bodies) y[at(node)] = {};
+    for (const int k : part.constraints) y[at(movableBodies() + k)] = {};
+    addImpulse(two.constraint, two.row, 1, y);
+    addImpulse(one.constraint, one.row, -row.ratio, y);
+    for (const Elimination::Part& steps : part.steps) elimination_->solve(steps, y.data());
+    for (const int k : part.constraints)
+      for (double& lambda : y[at(movableBodies() + k)]) lambda *= -1;
+
+    // Row i of the factor L of S = L L^T, from the couplings before it.
+    std::vector<double>& L = couplingFactor_[at(c)];
+    for (std::size_t j = 0; j <= i; ++j) {
+      const int d = part.couplings[j];
+      const CouplingRow& other = couplings_[at(d)];
+      const Axis &o1 = axes_[at(other.axis1)], &o2 = axes_[at(other.axis2)];
+      double s = rowTimes(o2.constraint, o2.row, y) - other.ratio * rowTimes(o1.constraint, o1.row, y);
+      for (std::size_t m = 0; m < j; ++m) s -= L[m] * couplingFactor_[at(d)][m];
+      if (j < i) {
+        L[j] = couplingKept_[at(d)] ? s / couplingFactor_[at(d)][j] : 0;
+        continue;
+      }
+      const double alone =
+          size_[at(two.constraint)][at(two.row)] + row.ratio * row.ratio * size_[at(one.constraint)][at(one.row)];
+      couplingKept_[at(c)] = s > Elimination::kPivotTolerance * alone;
+      L[i] = couplingKept_[at(c)] ? std::sqrt(s) : 1;
+    }
+  }
+}
+
+void ConstraintSystem::solveCouplings(const Part& part, std::vector<Vector6>& x) const {
+  std::vector<double>& mu = couplingWork_;
+  const std::size_t n = part.couplings.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int c = part.couplings[i];
+    const CouplingRow& row = couplings_[at(c)];
+    const Axis &one = axes_[at(row.axis1)], &two = axes_[at(row.axis2)];
+    double r = x[at(couplingNode(c))][0] - rowTimes(two.constraint, two.row, x) +
+               row.ratio * rowTimes(one.constraint, one.row, x);
+    for (std::size_t j = 0; j < i; ++j) r -= couplingFactor_[at(c)][j] * mu[j];
+    mu[i] = couplingKept_[at(c)] ? r / couplingFactor_[at(c)][i] : 0;
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    const int c = part.couplings[i];
+    if (!couplingKept_[at(c)]) continue;
+    for (std::size_t j = i + 1; j < n; ++j) mu[i] -= couplingFactor_[at(part.couplings[j])][i] * mu[j];
+    mu[i] /= couplingFactor_[at(c)][i];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const int c = part.couplings[i];
+    const std::vector<Vector6>& y = couplingSolution_[at(c)];
+    const auto add = [&](int node) {
+      for (std::size_t r = 0; r < 6; ++r) x[at(node)][r] += mu[i] * y[at(node)][r];
+    };
+    for (const int node : part.bodies) add(node);
+    for (const int k : part.constraints) add(movableBodies() + k);
+    x[at(couplingNode(c))] = {};
+    x[at(couplingNode(c))][0] = mu[i];
+  }
+}
+
+} // namespace grouser::multibody::detail

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/euler_step.hpp"
+
+#include "base/error.hpp"
+#include "multibody/detail/rotation.hpp"
+#include "multibody/detail/vector6.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <utility>
+
+/// The scheme. Positions q at the nodes, twists u constant over each step, impulses Lambda at the nodes:
+///
+///   S(u_new) = S(u_old) + dt f(q) + J(q)^T Lambda        momentum (S: rotation.hpp; mass times velocity for the rest)
+///   q_new = q moved by dt u_new                          rotation by exp(dt w)
+///   C(q_new) = 0                                         hard rows
+///   J(q) u_new + Lambda / (dt c + dt^2 k) = 0            soft rows (the known part of a spring's force is in f)
+///   J(q) u_new = rate                                    driven rows
+///   x_2(q_new) - ratio x_1(q_new) = offset               couplings
+///
+/// That is symplectic Euler with the constraint on positions (SHAKE; Hairer, Lubich and Wanner 2006, VII.1.4): no
+/// drift, no stabilisation term, and the impulses that close the joints are the constraint forces themselves, so that
+/// linear and angular momentum are conserved to round-off and energy has no secular loss. Solved by Newton's method
+/// with the matrix of the velocity problem, factored once a step; the correction of an iteration is dt |w| times the
+/// one before. Soft and driven rows are linear, are solved once, and are not moved by the corrections.
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
+                                 double dt) {
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    const Wrench& wrench = loads.external[at(b)];
+    const Twist& V = state.twist[at(b)];
+    gyro[at(node)] = gyroscopicMomentum(system.inertia(node), V.w, dt);
+    set(x[at(node)], dt * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
+        (state.spinMomentum[at(b)] - system.inertia(node) * V.w) - gyro[at(node)] + dt * wrench.torque);
+    newTwist[at(b)] = V;
+  }
+  for (const int k : part.constraints) {
+    impulse[at(k)] = {};
+    const Constraint& c = system.constraints()[at(k)];
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+      const std::size_t row = at(system.axes()[at(a)].row);
+      oldRate[at(a)] = system.rate(k, static_cast<int>(row), state.twist);
+      // The known force of a spring acts along its row.
+      const Vec3d force = dt * laws[at(a)].force * system.rows(k).force[row];
+      const Vec3d torque = dt * laws[at(a)].force * system.rows(k).torque[row];
+      const Vec3d& p = system.jointFrames(k).p_B;
+      if (c.nodeB >= 0) {
+        add(x[at(c.nodeB)], force, cross(p - frames[at(c.bodyB)].p, force) + torque);
+      }
+      if (c.nodeA >= 0) {
+        add(x[at(c.nodeA)], -force, -(cross(p - frames[at(c.bodyA)].p, force) + torque));
+      }
+    }
+  }
+  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
+}
+
+void EulerStep::moveTrial(const ConstraintSystem::Part& part, const State& state, double dt) {
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    const Pose& X = state.pose[at(b)];
+    trialPose[at(b)].position = X.position + dt * newTwist[at(b)].v;
+    trialPose[at(b)].orientation = (rotationBy(dt * newTwist[at(b)].w) * X.orientation).normalized();
+    system.placeBody(b, trialPose[at(b)], trial);
+  }
+}
+
+double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, int& worst) {
+  double largest = 0;
+  const double scale = -1 / dt;
+  for (const int k : part.constraints) {
+    const Constraint& c = system.constraints()[at(k)];
+    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
+    double error[6];
+    positionError(c, trialFrames[at(k)], error);
+    Vector6& residual = x[at(rowNode(k))];
+    const unsigned hard = system.hardRowsOf(k);
+    for (int r = 0; r < 6; ++r) {
+      const double gap = hard >> r & 1u ? error[r] : 0;
+      residual[at(r)] = scale * gap;
+      // Written so that a gap that is not a number counts as the largest.
+      if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap), worst = k;
+    }
+  }
+  for (const int c : part.couplings) {
+    const CouplingRow& row = system.couplings()[at(c)];
+    const double gap = trialPosition(state, row.axis2) - row.ratio * trialPosition(state, row.axis1) - row.offset;
+    x[at(system.couplingNode(c))][0] = scale * gap;
+    if (system.couplingKept(c) && !(std::fabs(gap) <= largest)) largest = std::fabs(gap);
+  }
+  return largest;
+}
+
+/// Position of an axis at the end of the step as the current iterate has it.
+double EulerStep::trialPosition(const State& state, int axis) const {
+  const Axis& a = system.axes()[at(axis)];
+  return axisPositionAfter(system.constraints()[at(a.constraint)], system.jointFrames(a.constraint),
+                           trialFrames[at(a.constraint)], a.row, axisPositionIn(state, system, axis));
+}
+
+double EulerStep::setGyroResidual(const ConstraintSystem::Part& part, double dt) {
+  double largest = 0;
+  for (const int node : part.bodies) {
+    const Mat3d& I = system.inertia(node);
+    const Vec3d g = gyroscopicMomentum(I, newTwist[at(system.bodyOf(node))].w, dt);
+    const Vec3d residual = gyro[at(node)] - g;
+    gyro[at(node)] = g;
+    set(x[at(node)], {}, residual);
+    const double turn = dt * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual);
+    if (!(turn <= largest)) largest = turn;
+  }
+  return largest;
+}
+
+void EulerStep::applyCorrection(const ConstraintSystem::Part& part) {
+  system.solve(part, x);
+  for (const int node : part.bodies) {
+    Twist& V = newTwist[at(system.bodyOf(node))];
+    V.v += linear(x[at(node)]);
+    V.w += angular(x[at(node)]);
+  }
+  for (const int k : part.constraints)
+    for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
+  for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
+}
+
+void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
+  last.singularRows += system.linearise(part, frames, laws);
+
+  // First solve from the old twist: the gap it would open already holds the curvature of the constraints.
+  setFirstResidual(part, state, loads, dt);
+  moveTrial(part, state, dt);
+  int worst = -1;
+  setGapResidual(part, state, dt, worst);
+  for (const int k : part.constraints)
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+      x[at(rowNode(k))][at(system.axes()[at(a)].row)] = (laws[at(a)].driven ? laws[at(a)].speed : 0) - oldRate[at(a)];
+
+  double gap = 0;
+  int iteration = 0;
+  for (;;) {
+    applyCorrection(part);
+    moveTrial(part, state, dt);
+    ++iteration;
+    gap = setGapResidual(part, state, dt, worst);
+    const double turn = setGyroResidual(part, dt);
+    if (gap <= options.positionTolerance && turn <= options.positionTolerance) break;
+    if (iteration >= options.maxIterations) {
+      if (gap <= kGapFailure) break;
+      std::ostringstream message;
+      message << "multibody step from t = " << state.time << " s";
+      if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
+      message << " after " << iteration << " iterations; the motion is too fast for dt = " << dt
+              << " s: reduce the step, or check the loads";
+      throw base::SimulationError(message.str());
+    }
+  }
+  last.iterations = std::max(last.iterations, iteration);
+  last.maxPositionError = std::max(last.maxPositionError, gap);
+  finish(part, state, loads, dt);
+}
+
+/// Work, momenta, readings and poses of one part once its impulses are known.
+void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    const Wrench& wrench = loads.external[at(b)];
+    const Twist &before = state.twist[at(b)], &after = newTwist[at(b)];
+    const Vec3d path = 0.5 * dt * (before.v + after.v), turn = 0.5 * dt * (before.w + after.w);
+    state.ledger.gravityWork += model.bodies()[at(b)].mass * dot(loads.gravity, path);
+    state.ledger.externalWork += dot(wrench.force, path) + dot(wrench.torque, turn);
+    state.spinMomentum[at(b)] += dt * wrench.torque;
+    if (!std::isfinite(norm2(after.v) + norm2(after.w)))
+      throw base::SimulationError("multibody step from t = " + std::to_string(state.time) +
+                                  " s: the velocity of body '" + model.bodies()[at(b)].name +
+                                  "' is not finite; check the loads on it");
+  }
+  for (const int c : part.couplings) {
+    const CouplingRow& row = system.couplings()[at(c)];
+    for (const auto& [axis, share] : {std::pair{row.axis2, 1.0}, std::pair{row.axis1, -row.ratio}}) {
+      const Axis& a = system.axes()[at(axis)];
+      addSpin(a.constraint, share * couplingImpulse[at(c)] * system.rows(a.constraint).force[at(a.row)],
+              share * couplingImpulse[at(c)] * system.rows(a.constraint).torque[at(a.row)], state);
+    }
+    state.coupling[at(c)].force = couplingImpulse[at(c)] / dt;
+  }
+  for (const int k : part.constraints) readConstraint(k, state, dt);
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    state.twist[at(b)] = newTwist[at(b)];
+    state.pose[at(b)] = trialPose[at(b)];
+    frames[at(b)] = trial[at(b)];
+  }
+}
+
+void EulerStep::addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
+  const Constraint& c = system.constraints()[at(k)];
+  const Vec3d& p = system.jointFrames(k).p_B;
+  if (c.nodeB >= 0) state.spinMomentum[at(c.bodyB)] += cross(p - frames[at(c.bodyB)].p, force) + torque;
+  if (c.nodeA >= 0) state.spinMomentum[at(c.bodyA)] -= cross(p - frames[at(c.bodyA)].p, force) + torque;
+}
+
+void EulerStep::readConstraint(int k, State& state, double dt) {
+  const Constraint& c = system.constraints()[at(k)];
+  const RowDirections& rows = system.rows(k);
+  std::array<double, 6> total = impulse[at(k)];
+  for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+    const std::size_t row = at(system.axes()[at(a)].row);
+    const AxisLaw& law = laws[at(a)];
+    const double newRate = system.rate(k, static_cast<int>(row), newTwist);
+    total[row] += dt * law.force;
+    const double path = 0.5 * dt * (oldRate[at(a)] + newRate);
+    const AxisWork work = axisLaws.work(law, impulse[at(k)][row] / dt, newRate, path, dt);
+    state.ledger.driveWork += work.drive;
+    state.ledger.springWork += work.spring;
+    state.ledger.dissipated += work.dissipated;
+    newRates[at(a)] = newRate;
+  }
+
+  Vec3d force, torque;
+  for (std::size_t r = 0; r < 6; ++r) {
+    force += total[r] * rows.force[r];
+    torque += total[r] * rows.torque[r];
+  }
+  addSpin(k, force, torque, state);
+
+  if (c.kind == ConstraintKind::kPointSpring) {
+    state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, trialFrames[at(k)], 0)};
+    return;
+  }
+  if (c.kind == ConstraintKind::kBushing) {
+    const auto position = [&](int row) { return axisPosition(c, trialFrames[at(k)], row); };
+    state.bushing[at(c.source)] = {force * (1 / dt),
+                                   torque * (1 / dt),
+                                   {position(0), position(1), position(2)},
+                                   relativeRotation(trialFrames[at(k)])};
+    return;
+  }
+  JointReading& reading = state.joint[at(c.source)];
+  reading.force = force * (1 / dt);
+  reading.torque = torque * (1 / dt);
+  const auto read = [&](int a, auto& axis) {
+    const std::size_t row = at(system.axes()[at(a)].row);
+    const AxisLaw& law = laws[at(a)];
+    axis.position = trialPosition(state, a);
+    axis.rate = newRates[at(a)];
+    axis.axisForce = total[row] / dt;
+    axis.driveForce = law.driven ? impulse[at(k)][row] / dt : 0;
+    if (law.driveForce != 0) axis.driveForce += law.driveForce;
+    axis.springForce = law.springKnown - law.springSoftness / dt * newRates[at(a)];
+  };
+  for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+    if (c.kind == ConstraintKind::kCylindrical && system.axes()[at(a)].row == kSlideRow)
+      read(a, state.slide[at(c.source)]);
+    else
+      read(a, reading);
+}
+
+EulerStep::EulerStep(const Problem& problem)
+    : model(problem.model), options(problem.options), system(problem.system), driveStart(problem.driveStart),
+      last(problem.last), axisLaws(model), laws(system.axes().size()), x(at(system.nodes())),
+      impulse(system.constraints().size()), couplingImpulse(system.couplings().size()),
+      oldRate(system.axes().size(), 0.0), newRates(system.axes().size(), 0.0), gyro(at(system.movableBodies())),
+      newTwist(model.bodies().size()), trialPose(model.bodies().size()), trialFrames(system.constraints().size()) {
+  for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
+  system.place(trialPose, frames);
+  trial = frames;
+}
+
+void EulerStep::step(State& state, const Loads& loads, double dt) {
+  system.place(state.pose, frames);
+  axisLaws.evaluate(system, state, loads, dt, frames, driveStart, laws);
+  for (const ConstraintSystem::Part& part : system.parts()) solvePart(part, state, loads, dt);
+  state.time += dt;
+}
+
+} // namespace grouser::multibody::detail

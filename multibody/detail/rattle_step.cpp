@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/rattle_step.hpp"
+
+#include "base/error.hpp"
+#include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/rotation.hpp"
+#include "multibody/detail/start.hpp"
+#include "multibody/detail/vector6.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+
+/// The scheme. Over a stage of length h, from positions q_0 and momenta p_0 (m v; S = I w) to q_1, p_1, with u the mean
+/// twist, Lambda and Mu impulses:
+///
+///   P(u; q_0)  = p_0 + h/2 f(q_0) + J(q_0)^T Lambda      P: m v, and for the spin S(w) = I w + g(w) of rotation.hpp
+///   q_1        = q_0 moved by h u                        rotation by exp(h w)
+///   C(q_1)     = 0                                       determines Lambda: joints, couplings, imposed positions
+///   p_1        = P(u) + h/2 f(q_1) + J(q_1)^T Mu         the spin P(u) is the same world vector at either end
+///   J(q_1) v_1 = 0                                       determines Mu; imposed rates on driven rows
+///
+/// RATTLE (Andersen 1983, J. Comput. Phys. 52:24) with the discrete Lagrangian mechanics of the rotation group
+/// (Bou-Rabee and Marsden 2009, Found. Comput. Math. 9:197): order 2, symplectic, time-reversible; both ends meet
+/// positions and velocities; forces between bodies are equal and opposite impulses at one point, so linear and angular
+/// momentum are conserved to round-off.
+///
+/// Along axis rows, with x0, x1 the positions at the ends, act
+///   explicit springs   in f, at both nodes
+///   implicit parts     F = -k (x0 + x1)/2 + constant (implicit springs) - c (x1 - x0)/h + stops(x0, x1),
+///                      an impulse h/2 F along the row of q_0 in the first, of q_1 in the last equation.
+/// The implicit part is the midpoint rule, on the stops a discrete gradient: symmetric in time, stable at any h in the
+/// linear case, and its energy balance is exact along the row. In Newton's method it is a soft row:
+///   J du + G dLambda = G (h/2 F - Lambda),   1/G = h^2/2 D,   D = -dF/dx1 = k/2 + c/h + stops.
+///
+/// Newton's method uses the matrix of q_0 (Lambda acts along J(q_0)): a correction is h |w| times the one before. When
+/// that does not converge - a singular position lies between q_0 and q_1, so that a pivot changes its sign - the matrix
+/// is taken anew at each iterate, and the corrections are the smallest in the norm of kinetic energy.
+///
+/// Orders 4, 6, 8 are symmetric compositions of stages gamma_i dt.
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// First halves of the palindromes, the middle last.
+/// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,
+/// Lubich and Wanner 2006, V.3.2).
+const std::vector<double>& halfComposition(int order) {
+  static const std::vector<double> two{1.0};
+  static const std::vector<double> four{0.41449077179437573714, 0.41449077179437573714, -0.65796308717750294857};
+  static const std::vector<double> six{0.39216144400731413928, 0.33259913678935943860, -0.70624617255763935981,
+                                       0.08221359629355080023, 0.79854399093482996340};
+  static const std::vector<double> eight{0.13020248308889008088, 0.56116298177510838456,  -0.38947496264484728641,
+                                         0.15884190655515560090, -0.39590389413323757734, 0.18453964097831570709,
+                                         0.25837438768632204729, 0.29501172360931029887,  -0.60550853383003451170};
+  return order == 2 ? two : order == 4 ? four : order == 6 ? six : eight;
+}
+
+} // namespace
+
+double longestStage(int order) {
+  double longest = 0;
+  for (const double gamma : halfComposition(order)) longest = std::max(longest, std::fabs(gamma));
+  return longest;
+}
+
+RattleStep::RattleStep(const Problem& problem)
+    : model(problem.model), options(problem.options), system(problem.system), last(problem.last),
+      softRows(model, system, problem.driveStart), implicitSprings(options.springs == Springs::kImplicit),
+      soft(system.axes().size()), x0(system.axes().size(), 0.0), x1(x0), softImpulse(x0), axisRate(x0), springForce(x0),
+      laws(system.axes().size()), x(at(system.nodes())), impulse(system.constraints().size()), endImpulse(impulse),
+      couplingImpulse(system.couplings().size(), 0.0), couplingEndImpulse(couplingImpulse),
+      gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()), twist(mean),
+      trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
+      relinearised(system.parts().size(), 0), factored(system.parts().size(), -1), gapOf(system.parts().size(), 0.0),
+      drivenThen(system.axes().size(), 0) {
+  for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
+  system.place(trialPose, frames);
+  trial = frames;
+}
+
+void RattleStep::step(State& state, const Loads& loads, double dt) {
+  const double start = state.time;
+  // Whoever moved a body in between made the kept factors useless.
+  for (std::size_t b = 0; b < state.pose.size(); ++b) {
+    const Pose &a = state.pose[b], &c = trialPose[b];
+    if (!(a.position == c.position) || a.orientation.w != c.orientation.w || a.orientation.x != c.orientation.x ||
+        a.orientation.y != c.orientation.y || a.orientation.z != c.orientation.z)
+      std::fill(factored.begin(), factored.end(), -1);
+  }
+  system.place(state.pose, frames);
+  const std::vector<double>& half = halfComposition(options.order);
+  const int stages = 2 * static_cast<int>(half.size()) - 1;
+  double done = 0;
+  for (int i = 0; i < stages; ++i) {
+    const double gamma = half[at(std::min(i, stages - 1 - i))];
+    stageTime = start + done * dt;
+    stage(state, loads, gamma * dt);
+    done += gamma;
+  }
+  state.time = start + dt;
+  for (const Part& part : system.parts()) readReactions(part, state, loads);
+}
+
+void RattleStep::stage(State& state, const Loads& loads, double h) {
+  softRows.evaluate(loads, stageTime, h, soft);
+  for (const Part& part : system.parts()) {
+    solvePositions(part, state, loads, h);
+    solveVelocities(part, loads, h);
+    finish(part, state, loads, h);
+  }
+}
+
+void RattleStep::linearise(const Part& part, const std::vector<Frame>& where) {
+  last.singularRows = std::max(last.singularRows, system.linearise(part, where, laws));
+}
+
+/// Whether the system still holds the matrix of the end of the stage before, and it is the one this stage needs.
+bool RattleStep::positionsFactored(const Part& part) const {
+  if (factored[at(part.index)] != system.linearisation(part)) return false;
+  for (const int k : part.constraints)
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+      if (laws[at(a)].softness != 0 || laws[at(a)].driven != (drivenThen[at(a)] != 0)) return false;
+  return true;
+}
+
+/// Mean force of an axis' implicit part, and its slope D.
+ForceAndSlope RattleStep::meanForce(int axis, double h) const {
+  const SoftRow& row = soft[at(axis)];
+  const double a = x0[at(axis)], b = x1[at(axis)];
+  ForceAndSlope f;
+  if (implicitSprings) {
+    f.force = row.constant - 0.5 * row.stiffness * (a + b);
+    f.slope = 0.5 * row.stiffness;
+  }
+  if (row.damping != 0) {
+    f.force -= row.damping * (b - a) / h;
+    f.slope += row.damping / h;
+  }
+  if (row.stops) {
+    const ForceAndSlope s = softRows.stops(axis, a, b, h);
+    f.force += s.force;
+    f.slope += s.slope;
+  }
+  return f;
+}
+
+/// Axis positions at the current iterate, and the softness 1/G of the soft rows there. Returns whether it has moved so
+/// far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J M^-1
+/// J^T.
+bool RattleStep::updateAxes(const Part& part, double h) {
+  bool follow = false;
+  for (const int k : part.constraints) {
+    const Constraint& c = system.constraints()[at(k)];
+    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+      const int row = system.axes()[at(a)].row;
+      x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
+      if (soft[at(a)].driven || !soft[at(a)].stops) continue; // all else is linear
+      AxisLaw& law = laws[at(a)];
+      const double size = system.rowSize(k, row);
+      double now = 0.5 * h * h * meanForce(a, h).slope;
+      // A row that lets go stays in the system, or its impulse could not vanish.
+      if (law.softness != 0 && std::fabs(now) * size < 1e-3) now = 1e-3 / size;
+      if (std::fabs(now - law.softness) * size <= 0.05 * (1 + std::fabs(law.softness) * size)) continue;
+      law.softness = now;
+      follow = true;
+    }
+  }
+  return follow;
+}
+
+void RattleStep::solvePositions(const Part& part, const State& state, const Loads& loads, double h) {
+  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
+  moveTrial(part, state, h);
+  for (const int k : part.constraints) {
+    const Constraint& c = system.constraints()[at(k)];
+    placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], startFrames[at(k)]);
+    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+      const int row = system.axes()[at(a)].row;
+      x0[at(a)] = isJoint(c.kind) ? axisPositionIn(state, system, a) : axisPosition(c, startFrames[at(k)], row);
+      x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
+      laws[at(a)] = {};
+      laws[at(a)].driven = soft[at(a)].driven;
+      laws[at(a)].softness = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
+    }
+  }
+  if (!positionsFactored(part)) linearise(part, frames);
+  factored[at(part.index)] = -1;
+  relinearised[at(part.index)] = 0;
+  setFirstResidual(part, state, loads, h);
+  setResiduals(part, h);
+
+  double scale = 0;
+  for (const int node : part.bodies) {
+    const Vec3d& p = state.pose[at(system.bodyOf(node))].position;
+    scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  }
+  // Below a few units in the last place of the coordinates there is nothing to gain.
+  const double tolerance = std::max(options.positionTolerance, 4e-15 * scale);
+  double before = std::numeric_limits<double>::infinity();
+  int slow = 0;
+  for (int iteration = 1;; ++iteration) {
+    applyCorrection(part);
+    moveTrial(part, state, h);
+    const bool follow = updateAxes(part, h);
+    const double gap = setResiduals(part, h);
+    last.iterations = std::max(last.iterations, iteration);
+    if (gap <= tolerance && !follow) break;
+    if (iteration >= options.maxIterations) {
+      // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
+      if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
+      break;
+    }
+    if (!(gap <= 0.5 * before)) ++slow;
+    before = gap;
+    if (relinearised[at(part.index)] || slow >= 3) {
+      relinearised[at(part.index)] = 1;
+      linearise(part, trial);
+      for (const int node : part.bodies) x[at(node)] = {};
+    } else if (follow) {
+      linearise(part, frames);
+      slow = 0;
+    }
+  }
+  last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
+  collectMomentum(part, state, loads, h);
+}
+
+void RattleStep::setFirstResidual(const Part& part, const State& state, const Loads& loads, double h) {
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    const Wrench& wrench = loads.external[at(b)];
+    const Mat3d& I = system.inertia(node);
+    const Vec3d& w = mean[at(b)].w;
+    gyro[at(node)] = gyroscopicMomentum(I, w, h);
+    set(x[at(node)], 0.5 * h * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
+        (state.spinMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
+  }
+  for (const int k : part.constraints) {
+    impulse[at(k)] = {};
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+      const std::size_t row = at(system.axes()[at(a)].row);
+      softImpulse[at(a)] = 0.5 * h * meanForce(a, h).force;
+      const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
+      // A soft row's impulse is an unknown of the system; without softness it is known.
+      impulse[at(k)][row] = softImpulse[at(a)];
+      if (known + softImpulse[at(a)] != 0) system.addImpulse(k, static_cast<int>(row), known + softImpulse[at(a)], x);
+    }
+  }
+  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
+}
+
+void RattleStep::moveTrial(const Part& part, const State& state, double h) {
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    const Pose& X = state.pose[at(b)];
+    trialPose[at(b)].position = X.position + h * mean[at(b)].v;
+    trialPose[at(b)].orientation = (rotationBy(h * mean[at(b)].w) * X.orientation).normalized();
+    system.placeBody(b, trialPose[at(b)], trial);
+  }
+}
+
+double RattleStep::setResiduals(const Part& part, double h) {
+  double largest = 0, open = 0;
+  // Written so that a gap that is not a number counts as the largest.
+  const auto take = [](double& most, double gap) {
+    if (!(std::fabs(gap) <= most)) most = std::fabs(gap);
+  };
+  for (const int k : part.constraints) {
+    double error[6];
+    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
+    Vector6& residual = x[at(rowNode(k))];
+    residual = {};
+    const unsigned hard = system.hardRowsOf(k), kept = system.elimination().keptRows(k);
+    for (int r = 0; r < 6; ++r) {
+      if (!(hard >> r & 1u)) continue;
+      residual[at(r)] = -error[r] / h;
+      take(open, error[r]);
+      if (kept >> r & 1u) take(largest, error[r]);
+    }
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+      const int row = system.axes()[at(a)].row;
+      const SoftRow& s = soft[at(a)];
+      if (s.driven) {
+        const double gap = x1[at(a)] - (s.relative ? x0[at(a)] + s.target : s.target);
+        residual[at(row)] = -gap / h;
+        take(open, gap);
+        if (kept >> row & 1u) take(largest, gap);
+      } else if (laws[at(a)].softness != 0) {
+        residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].softness;
+        // In terms of position: what the soft row and the masses behind it would still move.
+        const double softness = std::fabs(laws[at(a)].softness) * system.rowSize(k, row);
+        take(largest, residual[at(row)] * h * softness / (1 + softness));
+      }
+    }
+  }
+  for (const int c : part.couplings) {
+    const CouplingRow& row = system.couplings()[at(c)];
+    const double gap = x1[at(row.axis2)] - row.ratio * x1[at(row.axis1)] - row.offset;
+    x[at(system.couplingNode(c))] = {};
+    x[at(system.couplingNode(c))][0] = -gap / h;
+    take(open, gap);
+    if (system.couplingKept(c)) take(largest, gap);
+  }
+  gapOf[at(part.index)] = open;
+  if (relinearised[at(part.index)]) return largest;
+  for (const int node : part.bodies) {
+    const Mat3d& I = system.inertia(node);
+    const Vec3d g = gyroscopicMomentum(I, mean[at(system.bodyOf(node))].w, h);
+    const Vec3d residual = gyro[at(node)] - g;
+    gyro[at(node)] = g;
+    add(x[at(node)], {}, residual);
+    take(largest, h * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual));
+  }
+  return largest;
+}
+
+void RattleStep::applyCorrection(const Part& part) {
+  system.solve(part, x);
+  for (const int node : part.bodies) {
+    Twist& V = mean[at(system.bodyOf(node))];
+    V.v += linear(x[at(node)]);
+    V.w += angular(x[at(node)]);
+    x[at(node)] = {};
+  }
+  for (const int k : part.constraints)
+    for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
+  for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
+}
+
+/// Spin after the first half kick: the sum of the impulses, so that it is conserved to the last digits; where the rows
+/// were taken anew, what the mean twist says.
+void RattleStep::collectMomentum(const Part& part, const State& state, const Loads& loads, double h) {
+  if (relinearised[at(part.index)]) {
+    for (const int node : part.bodies) {
+      const int b = system.bodyOf(node);
+      const Mat3d I = rotatedInertia(frames[at(b)].R, model.bodies()[at(b)].inertia_B);
+      spin[at(node)] = I * mean[at(b)].w + gyroscopicMomentum(I, mean[at(b)].w, h);
+    }
+    return;
+  }
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    spin[at(node)] = state.spinMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
+    x[at(node)] = {};
+  }
+  for (const int k : part.constraints) {
+    for (int r = 0; r < 6; ++r)
+      if (const double total = impulse[at(k)][at(r)]; total != 0) system.addImpulse(k, r, total, x);
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+      const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
+      if (known != 0) system.addImpulse(k, system.axes()[at(a)].row, known, x);
+    }
+  }
+  for (const int c : part.couplings) {
+    const CouplingRow& row = system.couplings()[at(c)];
+    const Axis &one = system.axes()[at(row.axis1)], &two = system.axes()[at(row.axis2)];
+    system.addImpulse(two.constraint, two.row, couplingImpulse[at(c)], x);
+    system.addImpulse(one.constraint, one.row, -row.ratio * couplingImpulse[at(c)], x);
+  }
+  for (const int node : part.bodies) spin[at(node)] += angular(x[at(node)]);
+}
+
+void RattleStep::fail(const Part& part, const State& state, double gap, double h) const {
+  int worst = -1, worstRow = 0;
+  double most = 0;
+  for (const int k : part.constraints) {
+    double error[6];
+    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
+    for (int r = 0; r < 6; ++r)
+      if ((system.hardRowsOf(k) >> r & 1u) && !(std::fabs(error[r]) <= most))
+        most = std::fabs(error[r]), worst = k, worstRow = r;
+  }
+  std::ostringstream message;
+  message << "multibody step from t = " << state.time << " s";
+  if (worst >= 0) message << ": " << system.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
+  message << " (largest residual " << gap << ") after " << options.maxIterations
+          << " iterations; the motion is too fast for a stage of " << h
+          << " s: reduce the step, or check loads, drives and whether the mechanism can reach where it is driven";
+  throw base::SimulationError(message.str());
+}
+
+} // namespace grouser::multibody::detail

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/detail/integrator.hpp"
+#include "multibody/detail/soft_rows.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+/// RATTLE on the rotation group, order 2, and symmetric compositions of it; rattle_step.cpp states the scheme.
+class RattleStep : public Stepper {
+public:
+  explicit RattleStep(const Problem& problem);
+  void step(State& state, const Loads& loads, double dt) override;
+
+private:
+  using Part = ConstraintSystem::Part;
+
+  void stage(State& state, const Loads& loads, double h);
+  void linearise(const Part& part, const std::vector<Frame>& at);
+  bool positionsFactored(const Part& part) const;
+
+  // Position stage (rattle_step.cpp).
+  void solvePositions(const Part& part, const State& state, const Loads& loads, double h);
+  void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
+  bool updateAxes(const Part& part, double h);
+  void applyCorrection(const Part& part);
+  void moveTrial(const Part& part, const State& state, double h);
+  /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.
+  double setResiduals(const Part& part, double h);
+  void collectMomentum(const Part& part, const State& state, const Loads& loads, double h);
+  [[noreturn]] void fail(const Part& part, const State& state, double gap, double h) const;
+
+  // Velocity stage (rattle_velocity.cpp).
+  void solveVelocities(const Part& part, const Loads& loads, double h);
+  double setRateResiduals(const Part& part);
+  void finish(const Part& part, State& state, const Loads& loads, double h);
+
+  // Readings (rattle_velocity.cpp).
+  void readReactions(const Part& part, State& state, const Loads& loads);
+  void readConstraint(int k, State& state);
+
+  /// Spring force that acts at the nodes.
+  double nodeForce(const SoftRow& row, double position) const {
+    return implicitSprings ? 0 : row.constant - row.stiffness * position;
+  }
+  ForceAndSlope meanForce(int axis, double h) const;
+  int rowNode(int k) const { return system.movableBodies() + k; }
+
+  const Model& model;
+  const SolverOptions& options;
+  ConstraintSystem& system;
+  StepReport& last;
+  SoftRows softRows;
+  bool implicitSprings;
+  double stageTime = 0; ///< at the beginning of the stage
+
+  std::vector<SoftRow> soft;                  ///< one an axis
+  std::vector<double> x0, x1;                 ///< axis positions at the beginning and at the end of the stage
+  std::vector<double> softImpulse;            ///< h / 2 times the mean force of an axis' implicit part
+  std::vector<double> axisRate, springForce;  ///< at the end of the step
+  std::vector<AxisLaw> laws;                  ///< what linearise() is given, one an axis
+  std::vector<Vector6> x;                     ///< residuals in, corrections out; one a node
+  std::vector<std::array<double, 6>> impulse; ///< of the rows, in the position and then in the velocity stage
+  std::vector<std::array<double, 6>> endImpulse;
+  std::vector<double> couplingImpulse, couplingEndImpulse;
+  std::vector<Vec3d> gyro;  ///< gyroscopic momentum at the current iterate, one a movable body
+  std::vector<Vec3d> spin;  ///< angular momentum after the first half kick, one a movable body
+  std::vector<Twist> mean;  ///< twist over the stage, one a body
+  std::vector<Twist> twist; ///< at the end of the stage, one a body
+  std::vector<Pose> trialPose;
+  std::vector<Frame> frames, trial;
+  std::vector<JointFrames> startFrames, trialFrames; ///< one a constraint
+  std::vector<char> relinearised;                    ///< of each part: the position stage had to leave J(q_n)
+  std::vector<long long> factored;                   ///< of each part: linearisation that holds the last end, or -1
+  std::vector<double> gapOf;                         ///< of each part: largest gap at the current iterate
+  std::vector<char> drivenThen;                      ///< of each axis, in that linearisation
+};
+
+/// Longest stage of the composition of an order, in units of the step.
+double longestStage(int order);
+
+} // namespace grouser::multibody::detail

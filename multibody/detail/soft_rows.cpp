@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/soft_rows.hpp"
+
+#include "multibody/detail/axis_laws.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+SoftRows::SoftRows(const Model& model, const ConstraintSystem& system, const std::vector<double>& driveStart)
+    : model_(model), system_(system), driveStart_(driveStart), stopsOf_(system.axes().size()) {
+  for (std::size_t s = 0; s < model.axisSprings().size(); ++s) {
+    const AxisSpring& spring = model.axisSprings()[s];
+    if (std::isfinite(spring.lowerLimit) || std::isfinite(spring.upperLimit))
+      stopsOf_[at(system.axisOf(spring.joint, spring.axis))].push_back(static_cast<int>(s));
+  }
+}
+
+void SoftRows::evaluate(const Loads& loads, double t, double h, std::vector<SoftRow>& rows) const {
+  for (SoftRow& row : rows) row = {};
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    rows[a].stops = !stopsOf_[a].empty();
+    const Axis& axis = system_.axes()[a];
+    const Constraint& c = system_.constraints()[at(axis.constraint)];
+    const std::size_t source = at(c.source);
+    if (c.kind == ConstraintKind::kPointSpring) {
+      const PointSpring& spring = model_.pointSprings()[source];
+      const SpringControl& control = loads.pointSprings[source];
+      rows[a].stiffness = control.stiffnessFactor * spring.stiffness;
+      rows[a].constant = control.loadFactor * spring.preload + rows[a].stiffness * spring.restLength;
+      rows[a].damping = spring.damping;
+    } else if (c.kind == ConstraintKind::kBushing) {
+      const Bushing& bushing = model_.bushings()[source];
+      const bool turn = axis.row >= 3;
+      rows[a].stiffness =
+          loads.bushings[source].stiffnessFactor * (turn ? bushing.rotationStiffness : bushing.stiffness)[axis.row % 3];
+      rows[a].damping = (turn ? bushing.rotationDamping : bushing.damping)[axis.row % 3];
+    } else {
+      const Joint& joint = model_.joints()[source];
+      const bool slide = c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow;
+      rows[a].damping = slide ? joint.slideDamping : joint.damping;
+    }
+  }
+  for (std::size_t s = 0; s < model_.axisSprings().size(); ++s) {
+    const AxisSpring& spring = model_.axisSprings()[s];
+    const SpringControl& control = loads.axisSprings[s];
+    SoftRow& row = rows[at(system_.axisOf(spring.joint, spring.axis))];
+    const double k = control.stiffnessFactor * spring.stiffness;
+    row.stiffness += k;
+    row.constant += control.loadFactor * spring.preload + k * spring.freePosition;
+    row.damping += spring.damping;
+  }
+  for (std::size_t d = 0; d < model_.drives().size(); ++d) {
+    if (!loads.drives[d].on) continue;
+    const Drive& drive = model_.drives()[d];
+    SoftRow& row = rows[at(system_.axisOf(drive.joint, drive.axis))];
+    if (drive.kind == DriveKind::kForce) {
+      row.applied0 += drive.law.empty() ? loads.drives[d].force : drive.law.value(t);
+      row.applied1 += drive.law.empty() ? loads.drives[d].force : drive.law.value(t + h);
+      continue;
+    }
+    row.driven = true;
+    row.relative = drive.law.empty();
+    row.rate = row.relative ? loads.drives[d].speed : drivenRate(drive, t + h);
+    row.target = row.relative ? h * row.rate : drivenPosition(drive, driveStart_[d], t + h);
+    row.acceleration = row.relative                         ? 0
+                       : drive.kind == DriveKind::kPosition ? drive.law.acceleration(t + h)
+                                                            : drive.law.rate(t + h);
+  }
+}
+
+ForceAndSlope SoftRows::stops(int axis, double x0, double x1, double h) const {
+  ForceAndSlope sum;
+  for (const int s : stopsOf_[at(axis)]) {
+    const AxisSpring& spring = model_.axisSprings()[at(s)];
+    const double over0 = overLimit(spring, x0), over1 = overLimit(spring, x1), k = spring.stopStiffness;
+    if (over0 == 0 && over1 == 0) continue;
+    const double dx = x1 - x0;
+    if (over0 * over1 > 0 || dx == 0) {
+      sum.force -= 0.5 * k * (over0 + over1);
+      sum.slope += 0.5 * k;
+    } else {
+      // V(x1) - V(x0) over dx, with at most one of the ends beyond each limit.
+      const double dV = 0.5 * k * (over1 * over1 - over0 * over0);
+      sum.force -= dV / dx;
+      sum.slope += (k * over1 - dV / dx) / dx;
+    }
+    if (std::fabs(over1) > std::fabs(over0)) {
+      sum.force -= spring.stopDamping * (over1 - over0) / h;
+      sum.slope += spring.stopDamping / h;
+    }
+  }
+  return sum;
+}
+
+double SoftRows::stopForce(int axis, double x, double rate) const {
+  double force = 0;
+  for (const int s : stopsOf_[at(axis)]) {
+    const AxisSpring& spring = model_.axisSprings()[at(s)];
+    const double over = overLimit(spring, x);
+    force -= spring.stopStiffness * over + (rate * over > 0 ? spring.stopDamping * rate : 0);
+  }
+  return force;
+}
+
+double SoftRows::energy(const SoftRow& row, int axis, double x) const {
+  double V = 0.5 * row.stiffness * x * x - row.constant * x;
+  for (const int s : stopsOf_[at(axis)]) {
+    const double over = overLimit(model_.axisSprings()[at(s)], x);
+    V += 0.5 * model_.axisSprings()[at(s)].stopStiffness * over * over;
+  }
+  return V;
+}
+
+double SoftRows::stopLoss(int axis, double x0, double x1, double h) const {
+  double loss = 0;
+  for (const int s : stopsOf_[at(axis)]) {
+    const AxisSpring& spring = model_.axisSprings()[at(s)];
+    const double over0 = overLimit(spring, x0), over1 = overLimit(spring, x1);
+    if (std::fabs(over1) > std::fabs(over0)) loss += spring.stopDamping * (over1 - over0) / h * (x1 - x0);
+  }
+  return loss;
+}
+
+} // namespace grouser::multibody::detail

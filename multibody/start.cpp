@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/start.hpp"
+
+#include "base/error.hpp"
+#include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/vector6.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Joints must be closed this well by who builds the model [m, rad].
+constexpr double kStartGap = 1e-6;
+/// A drive whose axis can move by less than this part of what it could alone is taken as fixed by the others.
+constexpr double kFixedAxis = 1e-9;
+
+template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw base::InputError(message.str());
+}
+
+std::vector<Frame> startFrames(const ConstraintSystem& system, const Model& model) {
+  std::vector<Pose> poses;
+  for (const Body& body : model.bodies()) poses.push_back(body.pose);
+  std::vector<Frame> frames;
+  system.place(poses, frames);
+  return frames;
+}
+
+double position(const ConstraintSystem& system, const std::vector<Frame>& frames, int axis) {
+  const Axis& a = system.axes()[at(axis)];
+  const Constraint& c = system.constraints()[at(a.constraint)];
+  return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), a.row);
+}
+
+bool imposes(const Drive& drive) { return drive.kind != DriveKind::kForce; }
+
+/// Pivot-free axes: nothing but hard rows.
+std::vector<AxisLaw> hardOnly(const ConstraintSystem& system) { return std::vector<AxisLaw>(system.axes().size()); }
+
+/// What may hold an axis besides joints, for a message.
+std::string others(const Model& model, const std::string& drive) {
+  std::string text;
+  for (const Drive& d : model.drives())
+    if (d.name != drive && d.on && imposes(d)) text += (text.empty() ? "drive '" : ", drive '") + d.name + "'";
+  for (const Coupling& c : model.couplings()) text += (text.empty() ? "coupling '" : ", coupling '") + c.name + "'";
+  return text.empty() ? "joints" : "joints, " + text;
+}
+
+} // namespace
+
+void checkClosed(const ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = startFrames(system, model);
+  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
+    const Constraint& c = system.constraints()[k];
+    const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
+    double error[6];
+    positionError(c, f, error);
+    for (int r = 0; r < 6; ++r)
+      if (!(std::fabs(error[r]) <= kStartGap))
+        refuse(system.describe(static_cast<int>(k), r), " is open by ", error[r],
+               " [m or rad] at the start; allowed are ", kStartGap, "; place the bodies so that it closes");
+    const bool alongZ = c.kind == ConstraintKind::kRevolute || c.kind == ConstraintKind::kPrismatic ||
+                        c.kind == ConstraintKind::kCylindrical || c.kind == ConstraintKind::kFixed;
+    const bool alongX = c.kind == ConstraintKind::kPrismatic || c.kind == ConstraintKind::kFixed;
+    if ((alongZ && dot(f.z_A, f.z_B) < 0) || (alongX && dot(f.x_A, f.x_B) < 0))
+      refuse("joint '", model.joints()[at(c.source)].name,
+             "': the axes of its two frames point in opposite senses at the start; turn one frame by half a turn");
+  }
+  for (std::size_t c = 0; c < system.couplings().size(); ++c) {
+    const CouplingRow& row = system.couplings()[c];
+    const double gap =
+        position(system, frames, row.axis2) - row.ratio * position(system, frames, row.axis1) - row.offset;
+    if (!(std::fabs(gap) <= kStartGap))
+      refuse("coupling '", model.couplings()[c].name, "' is open by ", gap, " [m or rad] at the start; allowed are ",
+             kStartGap, "; place the bodies so that it closes, or leave its offset out");
+  }
+}
+
+std::vector<double> driveStart(const ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = startFrames(system, model);
+  std::vector<double> start;
+  for (const Drive& drive : model.drives())
+    start.push_back(position(system, frames, system.axisOf(drive.joint, drive.axis)));
+  return start;
+}
+
+/// Goes through the drives in order: y_d = K^-1 (row d), with joints and couplings held; what the drives before leave
+/// of row d . y_d is the mobility of its axis (Cholesky's pivot).
+void checkDrives(ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<AxisLaw> laws = hardOnly(system);
+  const std::vector<double> start = driveStart(system, model);
+  for (const ConstraintSystem::Part& part : system.parts()) {
+    std::vector<int> drives;
+    for (int d = 0; d < static_cast<int>(model.drives().size()); ++d) {
+      const Drive& drive = model.drives()[at(d)];
+      const int axis = system.axisOf(drive.joint, drive.axis);
+      const bool here = std::find(part.constraints.begin(), part.constraints.end(),
+                                  system.axes()[at(axis)].constraint) != part.constraints.end();
+      if (here && imposes(drive) && drive.on) drives.push_back(d);
+    }
+    if (drives.empty()) continue;
+    system.linearise(part, frames, laws);
+    std::vector<std::vector<double>> L;
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      const Drive& drive = model.drives()[at(drives[i])];
+      const Axis& a = system.axes()[at(system.axisOf(drive.joint, drive.axis))];
+      std::vector<Vector6> y(at(system.nodes())), alone;
+      system.addImpulse(a.constraint, a.row, 1, y);
+      double free = 0;
+      for (const int node : part.bodies) {
+        const Body& body = model.bodies()[at(system.bodyOf(node))];
+        const Mat3d& I = system.inertia(node);
+        free += norm2(linear(y[at(node)])) / body.mass +
+                norm2(angular(y[at(node)])) * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
+      }
+      system.solve(part, y);
+      L.emplace_back(i + 1);
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Drive& other = model.drives()[at(drives[j])];
+        const Axis& b = system.axes()[at(system.axisOf(other.joint, other.axis))];
+        double s = system.rowTimes(b.constraint, b.row, y);
+        for (std::size_t m = 0; m < j; ++m) s -= L[i][m] * L[j][m];
+        if (j < i) {
+          L[i][j] = s / L[j][j];
+        } else {
+          if (!(s > kFixedAxis * free))
+            refuse("drive '", drive.name, "': the axis of joint '", model.joints()[at(drive.joint)].name,
+                   "' cannot move on its own: it is already determined by ", others(model, drive.name),
+                   "; leave one of them out, or start away from a dead centre");
+          L[i][i] = std::sqrt(s);
+        }
+      }
+    }
+  }
+  for (std::size_t d = 0; d < model.drives().size(); ++d) {
+    const Drive& drive = model.drives()[d];
+    if (drive.kind != DriveKind::kPosition) continue;
+    const double wanted = drive.law.value(0);
+    if (!(std::fabs(wanted - start[d]) <= kStartGap))
+      refuse("drive '", drive.name, "': its law begins at ", wanted, " [rad or m], but the axis of joint '",
+             model.joints()[at(drive.joint)].name, "' starts at ", start[d],
+             "; begin the law there, or place the bodies so");
+  }
+}
+
+void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads& loads, double t,
+                 std::vector<AxisLaw>& laws) {
+  for (AxisLaw& law : laws) law = {};
+  for (std::size_t d = 0; d < model.drives().size(); ++d) {
+    const Drive& drive = model.drives()[d];
+    if (!loads.drives[d].on || !imposes(drive)) continue;
+    AxisLaw& law = laws[at(system.axisOf(drive.joint, drive.axis))];
+    law.driven = true;
+    law.speed = drive.law.empty() ? loads.drives[d].speed : drivenRate(drive, t);
+  }
+}
+
+void checkVelocities(ConstraintSystem& system, const Model& model, double tolerance, bool drives) {
+  const std::vector<Frame> frames = startFrames(system, model);
+  std::vector<Twist> twist;
+  double fastest = 0;
+  for (const Body& body : model.bodies()) {
+    twist.push_back({body.v_WB, body.w_WB});
+    fastest = std::max({fastest, norm(body.v_WB), norm(body.w_WB)});
+  }
+  // Numbers written with a few digits are allowed to close to those digits.
+  const double allowed = tolerance * std::max(1.0, fastest);
+  const std::string remedy =
+      "; give velocities that fit the constraints, or have them projected (start velocities: accept)";
+  std::vector<AxisLaw> laws(system.axes().size());
+  imposedLaws(system, model, makeLoads(model), 0, laws);
+  for (const ConstraintSystem::Part& part : system.parts()) {
+    system.linearise(part, frames, laws);
+    for (const int k : part.constraints) {
+      const Constraint& c = system.constraints()[at(k)];
+      for (int r = 0; r < 6; ++r) {
+        if (!(hardRows(c.kind) >> r & 1u)) continue;
+        const double rate = system.rate(k, r, twist);
+        if (!(std::fabs(rate) <= allowed))
+          refuse(system.describe(k, r), ": the start velocities of '",
+                 model.bodyName(model.joints()[at(c.source)].bodyA), "' and '",
+                 model.bodyName(model.joints()[at(c.source)].bodyB), "' would open it at ", rate,
+                 " [m/s or rad/s]; allowed are ", allowed, remedy);
+      }
+      for (int a = system.firstAxis(k); drives && a < system.firstAxis(k + 1); ++a) {
+        if (!laws[at(a)].driven) continue;
+        const double rate = system.rateOfAxis(a, twist);
+        if (!(std::fabs(rate - laws[at(a)].speed) <= allowed))
+          refuse("joint '", model.joints()[at(c.source)].name, "': its axis starts at a rate of ", rate,
+                 " [m/s or rad/s], but its drive imposes ", laws[at(a)].speed, remedy);
+      }
+    }
+    for (const int i : part.couplings) {
+      const CouplingRow& row = system.couplings()[at(i)];
+      const double rate = system.rateOfAxis(row.axis2, twist) - row.ratio * system.rateOfAxis(row.axis1, twist);
+      if (!(std::fabs(rate) <= allowed))
+        refuse("coupling '", model.couplings()[at(i)].name, "': the start velocities would open it at ", rate,
+               " [m/s or rad/s]; allowed are ", allowed, remedy);
+    }
+  }
+}
+
+void readRates(const ConstraintSystem& system, State& state) {
+  for (int a = 0; a < static_cast<int>(system.axes().size()); ++a) {
+    const Axis& axis = system.axes()[at(a)];
+    const Constraint& c = system.constraints()[at(axis.constraint)];
+    if (!isJoint(c.kind)) continue;
+    const bool slide = c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow;
+    (slide ? state.slide[at(c.source)].rate : state.joint[at(c.source)].rate) = system.rateOfAxis(a, state.twist);
+  }
+}
+
+void fitTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
+               std::vector<Vector6>& x, std::vector<Twist>& twist) {
+  for (const int node : part.bodies) x[at(node)] = {};
+  for (const int k : part.constraints) {
+    Vector6& residual = x[at(system.movableBodies() + k)];
+    residual = {};
+    for (int r = 0; r < 6; ++r)
+      if (system.hardRowsOf(k) >> r & 1u) residual[at(r)] = -system.rate(k, r, twist);
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+      if (laws[at(a)].driven) residual[at(system.axes()[at(a)].row)] = laws[at(a)].speed - system.rateOfAxis(a, twist);
+  }
+  for (const int c : part.couplings) {
+    const CouplingRow& row = system.couplings()[at(c)];
+    x[at(system.couplingNode(c))] = {};
+    x[at(system.couplingNode(c))][0] =
+        row.ratio * system.rateOfAxis(row.axis1, twist) - system.rateOfAxis(row.axis2, twist);
+  }
+  system.solve(part, x);
+  for (const int node : part.bodies) {
+    Twist& V = twist[at(system.bodyOf(node))];
+    V.v += linear(x[at(node)]);
+    V.w += angular(x[at(node)]);
+  }
+}
+
+} // namespace grouser::multibody::detail
