@@ -7,6 +7,7 @@
 #include "runs/render_command.hpp"
 #include "runs/scene.hpp"
 #include "runs/stop_signals.hpp"
+#include "runs/study_multibody.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -161,6 +162,21 @@ void addRender(CLI::App& app, runs::RenderCommand& c) {
   render->callback([&c] { runs::renderCommand(c); });
 }
 
+void addStudy(CLI::App& app, runs::StudyCommand& c) {
+  CLI::App* study = app.add_subcommand("study", "Error against run time: tables and plots");
+  study->require_subcommand(1);
+  CLI::App* multibody = study->add_subcommand(
+      "multibody", "Mechanisms whose motion is known: error, order, drift and CPU time of each integrator and step");
+  multibody->add_option("--cases", c.cases, "names, separated by commas; default: all")->delimiter(',');
+  multibody->add_flag("--quick", c.quick, "three long steps only, and none of the cases that take minutes");
+  multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")
+      ->check(runs::positive("a time in seconds"))
+      ->capture_default_str();
+  multibody->add_option("--out", c.folder, "folder of the tables and the plot; default: out/study_multibody");
+  multibody->add_flag("--force", c.force, "overwrite what is in that folder");
+  multibody->callback([&c] { runs::studyMultibodyCommand(c); });
+}
+
 void addHash(CLI::App& app, runs::HashCommand& c) {
   CLI::App* hash = app.add_subcommand("hash", "Hash of the state in a checkpoint, as run --hash prints it");
   hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run")->required();
@@ -231,6 +247,7 @@ int main(int argc, char** argv) {
   runs::SweepCommand sweep;
   runs::BenchCommand bench;
   runs::HashCommand hash;
+  runs::StudyCommand study;
   runs::RenderCommand render;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
@@ -240,6 +257,7 @@ int main(int argc, char** argv) {
   addSweep(app, sweep);
   addBench(app, bench);
   addHash(app, hash);
+  addStudy(app, study);
   addRender(app, render);
   addOthers(app, sinkage, plan, spheres);
   if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())

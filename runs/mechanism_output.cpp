@@ -55,6 +55,9 @@ std::string driveUnit(multibody::DriveKind kind, bool turning) {
   return turning ? "N m" : "N";
 }
 
+/// Redundant rows that are named before "and ... more" [-].
+constexpr std::size_t kRowsShown = 8;
+
 /// Shares of a mechanism's size: thickness of a bar, least and greatest edge of a body that gives no box [-].
 constexpr double kBar = 0.01, kLeastEdge = 0.02, kGreatestEdge = 0.5;
 
@@ -236,6 +239,32 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
   row.set("constraints/velocity_error", drift.velocity);
   row.set("constraints/iterations", drift.iterations);
   row.set("constraints/singular_steps", drift.singularSteps);
+}
+
+std::string integratorText(const RunSettings& run) {
+  if (run.integrator != "rattle") return "symplectic Euler, order 1, springs implicit";
+  return fmt::format("RATTLE, order {}, springs {}", run.integratorOrder, run.springs);
+}
+
+std::string mechanismSize(const Mechanism& mechanism) {
+  const multibody::Model& model = mechanism.model();
+  const multibody::Solver& solver = mechanism.solver();
+  std::string text;
+  const auto line = [&](const std::string& what, const std::string& value) {
+    text += fmt::format("  {:<24} {}\n", what, value);
+  };
+  line("bodies", fmt::format("{}", model.bodies().size()));
+  line("joints", fmt::format("{}", model.joints().size()));
+  line("springs and bushings",
+       fmt::format("{}", model.axisSprings().size() + model.pointSprings().size() + model.bushings().size()));
+  line("drives and couplings", fmt::format("{}", model.drives().size() + model.couplings().size()));
+  line("degrees of freedom", fmt::format("{}, drives left out", solver.degreesOfFreedom()));
+  const std::vector<std::string> redundant = solver.redundantRowNames();
+  if (redundant.empty()) return text;
+  line("rows held more than once", fmt::format("{}, left out; their reactions read 0", redundant.size()));
+  for (std::size_t i = 0; i < std::min(redundant.size(), kRowsShown); ++i) line("", redundant[i]);
+  if (redundant.size() > kRowsShown) line("", fmt::format("and {} more", redundant.size() - kRowsShown));
+  return text;
 }
 
 std::vector<FramePart> mechanismParts(const Scene& scene, const multibody::Model& model) {

@@ -18,6 +18,12 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
 /// Fills a row of these channels but for the ledger's changes, which the simulation knows.
 void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vector<std::string>& record);
 
+/// "RATTLE of order 2, springs implicit".
+std::string integratorText(const RunSettings& run);
+
+/// Lines about the size of a mechanism: bodies, joints, freedoms, rows held more than once.
+std::string mechanismSize(const Mechanism& mechanism);
+
 /// Each body as a box and thin bars to its joints, for pictures and ParaView.
 std::vector<FramePart> mechanismParts(const Scene& scene, const multibody::Model& model);
 

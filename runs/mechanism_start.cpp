@@ -72,7 +72,9 @@ void checkStartVelocity(const multibody::Model& model, int index) {
     break;
   }
   }
-  const double speed = std::max(norm(A.at(p)), norm(B.at(p))) + norm(A.v) + norm(B.v), spin = norm(A.w) + norm(B.w);
+  // Sizes of what is added up in a velocity, so that round-off is none of a mistake.
+  const auto size = [&](const Motion& m) { return norm(m.v) + norm(m.w) * norm(p - m.X_WB.position); };
+  const double speed = size(A) + size(B), spin = norm(A.w) + norm(B.w);
   const auto bodies = [&] {
     return fmt::format("\"{}\" and \"{}\"", model.bodyName(joint.bodyA), model.bodyName(joint.bodyB));
   };

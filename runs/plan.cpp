@@ -4,6 +4,8 @@
 #include "base/math.hpp"
 #include "runs/bed.hpp"
 #include "runs/laws.hpp"
+#include "runs/mechanism.hpp"
+#include "runs/mechanism_output.hpp"
 #include "runs/placement.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
@@ -51,6 +53,8 @@ std::string switches(const Scene& scene) {
   text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
+  const MechanismSections& m = scene.mechanism;
+  text += onOff(!m.empty(), "mechanism", m.empty() ? "no [[body]]" : integratorText(scene.run));
   text += onOff(scene.output.frames, "frames",
                 scene.output.frames ? fmt::format("{:.0f}, one each {} s",
                                                   std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,
@@ -96,6 +100,8 @@ std::string planText(const Scene& scene) {
     text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
                         spec.shoe.count, spec.pitchRadius());
   }
+  const double step = chooseTimeStep(scene);
+  if (!scene.mechanism.empty()) text += mechanismSize(Mechanism(scene, step));
   text += "\ntime\n";
   const double contact = shortestContact(scene);
   const double resolved = contact / kStepsPerContact;
@@ -104,7 +110,6 @@ std::string planText(const Scene& scene) {
     text +=
         fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, kStepsPerContact);
   }
-  const double step = chooseTimeStep(scene);
   const double steps = std::round(scene.run.duration / step);
   text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
                       contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");

@@ -94,4 +94,16 @@ std::filesystem::path drawSweep(const std::filesystem::path& summary, const std:
   return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
+bool drawStudy(const std::filesystem::path& table, const std::filesystem::path& file, std::string& warning) {
+  return draw("study.py", {table.string(), file.string()}, warning);
+}
+
+bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {
+  std::vector<std::string> words = {kPython, script.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = call(words);
+  if (outcome.status != 0) warning = fmt::format("{} {}: {}", kPython, script.string(), lastLine(outcome.output));
+  return outcome.status == 0;
+}
+
 } // namespace grouser::runs

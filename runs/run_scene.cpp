@@ -207,7 +207,7 @@ void describeBuild(const Simulation& simulation, const base::Exec& exec) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
   }
-  if (const Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", mechanism->solver().report());
+  if (const Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", mechanismSize(*mechanism));
   std::fflush(stdout);
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, drive, ledger.
+"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, drive, ledger,
+mechanism.
 
 Exit status: 0 (a plot whose quantities the results lack is left out), 3 where a Python package is missing; its last line
 then says which to install.
@@ -22,10 +23,12 @@ except ImportError as missing:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import drive
 import ledger
+import mechanism
 import series
 import shoes
 
-PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "drive": drive.plot, "ledger": ledger.plot}
+PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "drive": drive.plot, "ledger": ledger.plot,
+         "mechanism": mechanism.plot}
 
 
 def main(arguments):

@@ -31,6 +31,10 @@ class Run:
         values = item["value"][:] if "value" in item else item[:]
         return values[: len(self.time)] if "value" in item else float(values[0])
 
+    def names(self, group):
+        """Names of what the run holds of a kind: bodies, joints."""
+        return list(self._file[group]) if group in self._file else []
+
     def shoes(self, name):
         """{side: [rows, shoes]} of a quantity that has one number a shoe."""
         tracks = {side: self.get(f"vehicle/{side}/{name}") for side in SIDES}

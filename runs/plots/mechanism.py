@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mechanism: paths of the bodies' centres in the plane in which they spread most, energies, what does not balance, and
+how well the joints stay closed."""
+import numpy
+from matplotlib.figure import Figure
+
+import series
+
+MOST_BODIES = 12
+AXES = "xyz"
+TERMS = (("kinetic", "kinetic", "tab:blue"), ("potential", "potential", "tab:green"), ("elastic", "elastic", "tab:orange"),
+         ("dissipated", "dissipated", "tab:red"), ("drive_work", "work of the drives", "black"))
+
+
+def paths(axis, bodies):
+    spread = numpy.max([values.max(axis=0) for values in bodies.values()], axis=0) - numpy.min(
+        [values.min(axis=0) for values in bodies.values()], axis=0)
+    flat = int(numpy.argmin(spread[::-1]))  # of two that are equal the later one is left out
+    across, up = [k for k in range(3) if k != 2 - flat]
+    for name, values in list(bodies.items())[:MOST_BODIES]:
+        line, = axis.plot(values[:, across], values[:, up], label=name, linewidth=1.0)
+        axis.plot(values[-1:, across], values[-1:, up], "o", markersize=4, color=line.get_color())
+    axis.set_aspect("equal", adjustable="datalim")
+    axis.set_xlabel(f"{AXES[across]} [m]")
+    axis.set_ylabel(f"{AXES[up]} [m]")
+    left_out = len(bodies) - MOST_BODIES
+    axis.set_title("paths of the centres" + (f" (the first {MOST_BODIES}, {left_out} more)" if left_out > 0 else ""), fontsize=10)
+    axis.legend(fontsize=7)
+
+
+def plot(run):
+    bodies = {name: run.get(f"bodies/{name}/position") for name in run.names("bodies")}
+    if not bodies or len(run.time) == 0:
+        return None
+    figure = Figure(figsize=(10.0, 7.0))
+    (where, energy), (rest, gap) = figure.subplots(2, 2)
+    paths(where, bodies)
+    for name, label, colour in TERMS:
+        values = run.get(f"ledger/{name}")
+        if series.finite(values) and numpy.any(values):
+            energy.plot(run.time, values, color=colour, label=label)
+    energy.set_title("changes of energy since the start", fontsize=10)
+    energy.set_ylabel("[J]")
+    if energy.get_legend_handles_labels()[0]:
+        energy.legend(fontsize=7)
+    rest.plot(run.time, run.get("ledger/residual"), color="tab:purple")
+    rest.set_title("energy that does not balance", fontsize=10)
+    rest.set_ylabel("[J]")
+    for name, label in (("position_error", "gap [m, rad]"), ("velocity_error", "opening rate [m/s, rad/s]")):
+        values = run.get(f"constraints/{name}")
+        if series.finite(values) and (values > 0).any():
+            gap.semilogy(run.time, numpy.where(values > 0, values, numpy.nan), label=label)
+    gap.set_title("joints: largest since the row before", fontsize=10)
+    if gap.get_legend_handles_labels()[0]:
+        gap.legend(fontsize=7)
+    for axis in (energy, rest, gap):
+        axis.set_xlabel("time [s]")
+    return figure
