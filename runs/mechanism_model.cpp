@@ -174,7 +174,7 @@ JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::s
     if (turns && slides)
       throw SectionFault(
           key, fmt::format("is missing, for joint \"{}\" has two axes; add {} = \"angle\" or \"slide\"", j.name, key));
-    return JointAxis::kOnly;
+    return turns ? JointAxis::kAngle : JointAxis::kSlide;
   }
   if (word == "angle" ? !turns : !slides)
     throw SectionFault(key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
