@@ -58,8 +58,10 @@ std::string driveUnit(multibody::DriveKind kind, bool turning) {
 /// Redundant rows that are named before "and ... more" [-].
 constexpr std::size_t kRowsShown = 8;
 
-/// Shares of a mechanism's size: thickness of a bar, least and greatest edge of a body that gives no box [-].
-constexpr double kBar = 0.01, kLeastEdge = 0.02, kGreatestEdge = 0.5;
+/// Shares of a mechanism's size: thickness of the bars from a centre to the joints, edge of the cube at the centre,
+/// least and greatest edge of a free body that gives no box [-].
+constexpr double kBar = 0.015, kCentre = 0.035, kLeastEdge = 0.02, kGreatestEdge = 0.5;
+constexpr std::size_t kBodyColours = 6; ///< kinds "body 0" to "body 5", for pictures
 
 /// Adds a box of edges `size` about `centre`, its axes the columns of `R`.
 void addBox(base::TriangleMesh& mesh, const Vec3d& centre, const base::Mat3d& R, const Vec3d& size) {
@@ -272,16 +274,19 @@ std::vector<FramePart> mechanismParts(const Scene& scene, const multibody::Model
   std::vector<FramePart> parts;
   for (std::size_t b = 0; b < model.bodies().size(); ++b) {
     const multibody::Body& body = model.bodies()[b];
-    FramePart part{body.name, body.fixed ? "fixed" : "body", {}};
-    const std::optional<Vec3d>& box = scene.mechanism.bodies[b].box;
+    FramePart part{body.name, body.fixed ? "fixed" : fmt::format("body {}", b % kBodyColours), {}};
+    std::vector<Vec3d> ends;
+    for (const multibody::Joint& j : model.joints()) {
+      if (j.bodyA == static_cast<int>(b)) ends.push_back(j.frame_A.position);
+      if (j.bodyB == static_cast<int>(b)) ends.push_back(j.frame_B.position);
+    }
+    const bool isSmall = !ends.empty() || body.fixed || body.point;
     const Vec3d fallback =
-        body.fixed ? Vec3d{1, 1, 1} * (3 * kLeastEdge * size) : boxOf(body, kLeastEdge * size, kGreatestEdge * size);
+        isSmall ? Vec3d{1, 1, 1} * (kCentre * size) : boxOf(body, kLeastEdge * size, kGreatestEdge * size);
+    const std::optional<Vec3d>& box = scene.mechanism.bodies[b].box;
     addBox(part.mesh, {}, base::Mat3d::identity(), box.value_or(fallback));
     if (!box)
-      for (const multibody::Joint& j : model.joints()) {
-        if (j.bodyA == static_cast<int>(b)) addBar(part.mesh, j.frame_A.position, kBar * size);
-        if (j.bodyB == static_cast<int>(b)) addBar(part.mesh, j.frame_B.position, kBar * size);
-      }
+      for (const Vec3d& end : ends) addBar(part.mesh, end, kBar * size);
     parts.push_back(std::move(part));
   }
   return parts;

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kAzimuth = -55;      ///< [deg] of the camera
 constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
+constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
+constexpr double kFlatElevation = 60; ///< [deg] of the camera above them
 constexpr double kAspect = 16.0 / 9;
 
 struct Box {
@@ -31,6 +33,10 @@ Colour partColour(const std::string& kind) {
   if (kind == "road_wheel") return srgb(122, 146, 176);
   if (kind == "roller") return srgb(150, 172, 150);
   if (kind == "idler") return srgb(178, 96, 84);
+  // Bodies of a mechanism, in turn.
+  const Colour bodies[] = {srgb(78, 121, 167), srgb(214, 138, 48),  srgb(89, 161, 79),
+                           srgb(178, 96, 84),  srgb(140, 110, 160), srgb(118, 183, 178)};
+  if (kind.rfind("body ", 0) == 0) return bodies[static_cast<std::size_t>(kind.back() - '0') % std::size(bodies)];
   return srgb(150, 150, 150);
 }
 
@@ -44,6 +50,13 @@ std::pair<float, float> heightRange(const Frame& frame) {
   std::sort(heights.begin(), heights.end());
   const std::size_t cut = heights.size() / 100;
   return {heights[cut], heights[heights.size() - 1 - cut]};
+}
+
+/// Whether parts spread in the horizontal plane only, as a mechanism that moves in x and y does.
+bool liesFlat(const std::vector<base::Vec3f>& points) {
+  Box box;
+  for (const base::Vec3f& p : points) box.take(p.as<double>());
+  return box.high.z - box.low.z < kFlat * box.radius();
 }
 
 } // namespace
@@ -91,7 +104,9 @@ Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const b
   if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
   const int height = std::max(1, width * 9 / 16);
   if (!vehicle.empty())
-    return render(scene, cameraOnParts(vehicle, kAzimuth, kVehicleElevation, kAspect), width, height);
+    return render(scene,
+                  cameraOnParts(vehicle, kAzimuth, liesFlat(vehicle) ? kFlatElevation : kVehicleElevation, kAspect),
+                  width, height);
   std::vector<Ball> seen;
   if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
   for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});

@@ -78,7 +78,7 @@ StudyCase fourbar(int n, double end) {
           "closed form (one pendulum)",
           end,
           0.05,
-          4,
+          2,
           tip,
           [rotor](double t) { return rotor.tip(t); },
           n > 40};
@@ -136,15 +136,15 @@ std::vector<StudyCase> joints() {
   std::vector<StudyCase> cases;
   const Pendulum rod{90 * kDegree, std::sqrt(9.80665 * 2 / 4.1)};
   cases.push_back({"revolute", "joint_revolute.toml", "rod on a hinge, let go at 90 degrees, 5 s",
-                   "closed form (Jacobi)", 5, 0.1, 5, point("rod", {}, {0, 2}), [rod](double t) {
+                   "closed form (Jacobi)", 5, 0.1, 1, point("rod", {}, {0, 2}), [rod](double t) {
                      const double a = rod.angle(t);
                      return Values{2 * std::sin(a), -2 * std::cos(a)};
                    }});
   const Pendulum weld{0.01, std::sqrt(2 * 9.81 / (8.0 / 3))};
-  cases.push_back({"fixed", "joint_fixed.toml", "two rods welded, small swing, 5 s", "closed form (Jacobi)", 5, 0.1, 5,
+  cases.push_back({"fixed", "joint_fixed.toml", "two rods welded, small swing, 5 s", "closed form (Jacobi)", 5, 0.1, 2,
                    point("lower", {}, {0}), [weld](double t) { return Values{1.5 * std::sin(weld.angle(t))}; }});
   cases.push_back({"prismatic", "joint_prismatic.toml", "block and spring on a slide, 5 s", "closed form (harmonic)", 5,
-                   0.1, 5, point("block", {}, {0, 2}), [](double t) {
+                   0.1, 2, point("block", {}, {0, 2}), [](double t) {
                      const double s = 0.04905 * (1 - std::cos(10 * t));
                      return Values{s * std::cos(30 * kDegree), -0.5 * s};
                    }});
@@ -236,14 +236,14 @@ std::function<std::vector<double>(double t)> referenceFile(const std::string& na
 
 std::vector<StudyCase> studyCases() {
   std::vector<StudyCase> cases;
-  cases.push_back(pendulum("pendulum", 10, 0.1, 5, false));
-  cases.push_back(pendulum("pendulum2000", 2000, 0.5, 25, true));
+  cases.push_back(pendulum("pendulum", 10, 0.1, 1, false));
+  cases.push_back(pendulum("pendulum2000", 2000, 0.5, 5, true));
   cases.push_back(fourbar(2, 20));
   cases.push_back(fourbar(40, 20));
   cases.push_back(fourbar(1000, 10));
   const double crank = 0.007 - 9.2e-4, start = -.0617138900142764496;
   cases.push_back({"andrews", "andrews.toml", "Andrews' squeezing mechanism (IFToMM A03), 0.05 s", "DOP853 at 3e-14",
-                   0.05, 2.5e-4, 2, point("K1", {crank * std::cos(start), crank * std::sin(start), 0}, {0, 1}),
+                   0.05, 2.5e-4, 1, point("K1", {crank * std::cos(start), crank * std::sin(start), 0}, {0, 1}),
                    referenceFile("andrews.csv")});
   cases.push_back(ring());
   cases.push_back(top("top_free", "free top with moments 1, 2, 3, 20 s", 0.1, 1));

@@ -31,7 +31,7 @@ constexpr double kShortRun = 0.2;    ///< [s] of CPU below which a run is done a
 constexpr int kRepeats = 3;          ///< of a short run; the least time counts
 constexpr double kHopeless = 1e3;    ///< an error that is not worth a number [-]
 constexpr int kQuickSteps = 3;       ///< step sizes of --quick
-constexpr int kFullSteps = 6;        ///< a quarter each: a factor of 1024
+constexpr int kFullSteps = 7;        ///< a quarter each: a factor of 4096
 constexpr double kQuickBudget = 0.5; ///< [s] of CPU for one run of --quick
 
 double cpuSeconds() {
