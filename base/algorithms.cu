@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/algorithms.hpp"
 
+#include "base/host_device.hpp"
+
 #if !defined(__CUDACC__)
 #define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_OMP // no CUDA headers on a machine without the toolkit
 #endif
 
 #include <omp.h>
+#include <thrust/copy.h>
 #include <thrust/execution_policy.h>
 #include <thrust/functional.h>
+#include <thrust/iterator/counting_iterator.h>
 #include <thrust/reduce.h>
 #include <thrust/scan.h>
 #include <thrust/sequence.h>
@@ -51,6 +55,21 @@ struct Scan {
   }
 };
 
+struct IsMarked {
+  GROUSER_HD bool operator()(std::uint32_t mark) const { return mark != 0; }
+};
+
+struct ListMarked {
+  const std::uint32_t* marks;
+  std::size_t count;
+  std::uint32_t* list;
+  template <class Policy> std::size_t operator()(const Policy& policy) const {
+    const thrust::counting_iterator<std::uint32_t> first(0);
+    return static_cast<std::size_t>(
+        thrust::copy_if(policy, first, first + static_cast<std::ptrdiff_t>(count), marks, list, IsMarked{}) - list);
+  }
+};
+
 struct Maximum {
   const std::uint32_t* values;
   std::size_t count;
@@ -85,6 +104,11 @@ std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint
 
 std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count) {
   return count ? withPolicy(exec, Maximum{values, count}) : 0u;
+}
+
+void listMarked(const Exec& exec, const std::uint32_t* marks, std::size_t count, Array<std::uint32_t>& list) {
+  list.resize(count);
+  list.resize(count == 0 ? 0 : withPolicy(exec, ListMarked{marks, count, list.data()}));
 }
 
 void iota(const Exec& exec, std::uint32_t* out, std::size_t count) {

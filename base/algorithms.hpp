@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/exec.hpp"
+#include "base/array.hpp"
 
 #include <cstdint>
 
@@ -15,6 +15,8 @@ void sortByKey(const Exec& exec, std::uint64_t* keys, std::uint32_t* values, std
 std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint32_t* out, std::size_t count);
 /// Largest element; 0 for an empty range.
 std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count);
+/// The places of all marks that are not 0, ascending.
+void listMarked(const Exec& exec, const std::uint32_t* marks, std::size_t count, Array<std::uint32_t>& list);
 /// out[i] = i.
 void iota(const Exec& exec, std::uint32_t* out, std::size_t count);
 

@@ -42,6 +42,17 @@ public:
     }
     size_ = size;
   }
+  /// Changes the size and keeps what fits. Memory grows in leaps, so that small changes cost nothing.
+  void resizeKeeping(std::size_t size) {
+    if (size > capacity_) {
+      Array larger(exec_);
+      larger.resize(size + size / 8);
+      copyOnDevice(exec_, larger.data_, data_, size_ * sizeof(T));
+      synchronize(exec_); // the old memory goes
+      swap(larger);
+    }
+    size_ = size;
+  }
   void zero() { setZero(exec_, data_, size_ * sizeof(T)); }
   void assign(const std::vector<T>& values) {
     resize(values.size());
@@ -69,6 +80,13 @@ private:
   T* data_{nullptr};
   std::size_t size_{0}, capacity_{0};
 };
+
+/// Copy of `count` elements of device memory.
+template <class T> std::vector<T> toHost(const Exec& exec, const T* device, std::size_t count) {
+  std::vector<T> values(count);
+  copyToHost(exec, values.data(), device, count * sizeof(T));
+  return values;
+}
 
 /// An array on the device with a pinned twin on the host, for what crosses every step.
 template <class T> class Mirrored {

@@ -43,9 +43,9 @@ Exec cpuExec(int threads) {
 
 #if defined(__CUDACC__)
 
-bool cudaAvailable() {
+int cudaDevices() {
   int count = 0;
-  return cudaGetDeviceCount(&count) == cudaSuccess && count > 0;
+  return cudaGetDeviceCount(&count) == cudaSuccess ? count : 0;
 }
 
 Exec cudaExec(int index) {
@@ -60,10 +60,12 @@ Exec cudaExec(int index) {
 
 #else
 
-bool cudaAvailable() { return false; }
+int cudaDevices() { return 0; }
 Exec cudaExec(int) { noCuda(); }
 
 #endif
+
+bool cudaAvailable() { return cudaDevices() > 0; }
 
 std::string describe(const Exec& exec) {
   if (exec.onCpu()) return std::to_string(exec.threads) + " thread(s) on " + processorName();

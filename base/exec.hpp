@@ -23,6 +23,8 @@ Exec cpuExec(int threads = 0);
 Exec cudaExec(int index = 0);
 /// True where this build has CUDA and a usable device is present.
 bool cudaAvailable();
+/// Usable CUDA devices of this machine; 0 where there are none.
+int cudaDevices();
 /// One line about the device: cores and processor, or the GPU's name and memory.
 std::string describe(const Exec& exec);
 /// Memory taken on the device now, by all programs together [B]; on the CPU the most this process has held.

@@ -11,6 +11,8 @@ namespace grouser::base {
 /// finaliser of splitmix64; Steele, Lea and Flood 2014). Not for secrets.
 class StateHash {
 public:
+  explicit StateHash(std::uint64_t value = 0) : value_(value) {} ///< goes on from another's value()
+
   void add(std::uint64_t word) {
     std::uint64_t z = (value_ ^ word) + 0x9E3779B97F4A7C15ull;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
@@ -31,7 +33,7 @@ public:
   }
 
 private:
-  std::uint64_t value_{0};
+  std::uint64_t value_;
 };
 
 } // namespace grouser::base

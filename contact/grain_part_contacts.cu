@@ -31,7 +31,7 @@ GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& 
 struct ListParts {
   base::PositionScale scale;
   const Position* position;
-  const std::uint32_t* id;
+  const std::uint32_t *id, *ghost;
   const PartMotion* motion;
   const GrainPart* parts;
   int partCount;
@@ -44,7 +44,7 @@ struct ListParts {
   GROUSER_HD void operator()(int i) const {
     const Vec3d x = scale.toMetres(position[i]);
     std::uint32_t found = 0;
-    if (distance2ToBox(x, low, high) == 0) {
+    if (!(ghost && ghost[i]) && distance2ToBox(x, low, high) == 0) {
       for (int p = 0; p < partCount; ++p) {
         if (distance2ToBox(motion[p].toPart(x), parts[p].boxLow, parts[p].boxHigh) > reach * reach) continue;
         if (key) {
@@ -81,6 +81,19 @@ struct CarryMemory {
     for (int k = 0; k < kPatches; ++k)
       memory[e * kPatches + k] = found ? old[static_cast<std::int64_t>(oldIndex[low]) * kPatches + k] : PatchMemory{};
   }
+};
+
+/// The rank that a pair follows its grain to; the own one for those that stay.
+struct FindDestination {
+  const std::uint32_t *slot, *destination;
+  std::uint32_t me;
+  std::uint32_t* leaves;
+  GROUSER_HD void operator()(int e) const { leaves[e] = destination[slot[e]] != me; }
+};
+struct ReadDestination {
+  const std::uint32_t *pair, *slot, *destination;
+  std::uint64_t* rank;
+  GROUSER_HD void operator()(int k) const { rank[k] = destination[slot[pair[k]]]; }
 };
 
 /// One patch while it is being made out.
@@ -208,8 +221,9 @@ private:
 } // namespace
 
 GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
-                                     const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts)
-    : exec_(exec), model_(model), partCount_(parts.size()) {
+                                     const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
+                                     const base::Comm& comm)
+    : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()) {
   std::vector<SurfaceGridView> views;
   for (const base::SphereSet* set : sets) {
     const double edge = set->spacing > 0.006 ? 0.75 * set->spacing : 0.0045;
@@ -238,6 +252,31 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   sums_ = base::Array<std::int64_t>(exec, 6);
 }
 
+void GrainPartContacts::handOver(const std::uint32_t* destination) {
+  if (!listed_) return; // what was restored is on all ranks
+  if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_);
+  const auto n = static_cast<std::int64_t>(pairs_);
+  base::Array<std::uint32_t> leaves(exec_, pairs_), leaving(exec_);
+  base::forEach(exec_, "find pairs that leave", n,
+                FindDestination{slot_.data(), destination, static_cast<std::uint32_t>(comm_.rank()), leaves.data()});
+  base::listMarked(exec_, leaves.data(), pairs_, leaving);
+  base::Array<std::uint64_t> ranks(exec_, leaving.size());
+  base::forEach(exec_, "read destinations of pairs", static_cast<std::int64_t>(leaving.size()),
+                ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
+  exchange_->route(ranks, leaving, leaving.size());
+  const auto fields = [&] {
+    return std::vector<ExchangeField>{{key_.data(), 2}, {memory_.data(), kPatches * sizeof(PatchMemory) / 4}};
+  };
+  exchange_->start(fields());
+  key_.resizeKeeping(pairs_ + exchange_->coming());
+  memory_.resizeKeeping(kPatches * key_.size());
+  exchange_->putFrom(pairs_);
+  exchange_->finish(fields());
+  // Those that left are found by no grain of the next list.
+  pairs_ += exchange_->coming();
+  listed_ = false;
+}
+
 void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<PartMotion>& motion) {
   // The former list, sorted by key, to find history in.
   const std::size_t oldPairs = pairs_;
@@ -253,6 +292,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   ListParts list{model_.scale,
                  grains.position,
                  grains.id,
+                 grains.ghost,
                  motion.data(),
                  parts_.data(),
                  static_cast<int>(partCount_),
@@ -287,6 +327,13 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   base::forEach(exec_, "carry patch history", static_cast<std::int64_t>(pairs_),
                 CarryMemory{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
                             oldMemory_.data(), memory_.data()});
+  listed_ = true;
+}
+
+std::vector<std::int64_t> GrainPartContacts::allSums() const {
+  std::vector<std::int64_t> sums = sums_.toHost();
+  comm_.sum(sums.data(), sums.size());
+  return sums;
 }
 
 void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
@@ -299,7 +346,7 @@ void GrainPartContacts::compute(const GrainsView& grains, const base::Array<Part
 GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.data(), model_.force, sums_.data() + 3}; }
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
-  const std::vector<std::int64_t> q = sums_.toHost();
+  const std::vector<std::int64_t> q = allSums();
   return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]),
           model_.force.value({q[3], q[4], q[5]}) * model_.timeStep};
 }

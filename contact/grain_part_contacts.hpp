@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
 #include "base/position.hpp"
+#include "contact/exchange.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/linear_law.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/saved_contacts.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace grouser::contact {
@@ -42,18 +45,26 @@ struct GrainPartModel {
 ///
 /// Pairs of grain and part that may touch are listed with a margin; every step each listed pair looks up one cell of
 /// the part's table. The grains get their loads as integers, the parts exactly the opposite.
+///
+/// On several ranks each does the pairs of its own grains; the loads on the parts are then this rank's share.
 class GrainPartContacts {
 public:
   /// `sets`: the unique sphere sets; `parts`: instances of them.
   GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
-                    const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts);
+                    const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
+                    const base::Comm& comm = {});
 
   struct GrainsView {
     const base::Position* position;
     const base::Vec4f *velocity, *spin;
     const std::uint32_t* id;
     std::size_t count;
+    const std::uint32_t* ghost = nullptr; ///< not 0 for grains of other ranks; null where there are none
   };
+  /// Grains go to other ranks (see terrain::Grains::onHandOver): sends the history of their pairs after them. Refresh
+  /// before the next compute. All ranks call it.
+  void handOver(const std::uint32_t* destination);
+
   /// Lists the pairs for grains in their present slots; history is carried over by grain id and part.
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
@@ -70,21 +81,26 @@ public:
     double dissipated{};         ///< since the start [J]
     base::Vec3d impulseOnGrains; ///< since the start [N s], from the loads the grains were given
   };
-  Ledger ledger() const;
-  /// For hashes and checkpoints. Throws InputError when what was saved is of other parts; refresh before the next
-  /// compute.
+  Ledger ledger() const; ///< of all ranks, which all call it
+  /// Of all ranks, which all call it. For hashes and checkpoints. Throws InputError when what was saved is of other
+  /// parts; refresh before the next compute.
   SavedGrainPatches save() const;
   void restore(const SavedGrainPatches& saved);
   std::size_t bytes() const;
 
 private:
+  std::vector<std::int64_t> allSums() const;
+
   base::Exec exec_;
+  base::Comm comm_;
   GrainPartModel model_;
   std::vector<SurfaceGrid> grids_;
   std::size_t partCount_;
   base::Array<SurfaceGridView> gridViews_;
   base::Array<GrainPart> parts_;
   std::size_t pairs_{0};
+  bool listed_{false}; ///< the pairs are those of a refresh, and know slots
+  std::unique_ptr<Exchange> exchange_;
   base::Array<std::uint32_t> range_, count_, slot_, oldIndex_;
   base::Array<std::uint64_t> key_, oldKey_;
   base::Array<PatchMemory> memory_, oldMemory_;

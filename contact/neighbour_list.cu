@@ -6,6 +6,7 @@
 #include "base/for_each.cuh"
 
 #include <algorithm>
+#include <cstring>
 
 namespace grouser::contact {
 
@@ -101,10 +102,15 @@ struct Collect {
   std::uint32_t capacity;
   std::uint32_t *count, *slot;
   std::int64_t grainStride, slotStride;
+  const std::uint32_t* ghost; ///< null where all grains have rows
 
   GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
 
   GROUSER_HD void operator()(int i) const {
+    if (ghost && ghost[i]) {
+      count[i] = 0;
+      return;
+    }
     const Position p = position[i];
     const Cell c = grid.local(p);
     const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
@@ -143,7 +149,8 @@ struct Collect {
 
 /// Takes the tangential springs of pairs that stood in the old list too.
 struct CarryHistory {
-  const std::uint32_t *order, *id;
+  const std::uint32_t* order; ///< old row of each new slot, or RowOrigins
+  const std::uint32_t* id;
   const std::uint32_t *count, *slot;
   std::int64_t grainStride, slotStride;
   Vec3f* shear;
@@ -152,8 +159,14 @@ struct CarryHistory {
   const Vec3f* oldShear;
   const std::uint64_t* oldTouching;
   std::int64_t oldGrainStride, oldSlotStride;
+  std::uint32_t former; ///< rows in the old list; later ones are in `arrived`
+  TravellingRows arrived;
 
   GROUSER_HD void operator()(int i) const {
+    if (order[i] >= former) {
+      touching[i] = order[i] == RowOrigins::kNone ? 0 : fromArrived(i, order[i] - former);
+      return;
+    }
     const std::int64_t o = order[i];
     const std::uint32_t oldN = oldCount[o], n = count[i];
     const std::uint64_t oldMask = oldTouching[o];
@@ -171,6 +184,59 @@ struct CarryHistory {
       if (shear) shear[a] = oldShear[b];
     }
     touching[i] = mask;
+  }
+
+private:
+  GROUSER_HD std::uint64_t fromArrived(int i, std::uint32_t row) const {
+    const std::uint32_t* data = arrived.data + static_cast<std::uint64_t>(row) * arrived.words();
+    const std::uint32_t oldN = data[0], n = count[i];
+    std::uint64_t mask = 0;
+    std::uint32_t m = 0;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::int64_t a = i * grainStride + k * slotStride;
+      const std::uint32_t wanted = id[slot[a]];
+      while (m < oldN && data[1 + m] < wanted) ++m;
+      if (m == oldN) break;
+      if (data[1 + m] != wanted) continue;
+      mask |= std::uint64_t{1} << k;
+      if (shear) memcpy(static_cast<void*>(&shear[a]), data + 1 + arrived.capacity + 3 * m, sizeof(Vec3f));
+    }
+    return mask;
+  }
+};
+
+GROUSER_HD std::uint32_t bitsSet(std::uint64_t mask) {
+  std::uint32_t bits = 0;
+  for (; mask; mask &= mask - 1) ++bits;
+  return bits;
+}
+
+struct CountTouching {
+  const std::uint32_t* slots;
+  const std::uint64_t* touching;
+  std::uint32_t* out;
+  GROUSER_HD void operator()(int k) const { out[k] = bitsSet(touching[slots[k]]); }
+};
+
+struct ExportRow {
+  const std::uint32_t* slots;
+  const std::uint32_t *count, *slot, *id;
+  const Vec3f* shear;
+  const std::uint64_t* touching;
+  std::int64_t grainStride, slotStride;
+  TravellingRows rows;
+  GROUSER_HD void operator()(int k) const {
+    const std::int64_t i = slots[k];
+    std::uint32_t* out = rows.data + static_cast<std::uint64_t>(k) * rows.words();
+    std::uint32_t n = 0;
+    for (std::uint32_t m = 0; m < count[i]; ++m) {
+      if (!(touching[i] >> m & 1)) continue;
+      const std::int64_t at = i * grainStride + m * slotStride;
+      out[1 + n] = id[slot[at]];
+      if (shear) memcpy(out + 1 + rows.capacity + 3 * n, &shear[at], sizeof(Vec3f));
+      ++n;
+    }
+    out[0] = n;
   }
 };
 
@@ -226,7 +292,7 @@ void NeighbourList::allocate(Lists& lists, std::size_t count) const {
   lists.slotStride = exec_.onCpu() ? 1 : static_cast<std::int64_t>(count);
 }
 
-void NeighbourList::build(const Position* position, const std::uint32_t* id) {
+void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins) {
   const auto n = static_cast<std::int64_t>(count_);
   std::swap(now_, old_);
   for (;;) {
@@ -234,7 +300,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id) {
     base::forEach(exec_, "collect neighbours", n,
                   Collect{Grid{low_, cells_, edge_}, position, id, cellStart_.data(),
                           (diameter_ + skin_) * (diameter_ + skin_), capacity_, now_.count.data(), now_.slot.data(),
-                          now_.grainStride, now_.slotStride});
+                          now_.grainStride, now_.slotStride, origins ? origins->ghost : nullptr});
     const std::uint32_t most = base::maximum(exec_, now_.count.data(), count_);
     if (most <= capacity_) break;
     if (most > kMaxCapacity)
@@ -246,14 +312,32 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id) {
   base::copyOnDevice(exec_, now_.id.data(), id, count_ * sizeof(std::uint32_t));
   if (haveOld_) {
     base::forEach(exec_, "carry contact history", n,
-                  CarryHistory{order_.data(), id, now_.count.data(), now_.slot.data(), now_.grainStride,
-                               now_.slotStride, history_ ? now_.shear.data() : nullptr, now_.touching.data(),
-                               old_.count.data(), old_.slot.data(), old_.id.data(), old_.shear.data(),
-                               old_.touching.data(), old_.grainStride, old_.slotStride});
+                  CarryHistory{origins ? origins->origin : order_.data(), id, now_.count.data(), now_.slot.data(),
+                               now_.grainStride, now_.slotStride, history_ ? now_.shear.data() : nullptr,
+                               now_.touching.data(), old_.count.data(), old_.slot.data(), old_.id.data(),
+                               old_.shear.data(), old_.touching.data(), old_.grainStride, old_.slotStride,
+                               origins ? origins->former : RowOrigins::kNone,
+                               origins ? origins->arrived : TravellingRows{}});
   } else {
     now_.touching.zero();
     haveOld_ = true;
   }
+}
+
+std::uint32_t NeighbourList::mostTouching(const std::uint32_t* slots, std::size_t count) const {
+  if (!haveOld_ || count == 0) return 0;
+  base::Array<std::uint32_t> bits(exec_, count);
+  base::forEach(exec_, "count neighbours in touch", static_cast<std::int64_t>(count),
+                CountTouching{slots, now_.touching.data(), bits.data()});
+  return base::maximum(exec_, bits.data(), count);
+}
+
+void NeighbourList::exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& rows) const {
+  if (!haveOld_) return;
+  base::forEach(exec_, "export rows", static_cast<std::int64_t>(count),
+                ExportRow{slots, now_.count.data(), now_.slot.data(), now_.id.data(),
+                          history_ ? now_.shear.data() : nullptr, now_.touching.data(), now_.grainStride,
+                          now_.slotStride, rows});
 }
 
 NeighbourView NeighbourList::view() {

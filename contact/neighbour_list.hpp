@@ -21,6 +21,24 @@ struct NeighbourView {
   GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
 };
 
+/// Rows that came from other ranks with grains that were handed over: for each row `words(capacity)` words, namely the
+/// number of neighbours in touch, `capacity` ids of those (ascending), and `capacity` springs where there is history.
+struct TravellingRows {
+  std::uint32_t* data;
+  std::uint32_t capacity;
+  bool history;
+  GROUSER_HD std::uint32_t words() const { return 1 + capacity * (history ? 4 : 1); }
+};
+
+/// Where the rows of a list on one of several ranks come from.
+struct RowOrigins {
+  static constexpr std::uint32_t kNone = ~0u;
+  const std::uint32_t* origin; ///< by new slot: row of the former list, or `former` + place in `arrived`, or kNone
+  const std::uint32_t* ghost;  ///< by new slot: not 0 for a grain that needs no row
+  std::uint32_t former;        ///< rows of the former list
+  TravellingRows arrived;
+};
+
 /// Every pair of equal spheres closer than diameter + skin, listed from both sides, with contact history.
 ///
 /// Valid while no grain has moved more than half the skin. Lists grow when they are full and never drop a neighbour.
@@ -37,7 +55,17 @@ public:
 
   /// Lists the neighbours of grains already permuted by `order()`, and carries history over from the last list.
   /// `id` is ascending-comparable global id by new slot.
-  void build(const base::Position* position, const std::uint32_t* id);
+  void build(const base::Position* position, const std::uint32_t* id) { build(position, id, nullptr); }
+  /// The same on one of several ranks.
+  void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins);
+
+  /// Neighbours in touch, at most, of the grains in `slots` (device array).
+  std::uint32_t mostTouching(const std::uint32_t* slots, std::size_t count) const;
+  /// Writes the rows of these slots for other ranks.
+  void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& rows) const;
+
+  /// The next list begins without history: other grains have taken the slots.
+  void forget() { haveOld_ = false; }
 
   NeighbourView view();
   std::uint32_t capacity() const { return capacity_; }

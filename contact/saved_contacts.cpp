@@ -43,11 +43,22 @@ void PatchBuffers::restore(const SavedPatches& saved) {
 SavedGrainPatches GrainPartContacts::save() const {
   std::vector<std::uint64_t> key = key_.toHost();
   key.resize(pairs_);
-  const std::vector<PatchMemory> memory = memory_.toHost();
-  std::vector<std::uint32_t> order(pairs_), words;
-  for (std::size_t e = 0; e < pairs_; ++e) order[e] = static_cast<std::uint32_t>(e);
-  base::sortByKey(base::cpuExec(1), key.data(), order.data(), pairs_);
-  for (std::size_t k = 0; k < pairs_; ++k)
+  std::vector<PatchMemory> memory = memory_.toHost();
+  memory.resize(pairs_ * kPatches);
+  if (listed_ && !comm_.alone()) {
+    // Each rank has the pairs of its own grains; what was only restored is on all of them.
+    const auto keys = comm_.gatherAll(key);
+    const auto memories = comm_.gatherAll(memory);
+    key.clear(), memory.clear();
+    for (std::size_t r = 0; r < keys.size(); ++r) {
+      key.insert(key.end(), keys[r].begin(), keys[r].end());
+      memory.insert(memory.end(), memories[r].begin(), memories[r].end());
+    }
+  }
+  std::vector<std::uint32_t> order(key.size()), words;
+  for (std::size_t e = 0; e < key.size(); ++e) order[e] = static_cast<std::uint32_t>(e);
+  base::sortByKey(base::cpuExec(1), key.data(), order.data(), key.size());
+  for (std::size_t k = 0; k < key.size(); ++k)
     for (int q = 0; q < kPatches; ++q) {
       const PatchMemory& m = memory[static_cast<std::size_t>(order[k]) * kPatches + static_cast<std::size_t>(q)];
       if (norm2(m.normal) == 0) continue;
@@ -56,7 +67,7 @@ SavedGrainPatches GrainPartContacts::save() const {
       std::memcpy(raw + 2, &m, sizeof m);
       words.insert(words.end(), raw, raw + kWords);
     }
-  return {words, sums_.toHost()};
+  return {words, allSums()};
 }
 
 void GrainPartContacts::restore(const SavedGrainPatches& saved) {
@@ -79,9 +90,10 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
   }
   // A list of just the pairs in touch: the next refresh takes the history from it, as from any former list.
   pairs_ = keys.size();
+  listed_ = false;
   key_.assign(keys);
   memory_.assign(memories);
-  sums_.assign(saved.sums);
+  sums_.assign(comm_.first() ? saved.sums : std::vector<std::int64_t>(saved.sums.size()));
 }
 
 } // namespace grouser::contact

@@ -63,7 +63,16 @@ void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
         scene.file.string(), options.radius, grains, grains * kBytesPerGrain / 1073741824.0, memory / 1073741824.0));
 }
 
-void layBed(const Scene& scene, const base::Exec& exec, double timeStep, Ground& ground) {
+terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {
+  terrain::PartitionOptions partition;
+  partition.comm = comm;
+  partition.rebalance = scene.parallel.rebalance;
+  if (const auto& n = scene.parallel.subdomains)
+    partition.subdomains = {static_cast<int>(n->x), static_cast<int>(n->y), static_cast<int>(n->z)};
+  return partition;
+}
+
+void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
   const Terrain& t = *scene.terrain;
   const terrain::LayerOptions options = layerOptions(scene);
   checkBedSize(scene, options);
@@ -88,7 +97,8 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, Ground&
   addPlanes(scene, t.material, model.mass, boundaries);
   std::vector<terrain::GrainStart> start;
   for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options)) start.push_back({seed.centre, {}, {}});
-  ground.grains = std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start);
+  ground.grains =
+      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
 }
 
 /// Throws when grains start deeper in each other or in a plane than a run allows.
@@ -113,7 +123,8 @@ void checkStartingOverlaps(const Scene& scene) {
   }
 }
 
-void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeStep, Ground& ground) {
+void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm,
+                       Ground& ground) {
   const Grain& first = scene.grains.front();
   std::vector<terrain::GrainStart> start;
   for (const Grain& g : scene.grains) {
@@ -132,7 +143,8 @@ void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeSt
     boundaries.floor = ground.rigid;
     model.floorLaw = pairLaw(scene, first.material, scene.terrain->material, model.mass);
   }
-  ground.grains = std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start);
+  ground.grains =
+      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
 }
 
 } // namespace
@@ -213,12 +225,12 @@ double chooseTimeStep(const Scene& scene) {
   return *scene.run.timeStep;
 }
 
-Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep) {
+Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
   Ground ground;
   if (scene.terrain) {
     ground.surface = readSurface(*scene.terrain);
     if (scene.terrain->granular())
-      layBed(scene, exec, timeStep, ground);
+      layBed(scene, exec, timeStep, comm, ground);
     else
       ground.rigid = ground.surface;
   }
@@ -230,7 +242,7 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep) 
       throw base::InputError(scene.file.string() +
                              ": [[grain]] beside a [vehicle] on rigid [terrain] is not possible so far; use "
                              "a granular terrain, or leave the grains out");
-    placeSingleGrains(scene, exec, timeStep, ground);
+    placeSingleGrains(scene, exec, timeStep, comm, ground);
   }
   return ground;
 }
@@ -267,11 +279,8 @@ SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& pr
                   t.settleTimeLimit, report.agitation, t.settleKineticEnergy));
 }
 
-void keepSurface(Ground& ground) {
-  std::vector<terrain::Seed> seeds;
-  const double radius = ground.grains->model().radius;
-  for (const Vec3d& p : ground.grains->snapshot().position) seeds.push_back({p, radius});
-  ground.undisturbed = std::make_shared<terrain::BedSurface>(seeds, ground.rigid->view(), *ground.walls, 2 * radius);
+void keepSurface(Ground& ground, const base::Exec& exec) {
+  ground.undisturbed = std::make_shared<terrain::BedSurface>(exec, *ground.grains, ground.rigid->view(), *ground.walls);
 }
 
 void keepSurface(Ground& ground, const std::vector<double>& heights) {

@@ -49,7 +49,8 @@ double stableTimeStep(const Scene& scene);
 double chooseTimeStep(const Scene& scene);
 
 /// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
-Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep);
+/// On several ranks each takes the grains of its subdomain.
+Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});
 
 /// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
 /// m g radius for a whole tenth of a second, but at least for the time a grain takes to fall the bed's looseness.
@@ -57,7 +58,7 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep);
 SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress);
 
 /// Takes the surface of a bed as it lies now for the undisturbed one, or `heights` of one taken earlier.
-void keepSurface(Ground& ground);
+void keepSurface(Ground& ground, const base::Exec& exec);
 void keepSurface(Ground& ground, const std::vector<double>& heights);
 
 /// Height of the undisturbed bed, or of the rigid ground; null where there is neither.

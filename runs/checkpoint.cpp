@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <type_traits>
 
@@ -22,17 +23,19 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-constexpr int kVersion = 1; // of the layout below
+constexpr int kVersion = 2; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
 template <> struct Layout<base::Position> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::Remainders> { using Number = std::uint32_t; };
 template <class T> struct Layout<base::Vec3<T>> { using Number = T; };
+template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
-/// The one list of what is stored, and under which name. `archive` writes or reads.
+/// The one list of what is stored, and under which name. `archive` writes or reads. On several ranks all have the same
+/// of everything but grains and contacts, of which each has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/energy_at_start", s.energyAtStart);
@@ -47,17 +50,19 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;
-    archive("/grains/position", g.position);
-    archive("/grains/velocity", g.velocity);
-    archive("/grains/spin", g.spin);
-    archive("/grains/remainders", g.remainders);
-    archive("/grains/dissipated", g.dissipated);
-    archive("/grains/wall_bits", g.wallBits);
-    archive("/grains/wall_shear", g.wallShear);
-    archive("/grains/contacts", g.contacts);
-    archive("/grains/neighbour", g.neighbour);
-    archive("/grains/contact_shear", g.contactShear);
-    archive("/grains/travelled", g.travelled);
+    archive("/grains/total", g.total);
+    archive("/grains/layout", g.layout);
+    archive.perGrain("/grains/position", g.position, g.total);
+    archive.perGrain("/grains/velocity", g.velocity, g.total);
+    archive.perGrain("/grains/spin", g.spin, g.total);
+    archive.perGrain("/grains/remainders", g.remainders, g.total);
+    archive.perGrain("/grains/dissipated", g.dissipated, g.total);
+    archive.perGrain("/grains/wall_bits", g.wallBits, g.total);
+    archive.perGrain("/grains/wall_shear", g.wallShear, g.total);
+    archive.perGrain("/grains/contacts", g.contacts, g.total);
+    archive.perGrain("/grains/travelled", g.travelled, g.total);
+    archive.perContact("/grains/neighbour", g.neighbour, g.contacts);
+    archive.perContact("/grains/contact_shear", g.contactShear, g.contacts);
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
   }
@@ -79,43 +84,92 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   }
 }
 
+template <class T> constexpr std::size_t widthOf() {
+  using Number = typename Layout<T>::Number;
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(Number) == 0);
+  return sizeof(T) / sizeof(Number);
+}
+
+template <class T> auto numbersOf(const std::vector<T>& records) {
+  std::vector<typename Layout<T>::Number> numbers(records.size() * widthOf<T>());
+  if (!records.empty()) std::memcpy(numbers.data(), records.data(), records.size() * sizeof(T));
+  return numbers;
+}
+
+template <class T> std::vector<T> recordsOf(const std::vector<typename Layout<T>::Number>& numbers) {
+  std::vector<T> records(numbers.size() / widthOf<T>());
+  for (std::size_t i = 0; i < records.size(); ++i)
+    std::memcpy(static_cast<void*>(&records[i]), &numbers[i * widthOf<T>()], sizeof(T));
+  return records;
+}
+
+/// How many rows all ranks have of each dataset that they share.
+class RowCounter {
+public:
+  explicit RowCounter(const base::Comm& comm) : comm_(comm) {}
+  template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
+  template <class T> void operator()(const char*, const T&) {}
+  template <class T> void perGrain(const char* name, const std::vector<T>& rows, std::int64_t) {
+    counts[name] = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(rows.size())));
+  }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>& rows, const Counts&) {
+    perGrain(name, rows, 0);
+  }
+  std::map<std::string, std::uint64_t> counts;
+
+private:
+  base::Comm comm_;
+};
+
+/// Writes what all ranks have alike, and makes the datasets of what they share.
 class Writer {
 public:
-  explicit Writer(Hdf5File& file) : file_(file) {}
+  Writer(Hdf5File& file, const RowCounter& counter) : file_(file), counter_(counter) {}
   template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
   template <class T> void operator()(const char* name, const std::vector<T>& records) {
-    using Number = typename Layout<T>::Number;
-    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(Number) == 0);
-    constexpr std::size_t width = sizeof(T) / sizeof(Number);
-    std::vector<Number> numbers(records.size() * width);
-    if (!records.empty()) std::memcpy(numbers.data(), records.data(), records.size() * sizeof(T));
-    file_.write(name, numbers, {records.size(), width});
+    file_.write(name, numbersOf(records), {records.size(), widthOf<T>()});
   }
   template <class T> void operator()(const char* name, const T& one) { (*this)(name, std::vector<T>{one}); }
+  template <class T> void perGrain(const char* name, const std::vector<T>&, std::int64_t) {
+    file_.reserve<typename Layout<T>::Number>(name, {counter_.counts.at(name), widthOf<T>()});
+  }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>& rows, const Counts&) {
+    perGrain(name, rows, 0);
+  }
 
 private:
   Hdf5File& file_;
+  const RowCounter& counter_;
+};
+
+/// Writes this rank's rows.
+class RowWriter {
+public:
+  RowWriter(Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
+  template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
+  template <class T> void operator()(const char*, const T&) {}
+  template <class T> void perGrain(const char* name, const std::vector<T>& rows, std::int64_t) {
+    const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(rows.size())));
+    file_.writeRows(name, first, numbersOf(rows));
+  }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>& rows, const Counts&) {
+    perGrain(name, rows, 0);
+  }
+
+private:
+  Hdf5File& file_;
+  base::Comm comm_;
 };
 
 class Reader {
 public:
-  explicit Reader(const Hdf5File& file) : file_(file) {}
+  Reader(const Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
   template <class T> bool present(const char* name, std::optional<T>& part) {
     if (file_.has(name)) part.emplace();
     return part.has_value();
   }
   template <class T> void operator()(const char* name, std::vector<T>& records) {
-    using Number = typename Layout<T>::Number;
-    constexpr std::size_t width = sizeof(T) / sizeof(Number);
-    const std::string dataset = name;
-    const std::vector<std::uint64_t> shape = file_.shape(dataset);
-    if (shape.size() != 2 || shape[1] != width)
-      throw base::InputError(
-          fmt::format("{}: {} has another shape than this program writes", file_.path().string(), dataset));
-    const std::vector<Number> numbers = file_.read<Number>(dataset);
-    records.resize(shape[0]);
-    for (std::size_t i = 0; i < records.size(); ++i)
-      std::memcpy(static_cast<void*>(&records[i]), &numbers[i * width], sizeof(T));
+    records = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, 0, rowsOf<T>(name)));
   }
   template <class T> void operator()(const char* name, T& one) {
     std::vector<T> records;
@@ -124,9 +178,38 @@ public:
       throw base::InputError(fmt::format("{}: {} is not one record", file_.path().string(), name));
     one = records.front();
   }
+  /// This rank's block of grains; some fields have several rows a grain, some none.
+  template <class T> void perGrain(const char* name, std::vector<T>& rows, std::int64_t total) {
+    const std::uint64_t all = rowsOf<T>(name), grains = static_cast<std::uint64_t>(total);
+    const std::uint64_t each = grains > 0 ? all / grains : 0;
+    if (each * grains != all)
+      throw base::InputError(fmt::format("{}: {} does not fit {} grains", file_.path().string(), name, total));
+    const std::uint64_t first = terrain::blockStart(comm_, total, comm_.rank()),
+                        last = terrain::blockStart(comm_, total, comm_.rank() + 1);
+    rows = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, first * each, (last - first) * each));
+  }
+  template <class T>
+  void perContact(const char* name, std::vector<T>& rows, const std::vector<std::uint32_t>& contacts) {
+    std::int64_t mine = 0;
+    for (const std::uint32_t n : contacts) mine += n;
+    const auto first = static_cast<std::uint64_t>(comm_.sumBelow(mine)), all = rowsOf<T>(name);
+    if (all > 0 && all != static_cast<std::uint64_t>(comm_.sumOf(mine)))
+      throw base::InputError(fmt::format("{}: {} does not fit the contacts", file_.path().string(), name));
+    rows = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, all > 0 ? first : 0,
+                                                                   all > 0 ? static_cast<std::uint64_t>(mine) : 0));
+  }
 
 private:
+  template <class T> std::uint64_t rowsOf(const char* name) const {
+    const std::vector<std::uint64_t> shape = file_.shape(name);
+    if (shape.size() != 2 || shape[1] != widthOf<T>())
+      throw base::InputError(
+          fmt::format("{}: {} has another shape than this program writes", file_.path().string(), name));
+    return shape[0];
+  }
+
   const Hdf5File& file_;
+  base::Comm comm_;
 };
 
 std::string hashOfFile(const fs::path& path) {
@@ -150,7 +233,8 @@ bool isFree(const std::string& key) {
       "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
       "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
       "terrain.heightmap", "vehicle.spec"};
-  return key.rfind("output.", 0) == 0 || std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
+  return key.rfind("output.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
+         std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
 }
 
 /// "section.key" and value of a resolved scene, in its order; the sections of a list are numbered.
@@ -186,34 +270,51 @@ std::string inputsOf(const Scene& scene) {
   return text;
 }
 
-void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint) {
-  writeSealed(path, kKind, kVersion, [&](const fs::path& part) {
-    Hdf5File file = Hdf5File::create(part, kSealBytes);
-    file.attribute("/", "scene", checkpoint.scene);
-    file.attribute("/", "inputs", checkpoint.inputs);
-    file.attribute("/", "commit", checkpoint.commit);
-    Writer writer(file);
-    writer("/time_step", checkpoint.timeStep);
-    writer("/rows", checkpoint.rows);
-    writer("/frames", checkpoint.frames);
-    exchange(writer, checkpoint.state);
+void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const base::Comm& comm) {
+  const auto write = [&](const fs::path& part) {
+    RowCounter counter(comm);
+    exchange(counter, checkpoint.state);
+    if (comm.first()) {
+      Hdf5File file = Hdf5File::create(part, kSealBytes);
+      file.attribute("/", "scene", checkpoint.scene);
+      file.attribute("/", "inputs", checkpoint.inputs);
+      file.attribute("/", "commit", checkpoint.commit);
+      Writer writer(file, counter);
+      writer("/time_step", checkpoint.timeStep);
+      writer("/rows", checkpoint.rows);
+      writer("/frames", checkpoint.frames);
+      exchange(writer, checkpoint.state);
+      file.flush();
+    }
+    if (!checkpoint.state.grains) return;
+    comm.wait();
+    Hdf5File file = Hdf5File::openShared(part, comm);
+    RowWriter rows(file, comm);
+    exchange(rows, checkpoint.state);
     file.flush();
-  });
+  };
+  writeSealed(path, kKind, kVersion, write, comm);
 }
 
-Checkpoint readCheckpoint(const fs::path& path) {
+Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
   // Only what has every bit as it was written is handed to HDF5.
-  checkSeal(path, kKind, kVersion);
+  if (comm.first()) checkSeal(path, kKind, kVersion);
+  comm.wait();
   const Hdf5File file = Hdf5File::open(path);
   Checkpoint checkpoint;
   checkpoint.scene = file.text("/", "scene");
   checkpoint.inputs = file.text("/", "inputs");
   checkpoint.commit = file.text("/", "commit");
-  Reader reader(file);
+  Reader reader(file, comm);
   reader("/time_step", checkpoint.timeStep);
   reader("/rows", checkpoint.rows);
   reader("/frames", checkpoint.frames);
   exchange(reader, checkpoint.state);
+  if (auto& grains = checkpoint.state.grains) {
+    grains->id.resize(grains->rows());
+    std::iota(grains->id.begin(), grains->id.end(),
+              static_cast<std::uint32_t>(terrain::blockStart(comm, grains->total, comm.rank())));
+  }
   return checkpoint;
 }
 

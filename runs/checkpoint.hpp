@@ -27,10 +27,12 @@ std::string inputsOf(const Scene& scene);
 
 /// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
 /// Throws std::runtime_error.
-void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
+/// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
+void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 
 /// Throws base::InputError where the file is missing, foreign, of another version, cut or damaged.
-Checkpoint readCheckpoint(const std::filesystem::path& path);
+/// On several ranks, whatever their number was when it was written, each gets its rows.
+Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
 
 /// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
 /// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by

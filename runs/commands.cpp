@@ -66,11 +66,13 @@ void runCommand(const RunCommand& command) {
                                                   : fs::path("out") / scene.name();
   options.force = command.force, options.hash = command.hash, options.steps = command.steps;
   options.commandLine = command.commandLine;
+  options.ranks = command.ranks;
   if (command.resume)
     chooseCheckpoint(command, options);
-  else
+  else if (options.comm().first())
     checkOutputFolder(options.folder, options.force);
   const Summary summary = runScene(scene, options);
+  if (!options.comm().first()) return;
 
   const fs::path results = options.folder / "results.h5";
   nameIfThere("results", results);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -22,6 +24,7 @@ struct RunCommand {
   bool resume = false;
   std::string checkpoint; ///< of --resume; empty: that of the folder
   std::string commandLine;
+  const base::Ranks* ranks = nullptr; ///< that run it together
 };
 void runCommand(const RunCommand& command);
 

@@ -53,12 +53,14 @@ std::string groupOf(std::int64_t frame) { return fmt::format("/{:06}", frame); }
 } // namespace
 
 FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts,
-                       const base::TriangleMesh& ground)
-    : FramesFile(folder, Hdf5File::create(folder / "frames.h5"), std::move(parts), ground) {}
+                       const base::TriangleMesh& ground, const base::Comm& comm)
+    : FramesFile(folder, comm.first() ? std::optional(Hdf5File::create(folder / "frames.h5")) : std::nullopt,
+                 std::move(parts), ground, comm) {}
 
-FramesFile::FramesFile(const std::filesystem::path& folder, Hdf5File file, std::vector<FramePart> parts,
-                       const base::TriangleMesh& ground)
-    : folder_(folder), file_(std::move(file)), parts_(std::move(parts)) {
+FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<Hdf5File> file, std::vector<FramePart> parts,
+                       const base::TriangleMesh& ground, const base::Comm& comm)
+    : folder_(folder), comm_(comm), file_(std::move(file)), parts_(std::move(parts)) {
+  if (!file_) return;
   std::vector<std::uint32_t> corners, partOf, kindOf;
   std::vector<std::string> names, kinds;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -72,34 +74,37 @@ FramesFile::FramesFile(const std::filesystem::path& folder, Hdf5File file, std::
     partVertices_ += part.mesh.vertices.size();
   }
   partTriangles_ = corners.size() / 3;
-  if (partTriangles_ && !file_.has("/parts/triangles")) {
-    file_.write("/parts/triangles", corners, {partTriangles_, 3});
-    file_.write("/parts/part", partOf, {partTriangles_});
-    file_.write("/parts/kind", kindOf, {partTriangles_});
-    file_.attribute("/parts/part", "names", names);
-    file_.attribute("/parts/kind", "names", kinds);
+  if (partTriangles_ && !file_->has("/parts/triangles")) {
+    file_->write("/parts/triangles", corners, {partTriangles_, 3});
+    file_->write("/parts/part", partOf, {partTriangles_});
+    file_->write("/parts/kind", kindOf, {partTriangles_});
+    file_->attribute("/parts/part", "names", names);
+    file_->attribute("/parts/kind", "names", kinds);
   }
   groundVertices_ = ground.vertices.size(), groundTriangles_ = ground.indices.size() / 3;
-  if (groundTriangles_ && !file_.has("/ground/position")) {
-    file_.write("/ground/position", flat(ground.vertices), {groundVertices_, 3});
-    file_.write("/ground/triangles", ground.indices, {groundTriangles_, 3});
+  if (groundTriangles_ && !file_->has("/ground/position")) {
+    file_->write("/ground/position", flat(ground.vertices), {groundVertices_, 3});
+    file_->write("/ground/triangles", ground.indices, {groundTriangles_, 3});
   }
 }
 
 FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
-                            const base::TriangleMesh& ground, std::int64_t kept) {
-  FramesFile frames(folder, Hdf5File::openToChange(folder / "frames.h5"), std::move(parts), ground);
-  for (std::int64_t i = 0; frames.file_.has(groupOf(i)); ++i) {
+                            const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm) {
+  FramesFile frames(folder, comm.first() ? std::optional(Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
+                    std::move(parts), ground, comm);
+  if (!frames.file_) return frames;
+  for (std::int64_t i = 0; frames.file_->has(groupOf(i)); ++i) {
     const std::string group = groupOf(i);
     if (i >= kept) {
-      frames.file_.remove(group);
+      frames.file_->remove(group);
       continue;
     }
     const std::string grains = group + "/grains/position";
-    frames.describe(frames.file_.has(grains) ? frames.file_.shape(grains)[0] : 0,
-                    static_cast<std::int64_t>(frames.file_.number(group, "step")), frames.file_.number(group, "time"));
+    frames.describe(frames.file_->has(grains) ? frames.file_->shape(grains)[0] : 0,
+                    static_cast<std::int64_t>(frames.file_->number(group, "step")),
+                    frames.file_->number(group, "time"));
   }
-  frames.file_.flush();
+  frames.file_->flush();
   if (!frames.steps_.empty()) frames.writeXdmf();
   return frames;
 }
@@ -117,37 +122,64 @@ void FramesFile::add(const Frame& frame) {
       frame.partPoses.size() != parts_.size())
     throw std::logic_error("a frame's arrays differ in length");
   const std::string group = groupOf(count_);
-  file_.makeGroup(group);
-  file_.attribute(group, "time", frame.time);
-  file_.attribute(group, "step", static_cast<double>(frame.step));
+  const auto total = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(grains)));
+  if (file_) writeAllButGrains(frame, group, total);
+  if (total > 0 && comm_.alone()) writeGrains(*file_, frame, group);
+  if (total > 0 && !comm_.alone()) {
+    file_.reset(); // closed by one, opened by all
+    comm_.wait();
+    std::optional<Hdf5File> shared = Hdf5File::openShared(folder_ / "frames.h5", comm_);
+    writeGrains(*shared, frame, group);
+    shared.reset();
+    comm_.wait();
+    if (comm_.first()) file_ = Hdf5File::openToChange(folder_ / "frames.h5");
+  }
+  if (!file_) return;
+  file_->flush();
+  describe(total, frame.step, frame.time);
+  if (!steps_.empty()) writeXdmf();
+}
 
-  if (grains) {
-    std::vector<float> positions(3 * grains);
-    std::vector<std::uint32_t> sequence(grains);
-    for (std::size_t i = 0; i < grains; ++i) {
-      for (int k = 0; k < 3; ++k) positions[3 * i + static_cast<std::size_t>(k)] = frame.positions[i][k];
-      sequence[i] = static_cast<std::uint32_t>(i);
-    }
+void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {
+  file_->makeGroup(group);
+  file_->attribute(group, "time", frame.time);
+  file_->attribute(group, "step", static_cast<double>(frame.step));
+  if (grains > 0) {
     const std::string at = group + "/grains";
-    file_.write(at + "/position", positions, {grains, 3});
-    file_.write(at + "/radius", frame.radii, {grains});
-    file_.write(at + "/speed", frame.speeds, {grains});
-    file_.write(at + "/id", frame.ids, {grains});
-    file_.write(at + "/vertex", sequence, {grains, 1});
+    file_->reserve<float>(at + "/position", {grains, 3});
+    file_->reserve<float>(at + "/radius", {grains});
+    file_->reserve<float>(at + "/speed", {grains});
+    file_->reserve<std::uint32_t>(at + "/id", {grains});
+    file_->reserve<std::uint32_t>(at + "/vertex", {grains, 1});
   }
   if (partTriangles_) {
     std::vector<base::Vec3d> world;
     world.reserve(partVertices_);
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
-    file_.write(group + "/parts/position", flat(world), {partVertices_, 3});
+    file_->write(group + "/parts/position", flat(world), {partVertices_, 3});
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::vector<double>& places = frame.borders[axis]; !places.empty())
-      file_.write(group + "/partition/" + "xyz"[axis], places, {places.size()});
-  file_.flush();
-  describe(grains, frame.step, frame.time);
-  if (!steps_.empty()) writeXdmf();
+      file_->write(group + "/partition/" + "xyz" [axis], places, { places.size() });
+}
+
+/// The rows of this rank's grains.
+void FramesFile::writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const {
+  const std::size_t grains = frame.positions.size();
+  const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(grains)));
+  std::vector<float> positions(3 * grains);
+  std::vector<std::uint32_t> sequence(grains);
+  for (std::size_t i = 0; i < grains; ++i) {
+    for (int k = 0; k < 3; ++k) positions[3 * i + static_cast<std::size_t>(k)] = frame.positions[i][k];
+    sequence[i] = static_cast<std::uint32_t>(first + i);
+  }
+  const std::string at = group + "/grains";
+  file.writeRows(at + "/position", first, positions);
+  file.writeRows(at + "/radius", first, frame.radii);
+  file.writeRows(at + "/speed", first, frame.speeds);
+  file.writeRows(at + "/id", first, frame.ids);
+  file.writeRows(at + "/vertex", first, sequence);
 }
 
 void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {

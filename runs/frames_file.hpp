@@ -5,6 +5,7 @@
 #include "runs/output.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,12 @@ namespace grouser::runs {
 /// frame and put in place by renaming, so that it always names complete frames only.
 class FramesFile {
 public:
-  FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground);
+  /// On several ranks all of them call everything here; each gives its own grains.
+  FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground,
+             const base::Comm& comm = {});
   /// Goes on with the files of a stopped run of the same parts and ground: all but the first `kept` frames are removed.
   static FramesFile goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
-                         const base::TriangleMesh& ground, std::int64_t kept);
+                         const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm = {});
   /// How many frames the folder holds up to and with `lastStep`. Throws base::InputError where there is no such file.
   static std::int64_t framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep);
 
@@ -30,14 +33,17 @@ public:
   void add(const Frame& frame);
 
 private:
-  FramesFile(const std::filesystem::path& folder, Hdf5File file, std::vector<FramePart> parts,
-             const base::TriangleMesh& ground);
+  FramesFile(const std::filesystem::path& folder, std::optional<Hdf5File> file, std::vector<FramePart> parts,
+             const base::TriangleMesh& ground, const base::Comm& comm);
+  void writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains);
+  void writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const;
   /// Adds the XML of the next frame, which is in the file.
   void describe(std::size_t grains, std::int64_t step, double time);
   void writeXdmf() const;
 
   std::filesystem::path folder_;
-  Hdf5File file_;
+  base::Comm comm_;
+  std::optional<Hdf5File> file_; ///< on the first rank
   std::vector<FramePart> parts_;
   std::size_t partVertices_ = 0, partTriangles_ = 0, groundVertices_ = 0, groundTriangles_ = 0;
   std::string steps_; ///< the frames so far, as XML

@@ -7,6 +7,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -145,14 +146,29 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) { return {openedAs(H5
 
 Hdf5File Hdf5File::openToChange(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDWR, path), path}; }
 
-Hdf5File::Hdf5File(Hdf5File&& other) noexcept : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)) {}
+Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Comm& comm) {
+  if (comm.alone()) return openToChange(path);
+  quiet();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+  if (file < 0) throw std::runtime_error(failure(path, "open the file on all ranks"));
+  Hdf5File opened(file, path);
+  opened.shared_ = true;
+  return opened;
+}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)), shared_(other.shared_) {}
 
 Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
-  std::swap(file_, other.file_), std::swap(path_, other.path_);
+  std::swap(file_, other.file_), std::swap(path_, other.path_), std::swap(shared_, other.shared_);
   return *this;
 }
 
 Hdf5File::~Hdf5File() {
+  // All ranks close a shared file together; with an error on its way out they will not.
+  if (shared_ && std::uncaught_exceptions() > 0) return;
   if (file_ >= 0) H5Fclose(file_);
 }
 
@@ -210,6 +226,69 @@ void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, Num
   check(id, "make a dataset");
   const bool isEmpty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   if (!isEmpty) check(H5Dwrite(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), "write a dataset");
+}
+
+void Hdf5File::reserveNumbers(const std::string& dataset, NumberType type, const std::vector<std::uint64_t>& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle parents(makeParents(), H5Pclose);
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
+  const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
+  check(id, "make a dataset");
+}
+
+namespace {
+
+/// Rows [first, first + count) of a dataset: its space with these selected, and one of just their shape.
+struct RowSelection {
+  Handle file, memory;
+  RowSelection(hid_t dataset, std::uint64_t first, std::uint64_t count)
+      : file(H5Dget_space(dataset), H5Sclose), memory(select(file, first, count), H5Sclose) {}
+
+private:
+  static hid_t select(hid_t space, std::uint64_t first, std::uint64_t count) {
+    std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(1, H5Sget_simple_extent_ndims(space))));
+    H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+    std::vector<hsize_t> start(extent.size(), 0);
+    start[0] = first, extent[0] = count;
+    const hid_t memory = H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr);
+    const bool none = std::find(extent.begin(), extent.end(), 0u) != extent.end();
+    if (none) {
+      H5Sselect_none(space);
+      H5Sselect_none(memory);
+    } else if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0) {
+      return -1;
+    }
+    return memory;
+  }
+};
+
+} // namespace
+
+void Hdf5File::writeRowNumbers(const std::string& dataset, std::uint64_t first, const void* numbers, std::size_t count,
+                               NumberType type) {
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  check(id, "open a dataset");
+  std::uint64_t width = 1;
+  const std::vector<std::uint64_t> extent = shape(dataset);
+  for (std::size_t axis = 1; axis < extent.size(); ++axis) width *= extent[axis];
+  const RowSelection rows(id, first, width ? count / width : 0);
+  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  if (shared_) H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+  check(rows.memory, "select rows");
+  check(H5Dwrite(id, memoryType(type), rows.memory, rows.file, transfer, numbers), "write rows");
+}
+
+void Hdf5File::readRowNumbers(const std::string& dataset, std::uint64_t first, std::uint64_t count, void* numbers,
+                              NumberType type) const {
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle stored(H5Dget_type(id), H5Tclose);
+  const RowSelection rows(id, first, count);
+  if (H5Tequal(stored, fileType(type)) <= 0 || rows.memory < 0 ||
+      H5Dread(id, memoryType(type), rows.memory, rows.file, H5P_DEFAULT, numbers) < 0)
+    throw base::InputError(fmt::format("{}: rows of the dataset {} cannot be read", path_.string(), dataset));
 }
 
 GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, int width, int chunkRows) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/// A thin owner of HDF5 handles: one process writes or reads one file. Failures throw; HDF5's own error stack is kept
-/// off the terminal.
+/// A thin owner of HDF5 handles. One process writes or reads a file; the rows of a dataset can also be written by all
+/// ranks together. Failures throw; HDF5's own error stack is kept off the terminal.
 namespace grouser::runs {
 
 /// Number types that go into a file; always stored little-endian.
@@ -50,6 +52,8 @@ public:
   static Hdf5File open(const std::filesystem::path& path);
   /// The same for reading and writing.
   static Hdf5File openToChange(const std::filesystem::path& path);
+  /// On all ranks at once, for writeRows() alone: one process has made the datasets and closed the file.
+  static Hdf5File openShared(const std::filesystem::path& path, const base::Comm& comm);
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File& operator=(Hdf5File&& other) noexcept;
   ~Hdf5File();
@@ -65,6 +69,14 @@ public:
   template <class T>
   void write(const std::string& dataset, const std::vector<T>& numbers, const std::vector<std::uint64_t>& shape) {
     writeNumbers(dataset, numbers.data(), NumberTypeOf<T>::value, shape);
+  }
+  /// A dataset whose rows come later, with room for all of them on the disk.
+  template <class T> void reserve(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
+    reserveNumbers(dataset, NumberTypeOf<T>::value, shape);
+  }
+  /// Rows from `first` on of a dataset that is there; in a shared file all ranks call it, each with its own rows.
+  template <class T> void writeRows(const std::string& dataset, std::uint64_t first, const std::vector<T>& numbers) {
+    writeRowNumbers(dataset, first, numbers.data(), numbers.size(), NumberTypeOf<T>::value);
   }
   /// `chunkRows` rows are allotted at a time.
   GrowingDataset growing(const std::string& dataset, NumberType type, int width, int chunkRows);
@@ -86,6 +98,17 @@ public:
     readNumbers(dataset, values.data(), NumberTypeOf<T>::value, count);
     return values;
   }
+  /// `count` rows from `first` on, as read() does all.
+  template <class T>
+  std::vector<T> readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
+    std::vector<T> values;
+    const std::vector<std::uint64_t> extent = shape(dataset);
+    std::uint64_t width = 1;
+    for (std::size_t axis = 1; axis < extent.size(); ++axis) width *= extent[axis];
+    values.resize(count * width);
+    readRowNumbers(dataset, first, count, values.data(), NumberTypeOf<T>::value);
+    return values;
+  }
   /// Empty where there is no such attribute.
   std::string text(const std::string& object, const std::string& name) const;
   /// NaN where there is no such attribute.
@@ -96,11 +119,17 @@ private:
   Hdf5File(std::int64_t file, std::filesystem::path path) : file_(file), path_(std::move(path)) {}
   void writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
                     const std::vector<std::uint64_t>& shape);
+  void reserveNumbers(const std::string& dataset, NumberType type, const std::vector<std::uint64_t>& shape);
+  void writeRowNumbers(const std::string& dataset, std::uint64_t first, const void* numbers, std::size_t count,
+                       NumberType type);
+  void readRowNumbers(const std::string& dataset, std::uint64_t first, std::uint64_t count, void* numbers,
+                      NumberType type) const;
   void readNumbers(const std::string& dataset, void* numbers, NumberType type, std::uint64_t count) const;
   void check(std::int64_t status, const char* what) const;
 
   std::int64_t file_ = -1;
   std::filesystem::path path_;
+  bool shared_ = false;
 };
 
 } // namespace grouser::runs

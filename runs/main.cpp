@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/comm.hpp"
 #include "base/error.hpp"
 #include "runs/bench.hpp"
 #include "runs/build_info.hpp"
@@ -214,9 +215,15 @@ void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, run
   });
 }
 
-int fail(ExitCode code, const char* message) {
+/// Says why, and ends the other ranks too. What all ranks find out alike is said by the first; the others wait a moment
+/// for it to end them.
+int fail(const base::Ranks& ranks, int code, const char* message) {
   std::fflush(stdout);
-  fmt::print(stderr, "grouser: error: {}\n", message);
+  if (!ranks.comm().first()) sleep(2);
+  const std::string who = ranks.comm().alone() ? "" : fmt::format("rank {}: ", ranks.comm().rank());
+  fmt::print(stderr, "grouser: error: {}{}\n", who, message);
+  std::fflush(stderr);
+  ranks.abort(code);
   return code;
 }
 
@@ -237,6 +244,10 @@ void waitBriefly(char** argv) {
 
 int main(int argc, char** argv) {
   waitBriefly(argv);
+  const base::Ranks ranks(argc, argv);
+  const auto stop = [&ranks](ExitCode code, const char* message) { return fail(ranks, code, message); };
+  // One rank speaks for all.
+  if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout)) return kOther;
   CLI::App app("grouser drives a tracked vehicle over granular terrain, and says how wrong its answer is.", "grouser");
   app.require_subcommand(1);
   app.set_version_flag("--version", runs::versionText());
@@ -244,6 +255,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound, 4 device, 130 and 143 stopped by "
       "SIGINT and SIGTERM, 1 anything else.");
   runs::RunCommand run;
+  run.ranks = &ranks;
   runs::SweepCommand sweep;
   runs::BenchCommand bench;
   runs::HashCommand hash;
@@ -261,25 +273,25 @@ int main(int argc, char** argv) {
   addRender(app, render);
   addOthers(app, sinkage, plan, spheres);
   if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())
-    return fail(kInput, unknown.c_str());
+    return stop(kInput, unknown.c_str());
   try {
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& e) {
     return app.exit(e); // --help and --version
   } catch (const CLI::ParseError& e) {
-    return fail(kInput, fmt::format("{}; see grouser --help, or grouser COMMAND --help", e.what()).c_str());
+    return stop(kInput, fmt::format("{}; see grouser --help, or grouser COMMAND --help", e.what()).c_str());
   } catch (const base::InputError& e) {
-    return fail(kInput, e.what());
+    return stop(kInput, e.what());
   } catch (const base::SimulationError& e) {
-    return fail(kSimulation, e.what());
+    return stop(kSimulation, e.what());
   } catch (const runs::Stopped& e) {
     std::fflush(stdout);
-    fmt::print(stderr, "grouser: {}\n", e.what());
+    if (ranks.comm().first()) fmt::print(stderr, "grouser: {}\n", e.what());
     return 128 + e.signal();
   } catch (const base::DeviceError& e) {
-    return fail(kDevice, e.what());
+    return stop(kDevice, e.what());
   } catch (const std::exception& e) {
-    return fail(kOther, e.what());
+    return stop(kOther, e.what());
   }
 }

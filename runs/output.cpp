@@ -80,24 +80,23 @@ void checkOutputFolder(const fs::path& folder, bool force) {
                     folder.string(), fs::exists(folder / kCheckpointName, error) ? "go on with --resume, " : ""));
 }
 
-struct RunWriter::Impl {
+/// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.
+struct RunWriter::Series {
   fs::path folder;
-  Options options;
+  const Options& options;
   std::vector<Channel> channels;
   Hdf5File results;
   std::vector<GrowingDataset> values;
   GrowingDataset steps, times;
   std::ofstream csv;
-  std::optional<FramesFile> frames;
   Manifest manifest;
   std::size_t width = 0;
-  std::int64_t rows = 0, framesAdded = 0;
 
   /// While former rows are copied the new files have another name, so that a kill loses none.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
-  Impl(const fs::path& where, const Scene& scene, std::vector<Channel> list, Options given)
-      : folder(prepared(where, given)), options(std::move(given)), channels(std::move(list)),
+  Series(const fs::path& where, const Scene& scene, std::vector<Channel> list, const Options& given)
+      : folder(prepared(where, given)), options(given), channels(std::move(list)),
         results(Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
         manifest(folder, scene, options.metadata) {
     const std::string resolved = resolvedToml(scene);
@@ -130,7 +129,6 @@ struct RunWriter::Impl {
       number += channels[c].width;
     }
     writeCsvRow(row);
-    ++rows;
   }
 
   /// H5MD's layout: each quantity is a group of step, time and value; step and time are one dataset under many names.
@@ -181,6 +179,21 @@ struct RunWriter::Impl {
   }
 };
 
+struct RunWriter::Impl {
+  fs::path folder;
+  Options options;
+  std::unique_ptr<Series> series; ///< on the first rank
+  std::optional<FramesFile> frames;
+  std::int64_t rows = 0, framesAdded = 0;
+
+  Impl(const fs::path& where, const Scene& scene, std::vector<Channel> channels, Options given)
+      : folder(where), options(std::move(given)) {
+    if (options.comm.first()) series = std::make_unique<Series>(where, scene, std::move(channels), options);
+    options.comm.wait(); // the folder is there now
+    if (options.former) rows = static_cast<std::int64_t>(options.former->rows.size());
+  }
+};
+
 RunWriter::RunWriter(fs::path folder, const Scene& scene, std::vector<Channel> channels, Options options) {
   for (const Channel& c : channels)
     if (!c.columns.empty() && c.columns.size() != static_cast<std::size_t>(c.width))
@@ -193,12 +206,13 @@ RunWriter::~RunWriter() = default;
 const fs::path& RunWriter::folder() const { return impl_->folder; }
 
 void RunWriter::labels(const std::string& path, const std::vector<std::string>& names) {
-  impl_->results.attribute("/" + path + "/value", "labels", names);
+  if (impl_->series) impl_->series->results.attribute("/" + path + "/value", "labels", names);
 }
 
 void RunWriter::constant(const std::string& path, const std::string& unit, double value) {
-  impl_->results.write("/" + path, std::vector<double>{value}, {1});
-  impl_->results.attribute("/" + path, "unit", unit);
+  if (!impl_->series) return;
+  impl_->series->results.write("/" + path, std::vector<double>{value}, {1});
+  impl_->series->results.attribute("/" + path, "unit", unit);
 }
 
 void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground) {
@@ -206,16 +220,17 @@ void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground
   if (!w.options.frames) return;
   if (w.options.former && w.options.former->frames > 0) {
     w.framesAdded = w.options.former->frames;
-    w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, w.framesAdded));
+    w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, w.framesAdded, w.options.comm));
   } else {
-    w.frames.emplace(w.folder, std::move(parts), ground);
+    w.frames.emplace(w.folder, std::move(parts), ground, w.options.comm);
   }
 }
 
 void RunWriter::row(const Row& row) {
-  Impl& w = *impl_;
-  w.append(row);
-  w.flush();
+  ++impl_->rows;
+  if (!impl_->series) return;
+  impl_->series->append(row);
+  impl_->series->flush();
 }
 
 void RunWriter::frame(const Frame& frame) {
@@ -228,21 +243,24 @@ void RunWriter::frame(const Frame& frame) {
 
 void RunWriter::finish(const Summary& summary) {
   Impl& w = *impl_;
-  w.results.attribute("/", "state_hash", summary.stateHash);
-  w.results.flush();
   w.frames.reset();
-  w.manifest.add(summary);
-  w.manifest.write("finished");
+  if (!w.series) return;
+  w.series->results.attribute("/", "state_hash", summary.stateHash);
+  w.series->results.flush();
+  w.series->manifest.add(summary);
+  w.series->manifest.write("finished");
 }
 
 void RunWriter::abandon(const std::string& reason) {
-  impl_->manifest.note("error", reason);
-  impl_->manifest.write("failed");
+  if (!impl_->series) return;
+  impl_->series->manifest.note("error", reason);
+  impl_->series->manifest.write("failed");
 }
 
 void RunWriter::stop(const std::string& reason) {
-  impl_->manifest.note("stopped", reason);
-  impl_->manifest.write("stopped");
+  if (!impl_->series) return;
+  impl_->series->manifest.note("stopped", reason);
+  impl_->series->manifest.write("stopped");
 }
 
 std::int64_t RunWriter::rows() const { return impl_->rows; }
@@ -250,7 +268,8 @@ std::int64_t RunWriter::rows() const { return impl_->rows; }
 std::int64_t RunWriter::frames() const { return impl_->framesAdded; }
 
 void RunWriter::sync() {
-  impl_->flush();
+  if (!impl_->series) return;
+  impl_->series->flush();
   for (const char* name : {"results.h5", "timeseries.csv"}) syncFile(impl_->folder / name);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
 #include "runs/scene.hpp"
@@ -44,7 +45,8 @@ struct FramePart {
   base::TriangleMesh mesh; ///< body frame
 };
 
-/// The grains and parts at one time. All arrays of grains have the same length.
+/// The grains and parts at one time; on several ranks this rank's block of the grains. All arrays of grains have the
+/// same length.
 struct Frame {
   std::int64_t step{};
   double time{};                      ///< [s]
@@ -77,6 +79,7 @@ struct FormerOutput {
 };
 
 /// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.
+/// On several ranks all of them have one and call the same; each gives its own grains to frame().
 /// With `force` the files of a former run are removed first; other files stay.
 /// Calls that fail (disk full) throw std::runtime_error with the file's name.
 class RunWriter {
@@ -85,6 +88,7 @@ public:
     bool force = false;
     bool frames = true;                          ///< frames.h5 and frames.xdmf
     std::optional<FormerOutput> former;          ///< go on with the folder of a stopped run
+    base::Comm comm;                             ///< one rank writes rows, all of them frames
     std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
   };
   RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
@@ -118,6 +122,7 @@ public:
   const std::filesystem::path& folder() const;
 
 private:
+  struct Series;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

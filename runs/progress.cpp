@@ -16,19 +16,19 @@ constexpr auto kPlainPause = 5s;
 
 } // namespace
 
-Progress::Progress(std::string what)
-    : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()),
+Progress::Progress(std::string what, bool shown)
+    : what_(std::move(what)), shown_(shown), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()),
       next_(start_ + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause))) {}
 
 Progress::~Progress() {
   if (open_) fmt::print(stderr, "\n");
 }
 
-bool Progress::due() const { return Clock::now() >= next_; }
+bool Progress::due() const { return shown_ && Clock::now() >= next_; }
 
 void Progress::update(double fraction, const std::string& detail) {
   const Clock::time_point now = Clock::now();
-  if (now < next_) return;
+  if (!shown_ || now < next_) return;
   next_ = now + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause));
   const std::string text = line(what_, fraction, std::chrono::duration<double>(now - start_).count(), detail);
   if (terminal_) {
@@ -42,6 +42,7 @@ void Progress::update(double fraction, const std::string& detail) {
 }
 
 void Progress::note(const std::string& line) {
+  if (!shown_) return;
   clearLine();
   std::fflush(stderr);
   fmt::print("{}\n", line);
@@ -49,6 +50,7 @@ void Progress::note(const std::string& line) {
 }
 
 void Progress::finish(const std::string& detail) {
+  if (!shown_) return;
   clearLine();
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   fmt::print(stderr, "{}: {}, took {}\n", what_, detail, duration(elapsed));

@@ -10,7 +10,8 @@ namespace grouser::runs {
 /// elsewhere.
 class Progress {
 public:
-  explicit Progress(std::string what);
+  /// `shown`: false keeps it silent, on ranks whose work another one reports.
+  explicit Progress(std::string what, bool shown = true);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -34,7 +35,7 @@ private:
   void clearLine();
 
   std::string what_;
-  bool terminal_;
+  bool shown_, terminal_;
   bool open_ = false; ///< a line without its end stands on the terminal
   Clock::time_point start_, next_;
 };

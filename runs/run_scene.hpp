@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
 #include "runs/output.hpp"
 #include "runs/scene.hpp"
 
@@ -19,6 +20,9 @@ struct RunOptions {
   bool hash = false;                           ///< take the state hash at the end
   std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
   std::string commandLine;                     ///< for the manifest
+  const base::Ranks* ranks = nullptr;          ///< that run the scene together; null: this program alone
+
+  base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
 };
 
 /// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.

@@ -97,10 +97,15 @@ void syncFile(const fs::path& path) {
 }
 
 void writeSealed(const fs::path& path, const char* kind, int version,
-                 const std::function<void(const fs::path& part)>& write) {
+                 const std::function<void(const fs::path& part)>& write, const base::Comm& comm) {
   const fs::path part = path.string() + ".part";
   try {
     write(part);
+    comm.wait();
+    if (!comm.first()) {
+      comm.wait();
+      return;
+    }
     seal(part, kind, version);
     fs::rename(part, path);
   } catch (...) {
@@ -109,6 +114,7 @@ void writeSealed(const fs::path& path, const char* kind, int version,
     throw;
   }
   syncFile(fs::absolute(path).parent_path()); // the name itself
+  comm.wait();
 }
 
 void checkSeal(const fs::path& path, const char* kind, int version) {

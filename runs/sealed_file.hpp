@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -14,9 +16,9 @@ inline constexpr std::size_t kSealBytes = 512;
 
 /// Calls `write` with the name of a file to be made beside `path`, seals what it wrote as `kind` of `version`, and
 /// brings it to the disk before it takes `path`'s place. Throws std::runtime_error, with `path` as it was, when any of
-/// it fails.
+/// it fails. On several ranks all of them write, and one seals; all return when the file is in place.
 void writeSealed(const std::filesystem::path& path, const char* kind, int version,
-                 const std::function<void(const std::filesystem::path& part)>& write);
+                 const std::function<void(const std::filesystem::path& part)>& write, const base::Comm& comm = {});
 
 /// Reads the whole file and throws base::InputError unless it is a `kind` of `version`, as long and with every bit as
 /// it was written.

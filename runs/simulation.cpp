@@ -15,13 +15,15 @@ constexpr double kEnergyFloor = 1e-6;  // [J] below which nothing is judged
 constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
 } // namespace
 
-Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress)
-    : scene_(scene), exec_(exec), timeStep_(chooseTimeStep(scene)), ground_(buildGround(scene, exec, timeStep_)) {
+Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress,
+                       const base::Comm& comm)
+    : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
+      ground_(buildGround(scene, exec, timeStep_, comm)) {
   const bool bed = scene.terrain && scene.terrain->granular();
   if (scene.vehicle)
     placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
   if (bed && scene.terrain->settleTimeLimit > 0) settled_ = settle(scene, ground_, progress);
-  if (bed) keepSurface(ground_);
+  if (bed) keepSurface(ground_, exec);
   surface_ = surfaceHeight(ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
   if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);

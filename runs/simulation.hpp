@@ -14,12 +14,13 @@
 namespace grouser::runs {
 
 /// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
+/// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
 class Simulation {
 public:
-  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress);
+  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {});
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
-  Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state);
+  Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {});
   SimulationState save() const;
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
@@ -29,6 +30,7 @@ public:
   std::int64_t steps() const { return steps_; }
   double time() const { return static_cast<double>(steps_) * timeStep_; } ///< since the bed has settled [s]
 
+  const base::Comm& comm() const { return comm_; }
   const Ground& ground() const { return ground_; }
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
@@ -63,6 +65,7 @@ private:
 
   const Scene scene_;
   base::Exec exec_;
+  base::Comm comm_;
   double timeStep_;
   Ground ground_;
   SettleReport settled_;
@@ -71,7 +74,7 @@ private:
   std::unique_ptr<Mechanism> mechanism_;
   std::int64_t steps_{0};
   double mostPutIn_{0}; ///< by drives and gravity, the most at any row so far [J]
-  Ledger start_; ///< before the first step; the ledger counts from here
+  Ledger start_;        ///< before the first step; the ledger counts from here
 };
 
 } // namespace grouser::runs

@@ -23,8 +23,9 @@ struct SimulationState {
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
 
-  /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash.
-  std::string hash() const;
+  /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
+  /// which call it.
+  std::string hash(const base::Comm& comm = {}) const;
 };
 
 } // namespace grouser::runs

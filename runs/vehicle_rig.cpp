@@ -42,6 +42,10 @@ vehicle::AssemblyOptions assemblyOptions(const Scene& scene, const vehicle::Vehi
   return options;
 }
 
+contact::GrainPartContacts::GrainsView viewOf(const terrain::Grains& grains) {
+  return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
+}
+
 } // namespace
 
 VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeStep, const Ground& ground,
@@ -129,7 +133,9 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
     std::vector<contact::GrainPart> parts;
     for (const int set : setOfPart) parts.push_back({set, {}, {}});
-    bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts);
+    comm_ = ground.grains->comm();
+    bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts, comm_);
+    ground.grains->onHandOver([this](const std::uint32_t* destination, std::size_t) { bed_->handOver(destination); });
   } else if (ground.rigid) {
     const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
     std::vector<int> shoes;
@@ -139,6 +145,13 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
         exec_, terrain::GroundContacts::Model{law, quanta_, timeStep_, groundMargin_}, *ground.rigid, sets, setOfPart,
         shoes);
   }
+}
+
+/// Whole quanta, so that every order of ranks gives the same bits: all ranks move the vehicle alike.
+void VehicleRig::sumOverRanks(contact::PartLoad* loads, std::size_t count) const {
+  constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
+  static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
+  comm_.sum(&loads->force.x, count * kNumbers);
 }
 
 contact::PartMotion VehicleRig::motionOf(std::size_t c) const {
@@ -163,8 +176,7 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
   }
   if (absoluteTravel_ <= groundMargin_ && !slotsChanged) return;
   if (bed_)
-    bed_->refresh({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()},
-                  motion_.device());
+    bed_->refresh(viewOf(*grains), motion_.device());
   if (rigidGround_) rigidGround_->refresh(motion_.device());
   absoluteTravel_ = 0;
 }
@@ -174,8 +186,7 @@ void VehicleRig::touchTrack() { track_->compute(motion_.device(), 2 * relativeTr
 void VehicleRig::touchGround(const terrain::Grains* grains) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
   if (bed_) {
-    bed_->compute({grains->positions(), grains->velocities(), grains->spins(), grains->ids(), grains->count()},
-                  motion_.device(), groundLoads);
+    bed_->compute(viewOf(*grains), motion_.device(), groundLoads);
     grainLoads_ = bed_->grainLoads();
   }
   if (rigidGround_) rigidGround_->compute(motion_.device(), absoluteTravel_, groundLoads);
@@ -186,6 +197,7 @@ void VehicleRig::collectLoads() {
   base::synchronize(exec_);
   const std::size_t n = contactParts_.size();
   const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
+  if (bed_) sumOverRanks(loadSums_.host() + n, n);
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
   groundForceSums_.resize(n);
   alarmForceSums_.resize(n);

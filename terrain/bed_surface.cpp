@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace grouser::terrain {
 
@@ -14,50 +13,8 @@ namespace {
 
 using base::InputError;
 
-/// Heights on a grid, and how far (in nodes) one grain diameter reaches.
-struct Grid {
-  int columns, rows;
-  double dx, dy, xMin, yMin;
-
-  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns + i; }
-  double x(int i) const { return xMin + i * dx; }
-  double y(int j) const { return yMin + j * dy; }
-
-  /// Calls f(node) for the nodes within `reach` of (px, py) in the plane.
-  template <class F> void forEachWithin(double px, double py, double reach, F&& f) const {
-    const int i0 = firstNode(px - reach, xMin, dx, columns), i1 = lastNode(px + reach, xMin, dx, columns);
-    const int j0 = firstNode(py - reach, yMin, dy, rows), j1 = lastNode(py + reach, yMin, dy, rows);
-    for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i) {
-        const double ex = x(i) - px, ey = y(j) - py;
-        if (ex * ex + ey * ey <= reach * reach) f(index(i, j));
-      }
-  }
-
-private:
-  static int firstNode(double v, double from, double d, int n) {
-    return static_cast<int>(std::clamp(std::ceil((v - from) / d - 1e-9), 0.0, double(n)));
-  }
-  static int lastNode(double v, double from, double d, int n) {
-    return static_cast<int>(std::clamp(std::floor((v - from) / d + 1e-9), -1.0, double(n - 1)));
-  }
-};
-
-/// Highest top within `reach` of each node; minus infinity where there is none.
-std::vector<double> highestTops(const Grid& grid, std::span<const Seed> grains, double reach) {
-  std::vector<double> tops(static_cast<std::size_t>(grid.columns) * grid.rows,
-                           -std::numeric_limits<double>::infinity());
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    const auto& [c, radius] = grains[g];
-    if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(radius)))
-      throw InputError(fmt::format("surface of the bed: grain {} is not at a finite place", g));
-    grid.forEachWithin(c.x, c.y, reach, [&](std::size_t node) { tops[node] = std::max(tops[node], c.z + radius); });
-  }
-  return tops;
-}
-
 /// Lowest value within `reach` of each node; what lies outside the grid does not count.
-std::vector<double> lowestWithin(const Grid& grid, const std::vector<double>& values, double reach) {
+std::vector<double> lowestWithin(const NodeGrid& grid, const std::vector<double>& values, double reach) {
   std::vector<double> result(values.size());
   // A little more than the reach, so that round-off does not decide about nodes at exactly that distance.
   const double slack = 1e-9 * reach;
@@ -107,14 +64,27 @@ BedSurface::BedSurface(std::span<const Seed> grains, const HeightFieldView& floo
                        double diameter)
     : area_(area) {
   layGrid(diameter);
-  const Grid grid{columns_, rows_, dx_, dy_, area.xMin, area.yMin};
-  std::vector<double> tops = highestTops(grid, grains, diameter);
+  shape(highestTops(grains, grid(), diameter), floor, diameter);
+}
+
+BedSurface::BedSurface(const base::Exec& exec, const Grains& grains, const HeightFieldView& floor,
+                       const Rectangle& area)
+    : area_(area) {
+  const double diameter = 2 * grains.model().radius;
+  layGrid(diameter);
+  shape(highestTops(exec, grains, grid(), diameter), floor, diameter);
+}
+
+NodeGrid BedSurface::grid() const { return {columns_, rows_, dx_, dy_, area_.xMin, area_.yMin}; }
+
+void BedSurface::shape(std::vector<double> tops, const HeightFieldView& floor, double diameter) {
+  const NodeGrid nodes = grid();
   for (int j = 0; j < rows_; ++j)
     for (int i = 0; i < columns_; ++i) {
-      double& top = tops[grid.index(i, j)];
-      if (!std::isfinite(top)) top = floor.height(grid.x(i), grid.y(j));
+      double& top = tops[nodes.index(i, j)];
+      if (!std::isfinite(top)) top = floor.height(nodes.x(i), nodes.y(j));
     }
-  heights_ = lowestWithin(grid, tops, diameter / 2);
+  heights_ = lowestWithin(nodes, tops, diameter / 2);
   smooth(heights_, rows_, columns_, columns_, 1);
   smooth(heights_, columns_, 1, rows_, columns_);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "terrain/bed_tops.hpp"
 #include "terrain/layers.hpp"
 
 #include <span>
@@ -29,6 +30,8 @@ public:
   /// `diameter` [m]: of the largest grain. The grid spans `area`. Grains outside it by more than a diameter do not
   /// count. InputError: `diameter` not positive, or a grain that is no finite number.
   BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area, double diameter);
+  /// Of a running bed, from the device that it is on; on several ranks of all of it, and equal on all of them.
+  BedSurface(const base::Exec& exec, const Grains& grains, const HeightFieldView& floor, const Rectangle& area);
   /// From the nodes of an earlier surface of the same area and diameter. InputError: their number does not fit.
   BedSurface(const Rectangle& area, double diameter, std::vector<double> heights);
 
@@ -43,6 +46,8 @@ public:
 
 private:
   void layGrid(double diameter);
+  NodeGrid grid() const;
+  void shape(std::vector<double> tops, const HeightFieldView& floor, double diameter);
 
   Rectangle area_;
   int columns_{}, rows_{};

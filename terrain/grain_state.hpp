@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
 #include "base/position.hpp"
 #include "terrain/kept_remainder.hpp"
 
@@ -9,27 +10,47 @@
 
 namespace grouser::terrain {
 
+/// Which fields the grains of a scene have.
+struct GrainLayout {
+  std::int64_t ledger{};     ///< 1: dissipation is summed
+  std::int64_t boundaries{}; ///< planes and floor together
+  std::int64_t friction{};   ///< 1: contacts have springs
+  bool operator==(const GrainLayout&) const = default;
+};
+
 /// All of the grains on which later bits or later output depend, by id: what a checkpoint holds and a hash is taken of.
-/// Free of slots, devices and list layouts. Lists themselves are left out; they can be built anew.
+/// Free of slots, devices and list layouts. Lists themselves are left out; they can be built anew. On several ranks
+/// each has some of the rows; on one, all.
 struct GrainState {
-  std::vector<base::Position> position;  ///< [count]
-  std::vector<base::Vec3f> velocity;     ///< [count] [m/s]
-  std::vector<base::Vec3f> spin;         ///< [count] [rad/s]
-  std::vector<Remainders> remainders;    ///< [count]
-  std::vector<double> dissipated;        ///< [count] since the start [J]; empty without a ledger
-  std::vector<std::uint32_t> wallBits;   ///< [count] bit a wall or floor in touch; empty without them
-  std::vector<base::Vec3f> wallShear;    ///< [walls and floor][count] [m], zero out of touch; empty without friction
-  std::vector<std::uint32_t> contacts;   ///< [count] neighbours in touch
+  GrainLayout layout;
+  std::int64_t total{};                  ///< grains of the scene
+  std::vector<std::uint32_t> id;         ///< [rows], ascending
+  std::vector<base::Position> position;  ///< [rows]
+  std::vector<base::Vec3f> velocity;     ///< [rows] [m/s]
+  std::vector<base::Vec3f> spin;         ///< [rows] [rad/s]
+  std::vector<Remainders> remainders;    ///< [rows]
+  std::vector<double> dissipated;        ///< [rows] since the start [J]; empty without a ledger
+  std::vector<std::uint32_t> wallBits;   ///< [rows] bit a wall or floor in touch; empty without them
+  std::vector<base::Vec3f> wallShear;    ///< [rows][walls and floor] [m], zero out of touch; empty without friction
+  std::vector<std::uint32_t> contacts;   ///< [rows] neighbours in touch
   std::vector<std::uint32_t> neighbour;  ///< ids of those, ascending for each grain, grain by grain
   std::vector<base::Vec3f> contactShear; ///< [m], one a neighbour; empty without friction
 
   // When the neighbour list was built, so that a resumed run builds the next one at the same step.
-  std::vector<base::Vec3<std::uint32_t>> travelled; ///< [count] since then [units], as wrapping words
+  std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] since then [units], as wrapping words
   double skin{};                                    ///< [-] share of the radius
   std::int64_t rebuilds{};
 
+  std::size_t rows() const { return position.size(); }
   /// For the hash: what the next step depends on, grain by grain.
   std::vector<std::uint32_t> words() const;
 };
+
+/// Moves row k to rank `destination[k]`; what comes is in the order of ids. All ranks call it.
+GrainState redistribute(const base::Comm& comm, const GrainState& rows, const std::vector<int>& destination);
+/// The rank that holds grain `id` of `total` where rows are shared out by id, in blocks: for files.
+int blockOf(const base::Comm& comm, std::int64_t total, std::uint32_t id);
+/// First id of a rank's block; that of rank `size` is `total`.
+std::uint64_t blockStart(const base::Comm& comm, std::int64_t total, int rank);
 
 } // namespace grouser::terrain

@@ -20,10 +20,11 @@ struct GrainKernelData {
   base::Vec3d gravityStep; // g dt
   contact::LinearLaw law, floorLaw;
   const Wall* walls;
-  int wallCount;
+  int wallCount, boundaryCount; ///< planes; planes and floor together
   bool hasFloor;
   HeightFieldView floor;
-  std::int64_t count;
+  std::int64_t count;          ///< slots
+  const std::uint32_t* active; ///< slots that this launch is for; null: all
 
   // State. Positions, velocities and spins are read from `now` and written to `next`: neighbours still read `now`.
   const base::Position* position;
@@ -37,7 +38,7 @@ struct GrainKernelData {
   const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
   const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
   BoundaryLoad* boundaryLoads;       ///< by place in that list
-  base::Vec3f* wallShear;            ///< [wall or floor][slot]
+  base::Vec3f* wallShear;            ///< [slot][wall or floor]
   std::uint32_t* wallTouching;       ///< bit a wall, bit `wallCount` the floor
   double* dissipated;
   contact::GrainLoadsView loads;
@@ -83,7 +84,7 @@ private:
     const base::Vec3f arm = normal * (d.radius - overlap);
     contact::Touch touch{normal, overlap, v + cross(w, arm), d.mass};
     base::Vec3f shear{};
-    const std::int64_t at = boundary * d.count + i;
+    const std::int64_t at = static_cast<std::int64_t>(i) * d.boundaryCount + boundary;
     if (kFriction && (before >> boundary & 1)) shear = d.wallShear[at];
     const contact::Reaction reaction = contact::linearForce(law, touch, d.timeStep, shear);
     if (kFriction) d.wallShear[at] = shear;
@@ -104,7 +105,8 @@ template <bool kFriction, bool kBoundaries, bool kLoads, bool kLedger> struct Gr
     float dissipated = 0, deepest = 0;
   };
 
-  GROUSER_HD void operator()(int i) const {
+  GROUSER_HD void operator()(int k) const {
+    const int i = d.active ? static_cast<int>(d.active[k]) : k;
     Sum sum;
     const base::Position p = d.position[i];
     const base::Vec3f v = d.velocity[i].xyz(), w = d.spin[i].xyz();

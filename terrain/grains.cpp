@@ -44,19 +44,36 @@ void checkDistinct(const std::vector<Position>& position) {
                                          std::min(order[k - 1], order[k]), std::max(order[k - 1], order[k])));
 }
 
+/// The first cuts: as many grains in each slab of an axis as in the others.
+Partition startingPartition(const std::vector<Position>& position, int ranks, const std::array<int, 3>& wanted) {
+  base::Vec3l low{}, high{};
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const base::Vec3l u = base::toUnits(position[i]);
+    low = i == 0 ? u : base::min(low, u), high = i == 0 ? u : base::max(high, u);
+  }
+  std::array<std::vector<std::int64_t>, 3> weights;
+  std::array<double, 3> size{};
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    size[k] = static_cast<double>(high[a] - low[a]) + 1;
+    weights[k].resize(kPartitionBins);
+    const std::int64_t width = std::max<std::int64_t>(1, (high[a] - low[a]) / kPartitionBins + 1);
+    for (const Position& p : position) ++weights[k][static_cast<std::size_t>((base::toUnits(p)[a] - low[a]) / width)];
+  }
+  return {latticeShape(ranks, size, wanted), low, high, weights};
+}
+
 } // namespace
 
 Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries,
-               const std::vector<GrainStart>& start)
-    : exec_(exec), model_(model), scale_(base::positionScale(2 * model.radius)), count_(start.size()),
-      diameterUnits_(wholeUnits(2 * model.radius, scale_)), skinUnits_(wholeUnits(model.skin * model.radius, scale_)),
-      frictional_(anyFriction(model, boundaries)),
+               const std::vector<GrainStart>& start, const PartitionOptions& partition)
+    : exec_(exec), model_(model), scale_(base::positionScale(2 * model.radius)), comm_(partition.comm),
+      count_(start.size()), slots_(0), diameterUnits_(wholeUnits(2 * model.radius, scale_)),
+      skinUnits_(wholeUnits(model.skin * model.radius, scale_)), frictional_(anyFriction(model, boundaries)),
       boundaryCount_(static_cast<int>(boundaries.walls.size()) + (boundaries.floor ? 1 : 0)),
       neighbours_(exec, diameterUnits_, skinUnits_, frictional_) {
   if (boundaryCount_ > 31) throw base::InputError(fmt::format("{} planes; at most 31 are possible", boundaryCount_));
-  std::vector<Position> position(count_);
-  std::vector<Vec4f> velocity(count_), spin(count_);
-  std::vector<std::uint32_t> id(count_);
+  std::vector<Position> all(count_);
   const double limit = scale_.limit();
   for (std::size_t i = 0; i < count_; ++i) {
     const Vec3d& x = start[i].position;
@@ -65,29 +82,43 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
           fmt::format("grain {} at ({}, {}, {}) m is farther than {:.6g} m from the origin, the range of "
                       "positions for grains of radius {} m; move the scene nearer to the origin",
                       i, x.x, x.y, x.z, limit, model.radius));
-    position[i] = scale_.fromMetres(x);
-    const Vec3f v = start[i].velocity.as<float>(), w = start[i].spin.as<float>();
-    velocity[i] = {v.x, v.y, v.z, 0};
-    spin[i] = {w.x, w.y, w.z, 0};
-    id[i] = static_cast<std::uint32_t>(i);
+    all[i] = scale_.fromMetres(x);
   }
-  checkDistinct(position);
+  checkDistinct(all);
+  if (!comm_.alone()) {
+    subdomain_ = std::make_unique<Subdomain>(exec, partition, diameterUnits_ + skinUnits_);
+    subdomain_->setPartition(startingPartition(all, comm_.size(), partition.subdomains));
+  }
+  std::vector<Position> position;
+  std::vector<Vec4f> velocity, spin;
+  std::vector<std::uint32_t> id;
+  const PartitionView owner = subdomain_ ? subdomain_->partition().view() : Partition().view();
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (owner.ownerOf(base::toUnits(all[i])) != comm_.rank()) continue;
+    const Vec3f v = start[i].velocity.as<float>(), w = start[i].spin.as<float>();
+    position.push_back(all[i]);
+    velocity.push_back({v.x, v.y, v.z, 0});
+    spin.push_back({w.x, w.y, w.z, 0});
+    id.push_back(static_cast<std::uint32_t>(i));
+  }
+  slots_ = position.size();
   position_[0] = base::Array<Position>(exec, position);
   velocity_[0] = base::Array<Vec4f>(exec, velocity);
   spin_[0] = base::Array<Vec4f>(exec, spin);
-  position_[1] = base::Array<Position>(exec, count_);
-  velocity_[1] = base::Array<Vec4f>(exec, count_);
-  spin_[1] = base::Array<Vec4f>(exec, count_);
-  remainders_ = base::Array<Remainders>(exec, count_);
+  position_[1] = base::Array<Position>(exec, slots_);
+  velocity_[1] = base::Array<Vec4f>(exec, slots_);
+  spin_[1] = base::Array<Vec4f>(exec, slots_);
+  remainders_ = base::Array<Remainders>(exec, slots_);
   id_ = base::Array<std::uint32_t>(exec, id);
-  reference_ = base::Array<base::Vec3<std::uint32_t>>(exec, count_);
-  const std::size_t perBoundary = boundaryCount_ > 0 ? count_ : 0;
-  wallShear_ = base::Array<Vec3f>(exec, frictional_ ? perBoundary * boundaryCount_ : 0);
+  reference_ = base::Array<base::Vec3<std::uint32_t>>(exec, slots_);
+  const std::size_t perBoundary = boundaryCount_ > 0 ? slots_ : 0;
+  wallShear_ = base::Array<Vec3f>(exec, frictional_ ? perBoundary * static_cast<std::size_t>(boundaryCount_) : 0);
   wallTouching_ = base::Array<std::uint32_t>(exec, perBoundary);
   nearBoundary_ = base::Array<std::uint32_t>(exec);
   boundaryOf_ = base::Array<std::uint32_t>(exec, perBoundary);
   boundaryLoads_ = base::Array<BoundaryLoad>(exec);
-  dissipated_ = base::Array<double>(exec, model.ledger ? count_ : 0);
+  dissipated_ = base::Array<double>(exec, model.ledger ? slots_ : 0);
+  origin_ = base::Array<std::uint32_t>(exec), arrivedRows_ = base::Array<std::uint32_t>(exec);
   flags_ = base::Mirrored<StepFlags>(exec, 1);
   *flags_.host() = kNoFlags;
   flags_.upload();
@@ -100,27 +131,51 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   }
 }
 
+void Grains::setPartition(const Partition& partition) {
+  if (!subdomain_) return;
+  subdomain_->setPartition(partition);
+  invalidateNeighbours();
+}
+
 void Grains::endStep() {
   ++steps_;
   checkFlags();
+  if (subdomain_ && !stale_) sendGhosts(); // a rebuild would fetch them anew
 }
 
 void Grains::checkFlags() {
   base::synchronize(exec_);
-  const StepFlags flags = *flags_.host();
-  if (flags.stale) stale_ = true;
+  StepFlags flags = *flags_.host();
   if (flags.stale || flags.fault != kNoFlags.fault) {
     *flags_.host() = kNoFlags;
     flags_.upload();
   }
-  if (flags.fault == kNoFlags.fault) return;
-  const auto fault = static_cast<Fault>(flags.fault >> 56);
-  const auto id = static_cast<std::size_t>(flags.fault & 0xFFFFFFFFFFFFFFull);
-  const GrainSnapshot s = snapshot();
-  const Vec3d x = s.position[id];
-  const double speed = norm(s.velocity[id].as<double>());
-  const std::string where = fmt::format("step {}, time {:.6g} s: grain {} at ({:.6g}, {:.6g}, {:.6g}) m", steps_,
-                                        static_cast<double>(steps_) * model_.timeStep, id, x.x, x.y, x.z);
+  if (subdomain_) {
+    std::uint64_t all[] = {flags.fault, flags.stale ? 0u : 1u};
+    comm_.minimum(all, 2);
+    flags.fault = all[0], flags.stale = all[1] == 0;
+  }
+  if (flags.stale) stale_ = true;
+  if (flags.fault != kNoFlags.fault) stopFor(flags.fault);
+}
+
+void Grains::stopFor(std::uint64_t key) const {
+  const auto fault = static_cast<Fault>(key >> 56);
+  const auto id = static_cast<std::uint32_t>(key & 0xFFFFFFFFFFFFFFull);
+  // Only the rank that integrates the grain knows where it is.
+  const std::vector<std::uint32_t> ids = id_.toHost();
+  const std::vector<std::uint32_t> roles =
+      subdomain_ ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>();
+  double found[4] = {-1e300, -1e300, -1e300, -1e300}; // place and speed
+  for (std::size_t i = 0; i < slots_; ++i) {
+    if (ids[i] != id || (!roles.empty() && roles[i])) continue;
+    const Vec3d x = scale_.toMetres(position_[0].at(i));
+    found[0] = x.x, found[1] = x.y, found[2] = x.z, found[3] = norm(velocity_[0].at(i).xyz().as<double>());
+  }
+  comm_.maximum(found, 4);
+  const std::string where =
+      fmt::format("step {}, time {:.6g} s: grain {} at ({:.6g}, {:.6g}, {:.6g}) m", steps_,
+                  static_cast<double>(steps_) * model_.timeStep, id, found[0], found[1], found[2]);
   if (fault == Fault::overlap)
     throw base::SimulationError(fmt::format("{} overlaps by more than {:.3g} of its radius; use stiffer contacts "
                                             "(material stiffness) or a smaller time_step",
@@ -133,7 +188,7 @@ void Grains::checkFlags() {
   if (fault == Fault::speed)
     throw base::SimulationError(fmt::format("{} moves at {:.4g} m/s, more than half the neighbour list's skin in one "
                                             "step; use a smaller time_step or a larger skin",
-                                            where, speed));
+                                            where, found[3]));
   throw base::SimulationError(where + " has a velocity that is no number; use a smaller time_step");
 }
 
@@ -144,22 +199,19 @@ void Grains::stop() {
 }
 
 GrainSnapshot Grains::snapshot() const {
-  const auto position = position_[0].toHost();
-  const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
-  const auto id = id_.toHost();
-  GrainSnapshot s{std::vector<Vec3d>(count_), std::vector<Vec3f>(count_), std::vector<Vec3f>(count_)};
-  for (std::size_t i = 0; i < count_; ++i) {
-    s.position[id[i]] = scale_.toMetres(position[i]);
-    s.velocity[id[i]] = velocity[i].xyz();
-    s.spin[id[i]] = spin[i].xyz();
-  }
-  return s;
+  const GrainState s = state();
+  GrainSnapshot out;
+  out.first = blockStart(comm_, static_cast<std::int64_t>(count_), comm_.rank()), out.total = count_;
+  for (const Position& p : s.position) out.position.push_back(scale_.toMetres(p));
+  out.velocity = s.velocity, out.spin = s.spin;
+  return out;
 }
 
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
                       wallShear_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + nearBoundary_.bytes() +
-                      boundaryOf_.bytes() + boundaryLoads_.bytes();
+                      boundaryOf_.bytes() + boundaryLoads_.bytes() + origin_.bytes() + arrivedRows_.bytes() +
+                      (subdomain_ ? subdomain_->bytes() : 0);
   for (int k = 0; k < 2; ++k) total += position_[k].bytes() + velocity_[k].bytes() + spin_[k].bytes();
   return total;
 }

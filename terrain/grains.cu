@@ -13,12 +13,16 @@ using base::Vec3f;
 
 namespace {
 
-/// to[i] = from[order[i]]
+/// to[i] = from[order[i]], records of `width` elements each.
 template <class T> struct Gather {
   const std::uint32_t* order;
   const T* from;
   T* to;
-  GROUSER_HD void operator()(int i) const { to[i] = from[order[i]]; }
+  int width = 1;
+  GROUSER_HD void operator()(int i) const {
+    for (int w = 0; w < width; ++w)
+      to[static_cast<std::int64_t>(i) * width + w] = from[static_cast<std::int64_t>(order[i]) * width + w];
+  }
 };
 
 struct KeepReference {
@@ -30,9 +34,14 @@ struct KeepReference {
 /// Marks the grains that may touch a wall or the floor before any grain has moved half the skin.
 struct MarkNearBoundary {
   GrainKernelData d;
-  double reach; ///< radius plus half the skin [m]
+  double reach;               ///< radius plus half the skin [m]
+  const std::uint32_t* ghost; ///< null where there are none
   std::uint32_t* mark;
   GROUSER_HD void operator()(int i) const {
+    if (ghost && ghost[i]) {
+      mark[i] = 0;
+      return;
+    }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
     bool near = d.hasFloor && !d.floor.clearOf(x, reach);
     for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < reach;
@@ -55,15 +64,15 @@ struct ListNearBoundary {
 
 /// Runs the step with just the features this scene has.
 template <bool kFriction, bool kBoundaries>
-void runStep(const base::Exec& exec, const GrainKernelData& d, bool loads, bool ledger) {
+void runStep(const base::Exec& exec, const GrainKernelData& d, std::int64_t count, bool loads, bool ledger) {
   if (loads && ledger)
-    base::forEach(exec, "grain step", d.count, GrainStep<kFriction, kBoundaries, true, true>{d});
+    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, true, true>{d});
   else if (loads)
-    base::forEach(exec, "grain step", d.count, GrainStep<kFriction, kBoundaries, true, false>{d});
+    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, true, false>{d});
   else if (ledger)
-    base::forEach(exec, "grain step", d.count, GrainStep<kFriction, kBoundaries, false, true>{d});
+    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, false, true>{d});
   else
-    base::forEach(exec, "grain step", d.count, GrainStep<kFriction, kBoundaries, false, false>{d});
+    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, false, false>{d});
 }
 
 /// One grain's share of the ledger, in quanta.
@@ -72,9 +81,11 @@ struct MeasureGrain {
   base::FixedPoint energy, momentum;
   std::int64_t*
       sums; ///< kinetic, rotational, potential, elastic, dissipated, px, py, pz, 2 x contacts, boundary contacts
-  std::uint64_t* extremes; ///< complements of the deepest overlap [units] and the largest speed [um/s]
+  std::uint64_t* extremes;    ///< complements of the deepest overlap [units] and the largest speed [um/s]
+  const std::uint32_t* ghost; ///< null where there are none
 
   GROUSER_HD void operator()(int i) const {
+    if (ghost && ghost[i]) return;
     const Vec3d v = d.velocity[i].xyz().as<double>(), w = d.spin[i].xyz().as<double>();
     const base::Vec3l u = base::toUnits(d.position[i]);
     const Vec3d x = u.as<double>() * d.unitLength;
@@ -123,7 +134,8 @@ struct MeasureGrain {
     base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e6));
   }
   GROUSER_HD Vec3f wallShear(int i, int b) const {
-    return d.wallShear && (d.wallTouching[i] >> b & 1) ? d.wallShear[b * d.count + i] : Vec3f{};
+    return d.wallShear && (d.wallTouching[i] >> b & 1) ? d.wallShear[static_cast<std::int64_t>(i) * d.boundaryCount + b]
+                                                       : Vec3f{};
   }
   GROUSER_HD void add(int which, std::int64_t quanta) const { base::atomicAdd64(sums + which, quanta); }
 };
@@ -147,9 +159,9 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
   d.gravityStep = model_.gravity * dt;
   d.law = model_.law, d.floorLaw = model_.floorLaw;
-  d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size());
+  d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = boundaryCount_;
   d.hasFloor = hasFloor_, d.floor = floorView_;
-  d.count = static_cast<std::int64_t>(count_);
+  d.count = static_cast<std::int64_t>(slots_);
   d.position = position_[0].data(), d.nextPosition = position_[1].data();
   d.velocity = velocity_[0].data(), d.nextVelocity = velocity_[1].data();
   d.spin = spin_[0].data(), d.nextSpin = spin_[1].data();
@@ -167,11 +179,17 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
 
 bool Grains::refreshNeighbours() {
   if (!stale_) return false;
-  neighbours_.sort(position_[0].data(), count_);
+  if (subdomain_) shareOut();
+  neighbours_.sort(position_[0].data(), slots_);
   permute();
-  neighbours_.build(position_[0].data(), id_.data());
+  if (subdomain_) {
+    subdomain_->sorted(neighbours_.order(), slots_);
+    origins_.origin = origin_.data(), origins_.ghost = subdomain_->ghostMarks();
+  }
+  neighbours_.build(position_[0].data(), id_.data(), subdomain_ ? &origins_ : nullptr);
   if (boundaryCount_ > 0) listNearBoundaries();
-  base::forEach(exec_, "keep reference", static_cast<std::int64_t>(count_),
+  reference_.resize(slots_);
+  base::forEach(exec_, "keep reference", static_cast<std::int64_t>(slots_),
                 KeepReference{position_[0].data(), reference_.data()});
   stale_ = false;
   ++rebuilds_;
@@ -179,12 +197,13 @@ bool Grains::refreshNeighbours() {
 }
 
 void Grains::listNearBoundaries() {
-  const auto n = static_cast<std::int64_t>(count_);
-  base::Array<std::uint32_t> mark(exec_, count_), before(exec_, count_);
-  base::forEach(
-      exec_, "mark grains near boundaries", n,
-      MarkNearBoundary{kernelData(nullptr), model_.radius * (1 + 0.5 * model_.skin) + scale_.unit, mark.data()});
-  const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), count_);
+  const auto n = static_cast<std::int64_t>(slots_);
+  base::Array<std::uint32_t> mark(exec_, slots_), before(exec_, slots_);
+  boundaryOf_.resize(slots_);
+  base::forEach(exec_, "mark grains near boundaries", n,
+                MarkNearBoundary{kernelData(nullptr), model_.radius * (1 + 0.5 * model_.skin) + scale_.unit, ghosts(),
+                                 mark.data()});
+  const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), slots_);
   nearBoundary_.resize(total);
   boundaryLoads_.resize(total);
   base::forEach(exec_, "list grains near boundaries", n,
@@ -194,7 +213,7 @@ void Grains::listNearBoundaries() {
 
 void Grains::permute() {
   const std::uint32_t* order = neighbours_.order();
-  const auto n = static_cast<std::int64_t>(count_);
+  const auto n = static_cast<std::int64_t>(slots_);
   const auto gather = [&]<class T>(base::Array<T>& from, base::Array<T>& to) {
     base::forEach(exec_, "permute grains", n, Gather<T>{order, from.data(), to.data()});
     from.swap(to);
@@ -202,35 +221,53 @@ void Grains::permute() {
   gather(position_[0], position_[1]);
   gather(velocity_[0], velocity_[1]);
   gather(spin_[0], spin_[1]);
-  const auto gatherOwn = [&]<class T>(base::Array<T>& array) {
+  const auto gatherOwn = [&]<class T>(base::Array<T>& array, int width = 1) {
     if (array.empty()) return;
     base::Array<T> to(exec_, array.size());
-    for (std::size_t first = 0; first < array.size(); first += count_)
-      base::forEach(exec_, "permute grains", n, Gather<T>{order, array.data() + first, to.data() + first});
+    base::forEach(exec_, "permute grains", n, Gather<T>{order, array.data(), to.data(), width});
     base::synchronize(exec_);
     array.swap(to);
   };
   gatherOwn(remainders_);
   gatherOwn(id_);
-  gatherOwn(wallShear_);
+  gatherOwn(wallShear_, boundaryCount_);
   gatherOwn(wallTouching_);
   gatherOwn(dissipated_);
+  gatherOwn(origin_);
+}
+
+void Grains::advanceGrains(const contact::GrainLoadsView* loads, const base::Array<std::uint32_t>* active) {
+  GrainKernelData d = kernelData(loads);
+  const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
+  if (active) d.active = active->data();
+  const bool boundaries = boundaryCount_ > 0, withLoads = loads != nullptr;
+  if (frictional_ && boundaries)
+    runStep<true, true>(exec_, d, count, withLoads, model_.ledger);
+  else if (frictional_)
+    runStep<true, false>(exec_, d, count, withLoads, model_.ledger);
+  else if (boundaries)
+    runStep<false, true>(exec_, d, count, withLoads, model_.ledger);
+  else
+    runStep<false, false>(exec_, d, count, withLoads, model_.ledger);
 }
 
 void Grains::beginStep(const contact::GrainLoadsView* loads) {
-  const GrainKernelData d = kernelData(loads);
-  const bool boundaries = boundaryCount_ > 0, withLoads = loads != nullptr;
-  const auto near = static_cast<std::int64_t>(nearBoundary_.size());
-  if (boundaries && frictional_) base::forEach(exec_, "boundary contacts", near, BoundaryContacts<true>{d});
-  if (boundaries && !frictional_) base::forEach(exec_, "boundary contacts", near, BoundaryContacts<false>{d});
-  if (frictional_ && boundaries)
-    runStep<true, true>(exec_, d, withLoads, model_.ledger);
-  else if (frictional_)
-    runStep<true, false>(exec_, d, withLoads, model_.ledger);
-  else if (boundaries)
-    runStep<false, true>(exec_, d, withLoads, model_.ledger);
-  else
-    runStep<false, false>(exec_, d, withLoads, model_.ledger);
+  if (boundaryCount_ > 0) {
+    const GrainKernelData d = kernelData(loads);
+    const auto near = static_cast<std::int64_t>(nearBoundary_.size());
+    if (frictional_)
+      base::forEach(exec_, "boundary contacts", near, BoundaryContacts<true>{d});
+    else
+      base::forEach(exec_, "boundary contacts", near, BoundaryContacts<false>{d});
+  }
+  if (subdomain_) {
+    // Grains that need no ghost go first: meanwhile the ghosts are on their way.
+    advanceGrains(loads, &subdomain_->uniques());
+    completeGhosts();
+    advanceGrains(loads, &subdomain_->masters());
+  } else {
+    advanceGrains(loads, nullptr);
+  }
   flags_.download();
   position_[0].swap(position_[1]);
   velocity_[0].swap(velocity_[1]);
@@ -239,15 +276,25 @@ void Grains::beginStep(const contact::GrainLoadsView* loads) {
 
 GrainLedger Grains::ledger() {
   if (rebuilds_ == 0) refreshNeighbours();
+  completeGhosts();
   const double scale = model_.law.stiffness * model_.radius * model_.radius;
-  MeasureGrain measure{kernelData(nullptr), base::fixedPointFor(scale, 32), base::fixedPointFor(model_.mass * 10, 32),
-                       nullptr, nullptr};
+  MeasureGrain measure{kernelData(nullptr),
+                       base::fixedPointFor(scale, 32),
+                       base::fixedPointFor(model_.mass * 10, 32),
+                       nullptr,
+                       nullptr,
+                       ghosts()};
   base::Array<std::int64_t> sums(exec_, 10);
   base::Array<std::uint64_t> extremes(exec_, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
   measure.sums = sums.data();
   measure.extremes = extremes.data();
-  base::forEach(exec_, "measure grains", static_cast<std::int64_t>(count_), measure);
-  const std::vector<std::int64_t> q = sums.toHost();
+  base::forEach(exec_, "measure grains", static_cast<std::int64_t>(slots_), measure);
+  std::vector<std::int64_t> q = sums.toHost();
+  std::vector<std::uint64_t> most = extremes.toHost();
+  if (subdomain_) {
+    subdomain_->comm().sum(q.data(), q.size());
+    subdomain_->comm().minimum(most.data(), most.size());
+  }
   GrainLedger ledger;
   ledger.kinetic = measure.energy.value(q[0]);
   ledger.rotational = measure.energy.value(q[1]);
@@ -257,7 +304,6 @@ GrainLedger Grains::ledger() {
   ledger.momentum = measure.momentum.value({q[5], q[6], q[7]});
   ledger.contacts = q[8] / 2;
   ledger.boundaryContacts = q[9];
-  const std::vector<std::uint64_t> most = extremes.toHost();
   ledger.deepestOverlap = static_cast<double>(~most[0]) * scale_.unit;
   ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
   return ledger;

@@ -7,7 +7,10 @@
 #include "terrain/grain_model.hpp"
 #include "terrain/grain_records.hpp"
 #include "terrain/grain_state.hpp"
+#include "terrain/subdomain.hpp"
 
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,8 +26,9 @@ struct GrainStart {
   base::Vec3d spin;     ///< [rad/s]
 };
 
-/// The grains of a scene on the host, by id.
+/// The grains of a scene on the host, by id: all of them, or on several ranks this rank's block of ids.
 struct GrainSnapshot {
+  std::uint64_t first{}, total{};    ///< id of the first; grains of the scene
   std::vector<base::Vec3d> position; ///< [m]
   std::vector<base::Vec3f> velocity; ///< [m/s]
   std::vector<base::Vec3f> spin;     ///< [rad/s]
@@ -39,13 +43,17 @@ struct Boundaries {
 /// Equal spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
 ///
 /// State lives on the device of `exec`, sorted in space; results do not depend on the sorting, on when lists are
-/// rebuilt, on the number of threads or on the device.
+/// rebuilt, on the number of threads, on the device, or on the number of ranks and what each of them owns. On several
+/// ranks all of them call every member that is not marked `local`, in the same order.
 class Grains {
 public:
-  /// Throws InputError when a grain lies outside the range of the integer positions or two grains coincide.
-  Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries, const std::vector<GrainStart>& start);
+  /// `start`: all grains of the scene, on every rank. Throws InputError when a grain lies outside the range of the
+  /// integer positions or two grains coincide.
+  Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries, const std::vector<GrainStart>& start,
+         const PartitionOptions& partition = {});
 
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return count_; } ///< of the scene; local
+  std::size_t slots() const { return slots_; } ///< on this rank, slaves among them; local
   const GrainModel& model() const { return model_; }
   const base::PositionScale& scale() const { return scale_; }
 
@@ -64,17 +72,33 @@ public:
   void beginStep(const contact::GrainLoadsView* loads);
   void endStep();
 
-  // For those who compute loads on grains: device arrays by slot, valid until the next refresh.
+  // For those who compute loads on grains: device arrays by slot, valid until the next refresh; local.
   const base::Position* positions() const { return position_[0].data(); }
   const Vec4f* velocities() const { return velocity_[0].data(); }
   const Vec4f* spins() const { return spin_[0].data(); }
   const std::uint32_t* ids() const { return id_.data(); }
+  /// Not 0 for slaves, whose loads are their master's affair; null where there are none.
+  const std::uint32_t* ghosts() const { return subdomain_ ? subdomain_->ghostMarks() : nullptr; }
+  /// Called when grains go to other ranks, before they do: with the rank that the grain of each slot now belongs to
+  /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after.
+  using HandOver = std::function<void(const std::uint32_t* destination, std::size_t slots)>;
+  void onHandOver(HandOver handOver) { handOver_ = std::move(handOver); }
+  /// Null on one rank.
+  const Subdomain* subdomain() const { return subdomain_.get(); }
+  const base::Comm& comm() const { return comm_; }
+  /// Cuts that the next rebuild takes up; for tests, and for those who know better than the measured times.
+  void setPartition(const Partition& partition);
+  /// Time that this rank spent on work that all ranks do alike [s]: no cut can shift it.
+  void noteReplicated(double seconds) { replicatedSeconds_ += seconds; }
+  std::int64_t rebalancings() const { return rebalancings_; }
 
   GrainSnapshot snapshot() const;
-  /// All of the state by id, without padding, contact history by pair of ids: equal for equal states.
+  /// All of the state by id, without padding, contact history by pair of ids: equal for equal states. On several ranks
+  /// those of this rank's block of ids.
   std::vector<std::uint32_t> stateWords() const;
-  /// For checkpoints. A run that goes on from `restore(state())` gives the same bits as one that was not stopped, on
-  /// any device and with any skin. Throws InputError when the state is of other grains.
+  /// For checkpoints; on several ranks this rank's block of ids. A run that goes on from `restore(state())` gives the
+  /// same bits as one that was not stopped, on any device, any number of ranks and with any skin. Throws InputError
+  /// when the state is of other grains.
   GrainState state() const;
   void restore(const GrainState& state);
   GrainLedger ledger();
@@ -88,16 +112,30 @@ public:
   void stop();
 
 private:
+  using Clock = std::chrono::steady_clock;
+
   GrainKernelData kernelData(const contact::GrainLoadsView* loads);
+  void advanceGrains(const contact::GrainLoadsView* loads, const base::Array<std::uint32_t>* active);
   void permute();
   void listNearBoundaries();
   void checkFlags();
+  [[noreturn]] void stopFor(std::uint64_t fault) const;
+  GrainState ownRows() const;
   void restoreContacts(const GrainState& state, const std::vector<std::uint32_t>& id);
+
+  // On several ranks: grain_distribution.cu.
+  template <class Each> void forOwnArrays(const Each& each);
+  void shareOut();
+  void sendGhosts();
+  void completeGhosts();
+  void updateGhosts();
+  void rebalance();
 
   base::Exec exec_;
   GrainModel model_;
   base::PositionScale scale_;
-  std::size_t count_;
+  base::Comm comm_;
+  std::size_t count_, slots_;
   std::int64_t diameterUnits_, skinUnits_;
   bool frictional_;
   int boundaryCount_;
@@ -119,6 +157,14 @@ private:
   bool hasFloor_{false};
 
   contact::NeighbourList neighbours_;
+  std::unique_ptr<Subdomain> subdomain_; ///< null on one rank
+  HandOver handOver_;
+  base::Array<std::uint32_t> origin_, arrivedRows_;
+  contact::RowOrigins origins_{};
+  Clock::time_point measuredFrom_{Clock::now()};
+  double waitedBefore_{0}, replicatedSeconds_{0};
+  std::int64_t balancedAt_{0}, rebalancings_{0};
+
   bool stale_{true};
   std::int64_t rebuilds_{0}, steps_{0};
 };

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -44,13 +45,23 @@ std::vector<std::uint32_t> GrainState::words() const {
     }
     if (wallBits.empty()) continue;
     put(wallBits[g]);
-    for (std::size_t b = 0; b * count < wallShear.size(); ++b)
-      if (wallBits[g] >> b & 1) put(wallShear[b * count + g]);
+    const auto walls = static_cast<std::size_t>(layout.boundaries);
+    for (std::size_t b = 0; b < walls && layout.friction; ++b)
+      if (wallBits[g] >> b & 1) put(wallShear[g * walls + b]);
   }
   return words;
 }
 
 GrainState Grains::state() const {
+  const GrainState own = ownRows();
+  if (comm_.alone()) return own;
+  std::vector<int> block;
+  for (const std::uint32_t id : own.id) block.push_back(blockOf(comm_, own.total, id));
+  return redistribute(comm_, own, block);
+}
+
+/// The rows of the grains that this rank integrates.
+GrainState Grains::ownRows() const {
   const auto position = position_[0].toHost();
   const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
   const auto remainders = remainders_.toHost();
@@ -60,19 +71,23 @@ GrainState Grains::state() const {
   const auto reference = reference_.toHost();
   const bool listed = rebuilds_ > 0;
   const auto lists = listed ? neighbours_.toHost() : contact::NeighbourList::HostCopy{};
-  std::vector<std::uint32_t> slotOf(count_);
-  for (std::size_t i = 0; i < count_; ++i) slotOf[id[i]] = static_cast<std::uint32_t>(i);
+  const auto ghost = ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>(slots_);
+  std::vector<std::uint32_t> slotOf;
+  for (std::size_t i = 0; i < slots_; ++i)
+    if (!ghost[i]) slotOf.push_back(static_cast<std::uint32_t>(i));
+  std::sort(slotOf.begin(), slotOf.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
 
   GrainState s;
-  s.skin = model_.skin, s.rebuilds = rebuilds_;
-  s.wallShear.resize(wallShear.size());
-  for (std::size_t g = 0; g < count_; ++g) {
-    const std::size_t i = slotOf[g];
+  s.layout = {model_.ledger, boundaryCount_, frictional_};
+  s.total = static_cast<std::int64_t>(count_), s.skin = model_.skin, s.rebuilds = rebuilds_;
+  const auto walls = static_cast<std::size_t>(boundaryCount_);
+  for (const std::uint32_t i : slotOf) {
+    s.id.push_back(id[i]);
     s.position.push_back(position[i]);
     s.velocity.push_back(velocity[i].xyz());
     s.spin.push_back(spin[i].xyz());
     s.remainders.push_back(remainders[i]);
-    if (!dissipated.empty()) s.dissipated.push_back(dissipated[i]);
+    if (model_.ledger) s.dissipated.push_back(dissipated[i]);
     s.travelled.push_back(listed ? base::Vec3<std::uint32_t>{position[i].x - reference[i].x,
                                                              position[i].y - reference[i].y,
                                                              position[i].z - reference[i].z}
@@ -85,63 +100,83 @@ GrainState Grains::state() const {
       if (!lists.shear.empty()) s.contactShear.push_back(lists.shear[at]);
       ++s.contacts.back();
     }
-    if (!wallBits.empty()) s.wallBits.push_back(wallBits[i]);
+    if (walls > 0) s.wallBits.push_back(wallBits[i]);
     // Springs of walls out of touch are never read again.
-    for (std::size_t b = 0; b * count_ < wallShear.size(); ++b)
-      if (wallBits[i] >> b & 1) s.wallShear[b * count_ + g] = wallShear[b * count_ + i];
+    for (std::size_t b = 0; b < walls && frictional_; ++b)
+      s.wallShear.push_back(wallBits[i] >> b & 1 ? wallShear[i * walls + b] : Vec3f{});
   }
   return s;
 }
 
 std::vector<std::uint32_t> Grains::stateWords() const { return state().words(); }
 
-void Grains::restore(const GrainState& s) {
-  if (s.position.size() != count_ || s.dissipated.size() != dissipated_.size() ||
-      s.wallBits.size() != wallTouching_.size() || s.wallShear.size() != wallShear_.size() ||
-      s.contactShear.size() != (frictional_ ? s.neighbour.size() : 0))
+void Grains::restore(const GrainState& saved) {
+  if (saved.total != static_cast<std::int64_t>(count_) ||
+      saved.layout != GrainLayout{model_.ledger, boundaryCount_, frictional_})
     throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
                                        "resume with the scene that was run",
-                                       s.position.size(), count_));
+                                       saved.total, count_));
   // The list is built where the saved run built it, so that it stays valid for as long. With another skin that would
   // say nothing: then it is built here and now.
-  const bool asThen = s.rebuilds > 0 && s.skin == model_.skin;
-  std::vector<Position> position(count_);
-  std::vector<Vec4f> velocity(count_), spin(count_);
-  std::vector<std::uint32_t> id(count_);
-  for (std::size_t g = 0; g < count_; ++g) {
-    position[g] = asThen ? before(s.position[g], s.travelled[g]) : s.position[g];
-    velocity[g] = withZero(s.velocity[g]), spin[g] = withZero(s.spin[g]);
-    id[g] = static_cast<std::uint32_t>(g);
+  const bool asThen = saved.rebuilds > 0 && saved.skin == model_.skin;
+  const auto placed = [&](const GrainState& s, std::size_t k) {
+    return asThen ? before(s.position[k], s.travelled[k]) : s.position[k];
+  };
+  std::vector<int> owner;
+  if (subdomain_)
+    for (std::size_t k = 0; k < saved.rows(); ++k)
+      owner.push_back(subdomain_->partition().view().ownerOf(base::toUnits(placed(saved, k))));
+  const GrainState s = redistribute(comm_, saved, owner);
+
+  slots_ = s.rows();
+  std::vector<Position> position(slots_);
+  std::vector<Vec4f> velocity(slots_), spin(slots_);
+  for (std::size_t k = 0; k < slots_; ++k) {
+    position[k] = placed(s, k);
+    velocity[k] = withZero(s.velocity[k]), spin[k] = withZero(s.spin[k]);
   }
   position_[0].assign(position), velocity_[0].assign(velocity), spin_[0].assign(spin);
-  remainders_.assign(s.remainders), id_.assign(id), dissipated_.assign(s.dissipated);
+  position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
+  remainders_.assign(s.remainders), id_.assign(s.id), dissipated_.assign(s.dissipated);
   wallTouching_.assign(s.wallBits), wallShear_.assign(s.wallShear);
+  if (subdomain_) subdomain_->forgetRoles();
+  neighbours_.forget();
   invalidateNeighbours();
   refreshNeighbours();
 
-  id = id_.toHost();
+  const std::vector<std::uint32_t> id = id_.toHost();
   const auto units = [](std::uint32_t word) { return static_cast<std::int32_t>(word); };
-  for (std::size_t i = 0; i < count_; ++i) {
-    const auto& t = s.travelled[id[i]];
-    position[i] = s.position[id[i]];
-    if (asThen && base::squaredNorm(Vec3i{units(t.x), units(t.y), units(t.z)}) > (skinUnits_ / 2) * (skinUnits_ / 2))
-      invalidateNeighbours();
+  bool beyond = false;
+  position = position_[0].toHost();
+  for (std::size_t i = 0; i < slots_; ++i) {
+    const auto row = std::lower_bound(s.id.begin(), s.id.end(), id[i]);
+    if (row == s.id.end() || *row != id[i]) continue; // a ghost
+    const auto k = static_cast<std::size_t>(row - s.id.begin());
+    const auto& t = s.travelled[k];
+    position[i] = s.position[k];
+    beyond =
+        beyond || base::squaredNorm(Vec3i{units(t.x), units(t.y), units(t.z)}) > (skinUnits_ / 2) * (skinUnits_ / 2);
   }
   position_[0].assign(position);
+  if (subdomain_) updateGhosts();
+  if (asThen && comm_.maximumOf(beyond ? 1 : 0) > 0) invalidateNeighbours();
   restoreContacts(s, id);
   rebuilds_ = s.rebuilds;
   if (rebuilds_ == 0) invalidateNeighbours(); // the first list is still to come
 }
 
 void Grains::restoreContacts(const GrainState& s, const std::vector<std::uint32_t>& id) {
-  std::vector<std::size_t> first(count_ + 1);
-  for (std::size_t g = 0; g < count_; ++g) first[g + 1] = first[g] + s.contacts[g];
+  std::vector<std::size_t> first(s.rows() + 1);
+  for (std::size_t g = 0; g < s.rows(); ++g) first[g + 1] = first[g] + s.contacts[g];
   auto lists = neighbours_.toHost();
-  for (std::size_t i = 0; i < count_; ++i) {
+  const auto ghost = ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>(slots_);
+  for (std::size_t i = 0; i < slots_; ++i) {
     lists.touching[i] = 0;
+    if (ghost[i]) continue;
     // Both ascend in the neighbours' ids.
-    std::size_t c = first[id[i]];
-    const std::size_t end = first[id[i] + 1];
+    const auto row = static_cast<std::size_t>(std::lower_bound(s.id.begin(), s.id.end(), id[i]) - s.id.begin());
+    std::size_t c = first[row];
+    const std::size_t end = first[row + 1];
     for (std::uint32_t k = 0; k < lists.count[i] && c < end; ++k) {
       const auto at = static_cast<std::size_t>(lists.at(i, k));
       if (id[lists.slot[at]] != s.neighbour[c]) continue;

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// The ranks that run one scene together; the only place that calls MPI. A program that was started alone never does.
+namespace grouser::base {
+
+using Bytes = std::vector<std::byte>;
+
+/// The ranks of a run. Cheap to copy. By default alone: rank 0 of 1, every call below returns at once and calls no MPI.
+/// What a call takes from all ranks is in the order of the ranks. Calls of all ranks must come in the same order.
+/// MPI's own errors end all ranks.
+class Comm {
+public:
+  Comm() = default;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool alone() const { return size_ == 1; }
+  bool first() const { return rank_ == 0; }
+
+  /// In place, on all ranks. Integer sums are exact; so every order of ranks gives the same bits.
+  void sum(std::int64_t* values, std::size_t count) const;
+  void minimum(std::uint64_t* values, std::size_t count) const;
+  void maximum(std::uint64_t* values, std::size_t count) const;
+  void maximum(double* values, std::size_t count) const;
+  std::uint64_t maximumOf(std::uint64_t value) const {
+    maximum(&value, 1);
+    return value;
+  }
+  std::int64_t sumOf(std::int64_t value) const {
+    sum(&value, 1);
+    return value;
+  }
+  /// What all lower ranks gave, added up.
+  std::int64_t sumBelow(std::int64_t value) const;
+  void wait() const; ///< for all ranks
+  /// Time that this rank has spent waiting for others since the start [s]; 0 where it is alone.
+  double waited() const { return waited_ ? *waited_ : 0.0; }
+
+  /// What every rank gave, by rank.
+  std::vector<Bytes> gather(const Bytes& mine) const;
+  /// `to[r]` goes to rank r; returns what came from each.
+  std::vector<Bytes> allToAll(const std::vector<Bytes>& to) const;
+  /// What `root` has, on all.
+  Bytes broadcast(const Bytes& bytes, int root = 0) const;
+  std::string broadcast(const std::string& text, int root = 0) const;
+
+  /// One value of a plain type from every rank, by rank.
+  template <class T> std::vector<T> gatherValue(const T& mine) const {
+    std::vector<T> all;
+    for (const std::vector<T>& part : gatherAll(std::vector<T>{mine})) all.push_back(part.front());
+    return all;
+  }
+  template <class T> std::vector<std::vector<T>> gatherAll(const std::vector<T>& mine) const {
+    std::vector<std::vector<T>> all;
+    for (const Bytes& bytes : gather(bytesOf(mine))) all.push_back(valuesOf<T>(bytes));
+    return all;
+  }
+
+  /// A blocking message to one rank, and from one.
+  void send(int to, const Bytes& bytes) const;
+  Bytes receive(int from) const;
+
+  template <class T> static Bytes bytesOf(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* raw = reinterpret_cast<const std::byte*>(values.data());
+    return {raw, raw + values.size() * sizeof(T)};
+  }
+  template <class T> static std::vector<T> valuesOf(const Bytes& bytes) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* values = reinterpret_cast<const T*>(bytes.data());
+    return {values, values + bytes.size() / sizeof(T)};
+  }
+
+private:
+  friend class Ranks;
+  friend class Messages;
+  int rank_{0}, size_{1};
+  std::shared_ptr<double> waited_; ///< shared by all copies
+};
+
+/// Messages under way between ranks: posted without waiting, completed together.
+class Messages {
+public:
+  explicit Messages(const Comm& comm);
+  ~Messages();
+  Messages(Messages&&) noexcept;
+  Messages& operator=(Messages&&) noexcept;
+
+  /// `memory` stays as it is until waitAll(). Messages of one pair of ranks and one tag keep their order. No limit to
+  /// the size: what MPI cannot take at once goes in parts.
+  void receive(int from, void* memory, std::size_t bytes, int tag);
+  void send(int to, const void* memory, std::size_t bytes, int tag);
+  void waitAll();
+  /// True where MPI takes pointers to device memory as they are.
+  static bool deviceMemoryTravels();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Owns the connection between the ranks: one for the life of the program. Where the program was started alone it does
+/// nothing.
+class Ranks {
+public:
+  /// Joins the other ranks where an MPI launcher has started this program with others.
+  Ranks(int& argc, char**& argv);
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  const Comm& comm() const { return comm_; }
+  int rankOnHost() const { return rankOnHost_; }
+  int ranksOnHost() const { return ranksOnHost_; }
+  /// Ends all ranks with this exit code. Returns where the program is alone.
+  void abort(int code) const;
+
+private:
+  Comm comm_;
+  int rankOnHost_{0}, ranksOnHost_{1};
+};
+
+} // namespace grouser::base

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/bed_tops.hpp"
+
+#include "base/error.hpp"
+#include "base/for_each.cuh"
+
+#include <cstring>
+#include <string>
+
+namespace grouser::terrain {
+
+using base::Vec3d;
+
+namespace {
+
+/// Words that fall as numbers rise, so that the least word is the highest number whatever thread comes first. None of
+/// them is the word with all bits set, which stands for "no grain".
+GROUSER_HD std::uint64_t wordOf(double height) {
+  std::uint64_t bits;
+  memcpy(&bits, &height, sizeof bits);
+  const std::uint64_t rising = bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
+  return ~rising;
+}
+
+double heightOf(std::uint64_t word) {
+  if (word == ~std::uint64_t{0}) return -HUGE_VAL;
+  const std::uint64_t rising = ~word;
+  const std::uint64_t bits = rising >> 63 ? rising & ~(std::uint64_t{1} << 63) : ~rising;
+  double height;
+  std::memcpy(&height, &bits, sizeof height);
+  return height;
+}
+
+/// Centres and radii of grains on the host, and of a running bed.
+struct OfSeeds {
+  const Seed* seeds;
+  GROUSER_HD Vec3d centre(int g) const { return seeds[g].centre; }
+  GROUSER_HD double radius(int g) const { return seeds[g].radius; }
+};
+struct OfGrains {
+  const base::Position* position;
+  base::PositionScale scale;
+  double grainRadius;
+  GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
+  GROUSER_HD double radius(int) const { return grainRadius; }
+};
+
+template <class Source> struct RaiseTops {
+  Source grains;
+  NodeGrid grid;
+  double reach;
+  std::uint64_t* words;
+  GROUSER_HD void operator()(int g) const {
+    const Vec3d c = grains.centre(g);
+    const std::uint64_t top = wordOf(c.z + grains.radius(g));
+    std::uint64_t* const target = words;
+    grid.forEachWithin(c.x, c.y, reach, [=](std::size_t node) { base::atomicMin64(target + node, top); });
+  }
+};
+
+template <class Source> std::vector<std::uint64_t> raise(const base::Exec& exec, const Source& source,
+                                                         std::size_t count, const NodeGrid& grid, double reach) {
+  base::Array<std::uint64_t> words(exec, std::vector<std::uint64_t>(grid.size(), ~std::uint64_t{0}));
+  base::forEach(exec, "highest tops", static_cast<std::int64_t>(count),
+                RaiseTops<Source>{source, grid, reach, words.data()});
+  return words.toHost();
+}
+
+std::vector<double> heights(const std::vector<std::uint64_t>& words) {
+  std::vector<double> out;
+  out.reserve(words.size());
+  for (const std::uint64_t word : words) out.push_back(heightOf(word));
+  return out;
+}
+
+} // namespace
+
+std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach) {
+  // Slaves are true copies: they change no maximum.
+  const OfGrains source{grains.positions(), grains.scale(), grains.model().radius};
+  std::vector<std::uint64_t> words = raise(exec, source, grains.slots(), grid, reach);
+  grains.comm().minimum(words.data(), words.size());
+  return heights(words);
+}
+
+std::vector<double> highestTops(std::span<const Seed> grains, const NodeGrid& grid, double reach) {
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const auto& [c, radius] = grains[g];
+    if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(radius)))
+      throw base::InputError("surface of the bed: grain " + std::to_string(g) + " is not at a finite place");
+  }
+  return heights(raise(base::cpuExec(1), OfSeeds{grains.data()}, grains.size(), grid, reach));
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains on several ranks: hand-over of those that have crossed a border, ghosts of those near one.
+#include "terrain/grains.hpp"
+
+#include "base/algorithms.hpp"
+#include "base/for_each.cuh"
+
+#include <algorithm>
+
+namespace grouser::terrain {
+
+using contact::Exchange;
+using contact::ExchangeField;
+using contact::fieldOf;
+
+namespace {
+
+/// to[i] = from[slots[i]], records of `words` words each.
+struct Keep {
+  const std::uint32_t* slots;
+  const std::uint32_t* from;
+  std::uint32_t* to;
+  std::uint32_t words;
+  GROUSER_HD void operator()(int i) const {
+    const std::uint64_t source = static_cast<std::uint64_t>(slots[i]) * words;
+    const std::uint64_t target = static_cast<std::uint64_t>(i) * words;
+    for (std::uint32_t w = 0; w < words; ++w) to[target + w] = from[source + w];
+  }
+};
+
+/// Where the row of each grain is found after the hand-over, before sorting.
+struct NoteOrigins {
+  const std::uint32_t* kept;
+  std::uint32_t keptCount, owned, former;
+  std::uint32_t* origin;
+  GROUSER_HD void operator()(int i) const {
+    const auto slot = static_cast<std::uint32_t>(i);
+    origin[i] = slot < keptCount ? kept[slot] : slot < owned ? former + (slot - keptCount) : contact::RowOrigins::kNone;
+  }
+};
+
+constexpr double kImbalance = 1.15;         // the dearest rank over the mean, above which cuts are moved [-]
+constexpr std::int64_t kBalanceEvery = 200; // steps, at least
+
+} // namespace
+
+template <class Each> void Grains::forOwnArrays(const Each& each) {
+  each(position_[0], 1), each(velocity_[0], 1), each(spin_[0], 1);
+  each(remainders_, 1), each(id_, 1);
+  if (!dissipated_.empty() || model_.ledger) each(dissipated_, 1);
+  if (boundaryCount_ > 0) each(wallTouching_, 1);
+  if (boundaryCount_ > 0 && frictional_) each(wallShear_, static_cast<std::uint32_t>(boundaryCount_));
+}
+
+/// Every grain goes to the rank that its centre lies with, and ghosts are made of those near the borders. Afterwards
+/// the slots hold the grains that stayed, those that came, and the ghosts, in this order.
+void Grains::shareOut() {
+  Subdomain& subdomain = *subdomain_;
+  completeGhosts();
+  if (subdomain.rebalances()) rebalance();
+  subdomain.findLeaving(position_[0].data(), slots_);
+  if (handOver_) handOver_(subdomain.destination(), slots_);
+
+  // The rows of the neighbour list travel with their grains, as ids and springs.
+  Exchange& exchange = subdomain.handOver();
+  const std::size_t kept = subdomain.kept().size(), owned = kept + exchange.coming();
+  contact::TravellingRows rows{nullptr, 0, frictional_};
+  rows.capacity = static_cast<std::uint32_t>(
+      subdomain.comm().maximumOf(neighbours_.mostTouching(exchange.leavingSlots(), exchange.leaving())));
+  base::Array<std::uint32_t> leavingRows(exec_, exchange.leaving() * rows.words());
+  rows.data = leavingRows.data();
+  neighbours_.exportRows(exchange.leavingSlots(), exchange.leaving(), rows);
+  arrivedRows_.resize(exchange.coming() * rows.words());
+
+  std::vector<ExchangeField> fields;
+  forOwnArrays([&](auto& array, std::uint32_t width) {
+    const ExchangeField one = fieldOf(array);
+    fields.push_back({one.data, one.words * width});
+  });
+  fields.push_back({leavingRows.data(), rows.words(), true});
+  exchange.start(fields);
+  fields.clear();
+  forOwnArrays([&]<class T>(base::Array<T>& array, std::uint32_t width) {
+    base::Array<T> to(exec_, owned * width);
+    const ExchangeField from = fieldOf(array), target = fieldOf(to);
+    base::forEach(exec_, "keep grains", static_cast<std::int64_t>(kept),
+                  Keep{subdomain.kept().data(), static_cast<const std::uint32_t*>(from.data),
+                       static_cast<std::uint32_t*>(target.data), from.words * width});
+    base::synchronize(exec_);
+    array.swap(to);
+    fields.push_back({target.data, target.words * width});
+  });
+  fields.push_back({arrivedRows_.data(), rows.words(), true});
+  exchange.putFrom(kept);
+  exchange.finish(fields);
+  rows.data = arrivedRows_.data();
+
+  subdomain.findMasters(position_[0].data(), owned);
+  const std::uint32_t former = static_cast<std::uint32_t>(slots_);
+  slots_ = owned + subdomain.ghosts();
+  forOwnArrays([&](auto& array, std::uint32_t width) { array.resizeKeeping(slots_ * width); });
+  position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
+  const ExchangeField ghosts[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0]), fieldOf(id_)};
+  subdomain.ghostUpdate().run(ghosts);
+
+  origin_.resize(slots_);
+  base::forEach(exec_, "note origins", static_cast<std::int64_t>(slots_),
+                NoteOrigins{subdomain.kept().data(), static_cast<std::uint32_t>(kept),
+                            static_cast<std::uint32_t>(owned), former, origin_.data()});
+  origins_ = {nullptr, nullptr, former, rows};
+}
+
+/// The masters' new states set out; the ghosts elsewhere take them when completeGhosts() is called there.
+void Grains::sendGhosts() {
+  const ExchangeField fields[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0])};
+  subdomain_->ghostUpdate().start(fields);
+}
+
+void Grains::completeGhosts() {
+  if (!subdomain_ || !subdomain_->ghostUpdate().underWay()) return;
+  const ExchangeField fields[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0])};
+  subdomain_->ghostUpdate().finish(fields);
+}
+
+void Grains::updateGhosts() {
+  sendGhosts();
+  completeGhosts();
+}
+
+/// Moves the cuts where one rank has had clearly more to do than the mean. Time is only measured, so no two runs cut
+/// alike; no bit of the answer depends on it.
+void Grains::rebalance() {
+  const base::Comm& comm = subdomain_->comm();
+  const Clock::time_point now = Clock::now();
+  if (steps_ < balancedAt_ + kBalanceEvery) return;
+  const double busy =
+      std::chrono::duration<double>(now - measuredFrom_).count() - (comm.waited() - waitedBefore_) - replicatedSeconds_;
+  std::int64_t mine = std::max<std::int64_t>(1, static_cast<std::int64_t>(1e9 * busy));
+  const auto most = static_cast<std::int64_t>(comm.maximumOf(static_cast<std::uint64_t>(mine)));
+  const std::int64_t all = comm.sumOf(mine);
+  if (static_cast<double>(most) * comm.size() > kImbalance * static_cast<double>(all)) {
+    const auto own = static_cast<double>(std::max<std::size_t>(1, slots_ - subdomain_->ghosts()));
+    subdomain_->setPartition(subdomain_->balanced(position_[0].data(), slots_, static_cast<double>(mine) / own));
+    ++rebalancings_;
+  }
+  balancedAt_ = steps_, measuredFrom_ = now, waitedBefore_ = comm.waited(), replicatedSeconds_ = 0;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/position.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grouser::terrain {
+
+inline constexpr int kMostSubdomainsAnAxis = 64;
+
+/// What a kernel sees of a partition: the planes between the subdomains, ascending on each axis.
+struct PartitionView {
+  int shape[3];
+  std::int64_t cut[3][kMostSubdomainsAnAxis - 1]; ///< [units]
+
+  /// Place along one axis of the subdomain that holds coordinate `u`.
+  GROUSER_HD int along(int axis, std::int64_t u) const {
+    int k = 0;
+    while (k < shape[axis] - 1 && u >= cut[axis][k]) ++k;
+    return k;
+  }
+  GROUSER_HD int rankAt(int x, int y, int z) const { return (x * shape[1] + y) * shape[2] + z; }
+  GROUSER_HD int ownerOf(const base::Vec3l& u) const { return rankAt(along(0, u.x), along(1, u.y), along(2, u.z)); }
+};
+
+/// Cuts space into a cubic lattice of subdomains, one a rank. The outer ones reach to infinity, so that every grain has
+/// exactly one owner: the subdomain in which its centre lies.
+class Partition {
+public:
+  /// All of space is one subdomain.
+  Partition() = default;
+  /// `weights` [axis][bin] say how much work lies where, in equal bins from `low` to `high` on each axis; the cuts
+  /// share it out evenly among the slabs of each axis.
+  Partition(const std::array<int, 3>& shape, const base::Vec3l& low, const base::Vec3l& high,
+            const std::array<std::vector<std::int64_t>, 3>& weights);
+
+  int count() const { return shape_[0] * shape_[1] * shape_[2]; }
+  const std::array<int, 3>& shape() const { return shape_; }
+  const std::vector<std::int64_t>& cuts(int axis) const { return cuts_[static_cast<std::size_t>(axis)]; } ///< [units]
+  PartitionView view() const;
+  bool operator==(const Partition&) const = default;
+
+private:
+  std::array<int, 3> shape_{1, 1, 1};
+  std::array<std::vector<std::int64_t>, 3> cuts_;
+};
+
+/// The lattice of `ranks` subdomains with the least area of cuts through a box of this size (any unit), among all
+/// factorisations that fit `wanted`, where 0 leaves an axis free. Throws InputError where `wanted` does not make
+/// `ranks`.
+std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size,
+                                const std::array<int, 3>& wanted = {0, 0, 0});
+
+/// Bins of the histograms that cuts are made from.
+inline constexpr int kPartitionBins = 4096;
+
+} // namespace grouser::terrain

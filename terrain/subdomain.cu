@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/subdomain.hpp"
+
+#include "base/algorithms.hpp"
+#include "base/for_each.cuh"
+
+#include <algorithm>
+#include <utility>
+
+namespace grouser::terrain {
+
+using base::Position;
+using base::Vec3l;
+
+namespace {
+
+GROUSER_HD bool isSlave(const std::uint32_t* role, int i) {
+  return role && role[i] == static_cast<std::uint32_t>(Role::slave);
+}
+
+/// Who owns each grain now.
+struct FindOwner {
+  PartitionView partition;
+  const Position* position;
+  const std::uint32_t* role; ///< null before the first roles
+  int me;
+  std::uint32_t *destination, *leaves, *stays;
+  GROUSER_HD void operator()(int i) const {
+    const bool slave = isSlave(role, i);
+    const int owner = slave ? -1 : partition.ownerOf(base::toUnits(position[i]));
+    destination[i] = slave ? Subdomain::kNobody : static_cast<std::uint32_t>(owner);
+    leaves[i] = !slave && owner != me;
+    stays[i] = !slave && owner == me;
+  }
+};
+
+struct ReadRanks {
+  const std::uint32_t *slots, *destination;
+  std::uint64_t* ranks;
+  GROUSER_HD void operator()(int k) const { ranks[k] = destination[slots[k]]; }
+};
+
+/// The other subdomains within range of one grain: counted, or listed where `ranks` is not null.
+struct FindNeedy {
+  PartitionView partition;
+  const Position* position;
+  std::int64_t range;
+  int me;
+  std::uint32_t* count;
+  const std::uint32_t* first;
+  std::uint64_t* ranks;
+  std::uint32_t* slots;
+  GROUSER_HD void operator()(int i) const {
+    const Vec3l u = base::toUnits(position[i]);
+    int low[3], high[3];
+    for (int a = 0; a < 3; ++a) low[a] = partition.along(a, u[a] - range), high[a] = partition.along(a, u[a] + range);
+    std::uint32_t found = 0;
+    for (int x = low[0]; x <= high[0]; ++x)
+      for (int y = low[1]; y <= high[1]; ++y)
+        for (int z = low[2]; z <= high[2]; ++z) {
+          const int rank = partition.rankAt(x, y, z);
+          if (rank == me) continue;
+          if (ranks) {
+            ranks[first[i] + found] = static_cast<std::uint64_t>(rank);
+            slots[first[i] + found] = static_cast<std::uint32_t>(i);
+          }
+          ++found;
+        }
+    if (!ranks) count[i] = found;
+  }
+};
+
+/// Roles in the order before sorting: owned grains by who needs them, then ghosts.
+struct AssignRoles {
+  const std::uint32_t* needy;
+  std::uint32_t owned;
+  std::uint32_t* role;
+  GROUSER_HD void operator()(int i) const {
+    const auto slot = static_cast<std::uint32_t>(i);
+    role[i] = static_cast<std::uint32_t>(slot >= owned ? Role::slave : needy[i] > 0 ? Role::master : Role::unique);
+  }
+};
+
+struct Sorted {
+  const std::uint32_t *order, *roleBefore;
+  std::uint32_t *role, *ghost, *unique, *master, *newSlot;
+  GROUSER_HD void operator()(int i) const {
+    const std::uint32_t r = roleBefore[order[i]];
+    role[i] = r;
+    ghost[i] = r == static_cast<std::uint32_t>(Role::slave);
+    unique[i] = r == static_cast<std::uint32_t>(Role::unique);
+    master[i] = r == static_cast<std::uint32_t>(Role::master);
+    newSlot[order[i]] = static_cast<std::uint32_t>(i);
+  }
+};
+
+/// Where the grains of this rank lie along each axis.
+struct CountInBins {
+  const Position* position;
+  const std::uint32_t* role;
+  Vec3l low, width;
+  std::int64_t* bins; ///< [axis][kPartitionBins]
+  GROUSER_HD void operator()(int i) const {
+    if (isSlave(role, i)) return;
+    const Vec3l u = base::toUnits(position[i]);
+    for (int a = 0; a < 3; ++a) {
+      std::int64_t bin = (u[a] - low[a]) / width[a];
+      bin = bin < 0 ? 0 : bin < kPartitionBins ? bin : kPartitionBins - 1;
+      base::atomicAdd64(bins + a * kPartitionBins + bin, 1);
+    }
+  }
+};
+
+constexpr std::int64_t kBias = std::int64_t{1} << 41; // makes coordinates positive
+
+struct FindExtent {
+  const Position* position;
+  const std::uint32_t* role;
+  std::uint64_t* extent; ///< [6] least u + bias, then least bias - u
+  GROUSER_HD void operator()(int i) const {
+    if (isSlave(role, i)) return;
+    const Vec3l u = base::toUnits(position[i]);
+    for (int a = 0; a < 3; ++a) {
+      base::atomicMin64(extent + a, static_cast<std::uint64_t>(u[a] + kBias));
+      base::atomicMin64(extent + 3 + a, static_cast<std::uint64_t>(kBias - u[a]));
+    }
+  }
+};
+
+} // namespace
+
+Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range)
+    : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), handOver_(exec, options.comm),
+      ghostUpdate_(exec, options.comm), role_(exec), ghostMark_(exec), destination_(exec), kept_(exec), uniques_(exec),
+      masters_(exec) {}
+
+void Subdomain::findLeaving(const Position* position, std::size_t slots) {
+  base::Array<std::uint32_t> leaves(exec_, slots), stays(exec_, slots), leaving(exec_);
+  destination_.resize(slots);
+  base::forEach(exec_, "find owners", static_cast<std::int64_t>(slots),
+                FindOwner{partition_.view(), position, haveRoles_ ? role_.data() : nullptr, comm_.rank(),
+                          destination_.data(), leaves.data(), stays.data()});
+  base::listMarked(exec_, leaves.data(), slots, leaving);
+  base::listMarked(exec_, stays.data(), slots, kept_);
+  base::Array<std::uint64_t> ranks(exec_, leaving.size());
+  base::forEach(exec_, "read destinations", static_cast<std::int64_t>(leaving.size()),
+                ReadRanks{leaving.data(), destination_.data(), ranks.data()});
+  handOver_.route(ranks, leaving, leaving.size());
+}
+
+void Subdomain::findMasters(const Position* position, std::size_t owned) {
+  owned_ = owned;
+  const auto n = static_cast<std::int64_t>(owned);
+  base::Array<std::uint32_t> count(exec_, owned), first(exec_, owned);
+  FindNeedy find{partition_.view(), position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};
+  base::forEach(exec_, "count who needs a grain", n, find);
+  const std::uint32_t total = base::exclusiveScan(exec_, count.data(), first.data(), owned);
+  base::Array<std::uint64_t> ranks(exec_, total);
+  base::Array<std::uint32_t> slots(exec_, total);
+  find.first = first.data(), find.ranks = ranks.data(), find.slots = slots.data();
+  if (total > 0) base::forEach(exec_, "list who needs a grain", n, find);
+  ghostUpdate_.route(ranks, slots, total);
+  ghostUpdate_.putFrom(owned);
+  role_.resize(owned + ghosts());
+  base::forEach(exec_, "assign roles", static_cast<std::int64_t>(role_.size()),
+                AssignRoles{count.data(), static_cast<std::uint32_t>(owned), role_.data()});
+  base::synchronize(exec_); // `count` and its like go
+}
+
+void Subdomain::sorted(const std::uint32_t* order, std::size_t slots) {
+  base::Array<std::uint32_t> role(exec_, slots), unique(exec_, slots), master(exec_, slots), newSlot(exec_, slots);
+  ghostMark_.resize(slots);
+  base::forEach(
+      exec_, "sort roles", static_cast<std::int64_t>(slots),
+      Sorted{order, role_.data(), role.data(), ghostMark_.data(), unique.data(), master.data(), newSlot.data()});
+  role_.swap(role);
+  haveRoles_ = true;
+  base::listMarked(exec_, unique.data(), slots, uniques_);
+  base::listMarked(exec_, master.data(), slots, masters_);
+  ghostUpdate_.renumber(newSlot.data());
+  base::synchronize(exec_);
+}
+
+Partition Subdomain::balanced(const Position* position, std::size_t slots, double costPerGrain) const {
+  const auto n = static_cast<std::int64_t>(slots);
+  const std::uint32_t* role = haveRoles_ ? role_.data() : nullptr;
+  base::Array<std::uint64_t> extent(exec_, std::vector<std::uint64_t>(6, ~std::uint64_t{0}));
+  base::forEach(exec_, "find the extent", n, FindExtent{position, role, extent.data()});
+  std::vector<std::uint64_t> e = extent.toHost();
+  comm_.minimum(e.data(), e.size());
+  Vec3l low, high, width;
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    low[a] = static_cast<std::int64_t>(e[k]) - kBias;
+    high[a] = kBias - static_cast<std::int64_t>(e[k + 3]);
+    width[a] = std::max<std::int64_t>(1, (high[a] - low[a]) / kPartitionBins + 1);
+  }
+  base::Array<std::int64_t> bins(exec_, 3 * kPartitionBins);
+  base::forEach(exec_, "count grains in bins", n, CountInBins{position, role, low, width, bins.data()});
+  std::vector<std::int64_t> weight = bins.toHost();
+  // Whole numbers, so that all ranks get the same sums: costs in 1/1024 of the dearest.
+  double dearest = costPerGrain;
+  comm_.maximum(&dearest, 1);
+  const auto cost = std::max<std::int64_t>(1, static_cast<std::int64_t>(1024 * costPerGrain / dearest));
+  for (std::int64_t& w : weight) w *= cost;
+  comm_.sum(weight.data(), weight.size());
+  std::array<std::vector<std::int64_t>, 3> axes;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto first = weight.begin() + static_cast<std::ptrdiff_t>(a) * kPartitionBins;
+    axes[a].assign(first, first + kPartitionBins);
+  }
+  return {partition_.shape(), low, high, axes};
+}
+
+std::size_t Subdomain::bytes() const {
+  return role_.bytes() + ghostMark_.bytes() + destination_.bytes() + kept_.bytes() + uniques_.bytes() +
+         masters_.bytes();
+}
+
+} // namespace grouser::terrain

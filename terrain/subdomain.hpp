@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+#include "contact/exchange.hpp"
+#include "terrain/partition.hpp"
+
+#include <cstdint>
+
+namespace grouser::terrain {
+
+/// What a copy of a grain is to the subdomain that holds it.
+enum class Role : std::uint32_t {
+  unique, ///< no other subdomain needs it; integrated here
+  master, ///< its centre lies here, within range of a border; integrated here, and known to others as slaves
+  slave,  ///< a copy of a grain mastered elsewhere: used for forces, never integrated (a ghost)
+};
+
+/// How the grains are shared out among ranks.
+struct PartitionOptions {
+  base::Comm comm;                        ///< alone: one subdomain, and none of what follows
+  std::array<int, 3> subdomains{0, 0, 0}; ///< wanted along x, y, z; 0: automatic
+  bool rebalance = true;                  ///< move the cuts when one rank has clearly more work than another
+};
+
+/// One rank's subdomain of a bed on several ranks: which grains are its own, which of them others need, and the ghosts
+/// it needs itself. Knows slots and positions; what a grain carries is the owner's affair.
+class Subdomain {
+public:
+  /// `range` [units]: two grains farther apart than this never touch before the next rebuild.
+  Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range);
+
+  const base::Comm& comm() const { return comm_; }
+  const Partition& partition() const { return partition_; }
+  void setPartition(const Partition& partition) { partition_ = partition; }
+
+  /// Grains whose centre now lies in another subdomain: fills the route of the hand-over, and `kept()`.
+  void findLeaving(const base::Position* position, std::size_t slots);
+  /// By slot, until the next hand-over: the rank that the grain of this slot now belongs to, or kNobody for a slave.
+  static constexpr std::uint32_t kNobody = ~0u;
+  const std::uint32_t* destination() const { return destination_.data(); }
+  const base::Array<std::uint32_t>& kept() const { return kept_; } ///< slots of the grains that stay, ascending
+  contact::Exchange& handOver() { return handOver_; }
+
+  /// Masters among the first `owned` grains: fills the route of the ghost updates; ghosts go to the slots from `owned`
+  /// on, `ghosts()` of them.
+  void findMasters(const base::Position* position, std::size_t owned);
+  std::size_t ghosts() const { return ghostUpdate_.coming(); }
+  contact::Exchange& ghostUpdate() { return ghostUpdate_; }
+
+  /// The grains were sorted: slot i now holds what was in slot order[i].
+  void sorted(const std::uint32_t* order, std::size_t slots);
+  /// The slots hold owned grains only: they were loaded, not sorted.
+  void forgetRoles() { haveRoles_ = false; }
+  const std::uint32_t* roles() const { return role_.data(); }
+  const std::uint32_t* ghostMarks() const { return ghostMark_.data(); }  ///< not 0 for slaves
+  const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending
+  const base::Array<std::uint32_t>& masters() const { return masters_; }
+
+  /// Cuts that share out `costPerGrain` (of this rank, any unit) evenly.
+  Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
+  bool rebalances() const { return rebalance_; }
+  std::size_t bytes() const;
+
+private:
+  base::Exec exec_;
+  base::Comm comm_;
+  bool rebalance_;
+  std::int64_t range_;
+  Partition partition_;
+  contact::Exchange handOver_, ghostUpdate_;
+  std::size_t owned_{0};
+  bool haveRoles_{false};
+  base::Array<std::uint32_t> role_, ghostMark_, destination_, kept_, uniques_, masters_;
+};
+
+} // namespace grouser::terrain
