@@ -2,8 +2,7 @@
 // What the benches print and write.
 #include "runs/bench.hpp"
 
-#include "base/error.hpp"
-#include "runs/build_info.hpp"
+#include "runs/bench_report.hpp"
 #include "runs/progress.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <memory>
 
 namespace grouser::runs {
@@ -24,45 +22,12 @@ namespace {
 
 constexpr int kCountsTaken = 20; // how often contacts are counted in the instrumented pass
 
-base::Exec execOf(const std::string& device, int threads) {
-  if (device != "auto" && device != "cpu" && device != "cuda")
-    throw base::InputError(fmt::format("--device {}: is none of auto, cpu, cuda", device));
-  if (device == "cuda" || (device == "auto" && base::cudaAvailable())) return base::cudaExec();
-  return base::cpuExec(threads);
-}
-
-/// Machine, device and program: the first lines of every bench.
-Json origin(const char* bench, const base::Exec& exec) {
-  const BuildInfo build = buildInfo();
-  Json json;
-  json["bench"] = bench;
-  json["device"] = base::describe(exec);
-  json["machine"] = machineText();
-  json["version"] = build.version;
-  json["commit"] = build.commit;
-  json["compiler"] = build.compiler;
-  json["cuda"] = build.cuda;
-  fmt::print("device    {}\nmachine   {}\nprogram   grouser {}, commit {}, {}{}\n", base::describe(exec), machineText(),
-             build.version, build.commit, build.compiler, build.cuda.empty() ? "" : ", CUDA " + build.cuda);
-  std::fflush(stdout);
-  return json;
-}
-
 Json jsonOf(const BatchTimes& times) {
   return {{"steps_a_batch", times.steps},
           {"batches", times.microseconds},
           {"median", times.median()},
           {"min", times.least()},
           {"max", times.most()}};
-}
-
-void write(const Json& json, const std::string& path) {
-  if (path.empty()) return;
-  std::ofstream file(path, std::ios::binary);
-  file << json.dump(2) << '\n';
-  file.close();
-  if (!file) throw base::InputError(fmt::format("{}: cannot be written; name another file with --json", path));
-  fmt::print("json      {}\n", path);
 }
 
 /// Steps of the simulation, with progress.
@@ -118,8 +83,8 @@ Json printParts(const StepBench& bench) {
 } // namespace
 
 void benchBedCommand(const BenchCommand& command) {
-  const base::Exec exec = execOf(command.device.empty() ? "auto" : command.device, command.threads);
-  Json json = origin("bed", exec);
+  const base::Exec exec = benchExec(command.device.empty() ? "auto" : command.device, command.threads);
+  Json json = benchOrigin("bed", exec);
   const BedBench& b = command.bed;
   fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
              "settled {:g} s\n",
@@ -166,15 +131,15 @@ void benchBedCommand(const BenchCommand& command) {
   json["bytes_a_grain"] = f.bytesPerGrain;
   json["steps_taken"] = f.stepsTaken;
   if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
-  write(json, command.json);
+  writeBench(json, command.json);
 }
 
 void benchStepCommand(const BenchCommand& command) {
   const Scene scene = loadScene(command.scene, command.overrides);
   const std::string device = command.device.empty() ? scene.run.device : command.device;
-  const base::Exec exec = execOf(device, command.threads ? command.threads : scene.run.threads);
+  const base::Exec exec = benchExec(device, command.threads ? command.threads : scene.run.threads);
   const StepBenchOptions& o = command.step;
-  Json json = origin("step", exec);
+  Json json = benchOrigin("step", exec);
 
   std::unique_ptr<Progress> settling;
   const Clock::time_point start = Clock::now();
@@ -248,7 +213,7 @@ void benchStepCommand(const BenchCommand& command) {
   fmt::print("\n");
   json["host_peak_bytes"] = host;
   if (!exec.onCpu()) json["device_bytes_taken"] = bytes;
-  write(json, command.json);
+  writeBench(json, command.json);
 }
 
 } // namespace grouser::runs

@@ -2,6 +2,7 @@
 #include "base/comm.hpp"
 #include "base/error.hpp"
 #include "runs/bench.hpp"
+#include "runs/bench_contacts.hpp"
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
 #include "runs/option_checks.hpp"
@@ -114,6 +115,32 @@ void addBench(CLI::App& app, runs::BenchCommand& c) {
       ->check(runs::notNegative("a time in seconds"));
   addCommon(step);
   step->callback([&c] { runs::benchStepCommand(c); });
+}
+
+void addContactsBench(CLI::App& app, runs::ContactsBench& c) {
+  CLI::App* contacts = app.get_subcommand("bench")->add_subcommand(
+      "contacts", "Contact detection alone, over the number of contacts, beside sequential Bullet");
+  contacts
+      ->add_option("--contacts", c.contacts,
+                   "about so many, each pair once: a list such as 1e5,1e6,1e7; default: 3e4 to 1e7 on the CPU, 1e6 to "
+                   "6e9 on a GPU")
+      ->delimiter(',')
+      ->check(CLI::Range(1.0, 6.4e9));
+  contacts->add_flag("--count-only", c.countOnly, "count the pairs, do not store them");
+  contacts->add_option("--at-a-time", c.atATime, "spheres sorted at a time; default: all on the CPU, 2.5e8 on a GPU")
+      ->check(runs::wholeNumber(1));
+  contacts->add_option("--repeats", c.repeats, "of each search; the median is reported")
+      ->check(runs::wholeNumber(1, 1000))
+      ->capture_default_str();
+  contacts
+      ->add_option("--bullet", c.bulletSpheres, "compare with Bullet up to so many spheres; 0: not at all")
+      ->check(runs::wholeNumber(0, 10'000'000))
+      ->capture_default_str();
+  contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
+  contacts->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(runs::wholeNumber(0, 1024));
+  contacts->add_option("--json", c.json, "write the figures to this file");
+  contacts->add_option("--plot", c.plot, "draw them into this PNG file");
+  contacts->callback([&c] { runs::benchContactsCommand(c); });
 }
 
 void addRender(CLI::App& app, runs::RenderCommand& c) {
@@ -261,6 +288,8 @@ int main(int argc, char** argv) {
   runs::HashCommand hash;
   runs::StudyCommand study;
   runs::RenderCommand render;
+  runs::ContactsBench contacts;
+  render.comm = ranks.comm(), contacts.ranks = &ranks;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
   runs::SpheresCommand spheres;
@@ -268,6 +297,7 @@ int main(int argc, char** argv) {
   addRun(app, run);
   addSweep(app, sweep);
   addBench(app, bench);
+  addContactsBench(app, contacts);
   addHash(app, hash);
   addStudy(app, study);
   addRender(app, render);

@@ -94,6 +94,10 @@ std::filesystem::path drawSweep(const std::filesystem::path& summary, const std:
   return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
+bool drawContacts(const std::filesystem::path& json, const std::filesystem::path& file, std::string& warning) {
+  return draw("contacts.py", {json.string(), file.string()}, warning) && std::filesystem::exists(file);
+}
+
 bool drawStudy(const std::filesystem::path& table, const std::filesystem::path& file, std::string& warning) {
   return draw("study.py", {table.string(), file.string()}, warning);
 }

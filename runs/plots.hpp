@@ -27,4 +27,7 @@ bool drawStudy(const std::filesystem::path& table, const std::filesystem::path& 
 /// Runs a Python script with these words. False, with a `warning`, where it does not end well.
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& words, std::string& warning);
 
+/// Draws the JSON of `grouser bench contacts` as `file`. False, with a `warning`, where it could not be drawn.
+bool drawContacts(const std::filesystem::path& json, const std::filesystem::path& file, std::string& warning);
+
 } // namespace grouser::runs

@@ -90,7 +90,7 @@ fs::path unfinished(const fs::path& picture) {
 }
 
 /// The number of cores this rank may use.
-int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c.ranks.size); }
+int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c.comm.size()); }
 
 /// Throws where something would be overwritten, or cannot be.
 void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vector<std::size_t>& frames) {
@@ -129,13 +129,13 @@ void paintShare(const RenderCommand& c, const FramePainter& painter, const std::
                 const fs::path& folder) {
   std::vector<std::size_t> mine;
   std::vector<fs::path> pictures;
-  for (std::size_t i = static_cast<std::size_t>(c.ranks.rank); i < frames.size();
-       i += static_cast<std::size_t>(c.ranks.size))
+  for (std::size_t i = static_cast<std::size_t>(c.comm.rank()); i < frames.size();
+       i += static_cast<std::size_t>(c.comm.size()))
     mine.push_back(frames[i]), pictures.push_back(picturePath(folder, frames[i]));
   const Sweeper sweeper(pictures);
   const int processes = std::max(1, std::min(c.processes, static_cast<int>(mine.size())));
   const int threads = c.threads > 0 ? c.threads : std::max(1, coresOf(c) / processes);
-  Progress progress("pictures");
+  Progress progress("pictures", c.comm.first());
   std::size_t done = 0;
   const auto paint = [&](std::size_t i) {
     omp_set_num_threads(threads);
@@ -144,9 +144,8 @@ void paintShare(const RenderCommand& c, const FramePainter& painter, const std::
   };
   shareWork(processes, mine.size(), paint, [&] {
     ++done;
-    if (c.ranks.rank == 0)
-      progress.update(static_cast<double>(done) / static_cast<double>(mine.size()),
-                      fmt::format("{} of {}", done, mine.size()));
+    progress.update(static_cast<double>(done) / static_cast<double>(mine.size()),
+                    fmt::format("{} of {}", done, mine.size()));
   });
 }
 
@@ -175,7 +174,7 @@ void renderCommand(const RenderCommand& c) {
       c.folder.empty() ? fs::absolute(c.frames).lexically_normal().parent_path() / "pictures" : fs::path(c.folder);
   checkTargets(c, folder, frames);
   const FramePainter painter(reader, options);
-  c.ranks.wait(); // all have looked at what is there before the first of them writes
+  c.comm.wait(); // all have looked at what is there before the first of them writes
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder, error))
@@ -184,10 +183,10 @@ void renderCommand(const RenderCommand& c) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   paintShare(c, painter, frames, folder);
-  c.ranks.wait();
-  if (c.ranks.rank != 0) return;
+  c.comm.wait();
+  if (!c.comm.first()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const int workers = std::min<int>(c.ranks.size * c.processes, static_cast<int>(frames.size()));
+  const int workers = std::min<int>(c.comm.size() * c.processes, static_cast<int>(frames.size()));
   fmt::print("pictures  {} of {} x {} in {}\n", frames.size(), options.view.width, options.view.height,
              folder.string());
   fmt::print("speed     {:.2f} frames/s: {:.2f} s by {} process{}\n", static_cast<double>(frames.size()) / seconds,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/comm.hpp"
+
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,12 +11,6 @@
 
 /// `grouser render`: pictures and a film of a run's frames.h5.
 namespace grouser::runs {
-
-/// The ranks that mpirun has started together; by default one alone.
-struct RenderRanks {
-  int rank = 0, size = 1;
-  std::function<void()> wait = [] {}; ///< for all of them
-};
 
 struct RenderCommand {
   std::string frames;               ///< the file
@@ -38,7 +33,7 @@ struct RenderCommand {
   int processes = 1;
   int threads = 0;    ///< of each process; 0: all cores shared among them
   bool force = false; ///< overwrite pictures and film
-  RenderRanks ranks;  ///< that share the frames
+  base::Comm comm;    ///< the ranks that share the frames
 };
 
 /// Width and height of "1600x900"; throws base::InputError.

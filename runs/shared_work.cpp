@@ -63,13 +63,14 @@ struct Child {
   std::string message; ///< kind and text of a failure
 };
 
-/// All children of one call; those that still run are ended with it.
+/// All children of one call; those that still run are ended with it, at once: a gentler signal that comes before a
+/// child has set its own handlers would be lost.
 class Children {
 public:
   Children() = default;
   ~Children() {
     for (Child& c : all) {
-      if (c.process > 0) kill(c.process, SIGTERM), waitpid(c.process, nullptr, 0);
+      if (c.process > 0) kill(c.process, SIGKILL), waitpid(c.process, nullptr, 0);
       if (c.pipe >= 0) close(c.pipe);
     }
   }

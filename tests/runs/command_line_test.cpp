@@ -76,7 +76,7 @@ TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
 
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
   for (const char* command :
-       {"", "run", "sweep", "bench", "bench bed", "bench step", "hash", "sinkage", "plan", "spheres", "render", "fields"}) {
+       {"", "run", "sweep", "bench", "bench bed", "bench step", "bench contacts", "hash", "sinkage", "plan", "spheres", "render", "fields"}) {
     const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;

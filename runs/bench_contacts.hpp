@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// `grouser bench contacts`: the speed of contact detection alone.
+namespace grouser::runs {
+
+struct ContactsBench {
+  std::vector<double> contacts; ///< about so many, each pair once; empty: a range that suits the device
+  bool countOnly = false;
+  std::size_t atATime = 0; ///< spheres sorted at a time; 0: as PairSearch has it
+  int repeats = 3;
+  std::size_t bulletSpheres = 100000; ///< compare with Bullet up to so many
+  std::string device = "auto";
+  int threads = 0;                    ///< 0: all
+  std::string json;                   ///< file; empty: none
+  std::string plot;                   ///< PNG file; empty: none
+  const base::Ranks* ranks = nullptr; ///< that share each search; null: this program alone
+};
+
+/// Prints a table over the number of contacts; each search starts from positions alone, which every
+/// rank holds.
+void benchContactsCommand(const ContactsBench& bench);
+
+/// The exponent p of seconds ~ contacts^p through the points, by least squares of the logarithms; NaN for less than
+/// two.
+double growthExponent(const std::vector<double>& contacts, const std::vector<double>& seconds);
+
+} // namespace grouser::runs

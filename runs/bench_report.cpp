@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/bench_report.hpp"
+
+#include "base/error.hpp"
+#include "runs/build_info.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace grouser::runs {
+
+using Json = nlohmann::ordered_json;
+
+base::Exec benchExec(const std::string& device, int threads, const base::Ranks* ranks) {
+  if (device != "auto" && device != "cpu" && device != "cuda")
+    throw base::InputError(fmt::format("--device {}: is none of auto, cpu, cuda", device));
+  if (device == "cuda" || (device == "auto" && base::cudaAvailable()))
+    return base::cudaExec(ranks ? ranks->rankOnHost() % std::max(1, base::cudaDevices()) : 0);
+  if (threads == 0 && ranks && ranks->ranksOnHost() > 1)
+    threads = std::max(1, base::cpuExec().threads / ranks->ranksOnHost());
+  return base::cpuExec(threads);
+}
+
+Json benchOrigin(const char* bench, const base::Exec& exec) {
+  const BuildInfo build = buildInfo();
+  Json json;
+  json["bench"] = bench;
+  json["device"] = base::describe(exec);
+  json["machine"] = machineText();
+  json["version"] = build.version;
+  json["commit"] = build.commit;
+  json["compiler"] = build.compiler;
+  json["cuda"] = build.cuda;
+  fmt::print("device    {}\nmachine   {}\nprogram   grouser {}, commit {}, {}{}\n", base::describe(exec), machineText(),
+             build.version, build.commit, build.compiler, build.cuda.empty() ? "" : ", CUDA " + build.cuda);
+  std::fflush(stdout);
+  return json;
+}
+
+void writeBench(const Json& json, const std::string& path) {
+  if (path.empty()) return;
+  std::ofstream file(path, std::ios::binary);
+  file << json.dump(2) << '\n';
+  file.close();
+  if (!file) throw base::InputError(fmt::format("{}: cannot be written; name another file with --json", path));
+  fmt::print("json      {}\n", path);
+}
+
+} // namespace grouser::runs
