@@ -35,9 +35,11 @@
 /// linear case, and its energy balance is exact along the row. In Newton's method it is a soft row:
 ///   J du + G dLambda = G (h/2 F - Lambda),   1/G = h^2/2 D,   D = -dF/dx1 = k/2 + c/h + stops.
 ///
-/// Newton's method uses the matrix of q_0 (Lambda acts along J(q_0)): a correction is h |w| times the one before. When
-/// that does not converge - a singular position lies between q_0 and q_1, so that a pivot changes its sign - the matrix
-/// is taken anew at each iterate, and the corrections are the smallest in the norm of kinetic energy.
+/// Newton's method uses the matrix of q_0 on both sides, though Lambda acts along J(q_0) and gaps close along J(q_1): a
+/// correction is h |w| times the one before. Where a singular position is near or between q_0 and q_1 some pivots have
+/// another size or sign at q_1 and that is too slow or diverges; the iteration is then mixed (acceleration.hpp), which
+/// solves the same equations. Should that fail too, the matrix is taken anew at each iterate, and the corrections are
+/// the smallest in the norm of kinetic energy.
 ///
 /// Orders 4, 6, 8 are symmetric compositions of stages gamma_i dt.
 namespace grouser::multibody::detail {
@@ -45,6 +47,9 @@ namespace grouser::multibody::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Gaps are not closed further than this part of the coordinates.
+constexpr double kRoundOff = 5e-16;
 
 /// First halves of the palindromes, the middle last.
 /// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,
@@ -77,6 +82,7 @@ RattleStep::RattleStep(const Problem& problem)
       gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()), twist(mean),
       trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
       relinearised(system.parts().size(), 0), factored(system.parts().size(), -1), gapOf(system.parts().size(), 0.0),
+      acceleration(6 * x.size()), iterate(6 * x.size()), change(iterate), weights(iterate),
       drivenThen(system.axes().size(), 0) {
   for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
   system.place(trialPose, frames);
@@ -202,31 +208,39 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
     scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   }
   // Below a few units in the last place of the coordinates there is nothing to gain.
-  const double tolerance = std::max(options.positionTolerance, 4e-15 * scale);
-  double before = std::numeric_limits<double>::infinity();
-  int slow = 0;
+  const double tolerance = std::max(options.positionTolerance, kRoundOff * scale);
+  double before = std::numeric_limits<double>::infinity(), best = before;
+  bool mixed = false;
+  const int limit = options.maxIterations;
   for (int iteration = 1;; ++iteration) {
+    system.solve(part, x);
+    if (mixed) mix(part);
     applyCorrection(part);
     moveTrial(part, state, h);
     const bool follow = updateAxes(part, h);
     const double gap = setResiduals(part, h);
     last.iterations = std::max(last.iterations, iteration);
     if (gap <= tolerance && !follow) break;
-    if (iteration >= options.maxIterations) {
-      // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
-      if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
-      break;
-    }
-    if (!(gap <= 0.5 * before)) ++slow;
-    before = gap;
-    if (relinearised[at(part.index)] || slow >= 3) {
-      relinearised[at(part.index)] = 1;
+    // A little above the tolerance and not getting better is round-off.
+    if (best <= 1e2 * tolerance && gap > 0.5 * before && !follow) break;
+    best = std::min(best, gap);
+    if (relinearised[at(part.index)]) {
+      if (iteration >= 2 * limit) {
+        // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
+        if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
+        break;
+      }
       linearise(part, trial);
-      for (const int node : part.bodies) x[at(node)] = {};
+    } else if (iteration >= limit) {
+      startAfresh(part, state, loads, h);
     } else if (follow) {
       linearise(part, frames);
-      slow = 0;
+      acceleration.reset();
+    } else if (iteration > 1 && !(gap <= 0.2 * before) && !mixed) {
+      mixed = true;
+      acceleration.reset();
     }
+    before = gap;
   }
   last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
   collectMomentum(part, state, loads, h);
@@ -321,8 +335,49 @@ double RattleStep::setResiduals(const Part& part, double h) {
   return largest;
 }
 
+/// From the motion without constraints, with the matrix of each iterate.
+void RattleStep::startAfresh(const Part& part, const State& state, const Loads& loads, double h) {
+  relinearised[at(part.index)] = 1;
+  for (const int node : part.bodies) {
+    const int b = system.bodyOf(node);
+    mean[at(b)] = state.twist[at(b)];
+    mean[at(b)].v += 0.5 * h * (loads.gravity + (1 / model.bodies()[at(b)].mass) * loads.external[at(b)].force);
+  }
+  for (const int k : part.constraints) impulse[at(k)] = {};
+  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
+  moveTrial(part, state, h);
+  updateAxes(part, h);
+  linearise(part, trial);
+  setResiduals(part, h);
+}
+
+/// Mixes the corrections in `x` with those of the iterations before, in the norm of kinetic energy.
+void RattleStep::mix(const Part& part) {
+  std::size_t n = 0;
+  const auto put = [&](double value, double& correction, double weight) {
+    iterate[n] = value, change[n] = correction, weights[n] = weight;
+    ++n;
+  };
+  const auto all = [&](auto&& f) {
+    for (const int node : part.bodies) {
+      const Twist& V = mean[at(system.bodyOf(node))];
+      const Mat3d& I = system.inertia(node);
+      const double mass = model.bodies()[at(system.bodyOf(node))].mass,
+                   spread = (I.m[0][0] + I.m[1][1] + I.m[2][2]) / 3;
+      for (int i = 0; i < 3; ++i) f(V.v[i], x[at(node)][at(i)], mass);
+      for (int i = 0; i < 3; ++i) f(V.w[i], x[at(node)][at(3 + i)], spread);
+    }
+    for (const int k : part.constraints)
+      for (std::size_t r = 0; r < 6; ++r) f(impulse[at(k)][r], x[at(rowNode(k))][r], 0.0);
+    for (const int c : part.couplings) f(couplingImpulse[at(c)], x[at(system.couplingNode(c))][0], 0.0);
+  };
+  all(put);
+  acceleration.improve(iterate, change, weights, n);
+  n = 0;
+  all([&](double, double& correction, double) { correction = change[n++]; });
+}
+
 void RattleStep::applyCorrection(const Part& part) {
-  system.solve(part, x);
   for (const int node : part.bodies) {
     Twist& V = mean[at(system.bodyOf(node))];
     V.v += linear(x[at(node)]);

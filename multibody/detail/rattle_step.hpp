@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "multibody/detail/acceleration.hpp"
 #include "multibody/detail/integrator.hpp"
 #include "multibody/detail/soft_rows.hpp"
 
@@ -27,6 +28,8 @@ private:
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);
   void applyCorrection(const Part& part);
+  void mix(const Part& part);
+  void startAfresh(const Part& part, const State& state, const Loads& loads, double h);
   void moveTrial(const Part& part, const State& state, double h);
   /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.
   double setResiduals(const Part& part, double h);
@@ -76,7 +79,9 @@ private:
   std::vector<char> relinearised;                    ///< of each part: the position stage had to leave J(q_n)
   std::vector<long long> factored;                   ///< of each part: linearisation that holds the last end, or -1
   std::vector<double> gapOf;                         ///< of each part: largest gap at the current iterate
-  std::vector<char> drivenThen;                      ///< of each axis, in that linearisation
+  Acceleration acceleration;
+  std::vector<double> iterate, change, weights; ///< what it works on
+  std::vector<char> drivenThen;                 ///< of each axis, in that linearisation
 };
 
 /// Longest stage of the composition of an order, in units of the step.

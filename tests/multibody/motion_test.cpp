@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "benchmarks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace grouser::multibody::test {
+namespace {
+
+const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
+
+std::string nameOf(JointType type) {
+  static const char* const names[] = {"revolute", "spherical",   "universal", "prismatic",
+                                      "fixed",    "cylindrical", "distance"};
+  return names[static_cast<int>(type)];
+}
+
+// ------------------------------------------------------------------------------------------------- every joint type
+
+class EveryJoint : public ::testing::TestWithParam<std::tuple<JointType, Integrator>> {};
+
+/// Two free bodies, tumbling, joined by one joint in general position.
+Mechanism tumblingPair(JointType type) {
+  Mechanism m;
+  m.model.addBody(makeBody("A", 2, kInertia, {{0, 0, 0}, {}}, {0.1, -0.2, 0.3}, {0.5, 1.5, -0.7}));
+  m.model.addBody(makeBody("B", 1, Mat3d::diagonal({0.1, 0.15, 0.2}),
+                           {{0.8, 0.3, -0.2}, frameWithZ({}, {1, 2, 3}).orientation}, {-0.4, 0.1, 0.2},
+                           {-1.1, 0.6, 0.9}));
+  if (type == JointType::kDistance)
+    m.model.addJoint({"joint", type, 0, 1, {{0.2, 0.1, 0}, {}}, {{-0.1, 0.2, 0.1}, {}}});
+  else
+    m.model.addJointAt("joint", type, 0, 1, frameWithZX({0.4, 0.2, -0.1}, {1, 1, 2}, {1, -1, 0.3}));
+  m.start();
+  m.loads.gravity = {};
+  return m;
+}
+
+TEST_P(EveryJoint, DoesNoWorkAndDoesNotDrift) {
+  const auto [type, integrator] = GetParam();
+  Mechanism m = tumblingPair(type);
+  SolverOptions o;
+  o.integrator = integrator;
+  o.startVelocities = StartVelocities::kAccept;
+  Solver solver(m.model, o);
+  const int rows[] = {5, 3, 4, 5, 6, 4, 1};
+  EXPECT_EQ(solver.degreesOfFreedom(), 12 - rows[static_cast<int>(type)]);
+  solver.projectVelocities(m.state, m.loads);
+  EXPECT_LT(solver.velocityError(m.state), 1e-14);
+  const bool rattling = integrator == Integrator::kRattle;
+  // Euler's first step still has to turn the start velocity into a mean: take the energy after it.
+  const double dt = 1e-3;
+  if (!rattling) solver.step(m.state, m.loads, dt);
+  const Totals start = totals(m.model, m.state, m.loads);
+  double gap = 0, worst = 0, rate = 0;
+  for (int i = 0; i < 5000; ++i) {
+    solver.step(m.state, m.loads, dt);
+    gap = std::max(gap, solver.lastStep().maxPositionError);
+    worst = std::max(worst, std::fabs(totals(m.model, m.state, m.loads).kinetic - start.kinetic));
+    if (rattling) rate = std::max(rate, solver.velocityError(m.state));
+  }
+  const Totals end = totals(m.model, m.state, m.loads);
+  std::printf("%s, %s: gap %.1e, rate %.1e, energy within %.1e of %.2f J\n", nameOf(type).c_str(),
+              rattling ? "rattle" : "euler", gap, rate, worst, start.kinetic);
+  EXPECT_LT(gap, rattling ? 5e-15 : 1e-10); // positionTolerance, round-off of coordinates of some metres
+  EXPECT_LT(rate, 1e-13);
+  EXPECT_LT(worst, (rattling ? 1e-5 : 1e-2) * start.kinetic); // C dt^2, C dt
+  EXPECT_LT(length(end.linearMomentum - start.linearMomentum), 1e-12);
+  EXPECT_LT(length(end.angularMomentum - start.angularMomentum), rattling ? 1e-12 : 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, EveryJoint,
+                         ::testing::Combine(::testing::Values(JointType::kRevolute, JointType::kSpherical,
+                                                              JointType::kUniversal, JointType::kPrismatic,
+                                                              JointType::kFixed, JointType::kCylindrical,
+                                                              JointType::kDistance),
+                                            ::testing::Values(Integrator::kSymplecticEuler, Integrator::kRattle)),
+                         [](const auto& p) {
+                           return nameOf(std::get<0>(p.param)) +
+                                  (std::get<1>(p.param) == Integrator::kRattle ? "Rattle" : "Euler");
+                         });
+
+// ---------------------------------------------------------------------------------------------- cylindrical, bushing
+
+/// A body on a cylindrical joint along z with springs and dampers on slide and angle.
+Mechanism screwless(double c) {
+  Mechanism m;
+  m.model.addBody(makeBody("nut", 2, kInertia, {{0, 0, 0.1}, {base::cos(0.15), 0, 0, base::sin(0.15)}}));
+  m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}, 0.25 * c, 2 * c});
+  AxisSpring slide, angle;
+  slide.name = "slide", slide.stiffness = 200, slide.axis = JointAxis::kSlide;
+  angle.name = "angle", angle.stiffness = 9, angle.axis = JointAxis::kAngle;
+  m.model.addAxisSpring(slide);
+  m.model.addAxisSpring(angle);
+  m.start();
+  m.loads.gravity = {};
+  return m;
+}
+
+TEST(Cylindrical, SlideAndAngleSwingEachWithItsOwnFrequency) {
+  // z = 0.1 cos(10 t), angle = 0.3 cos(6 t): sqrt(200 / 2) and sqrt(9 / 0.25).
+  for (const Springs springs : {Springs::kExplicit, Springs::kImplicit}) {
+    double error[2];
+    for (int i = 0; i < 2; ++i) {
+      Mechanism m = screwless(0);
+      EXPECT_NEAR(axisReading(m.model, m.state, 0, JointAxis::kSlide).position, 0.1, 1e-15);
+      EXPECT_NEAR(axisReading(m.model, m.state, 0, JointAxis::kAngle).position, 0.3, 1e-15);
+      run(m, rattle(2, springs), i == 0 ? 2e-3 : 1e-3, 2);
+      const double z = axisReading(m.model, m.state, 0, JointAxis::kSlide).position,
+                   a = axisReading(m.model, m.state, 0, JointAxis::kAngle).position;
+      error[i] = std::fabs(z - 0.1 * std::cos(20)) + std::fabs(a - 0.3 * std::cos(12));
+      EXPECT_NEAR(axisReading(m.model, m.state, 0, JointAxis::kSlide).springForce, -200 * z, 1e-10);
+      EXPECT_NEAR(axisReading(m.model, m.state, 0, JointAxis::kAngle).springForce, -9 * a, 1e-10);
+    }
+    std::printf("cylindrical with springs: error at 2 s %.2e, %.2e, order %.2f\n", error[0], error[1],
+                std::log2(error[0] / error[1]));
+    EXPECT_NEAR(std::log2(error[0] / error[1]), 2, 0.1);
+  }
+}
+
+TEST(Cylindrical, LimitsHoldOnBothAxes) {
+  Mechanism m;
+  m.model.addBody(makeBody("nut", 2, kInertia, {}, {0, 0, 3}, {0, 0, 2}));
+  m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
+  AxisSpring slide, angle;
+  slide.name = "slide", slide.axis = JointAxis::kSlide, slide.upperLimit = 0.2, slide.stopStiffness = 1e7;
+  angle.name = "angle", angle.axis = JointAxis::kAngle, angle.lowerLimit = -0.1, angle.upperLimit = 0.4;
+  angle.stopStiffness = 1e5, angle.stopDamping = 1e3;
+  m.model.addAxisSpring(slide);
+  m.model.addAxisSpring(angle);
+  m.start();
+  m.loads.gravity = {};
+  Solver solver(m.model, rattle());
+  double z = 0, a = 0;
+  const double start = energy(m);
+  for (int i = 0; i < 300; ++i) {
+    solver.step(m.state, m.loads, 1e-3);
+    z = std::max(z, m.state.slide[0].position), a = std::max(a, m.state.joint[0].position);
+  }
+  // Half the slide's impact energy in its stop of 1e7 N/m: 0.2 + 3 sqrt(2 / 1e7); a step of 1 ms may go 3 mm further.
+  EXPECT_LT(z, 0.2 + 3 * std::sqrt(2 / 1e7) + 3e-3);
+  EXPECT_LT(a, 0.4 + 5e-3);
+  // The discrete gradient gives back what it took: the nut comes back at 3 m/s although omega dt = 2.2; the damped stop
+  // takes some of the rotation.
+  EXPECT_NEAR(m.state.twist[0].v.z, -3, 1e-9);
+  EXPECT_LT(m.state.twist[0].w.z, 0);
+  EXPECT_GT(m.state.twist[0].w.z, -2);
+  EXPECT_NEAR(energy(m) + m.state.ledger.dissipated, start, 1e-9 * start);
+}
+
+TEST(Bushing, SixFrequenciesAndLargeRotationsConserveEnergy) {
+  Mechanism m;
+  m.model.addBody(makeBody("engine", 2, kInertia, {{0.01, -0.02, 0.03}, frameWithZ({}, {0.4, 0.2, 1}).orientation}, {},
+                           {0.4, -0.3, 0.8}));
+  Bushing b;
+  b.name = "mount", b.stiffness = {300, 500, 800}, b.rotationStiffness = {12, 20, 15};
+  m.model.addBushing(b);
+  m.start();
+  m.loads.gravity = {};
+  for (const Springs springs : {Springs::kExplicit, Springs::kImplicit}) {
+    double drift[2];
+    for (int i = 0; i < 2; ++i) {
+      m.start();
+      m.loads.gravity = {};
+      Solver solver(m.model, rattle(2, springs));
+      const double start = energy(m), dt = i == 0 ? 4e-3 : 2e-3;
+      drift[i] = 0;
+      for (int k = 0; k * dt < 5; ++k) {
+        solver.step(m.state, m.loads, dt);
+        drift[i] = std::max(drift[i], std::fabs(energy(m) - start) / start);
+      }
+    }
+    std::printf("bushing: energy within %.2e, %.2e (order %.2f)\n", drift[0], drift[1], std::log2(drift[0] / drift[1]));
+    EXPECT_LT(drift[1], 1e-3);
+    EXPECT_NEAR(std::log2(drift[0] / drift[1]), 2, 0.3);
+  }
+}
+
+TEST(Bushing, StaticDeflectionIsForceOverStiffness) {
+  Mechanism m;
+  m.model.addBody(makeBody("engine", 2, kInertia, {}));
+  Bushing b;
+  b.name = "mount", b.stiffness = {300, 500, 800}, b.damping = {30, 40, 50}, b.rotationStiffness = {12, 20, 15};
+  b.rotationDamping = {2, 2, 2};
+  m.model.addBushing(b);
+  for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
+    m.start();
+    m.loads.gravity = {0, 0, -9.81};
+    m.loads.external[0].torque = {0.6, 0, 0};
+    SolverOptions o;
+    o.integrator = integrator;
+    run(m, o, 5e-3, 20);
+    EXPECT_NEAR(m.state.bushing[0].translation.z, -2 * 9.81 / 800, 1e-9);
+    EXPECT_NEAR(m.state.bushing[0].rotation.x, 0.6 / 12, 1e-9);
+    EXPECT_NEAR(m.state.bushing[0].force.z, 2 * 9.81, 1e-6);
+    EXPECT_NEAR(m.state.bushing[0].torque.x, -0.6, 1e-6);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------- imposed motions
+
+/// A slider-crank in the x-z plane whose crank turns about y; crank 0.1 m, rod 0.3 m.
+Mechanism sliderCrank(const Drive& drive, double crankRate) {
+  Mechanism m;
+  const double r = 0.1, l = 0.3;
+  const double v = crankRate * r;
+  m.model.addBody(makeBody("crank", 1, kInertia, {{0, 0, r}, {}}, {v, 0, 0}, {0, crankRate, 0}));
+  const double slope = std::sqrt(l * l - r * r);
+  const Vec3d end{slope, 0, 0}, pin{0, 0, r};
+  // Crank upright: the rod only slides along x.
+  addRod(m.model, "rod", pin, end, {v, 0, 0});
+  m.model.addBody(makeBody("piston", 2, kInertia, {end, {}}, {v, 0, 0}));
+  m.model.addJointAt("crank pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
+  m.model.addJointAt("big end", JointType::kRevolute, 0, 1, frameWithZ(pin, kY));
+  m.model.addJointAt("small end", JointType::kSpherical, 1, 2, frameWithZ(end, kY));
+  m.model.addJointAt("cylinder", JointType::kPrismatic, kWorld, 2, frameWithZ(end, {1, 0, 0}));
+  m.model.addDrive(drive);
+  m.start();
+  return m;
+}
+
+TEST(ImposedMotion, PositionLawIsMetInPositionAndRateWithoutDrift) {
+  Drive d;
+  d.name = "motor", d.joint = 0, d.kind = DriveKind::kPosition;
+  d.law.polynomial = {0, 4};
+  d.law.harmonics = {{0.5, 7, 0}};
+  Mechanism m = sliderCrank(d, d.law.rate(0));
+  Solver solver(m.model, rattle());
+  EXPECT_EQ(solver.degreesOfFreedom(), 1);
+  double position = 0, rate = 0, slide = 0, work = 0, power = drivePower(m.model, m.state, 0);
+  const double dt = 1e-3, start = energy(m);
+  for (int i = 0; i < 5000; ++i) {
+    solver.step(m.state, m.loads, dt);
+    const double t = m.state.time, a = m.state.joint[0].position;
+    position = std::max(position, std::fabs(a - d.law.value(t)));
+    rate = std::max(rate, std::fabs(m.state.joint[0].rate - d.law.rate(t)));
+    // Closed form of the piston's place.
+    const double x = 0.1 * std::sin(a) + std::sqrt(0.09 - 0.01 * std::cos(a) * std::cos(a));
+    slide = std::max(slide, std::fabs(m.state.pose[2].position.x - x));
+    const double now = drivePower(m.model, m.state, 0);
+    if (i > 0) work += 0.5 * dt * (power + now);
+    power = now;
+  }
+  std::printf("position law: position off by %.1e rad, rate %.1e rad/s, piston %.1e m\n", position, rate, slide);
+  EXPECT_LT(position, 1e-12);
+  EXPECT_LT(rate, 1e-12);
+  EXPECT_LT(slide, 1e-12);
+  EXPECT_NEAR(energy(m) - start, m.state.ledger.driveWork, 1e-3);
+  EXPECT_NEAR(work, m.state.ledger.driveWork, 2e-2); // the first step has no power before it
+}
+
+TEST(ImposedMotion, DriveTorqueIsThatOfInverseDynamics) {
+  // A wheel alone: torque = I alpha(t), exactly.
+  Mechanism m;
+  Drive d;
+  d.name = "motor", d.kind = DriveKind::kPosition;
+  d.law.harmonics = {{0.7, 3, 0}};
+  m.model.addBody(makeBody("wheel", 1, kInertia, {}, {}, {0, 0, d.law.rate(0)}));
+  m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
+  m.model.addDrive(d);
+  m.start();
+  Solver solver(m.model, rattle());
+  for (int i = 0; i < 1000; ++i) {
+    solver.step(m.state, m.loads, 1e-3);
+    ASSERT_NEAR(driveForce(m.model, m.state, 0), 0.25 * d.law.acceleration(m.state.time), 1e-11);
+  }
+}
+
+TEST(ImposedMotion, SpeedLawLeadsToItsIntegralWithBothIntegrators) {
+  for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
+    Drive d;
+    d.name = "motor";
+    d.law.ramps = {{0, 1, 2}, {0, 5, 5}};
+    Mechanism m;
+    m.model.addBody(makeBody("wheel", 1, kInertia, {}));
+    m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
+    m.model.addDrive(d);
+    m.start();
+    SolverOptions o;
+    o.integrator = integrator;
+    run(m, o, 1e-3, 3);
+    EXPECT_NEAR(m.state.joint[0].position, 12.5, 1e-10);
+    EXPECT_NEAR(m.state.joint[0].rate, 5, 1e-9);
+  }
+}
+
+TEST(ImposedMotion, TorqueLawSpinsUpAWheel) {
+  Drive d;
+  d.name = "motor", d.kind = DriveKind::kForce, d.law.polynomial = {1, 2};
+  Mechanism m;
+  m.model.addBody(makeBody("wheel", 1, kInertia, {}));
+  m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
+  m.model.addDrive(d);
+  m.start();
+  run(m, rattle(), 1e-2, 1);
+  EXPECT_NEAR(m.state.joint[0].rate, (1 + 1) / 0.25, 1e-12); // the trapezium is exact for a line
+  EXPECT_NEAR(driveForce(m.model, m.state, 0), 3, 1e-12);
+  EXPECT_NEAR(drivePower(m.model, m.state, 0), 3 * 8, 1e-11);
+  EXPECT_NEAR(m.state.ledger.driveWork, totals(m.model, m.state, m.loads).kinetic, 1e-2);
+}
+
+// ------------------------------------------------------------------------------------------------------- couplings
+
+class Couplings : public ::testing::TestWithParam<Integrator> {};
+
+TEST_P(Couplings, GearedWheelsTurnInTheirRatioAndShareTheTorque) {
+  // A torque on wheel 1 with ratio -2: reduced inertia I1 + 4 I2; force on axis 2 = I2 alpha2.
+  Mechanism m;
+  m.model.addBody(makeBody("one", 1, kInertia, {}));
+  m.model.addBody(makeBody("two", 1, Mat3d::diagonal({0.1, 0.1, 0.1}), {{1, 0, 0}, {}}));
+  m.model.addJointAt("hub 1", JointType::kRevolute, kWorld, 0, {});
+  m.model.addJointAt("hub 2", JointType::kRevolute, kWorld, 1, {{1, 0, 0}, {}});
+  Coupling gears;
+  gears.name = "gears", gears.joint1 = 0, gears.joint2 = 1, gears.ratio = -2;
+  m.model.addCoupling(gears);
+  m.start();
+  m.loads.external[0].torque = {0, 0, 1.3};
+  SolverOptions o;
+  o.integrator = GetParam();
+  Solver solver(m.model, o);
+  EXPECT_EQ(solver.degreesOfFreedom(), 1);
+  const int n = 1000;
+  for (int i = 0; i < n; ++i) solver.step(m.state, m.loads, 1e-3);
+  const double alpha = 1.3 / (0.25 + 4 * 0.1);
+  EXPECT_NEAR(m.state.twist[0].w.z, alpha, 1e-10);
+  EXPECT_NEAR(m.state.twist[1].w.z, -2 * alpha, 1e-10);
+  EXPECT_NEAR(m.state.joint[1].position + 2 * m.state.joint[0].position, 0, 1e-10);
+  EXPECT_NEAR(m.state.coupling[0].force, -2 * alpha * 0.1, 1e-8);
+}
+
+TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
+  // A nut on a cylindrical joint, slide = pitch / (2 pi) angle, falls: a = g / (1 + I / (m p^2)).
+  const double p = 0.02;
+  Mechanism m;
+  m.model.addBody(makeBody("nut", 2, kInertia, {}));
+  m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
+  Coupling screw;
+  screw.name = "thread", screw.ratio = p, screw.axis1 = JointAxis::kAngle, screw.axis2 = JointAxis::kSlide;
+  m.model.addCoupling(screw);
+  m.start();
+  SolverOptions o;
+  o.integrator = GetParam();
+  Solver solver(m.model, o);
+  const double dt = 1e-3;
+  const int n = 2000;
+  for (int i = 0; i < n; ++i) solver.step(m.state, m.loads, dt);
+  const double a = -9.81 / (1 + 0.25 / (2 * p * p));
+  EXPECT_NEAR(m.state.slide[0].rate, a * n * dt, 1e-9);
+  EXPECT_NEAR(m.state.slide[0].position, p * m.state.joint[0].position, 1e-10);
+}
+
+TEST_P(Couplings, FourBodiesFeelNoNetForceOrTorque) {
+  // Two free pairs, each on a revolute, geared to one another: linear momentum stays, and each pair's own reactions
+  // cancel.
+  Mechanism m;
+  for (int i = 0; i < 4; ++i)
+    m.model.addBody(makeBody("body " + std::to_string(i), 1 + i, kInertia, {{1.0 * i, 0, 0}, {}}));
+  m.model.addJointAt("pin 1", JointType::kRevolute, 0, 1, {{0.5, 0, 0}, {}});
+  m.model.addJointAt("pin 2", JointType::kRevolute, 2, 3, frameWithZ({2.5, 0, 0}, {0, 1, 1}));
+  Coupling belt;
+  belt.name = "belt", belt.joint1 = 0, belt.joint2 = 1, belt.ratio = 1.7;
+  m.model.addCoupling(belt);
+  m.start();
+  m.loads.gravity = {};
+  m.loads.external[0].torque = {0, 0, 2};
+  m.loads.external[1].torque = {0, 0, -2};
+  SolverOptions o;
+  o.integrator = GetParam();
+  Solver solver(m.model, o);
+  double gap = 0;
+  for (int i = 0; i < 2000; ++i) {
+    solver.step(m.state, m.loads, 1e-3);
+    gap = std::max(gap, std::fabs(m.state.joint[1].position - 1.7 * m.state.joint[0].position));
+  }
+  EXPECT_LT(gap, 1e-10);
+  EXPECT_GT(std::fabs(m.state.joint[0].position), 1);
+  const Totals t = totals(m.model, m.state, m.loads);
+  EXPECT_LT(length(t.linearMomentum), 1e-11);
+  EXPECT_LT(length(t.angularMomentum), 1e-10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Couplings, ::testing::Values(Integrator::kSymplecticEuler, Integrator::kRattle),
+                         [](const auto& p) { return p.param == Integrator::kRattle ? "Rattle" : "Euler"; });
+
+} // namespace
+} // namespace grouser::multibody::test
