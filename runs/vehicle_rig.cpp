@@ -42,6 +42,22 @@ vehicle::AssemblyOptions assemblyOptions(const Scene& scene, const vehicle::Vehi
   return options;
 }
 
+/// The set that rank `root` has, on all ranks.
+base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
+  if (comm.alone()) return set;
+  struct Scalars {
+    std::size_t surfaceCount;
+    double spacing, radius, meshVolume, meshArea;
+  };
+  const Scalars mine{set.surfaceCount, set.spacing, set.radius, set.meshVolume, set.meshArea};
+  const auto all = base::Comm::valuesOf<Scalars>(comm.broadcast(base::Comm::bytesOf(std::vector{mine}), root)).front();
+  set.spheres = base::Comm::valuesOf<base::SetSphere>(comm.broadcast(base::Comm::bytesOf(set.spheres), root));
+  set.name = comm.broadcast(set.name, root);
+  set.surfaceCount = all.surfaceCount, set.spacing = all.spacing, set.radius = all.radius;
+  set.meshVolume = all.meshVolume, set.meshArea = all.meshArea;
+  return set;
+}
+
 contact::GrainPartContacts::GrainsView viewOf(const terrain::Grains& grains) {
   return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
 }
@@ -52,6 +68,7 @@ VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeSt
                        const std::function<double(double, double)>& surfaceHeight)
     : exec_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)), surfaceHeight_(surfaceHeight),
       gravity_(scene.run.gravity) {
+  if (ground.grains) comm_ = ground.grains->comm();
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   assembly_ = vehicle::assemble(spec, assemblyOptions(scene, spec, surfaceHeight));
   solver_ = std::make_unique<multibody::Solver>(assembly_.model);
@@ -73,12 +90,19 @@ void VehicleRig::loadMeshes(const Scene& scene) {
       meshes_.push_back(
           spheredecomp::importMesh((std::filesystem::path(assembly_.spec.meshFolder) / part.mesh).string()));
       const bool touches = part.kind != vehicle::PartKind::kChassis;
-      sets_.push_back(touches ? spheredecomp::decompose(meshes_.back(), part.mesh, options) : base::SphereSet{});
-      setFigures_.push_back({part.mesh, sets_.back().spheres.size(), sets_.back().surfaceCount, 0});
+      // The ranks share the cutting.
+      const int cutter = static_cast<int>(sets_.size()) % comm_.size();
+      sets_.push_back(touches && cutter == comm_.rank() ? spheredecomp::decompose(meshes_.back(), part.mesh, options)
+                                                        : base::SphereSet{});
+      setFigures_.push_back({part.mesh, 0, 0, 0});
     }
     meshOfPart_.push_back(at->second);
     ++setFigures_[at->second].instances;
     if (part.kind != vehicle::PartKind::kChassis) contactParts_.push_back(static_cast<int>(p));
+  }
+  for (std::size_t i = 0; i < sets_.size(); ++i) {
+    sets_[i] = shared(comm_, std::move(sets_[i]), static_cast<int>(i) % comm_.size());
+    setFigures_[i].spheres = sets_[i].spheres.size(), setFigures_[i].surface = sets_[i].surfaceCount;
   }
 }
 
@@ -133,7 +157,6 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
     std::vector<contact::GrainPart> parts;
     for (const int set : setOfPart) parts.push_back({set, {}, {}});
-    comm_ = ground.grains->comm();
     bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts, comm_);
     ground.grains->onHandOver([this](const std::uint32_t* destination, std::size_t) { bed_->handOver(destination); });
   } else if (ground.rigid) {
@@ -175,8 +198,7 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
     relativeTravel_ = 0;
   }
   if (absoluteTravel_ <= groundMargin_ && !slotsChanged) return;
-  if (bed_)
-    bed_->refresh(viewOf(*grains), motion_.device());
+  if (bed_) bed_->refresh(viewOf(*grains), motion_.device());
   if (rigidGround_) rigidGround_->refresh(motion_.device());
   absoluteTravel_ = 0;
 }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exchange protocol with an element type that is no grain: a passive tracer with a concentration, a label and a
+// colour, which is exchanged twice within a step.
+#include "contact/exchange.hpp"
+#include "tests/ranks/ranks.hpp"
+
+#include "base/algorithms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace grouser::contact {
+namespace {
+
+using Colour = std::array<std::uint32_t, 3>;
+
+/// Tracers on a line, one for each whole place; a place belongs to rank place / kEach.
+struct Tracers {
+  static constexpr std::uint32_t kEach = 10; ///< places of one rank
+  base::Exec exec = base::cpuExec(1);
+  base::Array<double> concentration{exec};
+  base::Array<std::uint32_t> place{exec};
+  base::Array<Colour> colour{exec};
+  std::size_t owned = 0;
+
+  std::vector<ExchangeField> everything() { return {fieldOf(concentration), fieldOf(place), fieldOf(colour)}; }
+  void resize(std::size_t size) {
+    concentration.resizeKeeping(size), place.resizeKeeping(size), colour.resizeKeeping(size);
+  }
+};
+
+double concentrationAt(std::uint32_t place) { return 1.0 / (place + 1.0); }
+
+/// The tracers of this rank, at its own places.
+Tracers startingTracers() {
+  Tracers t;
+  t.owned = Tracers::kEach;
+  t.resize(t.owned);
+  for (std::uint32_t i = 0; i < Tracers::kEach; ++i) {
+    const std::uint32_t p = static_cast<std::uint32_t>(test::comm().rank()) * Tracers::kEach + i;
+    t.place.data()[i] = p;
+    t.concentration.data()[i] = concentrationAt(p);
+    t.colour.data()[i] = {p, p * p, p + 7};
+  }
+  return t;
+}
+
+/// Sends what `destination` names and appends what comes.
+void route(Exchange& exchange, const Tracers& t, const std::vector<std::pair<std::uint32_t, int>>& leaving) {
+  base::Array<std::uint64_t> ranks(t.exec, leaving.size());
+  base::Array<std::uint32_t> slots(t.exec, leaving.size());
+  for (std::size_t k = 0; k < leaving.size(); ++k) {
+    slots.data()[k] = leaving[k].first;
+    ranks.data()[k] = static_cast<std::uint64_t>(leaving[k].second);
+  }
+  exchange.route(ranks, slots, leaving.size());
+}
+
+TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
+  const base::Comm& comm = test::comm();
+  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with: see OneRank";
+  const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
+  Tracers t = startingTracers();
+
+  // Every rank hands its last two tracers to the right, with all they carry.
+  Exchange handOver(t.exec, comm);
+  route(handOver, t, {{Tracers::kEach - 1, right}, {Tracers::kEach - 2, right}});
+  ASSERT_EQ(handOver.coming(), 2u);
+  t.resize(t.owned + 2);
+  handOver.putFrom(t.owned);
+  handOver.run(t.everything());
+  const std::uint32_t top = static_cast<std::uint32_t>(left + 1) * Tracers::kEach - 1;
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    const std::uint32_t p = top - k; // the order on the route is kept
+    EXPECT_EQ(t.place.data()[t.owned + k], p);
+    EXPECT_EQ(t.concentration.data()[t.owned + k], concentrationAt(p));
+    EXPECT_EQ(t.colour.data()[t.owned + k], (Colour{p, p * p, p + 7}));
+  }
+
+  // Ghosts: the first tracer is known to the left, with its concentration alone.
+  Exchange ghosts(t.exec, comm);
+  route(ghosts, t, {{0, left}});
+  ASSERT_EQ(ghosts.coming(), 1u);
+  const std::size_t ghost = t.owned + 2;
+  t.resize(ghost + 1);
+  ghosts.putFrom(ghost);
+  for (int half = 0; half < 2; ++half) {
+    t.concentration.data()[0] += 1;
+    const ExchangeField field = fieldOf(t.concentration);
+    ghosts.start({&field, 1});
+    t.concentration.data()[0] += 0.5; // after it was sent: must not travel
+    ghosts.finish({&field, 1});
+    const double first = concentrationAt(static_cast<std::uint32_t>(right) * Tracers::kEach);
+    EXPECT_EQ(t.concentration.data()[ghost], first + 1 + 1.5 * half);
+  }
+  EXPECT_EQ(ghosts.runs(), 2);
+  EXPECT_EQ(ghosts.bytesSent(), 2 * 8);
+}
+
+TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
+  const base::Comm& comm = test::comm();
+  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
+  Tracers t = startingTracers();
+  Exchange ghosts(t.exec, comm);
+  route(ghosts, t, {{3, right}});
+  const std::size_t size = t.owned + 1;
+  t.resize(size);
+  ghosts.putFrom(t.owned);
+  // Everything changes places: slot s goes to size - 1 - s.
+  base::Array<std::uint32_t> newSlot(t.exec, size);
+  std::vector<double> moved(size);
+  for (std::size_t s = 0; s < size; ++s) {
+    newSlot.data()[s] = static_cast<std::uint32_t>(size - 1 - s);
+    moved[size - 1 - s] = t.concentration.data()[s];
+  }
+  t.concentration.assign(moved);
+  ghosts.renumber(newSlot.data());
+  const ExchangeField field = fieldOf(t.concentration);
+  ghosts.run({&field, 1});
+  EXPECT_EQ(t.concentration.data()[0], concentrationAt(static_cast<std::uint32_t>(left) * Tracers::kEach + 3));
+}
+
+TEST(Exchange, OneElementMayGoToManyRanksAndNoneToOthers) {
+  const base::Comm& comm = test::comm();
+  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  Tracers t = startingTracers();
+  Exchange exchange(t.exec, comm);
+  // Rank 0 sends its tracer 5 to all others; the others send nothing.
+  std::vector<std::pair<std::uint32_t, int>> leaving;
+  for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.push_back({5, r}); // not in the order of ranks
+  route(exchange, t, leaving);
+  EXPECT_EQ(exchange.coming(), comm.first() ? 0u : 1u);
+  EXPECT_EQ(exchange.leaving(), leaving.size());
+  t.resize(t.owned + exchange.coming());
+  exchange.putFrom(t.owned);
+  exchange.run(t.everything());
+  if (!comm.first()) {
+    EXPECT_EQ(t.place.data()[t.owned], 5u);
+  }
+}
+
+TEST(Exchange, RefusesToFinishWithOtherFields) {
+  const base::Comm& comm = test::comm();
+  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  Tracers t = startingTracers();
+  Exchange exchange(t.exec, comm);
+  route(exchange, t, {});
+  const ExchangeField wide = fieldOf(t.colour), narrow = fieldOf(t.place);
+  EXPECT_THROW(exchange.finish({&wide, 1}), std::logic_error); // nothing was started
+  exchange.start({&wide, 1});
+  EXPECT_THROW(exchange.finish({&narrow, 1}), std::logic_error);
+  exchange.finish({&wide, 1});
+}
+
+} // namespace
+} // namespace grouser::contact

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One answer on any number of ranks: grains that slide, spin, touch walls and cross borders.
+#include "base/error.hpp"
+#include "terrain/grains.hpp"
+#include "tests/ranks/ranks.hpp"
+#include "tests/terrain/grain_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace grouser::terrain::testing {
+namespace {
+
+GrainModel gravel(double skin = 0.3) {
+  GrainModel m;
+  m.radius = 0.027;
+  m.mass = 2500 * 4.0 / 3.0 * base::kPi * m.radius * m.radius * m.radius;
+  m.timeStep = 5e-5;
+  m.gravity = {0, 0, -9.81};
+  m.law.stiffness = 1e6f;
+  m.law.damping = 1500.0f;
+  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
+  m.law.tangentialDamping = 750.0f;
+  m.law.friction = 0.5f;
+  m.skin = skin;
+  return m;
+}
+
+/// A block of 360 grains thrown across the box: nearly all of them change their subdomain.
+std::vector<GrainStart> thrownBlock() {
+  std::vector<GrainStart> start;
+  for (int z = 0; z < 5; ++z)
+    for (int y = 0; y < 6; ++y)
+      for (int x = 0; x < 12; ++x) {
+        const double odd = z % 2 ? 0.011 : 0.0, wobble = 0.001 * ((x * 7 + y * 5 + z * 3) % 4);
+        start.push_back({{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {2.5, 1.0, -1}, {3, -2, 9}});
+      }
+  return start;
+}
+
+Boundaries box(const GrainModel& m) {
+  return {{{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}, {{0, -1, 0}, -0.5, m.law}},
+          {}};
+}
+
+PartitionOptions shared(const std::array<int, 3>& shape = {0, 0, 0}, bool rebalance = false) {
+  return {test::comm(), shape, rebalance};
+}
+
+/// All words, on every rank, in the order of ids.
+std::vector<std::uint32_t> allWords(const Grains& grains) {
+  std::vector<std::uint32_t> words;
+  for (const auto& part : grains.comm().gatherAll(grains.stateWords()))
+    words.insert(words.end(), part.begin(), part.end());
+  return words;
+}
+
+constexpr int kSteps = 3000;
+
+const std::vector<std::uint32_t>& expected() {
+  static const std::vector<std::uint32_t> words = [] {
+    const GrainModel m = gravel();
+    Grains alone(base::cpuExec(1), m, box(m), thrownBlock());
+    advance(alone, kSteps);
+    return alone.stateWords();
+  }();
+  return words;
+}
+
+TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
+  const int n = test::comm().size();
+  const GrainModel m = gravel();
+  for (int x = 1; x <= n; ++x)
+    for (int y = 1; n % x == 0 && y <= n / x; ++y) {
+      if (n / x % y != 0) continue;
+      Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({x, y, n / x / y}));
+      advance(grains, kSteps);
+      EXPECT_EQ(allWords(grains), expected()) << x << " x " << y << " x " << n / x / y;
+    }
+}
+
+TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
+  const GrainModel m = gravel(0.6);
+  Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({0, 0, 0}, true));
+  if (const Subdomain* s = grains.subdomain()) {
+    // Every 300 steps all cuts jump: most grains change hands at once, some ranks are left with none.
+    for (int k = 0; k < 10; ++k) {
+      std::array<std::vector<std::int64_t>, 3> weights;
+      for (auto& w : weights) w.assign(kPartitionBins, 1), w[static_cast<std::size_t>(400 * k)] = 100000;
+      const auto u = [&](double metres) { return static_cast<std::int64_t>(metres * grains.scale().perMetre); };
+      grains.setPartition({s->partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});
+      advance(grains, 300);
+    }
+  } else {
+    advance(grains, kSteps);
+  }
+  EXPECT_EQ(allWords(grains), expected());
+}
+
+TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
+  const GrainModel m = gravel();
+  Grains first(base::cpuExec(1), m, box(m), thrownBlock(), shared());
+  advance(first, 1234);
+  const GrainState saved = first.state(); // this rank's block of ids
+  Grains second(base::cpuExec(1), m, box(m), thrownBlock(), shared());
+  second.restore(saved);
+  second.setSteps(1234);
+  advance(second, kSteps - 1234);
+  EXPECT_EQ(allWords(second), expected());
+  EXPECT_EQ(second.rebuilds(), [&] {
+    advance(first, kSteps - 1234);
+    return first.rebuilds();
+  }());
+}
+
+TEST(GrainsOnRanks, LedgerIsThatOfOneRank) {
+  const GrainModel m = gravel();
+  Grains alone(base::cpuExec(1), m, box(m), thrownBlock()),
+      grains(base::cpuExec(1), m, box(m), thrownBlock(), shared());
+  advance(alone, 700), advance(grains, 700);
+  const GrainLedger a = alone.ledger(), b = grains.ledger();
+  EXPECT_EQ(a.kinetic, b.kinetic);
+  EXPECT_EQ(a.rotational, b.rotational);
+  EXPECT_EQ(a.potential, b.potential);
+  EXPECT_EQ(a.elastic, b.elastic);
+  EXPECT_EQ(a.dissipated, b.dissipated);
+  EXPECT_EQ(a.contacts, b.contacts);
+  EXPECT_EQ(a.boundaryContacts, b.boundaryContacts);
+  EXPECT_EQ(a.deepestOverlap, b.deepestOverlap);
+  EXPECT_EQ(a.fastest, b.fastest);
+}
+
+TEST(GrainsOnRanks, RolesAreAsDefined) {
+  const GrainModel m = gravel();
+  Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared());
+  if (!grains.subdomain()) GTEST_SKIP() << "one rank has no roles: see OneRank";
+  grains.refreshNeighbours();
+  const Subdomain& s = *grains.subdomain();
+  EXPECT_EQ(s.uniques().size() + s.masters().size() + s.ghosts(), grains.slots());
+  // Every grain has one owner, and every owned grain that another rank's grain may touch is a master.
+  EXPECT_EQ(grains.comm().sumOf(static_cast<std::int64_t>(s.uniques().size() + s.masters().size())), 360);
+  const double range = 2.3 * m.radius + 1e-6;
+  const auto positions = base::toHost(base::cpuExec(1), grains.positions(), grains.slots());
+  const std::vector<std::uint32_t> ids = base::toHost(base::cpuExec(1), grains.ids(), grains.slots());
+  const PartitionView lattice = s.partition().view();
+  const auto start = thrownBlock();
+  for (std::size_t i = 0; i < grains.slots(); ++i) {
+    const base::Vec3l u = base::toUnits(positions[i]);
+    const bool slave = grains.ghosts()[i] != 0;
+    EXPECT_EQ(lattice.ownerOf(u) != grains.comm().rank(), slave);
+    if (slave) continue;
+    bool needed = false; // some foreign grain within range
+    for (const GrainStart& other : start) {
+      const int owner = lattice.ownerOf(base::toUnits(grains.scale().fromMetres(other.position)));
+      needed = needed ||
+               (owner != grains.comm().rank() && norm(other.position - grains.scale().toMetres(positions[i])) < range);
+    }
+    const bool master = std::find(s.masters().data(), s.masters().data() + s.masters().size(),
+                                  static_cast<std::uint32_t>(i)) != s.masters().data() + s.masters().size();
+    if (needed) {
+      EXPECT_TRUE(master) << "grain " << ids[i];
+    }
+  }
+}
+
+TEST(GrainsOnRanks, AFaultNamesTheGrainOnAllRanks) {
+  const GrainModel m = gravel();
+  std::vector<GrainStart> start = thrownBlock();
+  start[200].velocity = {900, 0, 0}; // beyond half the skin in one step
+  Grains grains(base::cpuExec(1), m, box(m), start, shared());
+  try {
+    advance(grains, 1);
+    FAIL() << "no rank has noticed";
+  } catch (const base::SimulationError& error) {
+    EXPECT_NE(std::string(error.what()).find("grain 200 at"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("e+300"), std::string::npos) << error.what();
+  }
+}
+
+TEST(OneRank, HasNoGhostsNoRolesAndNoMessages) {
+  const GrainModel m = gravel();
+  Grains grains(base::cpuExec(1), m, box(m), thrownBlock());
+  advance(grains, 10);
+  EXPECT_EQ(grains.subdomain(), nullptr);
+  EXPECT_EQ(grains.ghosts(), nullptr);
+  EXPECT_EQ(grains.slots(), grains.count());
+  EXPECT_EQ(grains.comm().waited(), 0.0);
+}
+
+} // namespace
+} // namespace grouser::terrain::testing

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+
+namespace grouser::test {
+
+/// All ranks of this test program: 1 where it was started alone.
+const base::Comm& comm();
+
+} // namespace grouser::test
