@@ -161,7 +161,7 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
   }
   system.setCouplingsOn(true);
   std::sort(found.rows.begin(), found.rows.end());
-  for (const auto& [constraint, row] : found.rows) system.dropRow(constraint, row);
+  for (const auto& [constraint, row] : found.rows) system.noteRedundant(constraint, row);
   return found;
 }
 

@@ -89,9 +89,10 @@ void Solver::Impl::countFreedom() {
     if (!body.fixed) freedom += body.point ? 3 : 6;
   }
   system.place(poses, frames);
+  freedom += static_cast<int>(redundancy.rows.size());
   for (const ConstraintSystem::Part& part : system.parts()) {
     system.linearise(part, frames, laws);
-    for (const int k : part.constraints) freedom -= __builtin_popcount(system.hardRowsOf(k));
+    for (const int k : part.constraints) freedom -= __builtin_popcount(hardRows(system.constraints()[at(k)].kind));
     for (const int c : part.couplings)
       if (system.couplingKept(c))
         --freedom;
@@ -104,7 +105,8 @@ void Solver::Impl::describe() {
   std::ostringstream out;
   int rows = 0;
   for (std::size_t k = 0; k < system.constraints().size(); ++k)
-    rows += __builtin_popcount(system.hardRowsOf(static_cast<int>(k)));
+    rows += __builtin_popcount(hardRows(system.constraints()[k].kind));
+  rows -= static_cast<int>(redundancy.rows.size());
   out << "multibody: " << system.movableBodies() << " bodies, " << model.joints().size() << " joints, "
       << model.pointSprings().size() << " point springs, " << rows << " constraint rows, " << system.parts().size()
       << " independent parts, " << system.elimination().blocks() << " blocks in the factor\n";
@@ -113,7 +115,7 @@ void Solver::Impl::describe() {
   out << "degrees of freedom: " << freedom << '\n';
   out << "redundant rows: " << redundancy.rows.size() + redundancy.couplings.size();
   if (!redundancy.rows.empty() || !redundancy.couplings.empty())
-    out << ", dropped (other joints imply them; their reactions read 0)";
+    out << ", left out (other joints imply them; their reactions read 0; at each position the rows that follow best)";
   out << '\n';
   for (const auto& [k, row] : redundancy.rows) out << "  " << system.describe(k, row) << '\n';
   for (const int c : redundancy.couplings) out << "  coupling '" << model.couplings()[at(c)].name << "'\n";
@@ -220,7 +222,7 @@ double Solver::velocityError(const State& state) const {
       return node < 0 ? 0.0 : dot(e, state.twist[at(body)].v) + dot(cross(f.p_B - F.p, e) + t, state.twist[at(body)].w);
     };
     for (int r = 0; r < 6; ++r)
-      if (s.system.hardRowsOf(static_cast<int>(k)) >> r & 1u)
+      if (hardRows(c.kind) >> r & 1u)
         largest = std::max(largest, std::fabs(rate(rows.force[at(r)], rows.torque[at(r)], c.nodeB, c.bodyB, B) -
                                               rate(rows.force[at(r)], rows.torque[at(r)], c.nodeA, c.bodyA, A)));
   }
@@ -231,7 +233,9 @@ std::vector<std::string> Solver::singularRowNames() const {
   std::vector<std::string> names;
   const ConstraintSystem& system = impl_->system;
   for (int k = 0; k < static_cast<int>(system.constraints().size()); ++k) {
-    const unsigned lost = system.activeRows(k) & ~system.elimination().keptRows(k);
+    // Where rows are redundant as many are left out as follow from the others; more than those are without a pivot.
+    unsigned lost = system.activeRows(k) & ~system.elimination().keptRows(k);
+    if (__builtin_popcount(lost) <= system.redundantRowsIn(k)) continue;
     for (int r = 0; r < 6; ++r)
       if (lost >> r & 1u) names.push_back(system.describe(k, r));
   }

@@ -109,6 +109,8 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
   mergeCoupledParts();
   for (std::size_t p = 0; p < parts_.size(); ++p) parts_[p].index = static_cast<int>(p);
   linearisation_.assign(parts_.size(), 0);
+  redundant_.assign(constraints_.size(), 0);
+  expectedLost_.assign(parts_.size(), 0);
   couplingSolution_.assign(couplings_.size(), std::vector<Vector6>(at(nodes())));
   couplingFactor_.assign(couplings_.size(), std::vector<double>(couplings_.size()));
   couplingKept_.assign(couplings_.size(), 1);
@@ -167,9 +169,26 @@ void ConstraintSystem::setSize(int k, const Block& jacobianA, const Block& jacob
   add(constraints_[at(k)].nodeA, jacobianA);
   add(constraints_[at(k)].nodeB, jacobianB);
   std::copy(smallest, smallest + 6, size_[at(k)].begin());
-  for (double& s : smallest) s *= pivotScale_ * Elimination::kPivotTolerance;
-  elimination_->setSmallestPivots(k, smallest);
+  setPivotThreshold(k);
   sized_[at(k)] = 1;
+}
+
+/// Where rows are known to be redundant, only those with a good pivot are kept: which row of a constraint follows from
+/// the others may change on the way, and dropping a wrong one leaves a small pivot behind.
+void ConstraintSystem::setPivotThreshold(int k) {
+  constexpr double kGoodPivot = 1e-3;
+  const double part = redundant_[at(k)] != 0 && !strict_ ? kGoodPivot : pivotScale_ * Elimination::kPivotTolerance;
+  double smallest[6];
+  for (std::size_t r = 0; r < 6; ++r) smallest[r] = part * size_[at(k)][r];
+  elimination_->setSmallestPivots(k, smallest);
+}
+
+void ConstraintSystem::noteRedundant(int constraint, int row) {
+  redundant_[at(constraint)] |= 1u << row;
+  sized_[at(constraint)] = 0;
+  for (const Part& part : parts_)
+    if (std::find(part.constraints.begin(), part.constraints.end(), constraint) != part.constraints.end())
+      ++expectedLost_[at(part.index)];
 }
 
 void ConstraintSystem::scalePivotThreshold(double scale) {
@@ -177,7 +196,31 @@ void ConstraintSystem::scalePivotThreshold(double scale) {
   std::fill(sized_.begin(), sized_.end(), static_cast<char>(0));
 }
 
+/// With redundant rows, first only good pivots are kept. If more rows are lost than the redundant ones a singular
+/// position is near: then every row with a pivot is kept.
 int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
+  ++linearisation_[at(part.index)];
+  int leftOut = setUpAndFactor(part, frames, laws);
+  const int expected = expectedLost_[at(part.index)];
+  if (expected > 0) {
+    if (leftOut > expected) {
+      strict_ = true;
+      for (const int k : part.constraints)
+        if (redundant_[at(k)]) setPivotThreshold(k);
+      leftOut = setUpAndFactor(part, frames, laws);
+      strict_ = false;
+      for (const int k : part.constraints)
+        if (redundant_[at(k)]) setPivotThreshold(k);
+    }
+    for (const int k : part.constraints) hard_[at(k)] = hardRows(constraints_[at(k)].kind) & elimination_->keptRows(k);
+    leftOut = std::max(leftOut - expected, 0);
+  }
+  if (couplingsOn_ && !part.couplings.empty()) factorCouplings(part);
+  return leftOut;
+}
+
+int ConstraintSystem::setUpAndFactor(const Part& part, const std::vector<Frame>& frames,
+                                     const std::vector<AxisLaw>& laws) {
   for (const int node : part.bodies) {
     const Body& body = model_->bodies()[at(movable_[at(node)])];
     const Mat3d& R = frames[at(movable_[at(node)])].R;
@@ -194,9 +237,9 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
     com_A_[at(k)] = frames[at(c.bodyA)].p;
     com_B_[at(k)] = frames[at(c.bodyB)].p;
 
-    // A soft row has compliance; a driven row is hard; a free axis and a dropped row are out of the system.
+    // A soft row has compliance; a driven row is hard; a free axis is out of the system.
     double compliance[6] = {};
-    unsigned active = hard_[at(k)];
+    unsigned active = hardRows(c.kind);
     for (int a = firstAxis(k); a < firstAxis(k + 1); ++a) {
       const AxisLaw& law = laws[at(a)];
       const int row = axes_[at(a)].row;
@@ -210,10 +253,8 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
     if (!sized_[at(k)]) setSize(k, jacobianA, jacobianB);
     elimination_->setConstraint(k, jacobianA, jacobianB, compliance, active);
   }
-  ++linearisation_[at(part.index)];
   int leftOut = 0;
   for (const Elimination::Part& steps : part.steps) leftOut += elimination_->factor(steps);
-  if (couplingsOn_ && !part.couplings.empty()) factorCouplings(part);
   return leftOut;
 }
 

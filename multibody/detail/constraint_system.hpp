@@ -73,9 +73,14 @@ public:
   int couplingNode(int coupling) const { return movableBodies() + static_cast<int>(constraints_.size()) + coupling; }
   int nodes() const { return couplingNode(static_cast<int>(couplings_.size())); }
 
-  /// Hard rows in use: those of the kind without the redundant ones.
+  /// Hard rows that hold in the last linearise() (before any: all of the kind). In a constraint with redundant rows
+  /// those that follow from others best are left out anew each time; and in singular positions rows without a pivot.
   unsigned hardRowsOf(int constraint) const { return hard_[static_cast<std::size_t>(constraint)]; }
-  void dropRow(int constraint, int row) { hard_[static_cast<std::size_t>(constraint)] &= ~(1u << row); }
+  /// States that `row` of a constraint, or another in its place, follows from others wherever the mechanism goes.
+  void noteRedundant(int constraint, int row);
+  int redundantRowsIn(int constraint) const {
+    return __builtin_popcount(redundant_[static_cast<std::size_t>(constraint)]);
+  }
 
   /// Frames of all bodies at `poses`, the world last.
   void place(const std::vector<Pose>& poses, std::vector<Frame>& frames) const;
@@ -119,6 +124,8 @@ public:
 
 private:
   void setSize(int constraint, const Block& jacobianA, const Block& jacobianB);
+  int setUpAndFactor(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
+  void setPivotThreshold(int constraint);
   void setOffsets();
   void mergeCoupledParts();
   void factorCouplings(const Part& part);
@@ -137,6 +144,9 @@ private:
   std::vector<Vec3d> com_A_, com_B_;
   std::vector<std::array<double, 6>> size_; ///< J M^-1 J^T of each row alone
   double pivotScale_ = 1;
+  std::vector<unsigned> redundant_; ///< of each constraint: as noted
+  std::vector<int> expectedLost_;   ///< of each part: rows that have no pivot because they are redundant
+  bool strict_ = false;             ///< redundant constraints keep every row with a pivot, however small
   std::vector<long long> linearisation_;
 
   std::vector<Axis> axes_;

@@ -31,6 +31,10 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
+/// Newton's method within the iteration; below, the iteration itself converges.
+constexpr double kFastSpin = 0.3;
+
 } // namespace
 
 void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
@@ -122,12 +126,18 @@ double EulerStep::setGyroResidual(const ConstraintSystem::Part& part, double dt)
   return largest;
 }
 
-void EulerStep::applyCorrection(const ConstraintSystem::Part& part) {
+void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
   system.solve(part, x);
   for (const int node : part.bodies) {
     Twist& V = newTwist[at(system.bodyOf(node))];
     V.v += linear(x[at(node)]);
     V.w += angular(x[at(node)]);
+    // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
+    const Mat3d& I = system.inertia(node);
+    if (dt * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
+      V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, dt);
+      gyro[at(node)] = gyroscopicMomentum(I, V.w, dt); // solved: nothing is left for the next iterate
+    }
   }
   for (const int k : part.constraints)
     for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
@@ -149,7 +159,7 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
   double gap = 0;
   int iteration = 0;
   for (;;) {
-    applyCorrection(part);
+    applyCorrection(part, dt);
     moveTrial(part, state, dt);
     ++iteration;
     gap = setGapResidual(part, state, dt, worst);
@@ -275,6 +285,8 @@ EulerStep::EulerStep(const Problem& problem)
   for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
   system.place(trialPose, frames);
   trial = frames;
+  for (int node = 0; node < system.movableBodies(); ++node)
+    inertiaSpread.push_back(spreadOf(model.bodies()[at(system.bodyOf(node))].inertia_B));
 }
 
 void EulerStep::step(State& state, const Loads& loads, double dt) {

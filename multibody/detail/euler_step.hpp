@@ -18,7 +18,7 @@ public:
 private:
   void solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
   void setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt);
-  void applyCorrection(const ConstraintSystem::Part& part);
+  void applyCorrection(const ConstraintSystem::Part& part, double dt);
   void moveTrial(const ConstraintSystem::Part& part, const State& state, double dt);
   double setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, int& worst);
   double setGyroResidual(const ConstraintSystem::Part& part, double dt);
@@ -40,6 +40,7 @@ private:
   std::vector<std::array<double, 6>> impulse; ///< Lambda, one a constraint
   std::vector<double> couplingImpulse;        ///< one a coupling
   std::vector<double> oldRate, newRates;      ///< before and after the step, one an axis
+  std::vector<double> inertiaSpread;          ///< one a movable body
   std::vector<Vec3d> gyro;                    ///< gyroscopic momentum at the current iterate, one a movable body
   std::vector<Twist> newTwist;                ///< current iterate, one a body
   std::vector<Pose> trialPose;                ///< one a body

@@ -51,6 +51,10 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Gaps are not closed further than this part of the coordinates.
 constexpr double kRoundOff = 5e-16;
 
+/// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
+/// Newton's method within the iteration.
+constexpr double kFastSpin = 0.05;
+
 /// First halves of the palindromes, the middle last.
 /// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,
 /// Lubich and Wanner 2006, V.3.2).
@@ -87,6 +91,8 @@ RattleStep::RattleStep(const Problem& problem)
   for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
   system.place(trialPose, frames);
   trial = frames;
+  for (int node = 0; node < system.movableBodies(); ++node)
+    inertiaSpread.push_back(spreadOf(model.bodies()[at(system.bodyOf(node))].inertia_B));
 }
 
 void RattleStep::step(State& state, const Loads& loads, double dt) {
@@ -215,7 +221,7 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   for (int iteration = 1;; ++iteration) {
     system.solve(part, x);
     if (mixed) mix(part);
-    applyCorrection(part);
+    applyCorrection(part, h);
     moveTrial(part, state, h);
     const bool follow = updateAxes(part, h);
     const double gap = setResiduals(part, h);
@@ -291,7 +297,7 @@ double RattleStep::setResiduals(const Part& part, double h) {
     positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
     Vector6& residual = x[at(rowNode(k))];
     residual = {};
-    const unsigned hard = system.hardRowsOf(k), kept = system.elimination().keptRows(k);
+    const unsigned hard = hardRows(system.constraints()[at(k)].kind), kept = system.elimination().keptRows(k);
     for (int r = 0; r < 6; ++r) {
       if (!(hard >> r & 1u)) continue;
       residual[at(r)] = -error[r] / h;
@@ -377,12 +383,19 @@ void RattleStep::mix(const Part& part) {
   all([&](double, double& correction, double) { correction = change[n++]; });
 }
 
-void RattleStep::applyCorrection(const Part& part) {
+void RattleStep::applyCorrection(const Part& part, double h) {
   for (const int node : part.bodies) {
     Twist& V = mean[at(system.bodyOf(node))];
     V.v += linear(x[at(node)]);
     V.w += angular(x[at(node)]);
     x[at(node)] = {};
+    if (relinearised[at(part.index)]) continue;
+    // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
+    const Mat3d& I = system.inertia(node);
+    if (std::fabs(h) * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
+      V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, h);
+      gyro[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
+    }
   }
   for (const int k : part.constraints)
     for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
@@ -429,7 +442,7 @@ void RattleStep::fail(const Part& part, const State& state, double gap, double h
     double error[6];
     positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
     for (int r = 0; r < 6; ++r)
-      if ((system.hardRowsOf(k) >> r & 1u) && !(std::fabs(error[r]) <= most))
+      if ((hardRows(system.constraints()[at(k)].kind) >> r & 1u) && !(std::fabs(error[r]) <= most))
         most = std::fabs(error[r]), worst = k, worstRow = r;
   }
   std::ostringstream message;

@@ -27,7 +27,7 @@ private:
   void solvePositions(const Part& part, const State& state, const Loads& loads, double h);
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);
-  void applyCorrection(const Part& part);
+  void applyCorrection(const Part& part, double h);
   void mix(const Part& part);
   void startAfresh(const Part& part, const State& state, const Loads& loads, double h);
   void moveTrial(const Part& part, const State& state, double h);
@@ -69,10 +69,11 @@ private:
   std::vector<std::array<double, 6>> impulse; ///< of the rows, in the position and then in the velocity stage
   std::vector<std::array<double, 6>> endImpulse;
   std::vector<double> couplingImpulse, couplingEndImpulse;
-  std::vector<Vec3d> gyro;  ///< gyroscopic momentum at the current iterate, one a movable body
-  std::vector<Vec3d> spin;  ///< angular momentum after the first half kick, one a movable body
-  std::vector<Twist> mean;  ///< twist over the stage, one a body
-  std::vector<Twist> twist; ///< at the end of the stage, one a body
+  std::vector<Vec3d> gyro;           ///< gyroscopic momentum at the current iterate, one a movable body
+  std::vector<double> inertiaSpread; ///< one a movable body
+  std::vector<Vec3d> spin;           ///< angular momentum after the first half kick, one a movable body
+  std::vector<Twist> mean;           ///< twist over the stage, one a body
+  std::vector<Twist> twist;          ///< at the end of the stage, one a body
   std::vector<Pose> trialPose;
   std::vector<Frame> frames, trial;
   std::vector<JointFrames> startFrames, trialFrames; ///< one a constraint

@@ -95,7 +95,7 @@ double RattleStep::setRateResiduals(const Part& part) {
   for (const int k : part.constraints) {
     Vector6& residual = x[at(rowNode(k))];
     residual = {};
-    const unsigned hard = system.hardRowsOf(k), kept = system.elimination().keptRows(k);
+    const unsigned hard = hardRows(system.constraints()[at(k)].kind), kept = system.elimination().keptRows(k);
     for (int r = 0; r < 6; ++r) {
       if (!(hard >> r & 1u)) continue;
       residual[at(r)] = -system.rate(k, r, twist);

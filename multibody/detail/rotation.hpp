@@ -4,6 +4,8 @@
 #include "base/math.hpp"
 #include "base/vec.hpp"
 
+#include <cmath>
+
 namespace grouser::multibody::detail {
 
 using base::Mat3d;
@@ -92,6 +94,52 @@ inline Vec3d gyroscopicMomentum(const Mat3d& I_W, const Vec3d& w, double dt) {
   if (first == Vec3d{}) return {};
   const double beta = inverseTangentFactor(0.25 * norm2(theta));
   return 0.5 * first + beta * cross(theta, first);
+}
+
+/// How unlike the principal moments are: tr(I) tr(I^-1) / 9, 1 for a sphere.
+inline double spreadOf(const Mat3d& I) {
+  const auto minor = [&](int i, int j) { return I.m[i][i] * I.m[j][j] - I.m[i][j] * I.m[j][i]; };
+  const double xx = minor(1, 2), yy = minor(0, 2), zz = minor(0, 1);
+  const double determinant = I.m[0][0] * xx - I.m[0][1] * (I.m[1][0] * I.m[2][2] - I.m[1][2] * I.m[2][0]) +
+                             I.m[0][2] * (I.m[1][0] * I.m[2][1] - I.m[1][1] * I.m[2][0]);
+  return (I.m[0][0] + I.m[1][1] + I.m[2][2]) * (xx + yy + zz) / (9 * determinant);
+}
+
+/// Solves S = I w + gyroscopicMomentum(I, w, dt) for w near `guess`, by Newton's method with the derivative at fixed
+/// beta:
+///   dS/dw = I + dt/2 ([w] I - [I w]) + beta dt^2 (w.y + w y^T + w (I w)^T - |w|^2 I - 2 y w^T),   y = I w,
+/// each step halved until the residual falls. Where moments differ by orders of magnitude the fixed-point iteration
+/// with I alone diverges although the motion is slow.
+inline Vec3d twistOfSpin(const Mat3d& I, const Vec3d& S, const Vec3d& guess, double dt) {
+  Vec3d w = guess;
+  const auto residual = [&](const Vec3d& v) { return S - (I * v + gyroscopicMomentum(I, v, dt)); };
+  Vec3d r = residual(w);
+  for (int iteration = 0; iteration < 30 && norm2(r) > 1e-32 * norm2(S); ++iteration) {
+    const Vec3d y = I * w;
+    const double beta = inverseTangentFactor(0.25 * dt * dt * norm2(w)), q = beta * dt * dt;
+    const Mat3d cross_wI = skew(w) * I, cross_y = skew(y);
+    Mat3d A;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        A.m[i][j] = I.m[i][j] + 0.5 * dt * (cross_wI.m[i][j] - cross_y.m[i][j]) +
+                    q * ((i == j ? dot(w, y) : 0) + 2 * w[i] * y[j] - norm2(w) * I.m[i][j] - 2 * y[i] * w[j]);
+    // Cramer's rule.
+    const Vec3d a{A.m[0][0], A.m[1][0], A.m[2][0]}, b{A.m[0][1], A.m[1][1], A.m[2][1]},
+        c{A.m[0][2], A.m[1][2], A.m[2][2]};
+    const double determinant = dot(a, cross(b, c));
+    if (!(std::fabs(determinant) > 0)) return w;
+    const Vec3d step = (1 / determinant) * Vec3d{dot(r, cross(b, c)), dot(a, cross(r, c)), dot(a, cross(b, r))};
+    double part = 1;
+    Vec3d next = residual(w + step);
+    while (!(norm2(next) < norm2(r)) && part > 1e-3) {
+      part *= 0.5;
+      next = residual(w + part * step);
+    }
+    if (!(norm2(next) < norm2(r))) return w;
+    w += part * step;
+    r = next;
+  }
+  return w;
 }
 
 } // namespace grouser::multibody::detail
