@@ -3,6 +3,7 @@
 #include "runs/bench.hpp"
 
 #include "runs/bench_report.hpp"
+#include "runs/device_choice.hpp"
 #include "runs/progress.hpp"
 
 #include <fmt/format.h>
@@ -83,14 +84,15 @@ Json printParts(const StepBench& bench) {
 } // namespace
 
 void benchBedCommand(const BenchCommand& command) {
-  const base::Exec exec = benchExec(command.device.empty() ? "auto" : command.device, command.threads);
+  const base::Exec exec =
+      chooseDevice(command.device.empty() ? "auto" : command.device, command.threads, command.ranks);
   Json json = benchOrigin("bed", exec);
   const BedBench& b = command.bed;
   fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
              "settled {:g} s\n",
              b.grains, b.radius, b.friction, b.skin, b.timeStep, b.settleTime);
   std::fflush(stdout);
-  const BedFigures f = benchBed(b, exec);
+  const BedFigures f = benchBed(b, exec, command.comm());
   const double n = static_cast<double>(b.grains);
   const auto rate = [n](double microseconds) { return n / (1e-6 * microseconds); };
   const double share = f.rebuildMicroseconds / f.stepsBetweenRebuilds;
@@ -107,6 +109,13 @@ void benchBedCommand(const BenchCommand& command) {
                  ? fmt::format("one in {:.0f} steps: {:.2f} us a step", f.stepsBetweenRebuilds, share)
                  : std::string("none was needed while timing"));
   fmt::print("memory    {:.0f} bytes a grain\n", f.bytesPerGrain);
+  const int ranks = command.comm().size();
+  if (ranks > 1)
+    fmt::print(
+        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest; waiting "
+        "for others {:.1f} to {:.1f} % of the time\n",
+        ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, 100 * f.leastWait,
+        100 * f.mostWait);
   if (!f.stateHash.empty()) fmt::print("state-hash {} step {}\n", f.stateHash, f.stepsTaken);
 
   json["grains"] = b.grains;
@@ -130,6 +139,11 @@ void benchBedCommand(const BenchCommand& command) {
   json["rebuild_microseconds"] = f.rebuildMicroseconds;
   json["bytes_a_grain"] = f.bytesPerGrain;
   json["steps_taken"] = f.stepsTaken;
+  json["ranks"] = ranks;
+  json["subdomains"] = f.subdomains;
+  json["ghost_share"] = f.ghostShare;
+  json["bytes_a_step"] = f.bytesAStep;
+  json["waiting_share"] = {{"least", f.leastWait}, {"most", f.mostWait}};
   if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
   writeBench(json, command.json);
 }
@@ -137,7 +151,7 @@ void benchBedCommand(const BenchCommand& command) {
 void benchStepCommand(const BenchCommand& command) {
   const Scene scene = loadScene(command.scene, command.overrides);
   const std::string device = command.device.empty() ? scene.run.device : command.device;
-  const base::Exec exec = benchExec(device, command.threads ? command.threads : scene.run.threads);
+  const base::Exec exec = chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
   const StepBenchOptions& o = command.step;
   Json json = benchOrigin("step", exec);
 

@@ -51,8 +51,14 @@ struct BedFigures {
   double kineticPerGrain = 0;      ///< over m g radius [-]
   std::int64_t stepsTaken = 0;     ///< settling and all batches
   std::string stateHash;           ///< empty where not taken
+  // On several ranks.
+  std::array<int, 3> subdomains{1, 1, 1};
+  double ghostShare = 0;              ///< ghosts over grains [-]
+  double bytesAStep = 0;              ///< sent by the busiest rank while timing [B]
+  double leastWait = 0, mostWait = 0; ///< share of the timed steps that a rank waited for others [-]
 };
-BedFigures benchBed(const BedBench& bench, const base::Exec& exec);
+/// On several ranks all of them call it; they share one bed.
+BedFigures benchBed(const BedBench& bench, const base::Exec& exec, const base::Comm& comm = {});
 
 /// Where the time of a step goes.
 struct StepBenchOptions {
@@ -106,6 +112,8 @@ struct BenchCommand {
   std::string device; ///< auto | cpu | cuda; empty: auto, or as the scene says
   int threads = 0;    ///< 0: all, or as the scene says
   std::string json;
+  const base::Ranks* ranks = nullptr; ///< that run it together
+  base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
 };
 void benchBedCommand(const BenchCommand& command);
 void benchStepCommand(const BenchCommand& command);

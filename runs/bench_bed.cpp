@@ -2,7 +2,6 @@
 #include "runs/bench.hpp"
 
 #include "base/error.hpp"
-#include "base/hash.hpp"
 #include "base/random.hpp"
 #include "contact/restitution.hpp"
 #include "runs/laws.hpp"
@@ -118,9 +117,9 @@ double BatchTimes::median() const { return runs::median(microseconds); }
 double BatchTimes::least() const { return *std::min_element(microseconds.begin(), microseconds.end()); }
 double BatchTimes::most() const { return *std::max_element(microseconds.begin(), microseconds.end()); }
 
-BedFigures benchBed(const BedBench& b, const base::Exec& exec) {
+BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm& comm) {
   const terrain::GrainModel model = modelOf(b);
-  terrain::Grains grains(exec, model, box(b, model), lattice(b));
+  terrain::Grains grains(exec, model, box(b, model), lattice(b), {comm, {0, 0, 0}, true});
   BedFigures f;
   const Clock::time_point settling = Clock::now();
   advance(grains, std::llround(b.settleTime / b.timeStep));
@@ -131,25 +130,39 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec) {
   timed(exec, grains, 5);
   const double warm = timed(exec, grains, 20);
   f.times.steps = b.steps > 0 ? b.steps : std::clamp<std::int64_t>(static_cast<std::int64_t>(1e6 / warm), 10, 20000);
+  comm.wait();
+  f.times.steps = static_cast<std::int64_t>(comm.maximumOf(static_cast<std::uint64_t>(f.times.steps)));
   const std::int64_t before = grains.rebuilds();
+  const terrain::Subdomain* subdomain = grains.subdomain();
+  const std::int64_t sent = subdomain ? subdomain->bytesSent() : 0;
+  const double waited = comm.waited();
+  const Clock::time_point start = Clock::now();
   for (int k = 0; k < b.batches; ++k) f.times.microseconds.push_back(timed(exec, grains, f.times.steps));
   const std::int64_t rebuilds = grains.rebuilds() - before, steps = f.times.steps * b.batches;
   f.stepsBetweenRebuilds = rebuilds > 0 ? static_cast<double>(steps) / static_cast<double>(rebuilds)
                                         : std::numeric_limits<double>::infinity();
   f.stepsTaken = grains.steps();
-  if (b.hash) {
-    base::StateHash hash;
-    hash.add(grains.stateWords());
-    f.stateHash = hash.hex();
+  if (subdomain) {
+    f.subdomains = subdomain->partition().shape();
+    f.ghostShare =
+        static_cast<double>(comm.sumOf(static_cast<std::int64_t>(subdomain->ghosts()))) / static_cast<double>(b.grains);
+    const auto perStep = static_cast<std::uint64_t>((subdomain->bytesSent() - sent) / steps);
+    f.bytesAStep = static_cast<double>(comm.maximumOf(perStep));
+    const double share = (comm.waited() - waited) / secondsSince(start);
+    double extremes[2] = {share, -share};
+    comm.maximum(extremes, 2);
+    f.mostWait = extremes[0], f.leastWait = -extremes[1];
   }
+  if (b.hash) f.stateHash = terrain::hashOf(grains.state(), comm).hex();
 
   std::vector<double> rebuild;
   for (int k = 0; k < kRebuildsTimed; ++k) {
     grains.invalidateNeighbours();
-    const Clock::time_point start = Clock::now();
+    comm.wait();
+    const Clock::time_point from = Clock::now();
     grains.refreshNeighbours();
     base::synchronize(exec);
-    rebuild.push_back(1e6 * secondsSince(start));
+    rebuild.push_back(1e6 * secondsSince(from));
   }
   f.rebuildMicroseconds = median(rebuild);
   const double n = static_cast<double>(b.grains);
@@ -157,8 +170,8 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec) {
   f.contactsPerGrain = static_cast<double>(ledger.contacts + ledger.boundaryContacts) / n;
   f.kineticPerGrain = (ledger.kinetic + ledger.rotational) / n / (model.mass * kGravity * b.radius);
   const std::vector<std::uint32_t> count = grains.neighbours().toHost().count;
-  f.listLength = std::accumulate(count.begin(), count.end(), 0.0) / n;
-  f.bytesPerGrain = static_cast<double>(grains.deviceBytes()) / n;
+  f.listLength = static_cast<double>(comm.sumOf(std::accumulate(count.begin(), count.end(), std::int64_t{0}))) / n;
+  f.bytesPerGrain = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(grains.deviceBytes()))) / n;
   return f;
 }
 

@@ -6,6 +6,7 @@
 #include "runs/bench_bullet.hpp"
 #include "runs/bench_report.hpp"
 #include "runs/contact_spheres.hpp"
+#include "runs/device_choice.hpp"
 #include "runs/plots.hpp"
 
 #include <fmt/format.h>
@@ -152,7 +153,7 @@ double growthExponent(const std::vector<double>& contacts, const std::vector<dou
 }
 
 void benchContactsCommand(const ContactsBench& bench) {
-  const base::Exec exec = benchExec(bench.device, bench.threads, bench.ranks);
+  const base::Exec exec = chooseDevice(bench.device, bench.threads, bench.ranks);
   if (!bench.plot.empty() && !bench.plot.ends_with(".png"))
     throw base::InputError(fmt::format("--plot {}: its name must end with .png", bench.plot));
   if (!bench.plot.empty() && bench.json.empty())

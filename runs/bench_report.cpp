@@ -7,22 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <fstream>
 
 namespace grouser::runs {
 
 using Json = nlohmann::ordered_json;
-
-base::Exec benchExec(const std::string& device, int threads, const base::Ranks* ranks) {
-  if (device != "auto" && device != "cpu" && device != "cuda")
-    throw base::InputError(fmt::format("--device {}: is none of auto, cpu, cuda", device));
-  if (device == "cuda" || (device == "auto" && base::cudaAvailable()))
-    return base::cudaExec(ranks ? ranks->rankOnHost() % std::max(1, base::cudaDevices()) : 0);
-  if (threads == 0 && ranks && ranks->ranksOnHost() > 1)
-    threads = std::max(1, base::cpuExec().threads / ranks->ranksOnHost());
-  return base::cpuExec(threads);
-}
 
 Json benchOrigin(const char* bench, const base::Exec& exec) {
   const BuildInfo build = buildInfo();

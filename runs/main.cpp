@@ -132,8 +132,7 @@ void addContactsBench(CLI::App& app, runs::ContactsBench& c) {
   contacts->add_option("--repeats", c.repeats, "of each search; the median is reported")
       ->check(runs::wholeNumber(1, 1000))
       ->capture_default_str();
-  contacts
-      ->add_option("--bullet", c.bulletSpheres, "compare with Bullet up to so many spheres; 0: not at all")
+  contacts->add_option("--bullet", c.bulletSpheres, "compare with Bullet up to so many spheres; 0: not at all")
       ->check(runs::wholeNumber(0, 10'000'000))
       ->capture_default_str();
   contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
@@ -289,7 +288,7 @@ int main(int argc, char** argv) {
   runs::StudyCommand study;
   runs::RenderCommand render;
   runs::ContactsBench contacts;
-  render.comm = ranks.comm(), contacts.ranks = &ranks;
+  render.comm = ranks.comm(), contacts.ranks = &ranks, bench.ranks = &ranks;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
   runs::SpheresCommand spheres;

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/build_info.hpp"
 #include "runs/checkpoint.hpp"
+#include "runs/device_choice.hpp"
 #include "runs/mechanism_output.hpp"
 #include "runs/progress.hpp"
 #include "runs/ranks_alike.hpp"
@@ -23,16 +24,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Ranks of one host share its GPUs in turn, and its cores evenly.
-base::Exec chooseExec(const Scene& scene, const base::Ranks* ranks) {
-  const int onHost = ranks ? ranks->ranksOnHost() : 1;
-  if (scene.run.device == "cuda" || (scene.run.device == "auto" && base::cudaAvailable()))
-    return base::cudaExec(ranks ? ranks->rankOnHost() % std::max(1, base::cudaDevices()) : 0);
-  base::Exec exec = base::cpuExec(scene.run.threads);
-  if (scene.run.threads == 0) exec.threads = std::max(1, exec.threads / onHost);
-  return exec;
-}
 
 /// A signal that any rank has received; asked of all of them now and then only, since all must agree.
 int signalOf(const base::Comm& comm, std::int64_t step) {
@@ -170,7 +161,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const StopSignals signals;
   requireAlike(scene, options.comm());
-  const base::Exec exec = chooseExec(scene, options.ranks);
+  const base::Exec exec = chooseDevice(scene.run.device, scene.run.threads, options.ranks);
   const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
   const std::unique_ptr<Simulation> made = makeSimulation(scene, exec, former.get(), options.comm());
   Simulation& simulation = *made;

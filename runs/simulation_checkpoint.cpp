@@ -6,27 +6,9 @@
 
 namespace grouser::runs {
 
-namespace {
-
-/// The hash goes from rank to rank, as if one had all the words.
-base::StateHash hashOfGrains(const terrain::GrainState& grains, const base::Comm& comm) {
-  const std::vector<std::uint32_t> words = grains.words();
-  std::uint64_t value = 0;
-  const auto total = static_cast<std::uint64_t>(comm.sumOf(static_cast<std::int64_t>(words.size())));
-  if (!comm.first()) value = base::Comm::valuesOf<std::uint64_t>(comm.receive(comm.rank() - 1)).front();
-  base::StateHash hash(value);
-  if (comm.first()) hash.add(total);
-  for (const std::uint32_t word : words) hash.add(static_cast<std::uint64_t>(word));
-  const auto bytes = base::Comm::bytesOf(std::vector<std::uint64_t>{hash.value()});
-  if (comm.rank() + 1 < comm.size()) comm.send(comm.rank() + 1, bytes);
-  return base::StateHash(base::Comm::valuesOf<std::uint64_t>(comm.broadcast(bytes, comm.size() - 1)).front());
-}
-
-} // namespace
-
 std::string SimulationState::hash(const base::Comm& comm) const {
   base::StateHash hash;
-  if (grains) hash = hashOfGrains(*grains, comm);
+  if (grains) hash = terrain::hashOf(*grains, comm);
   if (vehicle) hash.add(vehicle->words());
   if (mechanism) hash.add(mechanism->words());
   return hash.hex();

@@ -112,6 +112,20 @@ GrainState redistribute(const base::Comm& comm, const GrainState& s, const std::
   return inOrder(out);
 }
 
+/// The hash goes from rank to rank.
+base::StateHash hashOf(const GrainState& grains, const base::Comm& comm) {
+  const std::vector<std::uint32_t> words = grains.words();
+  std::uint64_t value = 0;
+  const auto total = static_cast<std::uint64_t>(comm.sumOf(static_cast<std::int64_t>(words.size())));
+  if (!comm.first()) value = base::Comm::valuesOf<std::uint64_t>(comm.receive(comm.rank() - 1)).front();
+  base::StateHash hash(value);
+  if (comm.first()) hash.add(total);
+  for (const std::uint32_t word : words) hash.add(static_cast<std::uint64_t>(word));
+  const auto bytes = base::Comm::bytesOf(std::vector<std::uint64_t>{hash.value()});
+  if (comm.rank() + 1 < comm.size()) comm.send(comm.rank() + 1, bytes);
+  return base::StateHash(base::Comm::valuesOf<std::uint64_t>(comm.broadcast(bytes, comm.size() - 1)).front());
+}
+
 std::uint64_t blockStart(const base::Comm& comm, std::int64_t total, int rank) {
   const auto size = static_cast<std::uint64_t>(comm.size()), r = static_cast<std::uint64_t>(rank);
   const auto all = static_cast<std::uint64_t>(total);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "base/hash.hpp"
 #include "base/position.hpp"
 #include "terrain/kept_remainder.hpp"
 
@@ -48,6 +49,8 @@ struct GrainState {
 
 /// Moves row k to rank `destination[k]`; what comes is in the order of ids. All ranks call it.
 GrainState redistribute(const base::Comm& comm, const GrainState& rows, const std::vector<int>& destination);
+/// Hash over the words of all rows, as if one rank had them; rows lie in blocks of ids. All ranks call it.
+base::StateHash hashOf(const GrainState& rows, const base::Comm& comm);
 /// The rank that holds grain `id` of `total` where rows are shared out by id, in blocks: for files.
 int blockOf(const base::Comm& comm, std::int64_t total, std::uint32_t id);
 /// First id of a rank's block; that of rank `size` is `total`.

@@ -30,7 +30,7 @@ std::int64_t wholeUnits(double length, const base::PositionScale& scale) {
 }
 
 /// Throws InputError when two grains have the same place: no direction would push them apart.
-void checkDistinct(const std::vector<Position>& position) {
+void checkDistinct(const std::vector<Position>& position, const std::vector<std::uint32_t>& id) {
   std::vector<std::size_t> order(position.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {
@@ -41,7 +41,8 @@ void checkDistinct(const std::vector<Position>& position) {
   for (std::size_t k = 1; k < order.size(); ++k)
     if (key(order[k - 1]) == key(order[k]))
       throw base::InputError(fmt::format("grains {} and {} have the same position; move one of them",
-                                         std::min(order[k - 1], order[k]), std::max(order[k - 1], order[k])));
+                                         std::min(id[order[k - 1]], id[order[k]]),
+                                         std::max(id[order[k - 1]], id[order[k]])));
 }
 
 /// The first cuts: as many grains in each slab of an axis as in the others.
@@ -84,7 +85,6 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
                       i, x.x, x.y, x.z, limit, model.radius));
     all[i] = scale_.fromMetres(x);
   }
-  checkDistinct(all);
   if (!comm_.alone()) {
     subdomain_ = std::make_unique<Subdomain>(exec, partition, diameterUnits_ + skinUnits_);
     subdomain_->setPartition(startingPartition(all, comm_.size(), partition.subdomains));
@@ -101,6 +101,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
     spin.push_back({w.x, w.y, w.z, 0});
     id.push_back(static_cast<std::uint32_t>(i));
   }
+  checkDistinct(position, id); // two at one place have one owner
   slots_ = position.size();
   position_[0] = base::Array<Position>(exec, position);
   velocity_[0] = base::Array<Vec4f>(exec, velocity);

@@ -61,6 +61,7 @@ public:
   Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
   bool rebalances() const { return rebalance_; }
   std::size_t bytes() const;
+  std::int64_t bytesSent() const { return handOver_.bytesSent() + ghostUpdate_.bytesSent(); }
 
 private:
   base::Exec exec_;
