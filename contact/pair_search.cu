@@ -179,27 +179,26 @@ struct Neighbourhood {
     return base::squaredNorm(base::difference(a, b)) < reach2;
   }
 
-  /// Calls take(j) for each sphere j that touches i and comes after it: in i's cell, or in one of the 13 that follow
-  /// it.
-  template <class Take> GROUSER_HD void forTouching(std::uint32_t i, Take take) const {
+  /// Calls visit(j, whether j touches i) for each sphere j that comes after i: in i's cell, or in one of the 13 that
+  /// follow it.
+  template <class Visit> GROUSER_HD void forLater(std::uint32_t i, Visit& visit) const {
     const Position p = position[i];
     const Cell c = grid.local(p);
     const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
-    across(p, i + 1, start[grid.key({c.x, c.y, z1}) + 1], take);
+    across(p, i + 1, start[grid.key({c.x, c.y, z1}) + 1], visit);
     // Columns (0, 1), (1, -1), (1, 0), (1, 1) from here.
     for (std::uint32_t column = 0; column < 4; ++column) {
       const std::uint32_t x = column == 0 ? c.x : c.x + 1, y = column == 0 ? c.y + 1 : c.y + column - 2;
       if (x >= grid.cells.x || y >= grid.cells.y) continue; // -1 wraps to a large number
       const std::uint64_t row = grid.key({x, y, 0});
-      across(p, start[row + z0], start[row + z1 + 1], take);
+      across(p, start[row + z0], start[row + z1 + 1], visit);
     }
   }
 
 private:
-  template <class Take>
-  GROUSER_HD void across(const Position& p, std::uint32_t first, std::uint32_t last, Take& take) const {
-    for (std::uint32_t j = first; j < last; ++j)
-      if (touch(p, position[j])) take(j);
+  template <class Visit>
+  GROUSER_HD void across(const Position& p, std::uint32_t first, std::uint32_t last, Visit& visit) const {
+    for (std::uint32_t j = first; j < last; ++j) visit(j, touch(p, position[j]));
   }
 };
 
@@ -208,13 +207,13 @@ struct Count {
   std::uint32_t* counts;
 
   struct Add {
-    std::uint32_t* n;
-    GROUSER_HD void operator()(std::uint32_t) const { ++*n; }
+    std::uint32_t n;
+    GROUSER_HD void operator()(std::uint32_t, bool touches) { n += touches; }
   };
   GROUSER_HD void operator()(int i) const {
-    std::uint32_t n = 0;
-    near.forTouching(static_cast<std::uint32_t>(i), Add{&n});
-    counts[i] = n;
+    Add add{0};
+    near.forLater(static_cast<std::uint32_t>(i), add);
+    counts[i] = add.n;
   }
 };
 
@@ -238,13 +237,15 @@ struct Store {
     const std::uint32_t* list;
     std::uint32_t id;
     IdPair* next;
-    GROUSER_HD void operator()(std::uint32_t j) {
+    GROUSER_HD void operator()(std::uint32_t j, bool touches) {
+      if (!touches) return;
       const std::uint32_t other = list[j];
       *next++ = id < other ? IdPair{id, other} : IdPair{other, id};
     }
   };
   GROUSER_HD void operator()(int i) const {
-    near.forTouching(static_cast<std::uint32_t>(i), Put{list, list[i], pairs + offset[i]});
+    Put put{list, list[i], pairs + offset[i]};
+    near.forLater(static_cast<std::uint32_t>(i), put);
   }
 };
 
