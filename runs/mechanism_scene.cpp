@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace grouser::runs {
 
 using base::Section;
@@ -72,6 +74,18 @@ void readMechanism(const Section& root, Scene& scene) {
                                      fmt::format("stands beside {}, but free bodies touch neither ground nor grains "
                                                  "nor a vehicle; give the mechanism a scene of its own",
                                                  other));
+}
+
+void checkRecord(const Section& output, const Scene& scene) {
+  std::vector<std::string> known;
+  forEachKind(scene.mechanism, [&](const char*, const auto& sections) {
+    for (const auto& section : sections) known.push_back(section.name);
+  });
+  for (const std::string& name : scene.output.record)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      output.fail("record", known.empty() ? "names parts of a mechanism, but there is none; remove it"
+                                          : fmt::format("names nothing \"{}\" of the mechanism; did you mean \"{}\"?",
+                                                        name, base::nearestWord(name, known)));
 }
 
 std::string mechanismToml(const MechanismSections& m) {

@@ -12,6 +12,9 @@ namespace grouser::runs {
 /// error names file, line, key, value and remedy.
 void readMechanism(const base::Section& root, Scene& scene);
 
+/// Throws where output.record names nothing of the mechanism.
+void checkRecord(const base::Section& output, const Scene& scene);
+
 /// The same sections as TOML.
 std::string mechanismToml(const MechanismSections& mechanism);
 

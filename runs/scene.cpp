@@ -211,6 +211,7 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
+  if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
   if (scene.grains.empty() && !scene.terrain && !scene.vehicle && scene.mechanism.empty())
     throw InputError(fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]] or [[body]]",

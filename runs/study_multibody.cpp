@@ -11,6 +11,7 @@
 #include "runs/progress.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/study_report.hpp"
+#include "runs/study_stability.hpp"
 #include "runs/text_file.hpp"
 
 #include <fmt/format.h>
@@ -162,6 +163,13 @@ void studyMultibodyCommand(const StudyCommand& command) {
   const std::vector<IntegratorChoice> integrators = studyIntegrators();
   fmt::print("study     multibody: commit {}, {}, one thread; CPU time of the steps, without set-up and output\n",
              buildInfo().commit, machineText());
+  if (command.stability) {
+    const std::vector<StabilityPoint> points = studyStability();
+    fmt::print("{}", stabilityTable(points));
+    writeTextFile(folder / "stability.csv", stabilityCsv(points), "--out");
+    fmt::print("table     {}\n", (folder / "stability.csv").string());
+    return;
+  }
   Progress progress("studying");
   std::vector<StudyResult> results;
   double done = 0;

@@ -40,6 +40,7 @@ std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& int
 /// `grouser study multibody`.
 struct StudyCommand {
   std::vector<std::string> cases; ///< empty: all
+  bool stability = false;         ///< only which steps are stable
   bool quick = false;             ///< few steps of a few cases, in seconds
   double budget = 60;             ///< [s] of CPU for one run
   std::string folder;             ///< empty: out/study_multibody
