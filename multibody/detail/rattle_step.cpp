@@ -205,6 +205,11 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   if (!positionsFactored(part)) linearise(part, frames);
   factored[at(part.index)] = -1;
   relinearised[at(part.index)] = 0;
+  // Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of
+  // the node alone would take it.
+  for (const int k : part.constraints)
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+      if (laws[at(a)].softness != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
   setFirstResidual(part, state, loads, h);
   setResiduals(part, h);
 
