@@ -29,6 +29,7 @@ Pair openPair(ConstraintKind kind) {
   p.c.axes_B = rotationBy({0.3, -0.1, 0.2}).matrix();
   p.c.point_A = {0.2, 0.3, -0.1};
   p.c.point_B = {-0.3, 0.1, 0.25};
+  p.c.length = 0.7;
   return p;
 }
 
@@ -52,6 +53,9 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
     positionError(p.c, g, C);
     if (p.c.kind == ConstraintKind::kPrismatic) C[kAxisRow] = axisPosition(p.c, g, kAxisRow);
     if (p.c.kind == ConstraintKind::kPointSpring) C[0] = axisPosition(p.c, g, 0);
+    if (p.c.kind == ConstraintKind::kCylindrical) C[kSlideRow] = axisPosition(p.c, g, kSlideRow);
+    if (p.c.kind == ConstraintKind::kBushing)
+      for (int r = 0; r < 6; ++r) C[r] = axisPosition(p.c, g, r);
   };
   // Central differences with h = 1e-5: truncation h^2 / 6 of third derivatives of order one, round-off 1e-16 / h.
   const double h = 1e-5, tolerance = 2e-10;
@@ -61,7 +65,7 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
       u[dof] = 1;
       values(body == 0 ? moved(p.A, u, h) : p.A, body == 1 ? moved(p.B, u, h) : p.B, plus);
       values(body == 0 ? moved(p.A, u, -h) : p.A, body == 1 ? moved(p.B, u, -h) : p.B, minus);
-      const bool revolute = p.c.kind == ConstraintKind::kRevolute;
+      const bool revolute = p.c.kind == ConstraintKind::kRevolute || p.c.kind == ConstraintKind::kCylindrical;
       for (int r = 0; r < 6; ++r) {
         if (revolute && r == kAxisRow) continue; // its rate equals the angle's only when the axes coincide: next test
         EXPECT_NEAR((body == 0 ? JA : JB)[static_cast<std::size_t>(kStride * dof + r)], (plus[r] - minus[r]) / (2 * h),
@@ -88,10 +92,40 @@ TEST_P(MultibodyRows, ForcesOnTheTwoBodiesBalance) {
   }
 }
 
+TEST_P(MultibodyRows, BiasIsTheDerivativeOfTheRatesWithoutAccelerations) {
+  const Pair p = openPair(GetParam());
+  if (p.c.kind == ConstraintKind::kPointSpring || p.c.kind == ConstraintKind::kBushing) return; // never hard
+  const double uA[6] = {0.3, -0.5, 0.2, 0.7, -0.4, 0.6}, uB[6] = {-0.1, 0.4, 0.8, -0.3, 0.9, 0.5};
+  const Twist V_A{{uA[0], uA[1], uA[2]}, {uA[3], uA[4], uA[5]}}, V_B{{uB[0], uB[1], uB[2]}, {uB[3], uB[4], uB[5]}};
+  // Rates J(q(t)) (v, w) along motions of constant twists.
+  const auto rates = [&](double t, double(&rate)[6]) {
+    const Frame FA = frameOf(moved(p.A, uA, t)), FB = frameOf(moved(p.B, uB, t));
+    const JointFrames f = framesOf(p.c, FA, FB);
+    Block JA{}, JB{};
+    rowBlocks(rowDirections(p.c, f), f.p_B, FA.p, FB.p, JA, JB);
+    for (std::size_t r = 0; r < 6; ++r) {
+      rate[r] = 0;
+      for (std::size_t i = 0; i < 6; ++i) rate[r] += JA[kStride * i + r] * uA[i] + JB[kStride * i + r] * uB[i];
+    }
+  };
+  const Frame FA = frameOf(p.A), FB = frameOf(p.B);
+  double bias[6], plus[6], minus[6];
+  rowBias(p.c, framesOf(p.c, FA, FB), FA, FB, V_A, V_B, bias);
+  const double h = 1e-5; // central differences: h^2 / 6 of third derivatives of up to some tens (a short rod)
+  rates(h, plus), rates(-h, minus);
+  const unsigned used = hardRows(p.c.kind) | axisRows(p.c.kind);
+  for (int r = 0; r < 6; ++r)
+    if (used >> r & 1u) {
+      EXPECT_NEAR(bias[r], (plus[r] - minus[r]) / (2 * h), 1e-9) << "row " << r;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, MultibodyRows,
                          ::testing::Values(ConstraintKind::kRevolute, ConstraintKind::kSpherical,
                                            ConstraintKind::kUniversal, ConstraintKind::kPrismatic,
-                                           ConstraintKind::kFixed, ConstraintKind::kPointSpring));
+                                           ConstraintKind::kFixed, ConstraintKind::kCylindrical,
+                                           ConstraintKind::kDistance, ConstraintKind::kPointSpring,
+                                           ConstraintKind::kBushing));
 
 TEST(MultibodyAngle, GrowsWithTheRelativeRotationOverManyTurns) {
   Pair p = openPair(ConstraintKind::kRevolute);
