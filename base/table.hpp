@@ -265,9 +265,9 @@ private:
 /// A parsed TOML file with overrides applied. `version = 1` is checked and required.
 class Document {
 public:
-  /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01` or `contact."a|b".friction=0.3`; its
-  /// value is TOML, or a bare word taken as text. Throws InputError: no such file, syntax (file:line:column), version,
-  /// override.
+  /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01`, `body."left wheel".mass=2` (an entry
+  /// of a list by its name) or `contact."a|b".friction=0.3`; its value is TOML, or a bare word taken as text. Throws
+  /// InputError: no such file, syntax (file:line:column), version, override.
   static Document load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
   /// The same from text; `name` stands for the file in messages.
   static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});

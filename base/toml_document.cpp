@@ -102,8 +102,10 @@ Node overrideValue(const std::string& text) {
   Node node;
   try {
     const toml::table table = toml::parse("value = " + text);
-    if (table.size() == 1) node = convert(*table.get("value"), "--set");
-    else node.value = text;
+    if (table.size() == 1)
+      node = convert(*table.get("value"), "--set");
+    else
+      node.value = text;
   } catch (const toml::parse_error&) {
     node.value = text;
   }
@@ -120,9 +122,18 @@ void applyOverride(Node& root, const std::string& text) {
   for (const std::string& part : parts) {
     if (auto* list = std::get_if<Node::List>(&node->value)) {
       const bool isNumber = std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+      const auto named = std::find_if(list->begin(), list->end(), [&](const Node& entry) {
+        const Node* name = entry.find("name");
+        const auto* word = name ? std::get_if<std::string>(&name->value) : nullptr;
+        return word && *word == part;
+      });
+      if (named != list->end()) {
+        node = &*named;
+        continue;
+      }
       if (!isNumber || part.size() > 9 || std::stoul(part) >= list->size())
-        throw InputError(
-            fmt::format("--set {}: there is no entry {} in a list of {}; count from 0", text, part, list->size()));
+        throw InputError(fmt::format("--set {}: there is no entry {} in a list of {}; count from 0, or give its name",
+                                     text, part, list->size()));
       node = &(*list)[std::stoul(part)];
       continue;
     }

@@ -201,6 +201,13 @@ constexpr Mistake kMistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(All, MechanismMistakes, testing::ValuesIn(kMistakes));
 
+TEST(MechanismScene, OverridesTakeTheNameOfAPart) {
+  const Scene scene = parseScene(kScene, "scene.toml", {"body.upper.mass=3", "spring.cord.stiffness=7"});
+  EXPECT_EQ(*scene.mechanism.bodies[0].mass, 3);
+  EXPECT_EQ(scene.mechanism.springs[1].stiffness, 7);
+  EXPECT_THROW(parseScene(kScene, "scene.toml", {"body.uper.mass=3"}), base::InputError);
+}
+
 TEST(MechanismScene, PartsWithoutBodiesAreRefused) {
   EXPECT_NE(errorOf("version = 1\n[run]\nduration = 1\n[[joint]]\nname = \"a\"\nbodies = [\"world\", \"b\"]\n")
                 .find("names no body \"b\""),
