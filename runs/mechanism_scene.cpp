@@ -2,6 +2,7 @@
 #include "runs/mechanism_scene.hpp"
 
 #include "runs/detail/scene_tables.hpp"
+#include "runs/mechanism.hpp"
 #include "runs/mechanism_model.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +32,26 @@ template <class S> void readAll(const Section& root, const std::string& key, con
     } catch (const SectionFault& fault) {
       section.fail(fault.key(), fault.what());
     }
+  }
+}
+
+/// Has the solver look at the whole: joints that do not close, drives that contradict each other through a loop. Its
+/// messages begin with kind and name of a part, whose place in the file is put before.
+void checkWhole(const Section& root, const multibody::Model& model, const Scene& scene) {
+  try {
+    const multibody::Solver solver(model, solverOptions(scene.run));
+  } catch (const base::InputError& error) {
+    const std::string message = error.what();
+    const std::size_t open = message.find(" '"), close = message.find("': ");
+    if (open == std::string::npos || close == std::string::npos || close < open)
+      throw base::InputError(fmt::format("{}: {}", scene.file.string(), message));
+    const std::string kind = message.substr(0, open), name = message.substr(open + 2, close - open - 2);
+    for (const Section& section : root.list(kind)) {
+      const base::Node* given = section.node().find("name");
+      if (given && std::get<std::string>(given->value) == name)
+        section.fail("", fmt::format("(\"{}\"): {}", name, message.substr(close + 3)));
+    }
+    throw base::InputError(fmt::format("{}: {}", scene.file.string(), message));
   }
 }
 
@@ -68,6 +89,7 @@ void readMechanism(const Section& root, Scene& scene) {
       joints[j].fail(fault.key(), fault.what());
     }
   }
+  checkWhole(root, builder.model(), scene);
   for (const char* other : {"grain", "plane", "terrain", "vehicle"})
     if (root.has(other))
       root.list("body").front().fail("",

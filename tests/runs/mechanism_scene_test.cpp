@@ -201,6 +201,27 @@ constexpr Mistake kMistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(All, MechanismMistakes, testing::ValuesIn(kMistakes));
 
+TEST(MechanismScene, DrivesThatContradictEachOtherThroughALoopAreRefusedAtTheirLine) {
+  // Both cranks of a parallelogram, at different speeds.
+  std::string text = "version = 1\n[run]\nduration = 1\n";
+  const auto bar = [&](const char* name, const char* place, const char* box) {
+    text += std::string("[[body]]\nname = \"") + name + "\"\nmass = 1\nposition = " + place + "\nbox = " + box + "\n";
+  };
+  bar("left", "[0, 0, 0.5]", "[0.1, 0.1, 1]"), bar("right", "[1, 0, 0.5]", "[0.1, 0.1, 1]");
+  bar("top", "[0.5, 0, 1]", "[1, 0.1, 0.1]");
+  const auto pin = [&](const char* name, const char* a, const char* b, const char* point) {
+    text += std::string("[[joint]]\nname = \"") + name + "\"\nbodies = [\"" + a + "\", \"" + b +
+            "\"]\npoint = " + point + "\naxis = [0, 1, 0]\n";
+  };
+  pin("a", "world", "left", "[0, 0, 0]"), pin("b", "left", "top", "[0, 0, 1]");
+  pin("c", "top", "right", "[1, 0, 1]"), pin("d", "world", "right", "[1, 0, 0]");
+  const std::string good = text + "[[drive]]\nname = \"one\"\njoint = \"a\"\nvalue = 1\n";
+  EXPECT_EQ(errorOf(good), "no error");
+  const std::string error = errorOf(good + "[[drive]]\nname = \"two\"\njoint = \"d\"\nvalue = 2\n");
+  EXPECT_EQ(error.rfind("scene.toml:43: drive.1 (\"two\"): ", 0), 0u) << error;
+  EXPECT_NE(error.find("'one'"), std::string::npos) << error;
+}
+
 TEST(MechanismScene, OverridesTakeTheNameOfAPart) {
   const Scene scene = parseScene(kScene, "scene.toml", {"body.upper.mass=3", "spring.cord.stiffness=7"});
   EXPECT_EQ(*scene.mechanism.bodies[0].mass, 3);
