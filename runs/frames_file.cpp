@@ -92,7 +92,10 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
                             const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm) {
   FramesFile frames(folder, comm.first() ? std::optional(Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
                     std::move(parts), ground, comm);
-  if (!frames.file_) return frames;
+  if (!frames.file_) {
+    frames.count_ = kept;
+    return frames;
+  }
   for (std::int64_t i = 0; frames.file_->has(groupOf(i)); ++i) {
     const std::string group = groupOf(i);
     if (i >= kept) {
@@ -134,7 +137,10 @@ void FramesFile::add(const Frame& frame) {
     comm_.wait();
     if (comm_.first()) file_ = Hdf5File::openToChange(folder_ / "frames.h5");
   }
-  if (!file_) return;
+  if (!file_) {
+    ++count_;
+    return;
+  }
   file_->flush();
   describe(total, frame.step, frame.time);
   if (!steps_.empty()) writeXdmf();

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `mpirun -np N grouser run`: the same bits on any number of ranks, and one clear end when something breaks.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <sys/wait.h>
+
+namespace grouser::runs {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Outcome {
+  int code = 0;
+  double seconds = 0;
+  std::string out, err;
+
+  /// "state-hash 0123456789abcdef step 100", or everything where there is none.
+  std::string hash() const {
+    std::smatch match;
+    return std::regex_search(out, match, std::regex("state-hash [0-9a-f]{16} step [0-9]+")) ? match.str() : out + err;
+  }
+};
+
+class OnRanks : public testing::Test {
+protected:
+  void SetUp() override {
+    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
+    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
+    if (std::system("mpirun --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no mpirun";
+    folder_ = fs::path(testing::TempDir()) /
+              ("grouser_ranks_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "bed.toml") << kBed;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome shell(const std::string& command) const {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string all = "cd '" + folder_.string() +
+                            "' && export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                            "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1; grouser='" +
+                            program_.string() + "'; { " + command + "; } >out.txt 2>err.txt";
+    const int status = std::system(all.c_str());
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return {WEXITSTATUS(status), seconds, contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
+  }
+  /// `grouser WORDS`, on 1 rank without a launcher.
+  Outcome run(int ranks, const std::string& words) const {
+    return shell((ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "") + "\"$grouser\" " + words);
+  }
+
+  /// A loose bed of 450 grains that falls and slides on its floor.
+  static constexpr const char* kBed = R"(version = 1
+[run]
+duration = 0.15
+time_step = 1e-4
+output_interval = 0.01
+frame_interval = 0.05
+checkpoint_interval = 0.05
+[material.soil]
+stiffness = 1e5
+[terrain]
+heightmap = "heightmaps/hills.png"
+size = [1.0, 1.0]
+height_range = [0, 0.05]
+material = "soil"
+grain_radius = 0.03
+layers = 2
+settle_time_limit = 0.0
+[output]
+picture = false
+plots = false
+)";
+  fs::path program_, folder_;
+};
+
+TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
+  const std::string scene =
+      "run '" + std::string(GROUSER_SOURCE_DIR) +
+      "/tests/scenes/coupled.toml' --set vehicle.sphere_radius=0.03 --set run.checkpoint_interval=0 "
+      "--steps 500 --hash --threads 1 ";
+  const std::string expected = run(1, scene + "--out one").hash();
+  EXPECT_EQ(expected.substr(0, 11), "state-hash ");
+  EXPECT_EQ(run(2, scene + "--out two --set 'parallel.subdomains=[2,1,1]'").hash(), expected);
+  EXPECT_EQ(run(3, scene + "--out three --set 'parallel.subdomains=[1,3,1]' --set parallel.rebalance=false").hash(),
+            expected);
+  EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "two/timeseries.csv"));
+}
+
+TEST_F(OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {
+  const Outcome straight = run(1, "run bed.toml --hash --out straight");
+  ASSERT_EQ(straight.code, 0) << straight.err;
+  ASSERT_EQ(run(2, "run bed.toml --hash --steps 600 --out stopped").code, 0);
+  fs::copy(folder_ / "stopped", folder_ / "again");
+  EXPECT_EQ(run(3, "run bed.toml --hash --resume --out stopped").hash(), straight.hash());
+  EXPECT_EQ(run(1, "run bed.toml --hash --resume --out again").hash(), straight.hash());
+  // What is in the files does not tell the number of ranks.
+  EXPECT_EQ(run(1, "hash stopped/checkpoint.h5").hash(), run(1, "hash straight/checkpoint.h5").hash());
+  for (const char* file : {"timeseries.csv", "frames.xdmf"})
+    EXPECT_EQ(contents(folder_ / "stopped" / file), contents(folder_ / "straight" / file)) << file;
+}
+
+TEST_F(OnRanks, FramesHoldTheSameNumbers) {
+  ASSERT_EQ(run(1, "run bed.toml --steps 500 --out one").code, 0);
+  ASSERT_EQ(run(3, "run bed.toml --steps 500 --out three").code, 0);
+  const Outcome same = shell(R"(/usr/bin/python3 -c "
+import h5py
+a, b = h5py.File('one/frames.h5'), h5py.File('three/frames.h5')
+assert len(b['000001/partition']) >= 1 and 'partition' not in a['000001']
+for frame in ('000000', '000001'):
+    for name in ('position', 'radius', 'speed', 'id', 'vertex'):
+        assert (a[frame]['grains'][name][:] == b[frame]['grains'][name][:]).all(), name
+")");
+  EXPECT_EQ(same.code, 0) << same.err;
+}
+
+TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
+  std::ofstream(folder_ / "wrong.toml") << std::regex_replace(std::string(kBed), std::regex("layers = 2"),
+                                                              "layers = -2");
+  const Outcome o = run(3, "run wrong.toml --out wrong");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("rank 0: wrong.toml:"), std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find("rank 1: wrong.toml:"), std::string::npos) << o.err;
+  EXPECT_FALSE(fs::exists(folder_ / "wrong"));
+  EXPECT_LT(o.seconds, 60);
+}
+
+TEST_F(OnRanks, AnImpossibleLatticeIsRefused) {
+  const Outcome o = run(2, "run bed.toml --out wrong --set 'parallel.subdomains=[3,1,1]'");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("parallel.subdomains = [3, 1, 1] does not make 2 subdomains"), std::string::npos) << o.err;
+}
+
+TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
+  std::ofstream(folder_ / "other.toml") << std::regex_replace(std::string(kBed), std::regex("1e5"), "2e5");
+  const Outcome o = shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("rank 1 has another scene than rank 0"), std::string::npos) << o.err;
+  EXPECT_LT(o.seconds, 60);
+}
+
+TEST_F(OnRanks, AKilledRankEndsAllAndLeavesTheLastCheckpointWhole) {
+  // A run far longer than the test: one rank is killed as soon as there is a checkpoint.
+  const Outcome o = shell(R"(
+mpirun -np 2 "$grouser" run bed.toml --out killed --set run.duration=1000 --set run.checkpoint_interval=0.02 &
+launcher=$!
+for i in $(seq 600); do [ -e killed/checkpoint.h5 ] && break; sleep 0.1; done
+kill -9 $(pgrep -P $launcher | tail -n 1)
+wait $launcher)");
+  EXPECT_NE(o.code, 0);
+  EXPECT_LT(o.seconds, 60);
+  EXPECT_EQ(run(1, "hash killed/checkpoint.h5").code, 0);
+  // It can be gone on with, on another number of ranks.
+  const Outcome on = run(3, "run bed.toml --resume --out killed --set run.duration=1e-3");
+  EXPECT_EQ(on.code, 2) << "the checkpoint is past this end, which only a checkpoint that was read can tell";
+  EXPECT_NE(on.err.find("this run ends at step 10"), std::string::npos) << on.err;
+}
+
+TEST_F(OnRanks, ARankThatStandsStillForAWhileIsWaitedFor) {
+  const std::string expected = run(1, "run bed.toml --steps 1500 --hash --out one").hash();
+  const Outcome o = shell(R"(
+mpirun -np 2 "$grouser" run bed.toml --steps 1500 --hash --out two &
+launcher=$!
+for i in $(seq 600); do [ -e two/manifest.json ] && break; sleep 0.02; done
+slow=$(pgrep -P $launcher | tail -n 1)
+kill -STOP $slow; sleep 2; kill -CONT $slow
+wait $launcher)");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.hash(), expected);
+}
+
+} // namespace
+} // namespace grouser::runs
