@@ -107,16 +107,19 @@ TEST(PairSearch, SlabsChangeNeitherPairsNorMakeThemTwice) {
 
 TEST(PairSearch, SharesTogetherFindEveryPairOnce) {
   const std::vector<Position> spheres = randomSpheres(11, 3000, {15, 15, 15});
+  const Pairs all = bruteForce(spheres);
   for (const int of : {2, 3, 8}) {
     Pairs together;
     for (int share = 0; share < of; ++share) {
       PairSearchOptions options;
       options.share = share, options.of = of;
       const Search s = search(spheres, options);
-      EXPECT_LT(s.pairs.size(), bruteForce(spheres).size());
+      // Layers of cells are not cut: of 16, half are 8, a third 5 or 6, but an eighth may be 1 to 3.
+      EXPECT_NEAR(double(s.pairs.size()) * of / double(all.size()), 1, of < 8 ? 0.3 : 0.6)
+          << "share " << share << " of " << of;
       together.insert(together.end(), s.pairs.begin(), s.pairs.end());
     }
-    EXPECT_EQ(sorted(together), bruteForce(spheres)) << of << " shares";
+    EXPECT_EQ(sorted(together), all) << of << " shares";
   }
 }
 
