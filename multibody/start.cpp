@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/integrator.hpp"
 #include "multibody/detail/vector6.hpp"
 
 #include <algorithm>
@@ -209,6 +210,19 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
                " [m/s or rad/s]; allowed are ", allowed, remedy);
     }
   }
+}
+
+void checkTwist(const Body& body, const Twist& twist, double time, double dt) {
+  const double turn = std::fabs(dt) * norm(twist.w);
+  if (std::isfinite(norm2(twist.v)) && std::isfinite(norm2(twist.w)) && turn <= kLargestTurn) return;
+  std::ostringstream message;
+  message << "multibody step from t = " << time << " s: ";
+  if (std::isfinite(turn) && turn > kLargestTurn)
+    message << "body '" << body.name << "' turns by " << turn << " rad in a step of " << dt << " s, more than "
+            << kLargestTurn << "; reduce the step, or check the loads on it";
+  else
+    message << "the velocity of body '" << body.name << "' is not finite; check the loads on it";
+  throw base::SimulationError(message.str());
 }
 
 void readRates(const ConstraintSystem& system, State& state) {

@@ -35,6 +35,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Newton's method within the iteration; below, the iteration itself converges.
 constexpr double kFastSpin = 0.3;
 
+/// Iterations before a slow position solve is helped.
+constexpr int kPatience = 4;
+
 } // namespace
 
 void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
@@ -128,13 +131,14 @@ double EulerStep::setGyroResidual(const ConstraintSystem::Part& part, double dt)
 
 void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
   system.solve(part, x);
+  if (mixing.on() && !relinearised) mixing.improve(part, {newTwist, impulse, couplingImpulse}, x);
   for (const int node : part.bodies) {
     Twist& V = newTwist[at(system.bodyOf(node))];
     V.v += linear(x[at(node)]);
     V.w += angular(x[at(node)]);
     // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
     const Mat3d& I = system.inertia(node);
-    if (dt * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
+    if (!relinearised && dt * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
       V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, dt);
       gyro[at(node)] = gyroscopicMomentum(I, V.w, dt); // solved: nothing is left for the next iterate
     }
@@ -156,24 +160,41 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
       x[at(rowNode(k))][at(system.axes()[at(a)].row)] = (laws[at(a)].driven ? laws[at(a)].speed : 0) - oldRate[at(a)];
 
-  double gap = 0;
+  double gap = 0, before = 0;
   int iteration = 0;
+  mixing.reset();
+  relinearised = false;
   for (;;) {
     applyCorrection(part, dt);
     moveTrial(part, state, dt);
     ++iteration;
     gap = setGapResidual(part, state, dt, worst);
-    const double turn = setGyroResidual(part, dt);
+    const double turn = relinearised ? 0 : setGyroResidual(part, dt);
     if (gap <= options.positionTolerance && turn <= options.positionTolerance) break;
-    if (iteration >= options.maxIterations) {
-      if (gap <= kGapFailure) break;
-      std::ostringstream message;
-      message << "multibody step from t = " << state.time << " s";
-      if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
-      message << " after " << iteration << " iterations; the motion is too fast for dt = " << dt
-              << " s: reduce the step, or check the loads";
-      throw base::SimulationError(message.str());
+    // Slow: a singular position is near. Mixed first, then with the matrix taken anew at each iterate
+    // (rattle_step.cpp).
+    mixing.remember(part, gap, newTwist);
+    if (iteration == kPatience && !(gap <= 0.2 * before)) mixing.switchOn();
+    before = gap;
+    if (iteration < options.maxIterations || (mixing.on() && iteration < 3 * options.maxIterations)) continue;
+    if (iteration < 5 * options.maxIterations && gap > options.positionTolerance) {
+      if (!relinearised) {
+        relinearised = true;
+        mixing.takeBest(part, newTwist);
+        moveTrial(part, state, dt);
+      }
+      system.linearise(part, trial, laws);
+      for (const int node : part.bodies) x[at(node)] = {};
+      gap = setGapResidual(part, state, dt, worst);
+      continue;
     }
+    if (gap <= kGapFailure) break;
+    std::ostringstream message;
+    message << "multibody step from t = " << state.time << " s";
+    if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
+    message << " after " << iteration << " iterations; the motion is too fast for dt = " << dt
+            << " s: reduce the step, or check the loads";
+    throw base::SimulationError(message.str());
   }
   last.iterations = std::max(last.iterations, iteration);
   last.maxPositionError = std::max(last.maxPositionError, gap);
@@ -190,10 +211,7 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
     state.ledger.gravityWork += model.bodies()[at(b)].mass * dot(loads.gravity, path);
     state.ledger.externalWork += dot(wrench.force, path) + dot(wrench.torque, turn);
     state.spinMomentum[at(b)] += dt * wrench.torque;
-    if (!std::isfinite(norm2(after.v) + norm2(after.w)))
-      throw base::SimulationError("multibody step from t = " + std::to_string(state.time) +
-                                  " s: the velocity of body '" + model.bodies()[at(b)].name +
-                                  "' is not finite; check the loads on it");
+    checkTwist(model.bodies()[at(b)], after, state.time, dt);
   }
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
@@ -207,6 +225,11 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
   for (const int k : part.constraints) readConstraint(k, state, dt);
   for (const int node : part.bodies) {
     const int b = system.bodyOf(node);
+    if (relinearised) {
+      // The impulses belong to rows of several positions: the momentum is what the twist says.
+      const Mat3d I = rotatedInertia(frames[at(b)].R, model.bodies()[at(b)].inertia_B);
+      state.spinMomentum[at(b)] = I * newTwist[at(b)].w + gyroscopicMomentum(I, newTwist[at(b)].w, dt);
+    }
     state.twist[at(b)] = newTwist[at(b)];
     state.pose[at(b)] = trialPose[at(b)];
     frames[at(b)] = trial[at(b)];
@@ -281,7 +304,8 @@ EulerStep::EulerStep(const Problem& problem)
       last(problem.last), axisLaws(model), laws(system.axes().size()), x(at(system.nodes())),
       impulse(system.constraints().size()), couplingImpulse(system.couplings().size()),
       oldRate(system.axes().size(), 0.0), newRates(system.axes().size(), 0.0), gyro(at(system.movableBodies())),
-      newTwist(model.bodies().size()), trialPose(model.bodies().size()), trialFrames(system.constraints().size()) {
+      mixing(system, model), newTwist(model.bodies().size()), trialPose(model.bodies().size()),
+      trialFrames(system.constraints().size()) {
   for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
   system.place(trialPose, frames);
   trial = frames;

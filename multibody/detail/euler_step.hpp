@@ -3,6 +3,7 @@
 
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/integrator.hpp"
+#include "multibody/detail/mixing.hpp"
 
 #include <array>
 #include <vector>
@@ -42,10 +43,12 @@ private:
   std::vector<double> oldRate, newRates;      ///< before and after the step, one an axis
   std::vector<double> inertiaSpread;          ///< one a movable body
   std::vector<Vec3d> gyro;                    ///< gyroscopic momentum at the current iterate, one a movable body
-  std::vector<Twist> newTwist;                ///< current iterate, one a body
-  std::vector<Pose> trialPose;                ///< one a body
-  std::vector<Frame> frames, trial;           ///< bodies' frames at the start and at the end of the step
-  std::vector<JointFrames> trialFrames;       ///< one a constraint
+  Mixing mixing;
+  bool relinearised = false;            ///< the current part's position solve had to leave J(q)
+  std::vector<Twist> newTwist;          ///< current iterate, one a body
+  std::vector<Pose> trialPose;          ///< one a body
+  std::vector<Frame> frames, trial;     ///< bodies' frames at the start and at the end of the step
+  std::vector<JointFrames> trialFrames; ///< one a constraint
 };
 
 } // namespace grouser::multibody::detail

@@ -11,6 +11,13 @@ namespace grouser::multibody::detail {
 /// A gap this wide after all iterations means that the step is too long for the motion [m, rad].
 inline constexpr double kGapFailure = 1e-6;
 
+/// A body may turn by this much in a step [rad]: beyond half a turn neither its path nor the angles of its joints could
+/// be told any more.
+inline constexpr double kLargestTurn = 3;
+
+/// Throws base::SimulationError if a body's twist is not finite or turns it too far in a step that starts at `time`.
+void checkTwist(const Body& body, const Twist& twist, double time, double dt);
+
 /// What the integrators share: the model, its linearised system, and where drives began.
 struct Problem {
   const Model& model;

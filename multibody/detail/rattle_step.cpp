@@ -37,7 +37,7 @@
 ///
 /// Newton's method uses the matrix of q_0 on both sides, though Lambda acts along J(q_0) and gaps close along J(q_1): a
 /// correction is h |w| times the one before. Where a singular position is near or between q_0 and q_1 some pivots have
-/// another size or sign at q_1 and that is too slow or diverges; the iteration is then mixed (acceleration.hpp), which
+/// another size or sign at q_1 and that is too slow or diverges; the iteration is then mixed (mixing.hpp), which
 /// solves the same equations. Should that fail too, the matrix is taken anew at each iterate, and the corrections are
 /// the smallest in the norm of kinetic energy.
 ///
@@ -86,8 +86,7 @@ RattleStep::RattleStep(const Problem& problem)
       gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()), twist(mean),
       trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
       relinearised(system.parts().size(), 0), factored(system.parts().size(), -1), gapOf(system.parts().size(), 0.0),
-      acceleration(6 * x.size()), iterate(6 * x.size()), change(iterate), weights(iterate),
-      drivenThen(system.axes().size(), 0) {
+      mixing(system, model), drivenThen(system.axes().size(), 0) {
   for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
   system.place(trialPose, frames);
   trial = frames;
@@ -220,36 +219,41 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   }
   // Below a few units in the last place of the coordinates there is nothing to gain.
   const double tolerance = std::max(options.positionTolerance, kRoundOff * scale);
-  double before = std::numeric_limits<double>::infinity(), best = before;
-  bool mixed = false;
+  double before = std::numeric_limits<double>::infinity();
+  mixing.reset();
+  Phase phase = Phase::kAllRows;
   const int limit = options.maxIterations;
   for (int iteration = 1;; ++iteration) {
     system.solve(part, x);
-    if (mixed) mix(part);
+    if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
     applyCorrection(part, h);
     moveTrial(part, state, h);
     const bool follow = updateAxes(part, h);
     const double gap = setResiduals(part, h);
     last.iterations = std::max(last.iterations, iteration);
-    if (gap <= tolerance && !follow) break;
+    const bool done = gap <= tolerance && !follow;
     // A little above the tolerance and not getting better is round-off.
-    if (best <= 1e2 * tolerance && gap > 0.5 * before && !follow) break;
-    best = std::min(best, gap);
-    if (relinearised[at(part.index)]) {
-      if (iteration >= 2 * limit) {
+    const bool stuck = mixing.bestGap() <= 1e2 * tolerance && gap > 0.5 * before && !follow;
+    if ((done || stuck) && phase != Phase::kWithoutWeakRows) break;
+    mixing.remember(part, gap, mean);
+    if (phase == Phase::kEachIterate) {
+      if (iteration >= 3 * limit) {
         // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
         if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
         break;
       }
       linearise(part, trial);
-    } else if (iteration >= limit) {
-      startAfresh(part, state, loads, h);
+    } else if (phase == Phase::kAllRows && iteration >= limit) {
+      phase = Phase::kWithoutWeakRows;
+      startWithoutWeakRows(part, state, loads, h);
+    } else if (phase == Phase::kWithoutWeakRows && (done || stuck || iteration >= 2 * limit)) {
+      phase = Phase::kEachIterate;
+      closeWeakRows(part, state, h);
     } else if (follow) {
       linearise(part, frames);
-      acceleration.reset();
-    } else if (iteration > 1 && !(gap <= 0.2 * before) && !mixed) {
-      mixed = true;
-      acceleration.reset();
+      mixing.forget();
+    } else if (iteration > 1 && !(gap <= 0.2 * before) && !mixing.on()) {
+      mixing.switchOn();
     }
     before = gap;
   }
@@ -346,46 +350,31 @@ double RattleStep::setResiduals(const Part& part, double h) {
   return largest;
 }
 
-/// From the motion without constraints, with the matrix of each iterate.
-void RattleStep::startAfresh(const Part& part, const State& state, const Loads& loads, double h) {
+/// The solve anew, without rows of weak pivots at q_0: near a singular position those would need huge impulses, and
+/// spoil the rest. What they leave open is second order in a motion across the singular direction, hence small.
+void RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
+  constexpr double kWeakPivot = 1e5;
+  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
+  moveTrial(part, state, h);
+  updateAxes(part, h);
+  system.scalePivotThreshold(kWeakPivot);
+  linearise(part, frames);
+  system.scalePivotThreshold(1);
+  setFirstResidual(part, state, loads, h);
+  setResiduals(part, h);
+  mixing.reset();
+}
+
+/// Closes what is left with the matrix of each iterate.
+void RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
   relinearised[at(part.index)] = 1;
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    mean[at(b)] = state.twist[at(b)];
-    mean[at(b)].v += 0.5 * h * (loads.gravity + (1 / model.bodies()[at(b)].mass) * loads.external[at(b)].force);
-  }
-  for (const int k : part.constraints) impulse[at(k)] = {};
-  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
+  mixing.takeBest(part, mean);
+  mixing.reset();
   moveTrial(part, state, h);
   updateAxes(part, h);
   linearise(part, trial);
   setResiduals(part, h);
-}
-
-/// Mixes the corrections in `x` with those of the iterations before, in the norm of kinetic energy.
-void RattleStep::mix(const Part& part) {
-  std::size_t n = 0;
-  const auto put = [&](double value, double& correction, double weight) {
-    iterate[n] = value, change[n] = correction, weights[n] = weight;
-    ++n;
-  };
-  const auto all = [&](auto&& f) {
-    for (const int node : part.bodies) {
-      const Twist& V = mean[at(system.bodyOf(node))];
-      const Mat3d& I = system.inertia(node);
-      const double mass = model.bodies()[at(system.bodyOf(node))].mass,
-                   spread = (I.m[0][0] + I.m[1][1] + I.m[2][2]) / 3;
-      for (int i = 0; i < 3; ++i) f(V.v[i], x[at(node)][at(i)], mass);
-      for (int i = 0; i < 3; ++i) f(V.w[i], x[at(node)][at(3 + i)], spread);
-    }
-    for (const int k : part.constraints)
-      for (std::size_t r = 0; r < 6; ++r) f(impulse[at(k)][r], x[at(rowNode(k))][r], 0.0);
-    for (const int c : part.couplings) f(couplingImpulse[at(c)], x[at(system.couplingNode(c))][0], 0.0);
-  };
-  all(put);
-  acceleration.improve(iterate, change, weights, n);
-  n = 0;
-  all([&](double, double& correction, double) { correction = change[n++]; });
+  for (const int node : part.bodies) x[at(node)] = {};
 }
 
 void RattleStep::applyCorrection(const Part& part, double h) {

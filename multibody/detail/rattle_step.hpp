@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/detail/acceleration.hpp"
 #include "multibody/detail/integrator.hpp"
+#include "multibody/detail/mixing.hpp"
 #include "multibody/detail/soft_rows.hpp"
 
 #include <array>
@@ -18,6 +18,8 @@ public:
 
 private:
   using Part = ConstraintSystem::Part;
+  /// What the position solve works with: see the scheme.
+  enum class Phase { kAllRows, kWithoutWeakRows, kEachIterate };
 
   void stage(State& state, const Loads& loads, double h);
   void linearise(const Part& part, const std::vector<Frame>& at);
@@ -28,8 +30,8 @@ private:
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);
   void applyCorrection(const Part& part, double h);
-  void mix(const Part& part);
-  void startAfresh(const Part& part, const State& state, const Loads& loads, double h);
+  void startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h);
+  void closeWeakRows(const Part& part, const State& state, double h);
   void moveTrial(const Part& part, const State& state, double h);
   /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.
   double setResiduals(const Part& part, double h);
@@ -80,9 +82,8 @@ private:
   std::vector<char> relinearised;                    ///< of each part: the position stage had to leave J(q_n)
   std::vector<long long> factored;                   ///< of each part: linearisation that holds the last end, or -1
   std::vector<double> gapOf;                         ///< of each part: largest gap at the current iterate
-  Acceleration acceleration;
-  std::vector<double> iterate, change, weights; ///< what it works on
-  std::vector<char> drivenThen;                 ///< of each axis, in that linearisation
+  Mixing mixing;
+  std::vector<char> drivenThen; ///< of each axis, in that linearisation
 };
 
 /// Longest stage of the composition of an order, in units of the step.

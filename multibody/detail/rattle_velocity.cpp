@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/rattle_step.hpp"
 
-#include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 
 /// Second half of a stage of RATTLE (rattle_step.cpp), and the reactions at its end.
 namespace grouser::multibody::detail {
@@ -127,10 +125,8 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
     const Vec3d path = trialPose[at(b)].position - state.pose[at(b)].position;
     state.ledger.gravityWork += model.bodies()[at(b)].mass * dot(loads.gravity, path);
     state.ledger.externalWork += dot(wrench.force, path) + dot(wrench.torque, h * mean[at(b)].w);
-    if (!std::isfinite(norm2(twist[at(b)].v) + norm2(twist[at(b)].w)))
-      throw base::SimulationError("multibody step from t = " + std::to_string(state.time) +
-                                  " s: the velocity of body '" + model.bodies()[at(b)].name +
-                                  "' is not finite; check the loads on it");
+    checkTwist(model.bodies()[at(b)], {twist[at(b)].v, mean[at(b)].w}, state.time, h);
+    checkTwist(model.bodies()[at(b)], {twist[at(b)].v, twist[at(b)].w}, state.time, 0);
   }
   for (const int k : part.constraints) {
     const Constraint& c = system.constraints()[at(k)];

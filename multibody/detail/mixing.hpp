@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/detail/acceleration.hpp"
+#include "multibody/detail/constraint_system.hpp"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+/// The position solve's iterate: twists over the step and the impulses that make them.
+struct Iterate {
+  std::vector<Twist>& twist;                   ///< one a body
+  std::vector<std::array<double, 6>>& impulse; ///< one a constraint
+  std::vector<double>& couplingImpulse;        ///< one a coupling
+};
+
+/// Helps the position solve of one part where it converges slowly or not at all: near singular positions, where pivots
+/// change in size or sign within a step, and for turns of about a radian a step. Mixes corrections (acceleration.hpp),
+/// and remembers the best iterate.
+class Mixing {
+public:
+  explicit Mixing(const ConstraintSystem& system, const Model& model)
+      : system_(system), model_(model), acceleration_(6 * static_cast<std::size_t>(system.nodes())),
+        z_(6 * static_cast<std::size_t>(system.nodes())), change_(z_), weight_(z_), best_(model.bodies().size()) {}
+
+  /// Before the first iteration of a solve.
+  void reset() { on_ = false, bestGap_ = std::numeric_limits<double>::infinity(); }
+  bool on() const { return on_; }
+  void switchOn() { on_ = true, acceleration_.reset(); }
+  /// After the matrix has changed.
+  void forget() { acceleration_.reset(); }
+
+  /// Mixes the corrections in `x` with those of the iterations before, in the norm of kinetic energy.
+  void improve(const ConstraintSystem::Part& part, const Iterate& iterate, std::vector<Vector6>& x);
+
+  /// Remembers the iterate if its gap is the smallest so far.
+  void remember(const ConstraintSystem::Part& part, double gap, const std::vector<Twist>& twist);
+  double bestGap() const { return bestGap_; }
+  void takeBest(const ConstraintSystem::Part& part, std::vector<Twist>& twist) const;
+
+private:
+  const ConstraintSystem& system_;
+  const Model& model_;
+  Acceleration acceleration_;
+  std::vector<double> z_, change_, weight_;
+  std::vector<Twist> best_;
+  double bestGap_ = 0;
+  bool on_ = false;
+};
+
+} // namespace grouser::multibody::detail
