@@ -194,7 +194,10 @@ void addStudy(CLI::App& app, runs::StudyCommand& c) {
   study->require_subcommand(1);
   CLI::App* multibody = study->add_subcommand(
       "multibody", "Mechanisms whose motion is known: error, order, drift and CPU time of each integrator and step");
-  multibody->add_option("--cases", c.cases, "names, separated by commas; default: all")->delimiter(',');
+  std::string names;
+  for (const runs::StudyCase& known : runs::studyCases()) names += (names.empty() ? "" : ", ") + known.name;
+  multibody->add_option("--cases", c.cases, "names, separated by commas, of " + names + "; default: all")
+      ->delimiter(',');
   multibody->add_flag("--stability", c.stability, "instead: which steps are stable, against what theory says");
   multibody->add_flag("--quick", c.quick, "three long steps only, and none of the cases that take minutes");
   multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")

@@ -139,6 +139,18 @@ TEST_F(MechanismRun, TooLongAStepForAnExplicitSpringIsRefusedWithItsLimit) {
   EXPECT_NE(o.errors.find("spring"), std::string::npos) << o.errors;
 }
 
+TEST_F(MechanismRun, StudyWritesTablesAndNamesTheNearestCase) {
+  const Outcome o = call("study multibody --quick --cases pendulum,torsion --out s");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(o.out.find("cheapest setting that meets the precision"), std::string::npos);
+  EXPECT_EQ(contents(folder_ / "s" / "multibody.csv").rfind("case,integrator,step [s],steps,error [-]", 0), 0u);
+  EXPECT_NE(contents(folder_ / "s" / "cheapest.csv").find("torsion,0.1,"), std::string::npos);
+  const Outcome wrong = call("study multibody --cases pendulm --out w");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.errors.find("did you mean pendulum?"), std::string::npos) << wrong.errors;
+  EXPECT_EQ(call("study multibody --help").code, 0);
+}
+
 TEST_F(MechanismRun, PlotIsDrawn) {
   const Outcome o =
       call("run " + kMechanisms + "pendulum.toml --out r --set run.duration=1 --set output.picture=false");
