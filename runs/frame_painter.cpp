@@ -44,13 +44,10 @@ FramePainter::FramePainter(const FramesReader& reader, const PaintOptions& optio
 }
 
 Vec3d FramePainter::hull(const StoredFrame& frame) const {
-  const auto isHull = [](const StoredPart& p) { return p.kind == "chassis"; };
-  const std::vector<StoredPart>& parts = reader_.parts();
-  const bool any = std::any_of(parts.begin(), parts.end(), isHull);
   Vec3d sum;
   double count = 0;
-  for (const StoredPart& part : parts) {
-    if (any && !isHull(part)) continue;
+  for (const StoredPart& part : reader_.parts()) {
+    if (part.kind != kHullKind) continue;
     for (std::uint32_t v = 0; v < part.count; ++v) sum += frame.partVertices[part.first + v].as<double>(), count += 1;
   }
   return count > 0 ? sum * (1 / count) : sum;
@@ -60,8 +57,6 @@ void FramePainter::placeCamera(const std::vector<StoredFrame>& samples) {
   const FrameView& view = options_.view;
   const double aspect = static_cast<double>(view.width) / view.height;
   const bool isClose = view.lookAt == LookAt::Vehicle;
-  const double elevation =
-      std::clamp(view.elevation.value_or(isClose ? kVehicleElevation : kBedElevation), -kSteepest, kSteepest);
   std::vector<Ball> all;
   for (const StoredFrame& frame : samples) {
     for (const base::Vec3f& v : frame.partVertices) all.push_back({v.as<double>(), 0});
@@ -69,10 +64,15 @@ void FramePainter::placeCamera(const std::vector<StoredFrame>& samples) {
       for (const Ball& ball : seenGrains(frame.positions, frame.radii)) all.push_back(ball);
   }
   for (const Vec3d& v : reader_.ground().vertices) all.push_back({v, 0});
+  const bool isMechanism = !samples.front().partVertices.empty() && samples.front().positions.empty();
+  const double usual = isMechanism && liesFlat(samples.front().partVertices) ? kFlatElevation
+                       : isClose || isMechanism                              ? kVehicleElevation
+                                                                             : kBedElevation;
+  const double elevation = std::clamp(view.elevation.value_or(usual), -kSteepest, kSteepest);
   if (isClose) {
-    if (samples.front().partVertices.empty())
+    if (!reader_.hasVehicle())
       throw base::InputError(
-          fmt::format("{}: holds no vehicle to look at; give --look-at bed", reader_.path().string()));
+          fmt::format("{}: holds no vehicle to look at; give --look-at all", reader_.path().string()));
     camera_ = cameraOnParts(samples.front().partVertices, view.azimuth, elevation, aspect);
     hullAtCamera_ = hull(samples.front());
   } else if (!all.empty()) {

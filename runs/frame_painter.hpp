@@ -14,17 +14,18 @@ namespace grouser::runs {
 
 enum class LookAt {
   Vehicle, ///< moves with its hull
-  Bed,     ///< all grains, ground and parts of all frames, but a few strays
+  All,     ///< all grains, ground and parts of all frames, but a few strays
   Point
 };
 
 /// From where, at what, how large.
 struct FrameView {
-  LookAt lookAt = LookAt::Bed;
+  LookAt lookAt = LookAt::All;
   base::Vec3d point;    ///< of LookAt::Point [m]
   double azimuth = -55; ///< of the camera about z, 0 is +x [deg]
-  std::optional<double>
-      elevation;                  ///< of the camera above the horizon [deg]; empty: low for a vehicle, higher for a bed
+  /// Of the camera above the horizon [deg]; empty: low for a vehicle or a mechanism, higher for a bed or what lies
+  /// flat.
+  std::optional<double> elevation;
   std::optional<double> distance; ///< from what is looked at [m]; empty: so that it fills the picture
   int width = 1600, height = 900;
 };
@@ -49,7 +50,7 @@ public:
 private:
   void placeCamera(const std::vector<StoredFrame>& samples);
   Camera cameraOf(const StoredFrame& frame) const;
-  /// The middle of the hull, or of all parts where there is none.
+  /// The middle of the hull.
   base::Vec3d hull(const StoredFrame& frame) const;
   const Borders& bordersOf(const StoredFrame& frame) const;
 

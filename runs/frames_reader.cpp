@@ -43,6 +43,10 @@ FramesReader::FramesReader(const std::filesystem::path& path) : file_(opened(pat
   readGround();
 }
 
+bool FramesReader::hasVehicle() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const StoredPart& p) { return p.kind == kHullKind; });
+}
+
 void FramesReader::damaged(const std::string& what) const {
   throw base::InputError(fmt::format("{}: {}; the file is damaged, or of another program", path().string(), what));
 }

@@ -13,6 +13,9 @@
 
 namespace grouser::runs {
 
+/// Kind of the part that a vehicle is known by.
+inline constexpr const char* kHullKind = "chassis";
+
 /// A part of frames.h5: its triangles name vertices first ... first + count - 1 of each frame's part vertices.
 struct StoredPart {
   std::string name, kind;
@@ -40,6 +43,7 @@ public:
   std::size_t count() const { return times_.size(); }
   double time(std::size_t frame) const { return times_[frame]; } ///< [s]
   const std::vector<StoredPart>& parts() const { return parts_; }
+  bool hasVehicle() const; ///< a part that is a hull
   /// Rigid ground, or the floor beneath the grains; may be empty.
   const base::TriangleMesh& ground() const { return ground_; }
   StoredFrame read(std::size_t frame) const;

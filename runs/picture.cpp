@@ -12,7 +12,6 @@ namespace {
 constexpr double kAzimuth = -55;      ///< [deg] of the camera
 constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
 constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
-constexpr double kFlatElevation = 60; ///< [deg] of the camera above them
 constexpr double kAspect = 16.0 / 9;
 
 struct Box {
@@ -52,13 +51,6 @@ std::pair<float, float> heightRange(const Frame& frame) {
   return {heights[cut], heights[heights.size() - 1 - cut]};
 }
 
-/// Whether parts spread in the horizontal plane only, as a mechanism that moves in x and y does.
-bool liesFlat(const std::vector<base::Vec3f>& points) {
-  Box box;
-  for (const base::Vec3f& p : points) box.take(p.as<double>());
-  return box.high.z - box.low.z < kFlat * box.radius();
-}
-
 } // namespace
 
 std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii) {
@@ -78,6 +70,12 @@ std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const st
       balls.push_back({p, radii[i]});
   }
   return balls;
+}
+
+bool liesFlat(const std::vector<base::Vec3f>& vertices) {
+  Box box;
+  for (const base::Vec3f& p : vertices) box.take(p.as<double>());
+  return box.high.z - box.low.z < kFlat * box.radius();
 }
 
 Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect) {

@@ -7,8 +7,8 @@
 
 namespace grouser::runs {
 
-/// Elevation of the camera above a vehicle, and above a bed alone [deg].
-inline constexpr double kVehicleElevation = 14, kBedElevation = 30;
+/// Elevation of the camera above a vehicle, above a bed alone, and above parts that lie flat [deg].
+inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
 
 Colour partColour(const std::string& kind);
 Colour groundColour();
@@ -16,6 +16,9 @@ Colour groundColour();
 /// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
 /// grains, axis by axis, than these are wide; of less than 100 grains none.
 std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
+
+/// Whether parts spread in the horizontal plane only, as a mechanism that moves in x and y does.
+bool liesFlat(const std::vector<base::Vec3f>& vertices);
 
 /// A camera whose picture the parts fill; their farthest corners may lie outside.
 Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect);

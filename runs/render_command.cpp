@@ -47,16 +47,16 @@ std::vector<std::size_t> chosenFrames(const FramesReader& reader, const RenderCo
 }
 
 LookAt lookAtOf(const std::string& text, bool hasVehicle, base::Vec3d& point) {
-  if (text.empty()) return hasVehicle ? LookAt::Vehicle : LookAt::Bed;
+  if (text.empty()) return hasVehicle ? LookAt::Vehicle : LookAt::All;
   if (text == "vehicle") return LookAt::Vehicle;
-  if (text == "bed") return LookAt::Bed;
+  if (text == "all") return LookAt::All;
   const char *at = text.data(), *end = at + text.size();
   for (int k = 0; k < 3; ++k) {
     const auto [stop, error] = std::from_chars(at, end, point[k]);
     const bool isLast = k == 2;
     if (error != std::errc{} || !std::isfinite(point[k]) || (isLast ? stop != end : stop == end || *stop != ','))
       throw base::InputError(
-          fmt::format("--look-at {}: is none of vehicle, bed and a place X,Y,Z in metres, e.g. 1.5,0,0.2", text));
+          fmt::format("--look-at {}: is none of vehicle, all and a place X,Y,Z in metres, e.g. 1.5,0,0.2", text));
     at = stop + 1;
   }
   return LookAt::Point;
@@ -168,7 +168,7 @@ std::pair<int, int> pictureSize(const std::string& text) {
 
 void renderCommand(const RenderCommand& c) {
   const FramesReader reader(c.frames);
-  const PaintOptions options = paintOptions(c, !reader.parts().empty());
+  const PaintOptions options = paintOptions(c, reader.hasVehicle());
   const std::vector<std::size_t> frames = chosenFrames(reader, c);
   const fs::path folder =
       c.folder.empty() ? fs::absolute(c.frames).lexically_normal().parent_path() / "pictures" : fs::path(c.folder);

@@ -20,7 +20,7 @@ struct RenderCommand {
   std::string color = "depth";      ///< grainQuantity's words
   std::vector<double> range;        ///< lowest and highest value of the colours; empty: from the file
   std::vector<std::string> borders; ///< bordersOf's words
-  std::string lookAt;               ///< vehicle, bed or X,Y,Z [m]; empty: the vehicle where there is one
+  std::string lookAt;               ///< vehicle, all or X,Y,Z [m]; empty: the vehicle where there is one
   double azimuth = -55;             ///< [deg]
   std::optional<double> elevation;  ///< [deg]
   std::optional<double> distance;   ///< [m]

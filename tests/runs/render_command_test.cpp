@@ -198,7 +198,7 @@ TEST_F(RenderFrames, CameraMovesWithTheVehicle) {
   };
   EXPECT_NEAR(cubeColumns(LookAt::Vehicle, 0), 47.5, 1); // a pixel
   EXPECT_NEAR(cubeColumns(LookAt::Vehicle, 5), 47.5, 1);
-  EXPECT_GT(cubeColumns(LookAt::Bed, 5), cubeColumns(LookAt::Bed, 0) + 30);
+  EXPECT_GT(cubeColumns(LookAt::All, 5), cubeColumns(LookAt::All, 0) + 30);
 }
 
 TEST_F(RenderFrames, FilmHoldsAllPicturesOrIsNotThere) {
