@@ -78,12 +78,12 @@ struct Solver::Impl {
   std::vector<AxisLaw> laws;     ///< one an axis
   std::vector<double> stiffness; ///< one an axis
   std::vector<Vector6> x;        ///< one a node
+  std::vector<Frame> frames;     ///< one a body, the world last
 };
 
 /// Freedom at a generic position: the redundant rows are known; couplings that others imply are those without a pivot.
 void Solver::Impl::countFreedom() {
   std::vector<Pose> poses;
-  std::vector<Frame> frames;
   for (const Body& body : model.bodies()) {
     poses.push_back(body.pose);
     if (!body.fixed) freedom += body.point ? 3 : 6;
@@ -135,7 +135,6 @@ void Solver::Impl::checkFits(const State& state, const Loads& loads) const {
 }
 
 double Solver::Impl::stableStep(const State& state, const Loads& loads, std::string* spring) {
-  std::vector<Frame> frames;
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
   axisStiffness(system, model, loads, stiffness);
@@ -155,6 +154,7 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
 void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt) {
   constexpr long long kInterval = 512;
   if (options.integrator != Integrator::kRattle || options.springs != Springs::kExplicit) return;
+  if (model.axisSprings().empty() && model.pointSprings().empty() && model.bushings().empty()) return;
   if (dt <= checkedStep && steps % kInterval != 0) return;
   std::string spring;
   const double limit = stableStep(state, loads, &spring) / longestStage(options.order);

@@ -16,14 +16,17 @@ enum class Integrator {
   /// means over the steps.
   kSymplecticEuler,
   /// RATTLE on the rotation group (detail/rattle_step.cpp). Order 2, or 4, 6, 8 by composition (SolverOptions::order);
-  /// symplectic and time-reversible; position and velocity constraints both met at the end of each step.
+  /// symplectic and time-reversible; position and velocity constraints both met at the end of each step. A start
+  /// velocity that differs from an imposed rate is changed by a blow in the first step (StartVelocities::kAccept).
   kRattle,
 };
 
 /// How kRattle takes axis springs, point springs and bushings. Dampers and end stops are implicit in both.
 enum class Springs {
   kExplicit, ///< at the nodes: order 2, cheapest; needs omega dt < 2 and refuses a longer step, naming the spring
-  kImplicit, ///< midpoint along the spring's direction: order 2, stable at any step in the linear case
+  /// Midpoint along the spring's direction: order 2, stable at any step in the linear case. Across it a point spring
+  /// under tension T and of length l has the stiffness T / l, which stays explicit: dt < 2 sqrt(m l / T).
+  kImplicit,
 };
 
 /// What the solver does about start velocities that break the constraints.

@@ -80,9 +80,9 @@ double longestStage(int order) {
 RattleStep::RattleStep(const Problem& problem)
     : model(problem.model), options(problem.options), system(problem.system), last(problem.last),
       softRows(model, system, problem.driveStart), implicitSprings(options.springs == Springs::kImplicit),
-      soft(system.axes().size()), x0(system.axes().size(), 0.0), x1(x0), softImpulse(x0), axisRate(x0), springForce(x0),
-      laws(system.axes().size()), x(at(system.nodes())), impulse(system.constraints().size()), endImpulse(impulse),
-      couplingImpulse(system.couplings().size(), 0.0), couplingEndImpulse(couplingImpulse),
+      soft(system.axes().size()), x0(system.axes().size(), 0.0), x1(x0), softImpulse(x0), startRate(x0), axisRate(x0),
+      springForce(x0), laws(system.axes().size()), x(at(system.nodes())), impulse(system.constraints().size()),
+      endImpulse(impulse), couplingImpulse(system.couplings().size(), 0.0), couplingEndImpulse(couplingImpulse),
       gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()), twist(mean),
       trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
       relinearised(system.parts().size(), 0), factored(system.parts().size(), -1), gapOf(system.parts().size(), 0.0),
@@ -207,8 +207,10 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   // Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of
   // the node alone would take it.
   for (const int k : part.constraints)
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
       if (laws[at(a)].softness != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
+      if (soft[at(a)].driven) startRate[at(a)] = system.rateOfAxis(a, mean);
+    }
   setFirstResidual(part, state, loads, h);
   setResiduals(part, h);
 

@@ -65,6 +65,7 @@ private:
   std::vector<SoftRow> soft;                  ///< one an axis
   std::vector<double> x0, x1;                 ///< axis positions at the beginning and at the end of the stage
   std::vector<double> softImpulse;            ///< h / 2 times the mean force of an axis' implicit part
+  std::vector<double> startRate;              ///< of driven axes, at the beginning of the stage
   std::vector<double> axisRate, springForce;  ///< at the end of the step
   std::vector<AxisLaw> laws;                  ///< what linearise() is given, one an axis
   std::vector<Vector6> x;                     ///< residuals in, corrections out; one a node

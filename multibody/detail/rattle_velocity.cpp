@@ -137,9 +137,13 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
       state.ledger.springWork += softRows.energy(s, a, x0[at(a)]) - softRows.energy(s, a, x1[at(a)]);
       state.ledger.dissipated += s.damping * path * path / h;
       if (s.stops) state.ledger.dissipated += softRows.stopLoss(a, x0[at(a)], x1[at(a)], h);
-      double drive = 0.5 * (s.applied0 + s.applied1);
-      if (s.driven) drive += (impulse[at(k)][row] - 0.5 * h * meanForce(a, h).force + endImpulse[at(k)][row]) / h;
-      state.ledger.driveWork += drive * path;
+      state.ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
+      if (s.driven) {
+        // Impulse times mean rate in either half: right also when a law starts with a blow.
+        const double meanRate = path / h, first = impulse[at(k)][row] - 0.5 * h * meanForce(a, h).force;
+        state.ledger.driveWork += 0.5 * (first * (startRate[at(a)] + meanRate) +
+                                         endImpulse[at(k)][row] * (meanRate + system.rateOfAxis(a, twist)));
+      }
       if (isJoint(c.kind)) axisPositionIn(state, system, a) = x1[at(a)];
     }
   }

@@ -288,6 +288,25 @@ TEST(ImposedMotion, SpeedLawLeadsToItsIntegralWithBothIntegrators) {
   }
 }
 
+TEST(ImposedMotion, ABlowAtTheStartIsInTheLedgerOnce) {
+  // A wheel at rest, driven at 4 rad/s from the first step on: the drive's work is the kinetic energy.
+  for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
+    Mechanism m;
+    Drive d;
+    d.name = "motor", d.speed = 4;
+    m.model.addBody(makeBody("wheel", 1, kInertia, {}));
+    m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
+    m.model.addDrive(d);
+    m.start();
+    SolverOptions o;
+    o.integrator = integrator;
+    o.startVelocities = StartVelocities::kAccept;
+    run(m, o, 1e-2, 0.1);
+    EXPECT_NEAR(m.state.ledger.driveWork, 0.5 * 0.25 * 16, 1e-12);
+    EXPECT_NEAR(totals(m.model, m.state, m.loads).kinetic, 2, 1e-12);
+  }
+}
+
 TEST(ImposedMotion, TorqueLawSpinsUpAWheel) {
   Drive d;
   d.name = "motor", d.kind = DriveKind::kForce, d.law.polynomial = {1, 2};

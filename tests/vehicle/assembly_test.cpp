@@ -46,7 +46,10 @@ int rows(JointType type) {
   case JointType::kSpherical:
     return 3;
   case JointType::kUniversal:
+  case JointType::kCylindrical:
     return 4;
+  case JointType::kDistance:
+    return 1;
   case JointType::kRevolute:
   case JointType::kPrismatic:
     return 5;
