@@ -47,7 +47,9 @@ Mechanism::Mechanism(const Scene& scene, double timeStep)
     : timeStep_(timeStep), model_(buildModel(scene.mechanism)), state_(multibody::makeState(model_)),
       loads_(multibody::makeLoads(model_)), solver_(makeSolver(scene, model_)) {
   loads_.gravity = scene.run.gravity;
-  if (solver_.velocityError(state_) > kRoundedRate) solver_.projectVelocities(state_, loads_);
+  const bool imposed = std::any_of(model_.drives().begin(), model_.drives().end(),
+                                   [](const multibody::Drive& d) { return d.kind != multibody::DriveKind::kForce; });
+  if (imposed || solver_.velocityError(state_) > kRoundedRate) startBlow_ = -solver_.projectVelocities(state_, loads_);
 }
 
 void Mechanism::advance() {

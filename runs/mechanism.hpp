@@ -43,6 +43,9 @@ public:
   };
   Ledger ledger() const;
 
+  /// Kinetic energy that the drives gave in a blow, since the velocities of the scene did not fit theirs [J].
+  double startBlow() const { return startBlow_; }
+
   /// How well the joints are closed.
   struct Drift {
     double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
@@ -64,6 +67,7 @@ private:
   multibody::Loads loads_;
   multibody::Solver solver_;
   Drift worst_;
+  double startBlow_ = 0;
 };
 
 /// The solver's options as a scene's [run] gives them.

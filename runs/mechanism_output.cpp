@@ -55,6 +55,8 @@ std::string driveUnit(multibody::DriveKind kind, bool turning) {
   return turning ? "N m" : "N";
 }
 
+/// Share of the kinetic energy at the start below which a blow is round-off of what was typed [-].
+constexpr double kBlowShown = 1e-6;
 /// Redundant rows that are named before "and ... more" [-].
 constexpr std::size_t kRowsShown = 8;
 
@@ -261,6 +263,11 @@ std::string mechanismSize(const Mechanism& mechanism) {
        fmt::format("{}", model.axisSprings().size() + model.pointSprings().size() + model.bushings().size()));
   line("drives and couplings", fmt::format("{}", model.drives().size() + model.couplings().size()));
   line("degrees of freedom", fmt::format("{}, drives left out", solver.degreesOfFreedom()));
+  if (std::fabs(mechanism.startBlow()) > kBlowShown * (std::fabs(mechanism.startBlow()) + mechanism.ledger().kinetic))
+    line("at the start",
+         fmt::format("the drives jump to their speed: {:.4g} J in a blow; give the bodies that velocity, or "
+                     "let the drives come up to it",
+                     mechanism.startBlow()));
   const std::vector<std::string> redundant = solver.redundantRowNames();
   if (redundant.empty()) return text;
   line("rows held more than once", fmt::format("{}, left out; their reactions read 0", redundant.size()));
