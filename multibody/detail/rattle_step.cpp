@@ -52,8 +52,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double kRoundOff = 5e-16;
 
 /// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration.
-constexpr double kFastSpin = 0.05;
+/// Newton's method within the iteration, to round-off: what a tolerance would leave has the same sign in each step, and
+/// would turn the body by its share of the tolerance over the step's square. Below, two iterations leave less.
+constexpr double kFastSpin = 1e-7;
 
 /// First halves of the palindromes, the middle last.
 /// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,
@@ -259,6 +260,8 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
     }
     before = gap;
   }
+  // Also of rows that had no pivot.
+  if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
   last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
   collectMomentum(part, state, loads, h);
 }
