@@ -90,7 +90,8 @@ public:
   double stableStep(const State& state, const Loads& loads, std::string* spring = nullptr);
 
   const StepReport& lastStep() const;
-  /// Rows without a pivot in the last step, by name; empty but in singular positions.
+  /// Rows without a pivot, by name, in the last matrix of the last step (kSymplecticEuler: of its start, kRattle: of
+  /// its end); empty but in singular positions.
   std::vector<std::string> singularRowNames() const;
   /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. With kRattle it is met to round-off. With
   /// kSymplecticEuler the twist is the mean over the step that led there and meets the constraints over that step to

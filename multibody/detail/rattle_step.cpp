@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/rattle_step.hpp"
 
-#include "base/error.hpp"
-#include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/rotation.hpp"
-#include "multibody/detail/start.hpp"
-#include "multibody/detail/vector6.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <sstream>
 
 /// The scheme. Over a stage of length h, from positions q_0 and momenta p_0 (m v; S = I w) to q_1, p_1, with u the mean
 /// twist, Lambda and Mu impulses:
@@ -38,8 +32,11 @@
 /// Newton's method uses the matrix of q_0 on both sides, though Lambda acts along J(q_0) and gaps close along J(q_1): a
 /// correction is h |w| times the one before. Where a singular position is near or between q_0 and q_1 some pivots have
 /// another size or sign at q_1 and that is too slow or diverges; the iteration is then mixed (mixing.hpp), which
-/// solves the same equations. Should that fail too, the matrix is taken anew at each iterate, and the corrections are
-/// the smallest in the norm of kinetic energy.
+/// solves the same equations. Should that fail too - q_0 is all but singular - it is done without the rows of weak
+/// pivots, and these are closed with the matrix of each iterate, by the smallest corrections in the norm of kinetic
+/// energy.
+///
+/// The first three equations are solved in rattle_position.cpp, the last two in rattle_velocity.cpp.
 ///
 /// Orders 4, 6, 8 are symmetric compositions of stages gamma_i dt.
 namespace grouser::multibody::detail {
@@ -47,14 +44,6 @@ namespace grouser::multibody::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Gaps are not closed further than this part of the coordinates.
-constexpr double kRoundOff = 5e-16;
-
-/// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration, to round-off: what a tolerance would leave has the same sign in each step, and
-/// would turn the body by its share of the tolerance over the step's square. Below, two iterations leave less.
-constexpr double kFastSpin = 1e-7;
 
 /// First halves of the palindromes, the middle last.
 /// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,
@@ -138,319 +127,6 @@ bool RattleStep::positionsFactored(const Part& part) const {
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
       if (laws[at(a)].softness != 0 || laws[at(a)].driven != (drivenThen[at(a)] != 0)) return false;
   return true;
-}
-
-/// Mean force of an axis' implicit part, and its slope D.
-ForceAndSlope RattleStep::meanForce(int axis, double h) const {
-  const SoftRow& row = soft[at(axis)];
-  const double a = x0[at(axis)], b = x1[at(axis)];
-  ForceAndSlope f;
-  if (implicitSprings) {
-    f.force = row.constant - 0.5 * row.stiffness * (a + b);
-    f.slope = 0.5 * row.stiffness;
-  }
-  if (row.damping != 0) {
-    f.force -= row.damping * (b - a) / h;
-    f.slope += row.damping / h;
-  }
-  if (row.stops) {
-    const ForceAndSlope s = softRows.stops(axis, a, b, h);
-    f.force += s.force;
-    f.slope += s.slope;
-  }
-  return f;
-}
-
-/// Axis positions at the current iterate, and the softness 1/G of the soft rows there. Returns whether it has moved so
-/// far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J M^-1
-/// J^T.
-bool RattleStep::updateAxes(const Part& part, double h) {
-  bool follow = false;
-  for (const int k : part.constraints) {
-    const Constraint& c = system.constraints()[at(k)];
-    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
-      if (soft[at(a)].driven || !soft[at(a)].stops) continue; // all else is linear
-      AxisLaw& law = laws[at(a)];
-      const double size = system.rowSize(k, row);
-      double now = 0.5 * h * h * meanForce(a, h).slope;
-      // A row that lets go stays in the system, or its impulse could not vanish.
-      if (law.softness != 0 && std::fabs(now) * size < 1e-3) now = 1e-3 / size;
-      if (std::fabs(now - law.softness) * size <= 0.05 * (1 + std::fabs(law.softness) * size)) continue;
-      law.softness = now;
-      follow = true;
-    }
-  }
-  return follow;
-}
-
-void RattleStep::solvePositions(const Part& part, const State& state, const Loads& loads, double h) {
-  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
-  moveTrial(part, state, h);
-  for (const int k : part.constraints) {
-    const Constraint& c = system.constraints()[at(k)];
-    placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], startFrames[at(k)]);
-    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      x0[at(a)] = isJoint(c.kind) ? axisPositionIn(state, system, a) : axisPosition(c, startFrames[at(k)], row);
-      x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
-      laws[at(a)] = {};
-      laws[at(a)].driven = soft[at(a)].driven;
-      laws[at(a)].softness = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
-    }
-  }
-  if (!positionsFactored(part)) linearise(part, frames);
-  factored[at(part.index)] = -1;
-  relinearised[at(part.index)] = 0;
-  // Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of
-  // the node alone would take it.
-  for (const int k : part.constraints)
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      if (laws[at(a)].softness != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
-      if (soft[at(a)].driven) startRate[at(a)] = system.rateOfAxis(a, mean);
-    }
-  setFirstResidual(part, state, loads, h);
-  setResiduals(part, h);
-
-  double scale = 0;
-  for (const int node : part.bodies) {
-    const Vec3d& p = state.pose[at(system.bodyOf(node))].position;
-    scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  }
-  // Below a few units in the last place of the coordinates there is nothing to gain.
-  const double tolerance = std::max(options.positionTolerance, kRoundOff * scale);
-  double before = std::numeric_limits<double>::infinity();
-  mixing.reset();
-  Phase phase = Phase::kAllRows;
-  const int limit = options.maxIterations;
-  for (int iteration = 1;; ++iteration) {
-    system.solve(part, x);
-    if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
-    applyCorrection(part, h);
-    moveTrial(part, state, h);
-    const bool follow = updateAxes(part, h);
-    const double gap = setResiduals(part, h);
-    last.iterations = std::max(last.iterations, iteration);
-    const bool done = gap <= tolerance && !follow;
-    // A little above the tolerance and not getting better is round-off.
-    const bool stuck = mixing.bestGap() <= 1e2 * tolerance && gap > 0.5 * before && !follow;
-    if ((done || stuck) && phase != Phase::kWithoutWeakRows) break;
-    mixing.remember(part, gap, mean);
-    if (phase == Phase::kEachIterate) {
-      if (iteration >= 3 * limit) {
-        // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
-        if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
-        break;
-      }
-      linearise(part, trial);
-    } else if (phase == Phase::kAllRows && iteration >= limit) {
-      phase = Phase::kWithoutWeakRows;
-      startWithoutWeakRows(part, state, loads, h);
-    } else if (phase == Phase::kWithoutWeakRows && (done || stuck || iteration >= 2 * limit)) {
-      phase = Phase::kEachIterate;
-      closeWeakRows(part, state, h);
-    } else if (follow) {
-      linearise(part, frames);
-      mixing.forget();
-    } else if (iteration > 1 && !(gap <= 0.2 * before) && !mixing.on()) {
-      mixing.switchOn();
-    }
-    before = gap;
-  }
-  // Also of rows that had no pivot.
-  if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
-  last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
-  collectMomentum(part, state, loads, h);
-}
-
-void RattleStep::setFirstResidual(const Part& part, const State& state, const Loads& loads, double h) {
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    const Wrench& wrench = loads.external[at(b)];
-    const Mat3d& I = system.inertia(node);
-    const Vec3d& w = mean[at(b)].w;
-    gyro[at(node)] = gyroscopicMomentum(I, w, h);
-    set(x[at(node)], 0.5 * h * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
-        (state.spinMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
-  }
-  for (const int k : part.constraints) {
-    impulse[at(k)] = {};
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const std::size_t row = at(system.axes()[at(a)].row);
-      softImpulse[at(a)] = 0.5 * h * meanForce(a, h).force;
-      const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
-      // A soft row's impulse is an unknown of the system; without softness it is known.
-      impulse[at(k)][row] = softImpulse[at(a)];
-      if (known + softImpulse[at(a)] != 0) system.addImpulse(k, static_cast<int>(row), known + softImpulse[at(a)], x);
-    }
-  }
-  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
-}
-
-void RattleStep::moveTrial(const Part& part, const State& state, double h) {
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    const Pose& X = state.pose[at(b)];
-    trialPose[at(b)].position = X.position + h * mean[at(b)].v;
-    trialPose[at(b)].orientation = (rotationBy(h * mean[at(b)].w) * X.orientation).normalized();
-    system.placeBody(b, trialPose[at(b)], trial);
-  }
-}
-
-double RattleStep::setResiduals(const Part& part, double h) {
-  double largest = 0, open = 0;
-  // Written so that a gap that is not a number counts as the largest.
-  const auto take = [](double& most, double gap) {
-    if (!(std::fabs(gap) <= most)) most = std::fabs(gap);
-  };
-  for (const int k : part.constraints) {
-    double error[6];
-    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
-    Vector6& residual = x[at(rowNode(k))];
-    residual = {};
-    const unsigned hard = hardRows(system.constraints()[at(k)].kind), kept = system.elimination().keptRows(k);
-    for (int r = 0; r < 6; ++r) {
-      if (!(hard >> r & 1u)) continue;
-      residual[at(r)] = -error[r] / h;
-      take(open, error[r]);
-      if (kept >> r & 1u) take(largest, error[r]);
-    }
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      const SoftRow& s = soft[at(a)];
-      if (s.driven) {
-        const double gap = x1[at(a)] - (s.relative ? x0[at(a)] + s.target : s.target);
-        residual[at(row)] = -gap / h;
-        take(open, gap);
-        if (kept >> row & 1u) take(largest, gap);
-      } else if (laws[at(a)].softness != 0) {
-        residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].softness;
-        // In terms of position: what the soft row and the masses behind it would still move.
-        const double softness = std::fabs(laws[at(a)].softness) * system.rowSize(k, row);
-        take(largest, residual[at(row)] * h * softness / (1 + softness));
-      }
-    }
-  }
-  for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
-    const double gap = x1[at(row.axis2)] - row.ratio * x1[at(row.axis1)] - row.offset;
-    x[at(system.couplingNode(c))] = {};
-    x[at(system.couplingNode(c))][0] = -gap / h;
-    take(open, gap);
-    if (system.couplingKept(c)) take(largest, gap);
-  }
-  gapOf[at(part.index)] = open;
-  if (relinearised[at(part.index)]) return largest;
-  for (const int node : part.bodies) {
-    const Mat3d& I = system.inertia(node);
-    const Vec3d g = gyroscopicMomentum(I, mean[at(system.bodyOf(node))].w, h);
-    const Vec3d residual = gyro[at(node)] - g;
-    gyro[at(node)] = g;
-    add(x[at(node)], {}, residual);
-    take(largest, h * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual));
-  }
-  return largest;
-}
-
-/// The solve anew, without rows of weak pivots at q_0: near a singular position those would need huge impulses, and
-/// spoil the rest. What they leave open is second order in a motion across the singular direction, hence small.
-void RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
-  constexpr double kWeakPivot = 1e5;
-  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
-  moveTrial(part, state, h);
-  updateAxes(part, h);
-  system.scalePivotThreshold(kWeakPivot);
-  linearise(part, frames);
-  system.scalePivotThreshold(1);
-  setFirstResidual(part, state, loads, h);
-  setResiduals(part, h);
-  mixing.reset();
-}
-
-/// Closes what is left with the matrix of each iterate.
-void RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
-  relinearised[at(part.index)] = 1;
-  mixing.takeBest(part, mean);
-  mixing.reset();
-  moveTrial(part, state, h);
-  updateAxes(part, h);
-  linearise(part, trial);
-  setResiduals(part, h);
-  for (const int node : part.bodies) x[at(node)] = {};
-}
-
-void RattleStep::applyCorrection(const Part& part, double h) {
-  for (const int node : part.bodies) {
-    Twist& V = mean[at(system.bodyOf(node))];
-    V.v += linear(x[at(node)]);
-    V.w += angular(x[at(node)]);
-    x[at(node)] = {};
-    if (relinearised[at(part.index)]) continue;
-    // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
-    const Mat3d& I = system.inertia(node);
-    if (std::fabs(h) * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
-      V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, h);
-      gyro[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
-    }
-  }
-  for (const int k : part.constraints)
-    for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
-  for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
-}
-
-/// Spin after the first half kick: the sum of the impulses, so that it is conserved to the last digits; where the rows
-/// were taken anew, what the mean twist says.
-void RattleStep::collectMomentum(const Part& part, const State& state, const Loads& loads, double h) {
-  if (relinearised[at(part.index)]) {
-    for (const int node : part.bodies) {
-      const int b = system.bodyOf(node);
-      const Mat3d I = rotatedInertia(frames[at(b)].R, model.bodies()[at(b)].inertia_B);
-      spin[at(node)] = I * mean[at(b)].w + gyroscopicMomentum(I, mean[at(b)].w, h);
-    }
-    return;
-  }
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    spin[at(node)] = state.spinMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
-    x[at(node)] = {};
-  }
-  for (const int k : part.constraints) {
-    for (int r = 0; r < 6; ++r)
-      if (const double total = impulse[at(k)][at(r)]; total != 0) system.addImpulse(k, r, total, x);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
-      if (known != 0) system.addImpulse(k, system.axes()[at(a)].row, known, x);
-    }
-  }
-  for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
-    const Axis &one = system.axes()[at(row.axis1)], &two = system.axes()[at(row.axis2)];
-    system.addImpulse(two.constraint, two.row, couplingImpulse[at(c)], x);
-    system.addImpulse(one.constraint, one.row, -row.ratio * couplingImpulse[at(c)], x);
-  }
-  for (const int node : part.bodies) spin[at(node)] += angular(x[at(node)]);
-}
-
-void RattleStep::fail(const Part& part, const State& state, double gap, double h) const {
-  int worst = -1, worstRow = 0;
-  double most = 0;
-  for (const int k : part.constraints) {
-    double error[6];
-    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
-    for (int r = 0; r < 6; ++r)
-      if ((hardRows(system.constraints()[at(k)].kind) >> r & 1u) && !(std::fabs(error[r]) <= most))
-        most = std::fabs(error[r]), worst = k, worstRow = r;
-  }
-  std::ostringstream message;
-  message << "multibody step from t = " << state.time << " s";
-  if (worst >= 0) message << ": " << system.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
-  message << " (largest residual " << gap << ") after " << options.maxIterations
-          << " iterations; the motion is too fast for a stage of " << h
-          << " s: reduce the step, or check loads, drives and whether the mechanism can reach where it is driven";
-  throw base::SimulationError(message.str());
 }
 
 } // namespace grouser::multibody::detail

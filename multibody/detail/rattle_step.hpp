@@ -25,7 +25,7 @@ private:
   void linearise(const Part& part, const std::vector<Frame>& at);
   bool positionsFactored(const Part& part) const;
 
-  // Position stage (rattle_step.cpp).
+  // Position stage (rattle_position.cpp).
   void solvePositions(const Part& part, const State& state, const Loads& loads, double h);
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);

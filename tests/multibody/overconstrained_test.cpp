@@ -171,6 +171,43 @@ TEST(Overconstrained, RodsOfAPlanarParallelogramByDistanceJoints) {
   EXPECT_EQ(solver.redundantRows(), 1);
 }
 
+TEST(Overconstrained, AStartInLineIsReportedAsSingularAndMovesOn) {
+  // A parallelogram folded flat: a row more than the three redundant ones has no pivot there, and there only.
+  Mechanism m;
+  addRod(m.model, "crank", {0, 0, 0}, {1, 0, 0}, {0, 0, -2.5}, {0, 5, 0});
+  addRod(m.model, "rocker", {1, 0, 0}, {2, 0, 0}, {0, 0, -2.5}, {0, 5, 0});
+  addRod(m.model, "coupler", {1, 0, 0}, {2, 0, 0}, {0, 0, -5});
+  const auto pin = [&](const char* name, int a, int b, const Vec3d& p) {
+    m.model.addJointAt(name, JointType::kRevolute, a, b, frameWithZ(p, kY));
+  };
+  pin("foot 1", kWorld, 0, {}), pin("foot 2", kWorld, 1, {1, 0, 0});
+  pin("head 1", 0, 2, {1, 0, 0}), pin("head 2", 1, 2, {2, 0, 0});
+  m.start();
+  for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
+    m.start();
+    SolverOptions o;
+    o.integrator = integrator;
+    Solver solver(m.model, o);
+    EXPECT_EQ(solver.degreesOfFreedom(), 1);
+    EXPECT_EQ(solver.redundantRows(), 3);
+    EXPECT_NE(solver.report().find("singular position"), std::string::npos);
+    solver.step(m.state, m.loads, 1e-3);
+    EXPECT_EQ(solver.lastStep().singularRows, 1);
+    if (integrator == Integrator::kSymplecticEuler) {
+      ASSERT_FALSE(solver.singularRowNames().empty()); // the last matrix is that of the start
+      EXPECT_NE(solver.singularRowNames().front().find("joint 'head 2'"), std::string::npos);
+    }
+    double apart = 0;
+    for (int i = 0; i < 3000; ++i) {
+      solver.step(m.state, m.loads, 1e-3);
+      // It stays a parallelogram: crank and rocker are parallel.
+      const Vec3d d = m.state.pose[1].position - m.state.pose[0].position;
+      apart = std::max(apart, length(d - Vec3d{1, 0, 0}));
+    }
+    EXPECT_LT(apart, integrator == Integrator::kRattle ? 1e-11 : 1e-8);
+  }
+}
+
 TEST(Overconstrained, CouplingsInARingOfThreeGearsThatAgreeAreRedundant) {
   Mechanism m;
   for (int i = 0; i < 3; ++i) {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "benchmarks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace grouser::multibody::test {
+namespace {
+
+const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
+
+class Couplings : public ::testing::TestWithParam<Integrator> {};
+
+TEST_P(Couplings, GearedWheelsTurnInTheirRatioAndShareTheTorque) {
+  // A torque on wheel 1 with ratio -2: reduced inertia I1 + 4 I2; force on axis 2 = I2 alpha2.
+  Mechanism m;
+  m.model.addBody(makeBody("one", 1, kInertia, {}));
+  m.model.addBody(makeBody("two", 1, Mat3d::diagonal({0.1, 0.1, 0.1}), {{1, 0, 0}, {}}));
+  m.model.addJointAt("hub 1", JointType::kRevolute, kWorld, 0, {});
+  m.model.addJointAt("hub 2", JointType::kRevolute, kWorld, 1, {{1, 0, 0}, {}});
+  Coupling gears;
+  gears.name = "gears", gears.joint1 = 0, gears.joint2 = 1, gears.ratio = -2;
+  m.model.addCoupling(gears);
+  m.start();
+  m.loads.external[0].torque = {0, 0, 1.3};
+  SolverOptions o;
+  o.integrator = GetParam();
+  Solver solver(m.model, o);
+  EXPECT_EQ(solver.degreesOfFreedom(), 1);
+  const int n = 1000;
+  for (int i = 0; i < n; ++i) solver.step(m.state, m.loads, 1e-3);
+  const double alpha = 1.3 / (0.25 + 4 * 0.1);
+  EXPECT_NEAR(m.state.twist[0].w.z, alpha, 1e-10);
+  EXPECT_NEAR(m.state.twist[1].w.z, -2 * alpha, 1e-10);
+  EXPECT_NEAR(m.state.joint[1].position + 2 * m.state.joint[0].position, 0, 1e-10);
+  EXPECT_NEAR(m.state.coupling[0].force, -2 * alpha * 0.1, 1e-8);
+}
+
+TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
+  // A nut on a cylindrical joint, slide = pitch / (2 pi) angle, falls: a = g / (1 + I / (m p^2)).
+  const double p = 0.02;
+  Mechanism m;
+  m.model.addBody(makeBody("nut", 2, kInertia, {}));
+  m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
+  Coupling screw;
+  screw.name = "thread", screw.ratio = p, screw.axis1 = JointAxis::kAngle, screw.axis2 = JointAxis::kSlide;
+  m.model.addCoupling(screw);
+  m.start();
+  SolverOptions o;
+  o.integrator = GetParam();
+  Solver solver(m.model, o);
+  const double dt = 1e-3;
+  const int n = 2000;
+  for (int i = 0; i < n; ++i) solver.step(m.state, m.loads, dt);
+  const double a = -9.81 / (1 + 0.25 / (2 * p * p));
+  EXPECT_NEAR(m.state.slide[0].rate, a * n * dt, 1e-9);
+  EXPECT_NEAR(m.state.slide[0].position, p * m.state.joint[0].position, 1e-10);
+}
+
+TEST_P(Couplings, FourBodiesFeelNoNetForceOrTorque) {
+  // Two free pairs, each on a revolute, geared to one another: linear momentum stays, and each pair's own reactions
+  // cancel.
+  Mechanism m;
+  for (int i = 0; i < 4; ++i)
+    m.model.addBody(makeBody("body " + std::to_string(i), 1 + i, kInertia, {{1.0 * i, 0, 0}, {}}));
+  m.model.addJointAt("pin 1", JointType::kRevolute, 0, 1, {{0.5, 0, 0}, {}});
+  m.model.addJointAt("pin 2", JointType::kRevolute, 2, 3, frameWithZ({2.5, 0, 0}, {0, 1, 1}));
+  Coupling belt;
+  belt.name = "belt", belt.joint1 = 0, belt.joint2 = 1, belt.ratio = 1.7;
+  m.model.addCoupling(belt);
+  m.start();
+  m.loads.gravity = {};
+  m.loads.external[0].torque = {0, 0, 2};
+  m.loads.external[1].torque = {0, 0, -2};
+  SolverOptions o;
+  o.integrator = GetParam();
+  Solver solver(m.model, o);
+  double gap = 0;
+  for (int i = 0; i < 2000; ++i) {
+    solver.step(m.state, m.loads, 1e-3);
+    gap = std::max(gap, std::fabs(m.state.joint[1].position - 1.7 * m.state.joint[0].position));
+  }
+  EXPECT_LT(gap, 1e-10);
+  EXPECT_GT(std::fabs(m.state.joint[0].position), 1);
+  const Totals t = totals(m.model, m.state, m.loads);
+  EXPECT_LT(length(t.linearMomentum), 1e-11);
+  EXPECT_LT(length(t.angularMomentum), 1e-10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Couplings, ::testing::Values(Integrator::kSymplecticEuler, Integrator::kRattle),
+                         [](const auto& p) { return p.param == Integrator::kRattle ? "Rattle" : "Euler"; });
+
+} // namespace
+} // namespace grouser::multibody::test
