@@ -147,7 +147,7 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
     if (omega2 > highest) highest = omega2, worst = axis;
   }
   if (spring) *spring = worst < 0 ? "" : springName(system, model, worst);
-  return highest > 0 ? 2 / std::sqrt(highest) : std::numeric_limits<double>::infinity();
+  return highest > 0 ? stableTurn(options.order) / std::sqrt(highest) : std::numeric_limits<double>::infinity();
 }
 
 /// Explicit springs: before the first step, a longer step, and now and then since positions change the frequencies.
@@ -157,7 +157,7 @@ void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt
   if (model.axisSprings().empty() && model.pointSprings().empty() && model.bushings().empty()) return;
   if (dt <= checkedStep && steps % kInterval != 0) return;
   std::string spring;
-  const double limit = stableStep(state, loads, &spring) / longestStage(options.order);
+  const double limit = stableStep(state, loads, &spring);
   if (!(dt < limit)) {
     std::ostringstream message;
     message << "multibody step from t = " << state.time << " s: dt = " << dt << " s is beyond the stability limit "
@@ -205,7 +205,7 @@ double Solver::projectVelocities(State& state, const Loads& loads) {
 
 double Solver::stableStep(const State& state, const Loads& loads, std::string* spring) {
   impl_->checkFits(state, loads);
-  return impl_->stableStep(state, loads, spring) / longestStage(impl_->options.order);
+  return impl_->stableStep(state, loads, spring);
 }
 
 double Solver::velocityError(const State& state) const {

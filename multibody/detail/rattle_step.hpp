@@ -87,7 +87,7 @@ private:
   std::vector<char> drivenThen; ///< of each axis, in that linearisation
 };
 
-/// Longest stage of the composition of an order, in units of the step.
-double longestStage(int order);
+/// Largest omega dt [rad] for which the composition of an order is stable with explicit springs.
+double stableTurn(int order);
 
 } // namespace grouser::multibody::detail

@@ -60,6 +60,34 @@ TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
   EXPECT_NEAR(m.state.slide[0].position, p * m.state.joint[0].position, 1e-10);
 }
 
+TEST(CouplingForce, IsThatOfTheMotionAlsoOnATurningArm) {
+  // A nut that must spin to slide outwards on a turning arm: (m + I / p^2) r'' = m w^2 r; the thread's force m (r'' -
+  // w^2 r).
+  const double p = 0.3, w = 2, r0 = 0.5, mass = 2, I = 0.25;
+  Mechanism m;
+  m.model.addBody(makeBody("arm", 1, kInertia, {}, {}, {0, 0, w}));
+  m.model.addBody(makeBody("nut", mass, Mat3d::diagonal({I, I, I}), {{r0, 0, 0}, {}}, {0, w * r0, 0}, {0, 0, w}));
+  m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
+  m.model.addJointAt("thread", JointType::kCylindrical, 0, 1, frameWithZ({r0, 0, 0}, {1, 0, 0}));
+  Coupling screw;
+  screw.name = "screw", screw.joint1 = screw.joint2 = 1, screw.ratio = p;
+  screw.axis1 = JointAxis::kAngle, screw.axis2 = JointAxis::kSlide;
+  m.model.addCoupling(screw);
+  Drive motor;
+  motor.name = "motor", motor.speed = w;
+  m.model.addDrive(motor);
+  m.start();
+  m.loads.gravity = {};
+  Solver solver(m.model, rattle(4));
+  for (int i = 0; i < 200; ++i) {
+    solver.step(m.state, m.loads, 5e-3);
+    const double r = r0 + m.state.slide[1].position, outwards = w * w * r * mass / (mass + I / (p * p));
+    ASSERT_NEAR(m.state.coupling[0].force, mass * (outwards - w * w * r), 1e-10) << i;
+  }
+  const double rate = w * std::sqrt(mass / (mass + I / (p * p)));
+  EXPECT_NEAR(r0 + m.state.slide[1].position, r0 * std::cosh(rate), 1e-8);
+}
+
 TEST_P(Couplings, FourBodiesFeelNoNetForceOrTorque) {
   // Two free pairs, each on a revolute, geared to one another: linear momentum stays, and each pair's own reactions
   // cancel.
