@@ -46,7 +46,8 @@ struct SolverOptions {
       0; ///< of the position solve; 0: 12 for kSymplecticEuler, 40 for kRattle. Typically 1 to 5 are used
   Integrator integrator = Integrator::kSymplecticEuler;
   /// Of kRattle: 2, or 4, 6, 8 as symmetric compositions of 5, 9, 17 stages of order 2, some of them backwards in time:
-  /// for smooth motions to high accuracy over long times. Dampers keep their accuracy only while c dt / m << 1.
+  /// for smooth motions to high accuracy over long times. A damper with c dt / m > 0.3 or so is refused by name, since
+  /// going back feeds it.
   int order = 2;
   Springs springs = Springs::kExplicit;
   StartVelocities startVelocities = StartVelocities::kRefuse;

@@ -35,6 +35,25 @@ void axisStiffness(const ConstraintSystem& system, const Model& model, const Loa
   }
 }
 
+void axisDamping(const ConstraintSystem& system, const Model& model, std::vector<double>& damping) {
+  for (std::size_t a = 0; a < damping.size(); ++a) {
+    const Axis& axis = system.axes()[a];
+    const Constraint& c = system.constraints()[at(axis.constraint)];
+    if (c.kind == ConstraintKind::kPointSpring) {
+      damping[a] = model.pointSprings()[at(c.source)].damping;
+    } else if (c.kind == ConstraintKind::kBushing) {
+      const Bushing& bushing = model.bushings()[at(c.source)];
+      damping[a] = axis.row < 3 ? bushing.damping[axis.row] : bushing.rotationDamping[axis.row - 3];
+    } else {
+      const Joint& joint = model.joints()[at(c.source)];
+      const bool slide = c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow;
+      damping[a] = slide ? joint.slideDamping : joint.damping;
+    }
+  }
+  for (const AxisSpring& spring : model.axisSprings())
+    damping[at(system.axisOf(spring.joint, spring.axis))] += std::max(spring.damping, spring.stopDamping);
+}
+
 std::string springName(const ConstraintSystem& system, const Model& model, int axis) {
   const Axis& a = system.axes()[at(axis)];
   const Constraint& c = system.constraints()[at(a.constraint)];

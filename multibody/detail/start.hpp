@@ -43,6 +43,9 @@ double highestFrequency(const ConstraintSystem& system, const ConstraintSystem::
 void axisStiffness(const ConstraintSystem& system, const Model& model, const Loads& loads,
                    std::vector<double>& stiffness);
 
+/// Damping of joints, springs (the greater of damper and stops) and bushings, one an axis.
+void axisDamping(const ConstraintSystem& system, const Model& model, std::vector<double>& damping);
+
 /// "spring 'bar'" or "bushing 'mount'" of the stiffest spring on an axis.
 std::string springName(const ConstraintSystem& system, const Model& model, int axis);
 
