@@ -84,6 +84,39 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryJoint,
                                   (std::get<1>(p.param) == Integrator::kRattle ? "Rattle" : "Euler");
                          });
 
+TEST(Universal, OutputShaftHasTheSpeedOfHookesJoint) {
+  // tan(out) = tan(in) cos(beta) up to the quarter turn between the crosses:
+  //   w_out / w_in = cos(beta) / (1 - sin^2(beta) cos^2(in)), with the cross's pin on the input in the plane of the
+  //   shafts
+  // at in = 0.
+  const double beta = 0.6, w = 3;
+  const Vec3d out{base::cos(beta), 0, base::sin(beta)};
+  Mechanism m;
+  Drive motor;
+  motor.name = "motor", motor.kind = DriveKind::kPosition, motor.law.polynomial = {0, w};
+  // Pin on the input along z (in the plane of the shafts), pin on the output along y.
+  const double start = base::cos(beta) / (1 - base::sin(beta) * base::sin(beta));
+  m.model.addBody(makeBody("input", 1, kInertia, {{-0.5, 0, 0}, {}}, {}, {w, 0, 0}));
+  m.model.addBody(makeBody("output", 1, kInertia, {0.5 * out, {}}, {}, start * w * out));
+  m.model.addJointAt("bearing in", JointType::kRevolute, kWorld, 0, frameWithZ({-0.5, 0, 0}, {1, 0, 0}));
+  m.model.addJointAt("bearing out", JointType::kRevolute, kWorld, 1, frameWithZ(0.5 * out, out));
+  m.model.addJointAt("cross", JointType::kUniversal, 0, 1, frameWithZX({}, {0, 0, 1}, {0, 1, 0}));
+  m.model.addDrive(motor);
+  m.start();
+  Solver solver(m.model, rattle());
+  EXPECT_EQ(solver.degreesOfFreedom(), 1);
+  double worst = 0, torque = 0;
+  for (int i = 0; i < 3000; ++i) {
+    solver.step(m.state, m.loads, 1e-3);
+    const double c = std::cos(w * m.state.time), s = std::sin(beta);
+    worst = std::max(worst, std::fabs(m.state.joint[1].rate - w * std::cos(beta) / (1 - s * s * c * c)));
+    torque = std::max(torque, std::fabs(driveForce(m.model, m.state, 0)));
+  }
+  std::printf("Hooke's joint: output speed off by %.1e rad/s, drive torque up to %.3f N m\n", worst, torque);
+  EXPECT_LT(worst, 1e-11);
+  EXPECT_GT(torque, 0.1); // the output's inertia is sped up and slowed down twice a turn
+}
+
 // ---------------------------------------------------------------------------------------------- cylindrical, bushing
 
 /// A body on a cylindrical joint along z with springs and dampers on slide and angle.
