@@ -164,7 +164,7 @@ struct CarryHistory {
 
   GROUSER_HD void operator()(int i) const {
     if (order[i] >= former) {
-      touching[i] = order[i] == RowOrigins::kNone ? 0 : fromArrived(i, order[i] - former);
+      touching[i] = order[i] == RowOrigins::kNone || !arrived.data ? 0 : fromArrived(i, order[i] - former);
       return;
     }
     const std::int64_t o = order[i];
@@ -215,7 +215,8 @@ struct CountTouching {
   const std::uint32_t* slots;
   const std::uint64_t* touching;
   std::uint32_t* out;
-  GROUSER_HD void operator()(int k) const { out[k] = bitsSet(touching[slots[k]]); }
+  std::uint32_t rows; ///< slots from here on have no row yet
+  GROUSER_HD void operator()(int k) const { out[k] = slots[k] < rows ? bitsSet(touching[slots[k]]) : 0; }
 };
 
 struct ExportRow {
@@ -225,11 +226,12 @@ struct ExportRow {
   const std::uint64_t* touching;
   std::int64_t grainStride, slotStride;
   TravellingRows rows;
+  std::uint32_t rowCount;
   GROUSER_HD void operator()(int k) const {
     const std::int64_t i = slots[k];
     std::uint32_t* out = rows.data + static_cast<std::uint64_t>(k) * rows.words();
     std::uint32_t n = 0;
-    for (std::uint32_t m = 0; m < count[i]; ++m) {
+    for (std::uint32_t m = 0; i < rowCount && m < count[i]; ++m) {
       if (!(touching[i] >> m & 1)) continue;
       const std::int64_t at = i * grainStride + m * slotStride;
       out[1 + n] = id[slot[at]];
@@ -316,7 +318,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
                                now_.grainStride, now_.slotStride, history_ ? now_.shear.data() : nullptr,
                                now_.touching.data(), old_.count.data(), old_.slot.data(), old_.id.data(),
                                old_.shear.data(), old_.touching.data(), old_.grainStride, old_.slotStride,
-                               origins ? origins->former : RowOrigins::kNone,
+                               static_cast<std::uint32_t>(old_.count.size()),
                                origins ? origins->arrived : TravellingRows{}});
   } else {
     now_.touching.zero();
@@ -328,16 +330,16 @@ std::uint32_t NeighbourList::mostTouching(const std::uint32_t* slots, std::size_
   if (!haveOld_ || count == 0) return 0;
   base::Array<std::uint32_t> bits(exec_, count);
   base::forEach(exec_, "count neighbours in touch", static_cast<std::int64_t>(count),
-                CountTouching{slots, now_.touching.data(), bits.data()});
+                CountTouching{slots, now_.touching.data(), bits.data(), rows()});
   return base::maximum(exec_, bits.data(), count);
 }
 
-void NeighbourList::exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& rows) const {
+void NeighbourList::exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const {
   if (!haveOld_) return;
   base::forEach(exec_, "export rows", static_cast<std::int64_t>(count),
                 ExportRow{slots, now_.count.data(), now_.slot.data(), now_.id.data(),
                           history_ ? now_.shear.data() : nullptr, now_.touching.data(), now_.grainStride,
-                          now_.slotStride, rows});
+                          now_.slotStride, travelling, rows()});
 }
 
 NeighbourView NeighbourList::view() {

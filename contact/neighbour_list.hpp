@@ -33,9 +33,8 @@ struct TravellingRows {
 /// Where the rows of a list on one of several ranks come from.
 struct RowOrigins {
   static constexpr std::uint32_t kNone = ~0u;
-  const std::uint32_t* origin; ///< by new slot: row of the former list, or `former` + place in `arrived`, or kNone
+  const std::uint32_t* origin; ///< by new slot: row of the former list, or rows() + place in `arrived`, or kNone
   const std::uint32_t* ghost;  ///< by new slot: not 0 for a grain that needs no row
-  std::uint32_t former;        ///< rows of the former list
   TravellingRows arrived;
 };
 
@@ -62,7 +61,9 @@ public:
   /// Neighbours in touch, at most, of the grains in `slots` (device array).
   std::uint32_t mostTouching(const std::uint32_t* slots, std::size_t count) const;
   /// Writes the rows of these slots for other ranks.
-  void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& rows) const;
+  void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const;
+  /// Grains that have a row; those that were added since the last build have none.
+  std::uint32_t rows() const { return haveOld_ ? static_cast<std::uint32_t>(now_.count.size()) : 0; }
 
   /// The next list begins without history: other grains have taken the slots.
   void forget() { haveOld_ = false; }

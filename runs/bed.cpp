@@ -6,6 +6,7 @@
 #include "runs/laws.hpp"
 #include "runs/mechanism.hpp"
 #include "runs/plan.hpp"
+#include "runs/sources.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
@@ -67,6 +68,7 @@ terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm
   terrain::PartitionOptions partition;
   partition.comm = comm;
   partition.rebalance = scene.parallel.rebalance;
+  partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
   if (const auto& n = scene.parallel.subdomains)
     partition.subdomains = {static_cast<int>(n->x), static_cast<int>(n->y), static_cast<int>(n->z)};
   return partition;
@@ -123,25 +125,35 @@ void checkStartingOverlaps(const Scene& scene) {
   }
 }
 
+/// Radius and material of the grains that are not of a bed.
+std::pair<double, std::string> kindOfGrains(const Scene& scene) {
+  if (!scene.grains.empty()) return {scene.grains.front().radius, scene.grains.front().material};
+  return {scene.sources.front().radius, scene.sources.front().material};
+}
+
+void requireKind(const Scene& scene, const char* section, double radius, const std::string& material, double ofAll,
+                 const std::string& materialOfAll) {
+  if (radius == ofAll && material == materialOfAll) return;
+  throw base::InputError(fmt::format("{}: [[{}]]: radius {} m of '{}' beside {} m of '{}'; all grains of a scene "
+                                     "have one radius and one material so far",
+                                     scene.file.string(), section, radius, material, ofAll, materialOfAll));
+}
+
 void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm,
                        Ground& ground) {
-  const Grain& first = scene.grains.front();
+  const auto [radius, material] = kindOfGrains(scene);
   std::vector<terrain::GrainStart> start;
   for (const Grain& g : scene.grains) {
-    if (g.radius != first.radius || g.material != first.material)
-      throw base::InputError(
-          fmt::format("{}: [[grain]]: radius {} m of '{}' beside {} m of '{}'; all grains of a scene "
-                      "have one radius and one material so far",
-                      scene.file.string(), g.radius, g.material, first.radius, first.material));
+    requireKind(scene, "grain", g.radius, g.material, radius, material);
     start.push_back({g.position, g.velocity, g.spin});
   }
   checkStartingOverlaps(scene);
-  terrain::GrainModel model = grainModel(scene, first.material, first.radius, timeStep);
+  terrain::GrainModel model = grainModel(scene, material, radius, timeStep);
   terrain::Boundaries boundaries;
-  addPlanes(scene, first.material, model.mass, boundaries);
+  addPlanes(scene, material, model.mass, boundaries);
   if (ground.rigid) {
     boundaries.floor = ground.rigid;
-    model.floorLaw = pairLaw(scene, first.material, scene.terrain->material, model.mass);
+    model.floorLaw = pairLaw(scene, material, scene.terrain->material, model.mass);
   }
   ground.grains =
       std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
@@ -194,6 +206,7 @@ StepLimit grainStepLimit(const Scene& scene) {
     if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
   };
   for (const Grain& g : scene.grains) everyContact(g.material, g.radius);
+  for (const Source& s : scene.sources) everyContact(s.material, s.radius);
   if (scene.terrain && scene.terrain->granular()) everyContact(scene.terrain->material, *scene.terrain->grainRadius);
   return limit;
 }
@@ -234,7 +247,8 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, 
     else
       ground.rigid = ground.surface;
   }
-  if (!scene.grains.empty()) {
+  checkSources(scene);
+  if (!scene.grains.empty() || (!scene.sources.empty() && !ground.grains)) {
     if (ground.grains)
       throw base::InputError(scene.file.string() +
                              ": [[grain]] and a granular [terrain] in one scene; use one of them");
@@ -243,6 +257,11 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, 
                              ": [[grain]] beside a [vehicle] on rigid [terrain] is not possible so far; use "
                              "a granular terrain, or leave the grains out");
     placeSingleGrains(scene, exec, timeStep, comm, ground);
+  }
+  if (ground.grains) {
+    const bool bed = scene.terrain && scene.terrain->granular();
+    const auto kind = bed ? std::pair(*scene.terrain->grainRadius, scene.terrain->material) : kindOfGrains(scene);
+    for (const Source& s : scene.sources) requireKind(scene, "source", s.radius, s.material, kind.first, kind.second);
   }
   return ground;
 }

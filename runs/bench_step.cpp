@@ -50,6 +50,7 @@ void StepBench::step() {
   if (grains) grains->endStep();
   mark(kFlags);
   ++s.steps_;
+  s.addGrains();
   if (vehicle && s.steps_ % Simulation::kAlarmInterval == 0) s.checkAlarm();
   mark(kAlarm);
   ++steps_;

@@ -27,9 +27,9 @@ namespace {
 constexpr int kChunkRows = 64;
 
 /// The files of a run; what else lies in its folder is not ours.
-constexpr const char* kFiles[] = {"results.h5",    "timeseries.csv", "frames.h5",    "frames.xdmf",      "scene.toml",
-                                  "manifest.json", "sinkage.csv",    "sinkage.png",  "shoe_heights.png", "drive.png",
-                                  "ledger.png",    "mechanism.png", "picture.png",    kCheckpointName};
+constexpr const char* kFiles[] = {"results.h5",    "timeseries.csv", "frames.h5",   "frames.xdmf",      "scene.toml",
+                                  "manifest.json", "sinkage.csv",    "sinkage.png", "shoe_heights.png", "drive.png",
+                                  "ledger.png",    "mechanism.png",  "picture.png", kCheckpointName};
 
 void writeText(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);

@@ -41,8 +41,11 @@ std::string onOff(bool on, const std::string& what, const std::string& why) {
 
 std::string switches(const Scene& scene) {
   const Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
-  const bool bed = t && t->granular(), grains = bed || !scene.grains.empty();
-  const std::string soil = bed ? t->material : grains ? scene.grains.front().material : "";
+  const bool bed = t && t->granular(), grains = bed || !scene.grains.empty() || !scene.sources.empty();
+  const std::string soil = bed                     ? t->material
+                           : !scene.grains.empty() ? scene.grains.front().material
+                           : grains                ? scene.sources.front().material
+                                                   : "";
   const bool friction = grains && pairLaw(scene, soil, soil, 1).friction > 0;
   std::string text = "switched on and off\n";
   text += onOff(grains, "grains", grains ? "" : "no [[grain]], no granular [terrain]");
@@ -50,6 +53,7 @@ std::string switches(const Scene& scene) {
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
+  text += onOff(!scene.sources.empty(), "sources", fmt::format("{}", scene.sources.size()));
   text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
@@ -82,6 +86,7 @@ double shortestContact(const Scene& scene) {
       shortest = std::min(shortest, duration(scene.vehicle->material, mass));
   };
   for (const Grain& g : scene.grains) consider(g.material, g.radius);
+  for (const Source& s : scene.sources) consider(s.material, s.radius);
   if (scene.terrain && scene.terrain->granular()) consider(scene.terrain->material, *scene.terrain->grainRadius);
   return std::isfinite(shortest) ? shortest : 0;
 }
@@ -89,6 +94,7 @@ double shortestContact(const Scene& scene) {
 std::string planText(const Scene& scene) {
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
   std::int64_t grains = static_cast<std::int64_t>(scene.grains.size());
+  for (const Source& s : scene.sources) grains += s.total;
   if (scene.terrain && scene.terrain->granular()) grains += bedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);
   if (grains)

@@ -6,6 +6,7 @@
 #include "runs/image.hpp"
 #include "runs/mechanism_output.hpp"
 #include "runs/picture.hpp"
+#include "runs/plane_mesh.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <fmt/format.h>
@@ -137,7 +138,7 @@ Recorder::Recorder(Simulation& simulation, const Scene& scene, const RunOptions&
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
   }
   if (const Mechanism* mechanism = simulation.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
-  if (simulation.ground().rigid) ground_ = groundMesh(*simulation.ground().rigid);
+  ground_ = simulation.ground().rigid ? groundMesh(*simulation.ground().rigid) : planeMesh(scene);
   writer_.setParts(parts_, ground_);
 }
 

@@ -18,9 +18,9 @@ using base::Section;
 
 namespace {
 
-const std::vector<std::string> kSections = {"version",  "run",     "material", "contact", "grain",   "plane",
-                                            "terrain",  "body",    "joint",    "spring",  "bushing", "drive",
-                                            "coupling", "vehicle", "driver",   "output",  "parallel"};
+const std::vector<std::string> kSections = {"version", "run",      "material", "contact", "grain",  "source",
+                                            "plane",   "terrain",  "body",     "joint",   "spring", "bushing",
+                                            "drive",   "coupling", "vehicle",  "driver",  "output", "parallel"};
 
 /// One of the two ways to say how lossy a contact is.
 template <class S> void checkOneLoss(const Section& section, const S& s) {
@@ -78,6 +78,13 @@ void readGrainsAndPlanes(const Section& root, Scene& scene) {
   for (const Section& section : root.list("grain")) {
     scene.grains.push_back(section.read(detail::grainTable()));
     checkMaterial(scene, section, "material", scene.grains.back().material);
+  }
+  for (const Section& section : root.list("source")) {
+    const Source s = section.read(detail::sourceTable());
+    checkMaterial(scene, section, "material", s.material);
+    for (int a = 0; a < 3; ++a)
+      if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
+    scene.sources.push_back(s);
   }
   for (const Section& section : root.list("plane")) {
     scene.planes.push_back(section.read(detail::planeTable()));
@@ -177,6 +184,11 @@ void readDriver(const Section& section, Scene& scene) {
 
 void readParallel(const Section& section, Scene& scene) {
   scene.parallel = section.read(detail::parallelTable());
+  const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
+  for (int a = 0; a < 3; ++a)
+    for (std::size_t k = 1; k < cuts[a]->size(); ++k)
+      if (!((*cuts[a])[k] > (*cuts[a])[k - 1]))
+        section.fail(std::string("cuts_") + "xyz"[a], "[m] does not increase; sort it, each plane once");
   if (const auto& n = scene.parallel.subdomains)
     for (int a = 0; a < 3; ++a)
       if ((*n)[a] != std::floor((*n)[a]))
@@ -213,9 +225,10 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
-  if (scene.grains.empty() && !scene.terrain && !scene.vehicle && scene.mechanism.empty())
-    throw InputError(fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]] or [[body]]",
-                                 file.string()));
+  if (scene.grains.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle && scene.mechanism.empty())
+    throw InputError(
+        fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[source]] or [[body]]",
+                    file.string()));
   return scene;
 }
 
@@ -260,6 +273,7 @@ std::string resolvedToml(const Scene& scene) {
   for (const ContactPair& p : scene.contacts)
     text += block("[contact." + key(p.first + "|" + p.second) + "]", detail::contactTable(), p);
   for (const Grain& g : scene.grains) text += block("[[grain]]", detail::grainTable(), g);
+  for (const Source& s : scene.sources) text += block("[[source]]", detail::sourceTable(), s);
   for (const Plane& p : scene.planes) text += block("[[plane]]", detail::planeTable(), p);
   if (scene.terrain) text += block("[terrain]", detail::terrainTable(), *scene.terrain);
   text += mechanismToml(scene.mechanism);
@@ -278,7 +292,7 @@ std::string fieldHelp() {
       "that is absent is not built.\n";
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
-  add(detail::grainTable()), add(detail::planeTable()), add(detail::terrainTable());
+  add(detail::grainTable()), add(detail::sourceTable()), add(detail::planeTable()), add(detail::terrainTable());
   add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable());
   add(detail::bushingTable()), add(detail::driveTable()), add(detail::couplingTable());
   add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());

@@ -66,6 +66,19 @@ struct Grain {
   bool operator==(const Grain&) const = default;
 };
 
+/// [[source]]: grains that enter while the run goes.
+struct Source {
+  base::Vec3d low, high;      ///< corners of the box that their centres start in [m]
+  base::Vec3d velocity, spin; ///< [m/s], [rad/s]
+  double radius = 0;          ///< [m]
+  std::string material;
+  std::int64_t number = 1; ///< that enter together
+  double every = 0;        ///< [s] between those
+  double start = 0;        ///< [s] of the first
+  std::int64_t total = 1;  ///< in all
+  bool operator==(const Source&) const = default;
+};
+
 /// [[plane]]: fills the half-space behind its normal.
 struct Plane {
   base::Vec3d point, normal{0, 0, 1};
@@ -141,8 +154,9 @@ struct Output {
 
 /// [parallel]: how a run on several ranks shares out its grains. No bit of the answer depends on it.
 struct Parallel {
-  std::optional<base::Vec3d> subdomains; ///< whole numbers along x, y, z, 0 where free; empty: chosen
-  bool rebalance = true;                 ///< move the cuts when one rank has clearly more work than the others
+  std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
+  std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen
+  bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than the others
   bool operator==(const Parallel&) const = default;
 };
 
@@ -154,6 +168,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<ContactPair> contacts;
   std::vector<Grain> grains;
+  std::vector<Source> sources;
   std::vector<Plane> planes;
   std::optional<Terrain> terrain;
   MechanismSections mechanism;

@@ -91,6 +91,22 @@ Table<Grain> grainTable() {
   return t;
 }
 
+Table<Source> sourceTable() {
+  using S = Source;
+  Table<S> t("[source]", "Grains that enter while the run goes, at random places in a box");
+  t.add("low", &S::low, "m", "corner of the box in which their centres start").required();
+  t.add("high", &S::high, "m", "the opposite corner").required();
+  t.add("velocity", &S::velocity, "m/s", "at which they enter");
+  t.add("spin", &S::spin, "rad/s", "at which they enter");
+  t.add("radius", &S::radius, "m", "of each").above(0).atMost(10).required();
+  t.add("material", &S::material, "", "name of its material").required();
+  t.add("number", &S::number, "-", "of grains that enter together").atLeast(1).atMost(1e6);
+  t.add("every", &S::every, "s", "time between those").above(0).required();
+  t.add("start", &S::start, "s", "time of the first").atLeast(0);
+  t.add("total", &S::total, "-", "of grains in all").atLeast(1).atMost(1e8).required();
+  return t;
+}
+
 Table<Plane> planeTable() {
   using S = Plane;
   Table<S> t("[plane]", "A fixed rigid plane; the solid lies behind its normal");
@@ -320,6 +336,9 @@ Table<Parallel> parallelTable() {
       .atLeast(0)
       .atMost(64)
       .orWord("auto");
+  t.add("cuts_x", &S::cutsX, "m", "where the planes between subdomains stand at first, across x; chosen where empty");
+  t.add("cuts_y", &S::cutsY, "m", "the same across y");
+  t.add("cuts_z", &S::cutsZ, "m", "the same across z");
   t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
   return t;
 }

@@ -18,7 +18,7 @@ constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
 Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm)
     : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
-      ground_(buildGround(scene, exec, timeStep_, comm)) {
+      ground_(buildGround(scene, exec, timeStep_, comm)), sources_(scene, timeStep_) {
   const bool bed = scene.terrain && scene.terrain->granular();
   if (scene.vehicle)
     placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
@@ -29,6 +29,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleP
   if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
   if (ground_.grains) ground_.grains->setSteps(0);
   start_ = ledger();
+  addGrains();
 }
 
 void Simulation::step() {
@@ -47,7 +48,21 @@ void Simulation::step() {
   if (mechanism_) mechanism_->advance();
   if (grains) grains->endStep();
   ++steps_;
+  addGrains();
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+}
+
+/// Grains of the sources that enter now, before the next step. What they bring with them is no change of energy.
+void Simulation::addGrains() {
+  if (sources_.empty()) return;
+  const std::vector<terrain::GrainStart> entering = sources_.enteringAt(steps_);
+  if (entering.empty()) return;
+  const terrain::GrainLedger before = ground_.grains->ledger();
+  ground_.grains->add(entering);
+  const terrain::GrainLedger after = ground_.grains->ledger();
+  start_.kinetic += after.kinetic + after.rotational - before.kinetic - before.rotational;
+  start_.potential += after.potential - before.potential;
+  start_.elastic += after.elastic - before.elastic;
 }
 
 void Simulation::checkAlarm() {

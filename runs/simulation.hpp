@@ -6,6 +6,7 @@
 #include "runs/output.hpp"
 #include "runs/scene.hpp"
 #include "runs/simulation_state.hpp"
+#include "runs/sources.hpp"
 #include "runs/vehicle_rig.hpp"
 
 #include <memory>
@@ -62,6 +63,7 @@ private:
   friend class StepBench;                            // times the verbs of step() one by one
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
+  void addGrains();
 
   const Scene scene_;
   base::Exec exec_;
@@ -70,6 +72,7 @@ private:
   Ground ground_;
   SettleReport settled_;
   std::function<double(double, double)> surface_;
+  Sources sources_;
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
   std::int64_t steps_{0};

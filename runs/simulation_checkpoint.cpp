@@ -31,7 +31,8 @@ SimulationState Simulation::save() const {
 
 Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm)
     : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
-      ground_(buildGround(scene, exec, timeStep_, comm)), settled_(state.settled), steps_(state.steps) {
+      ground_(buildGround(scene, exec, timeStep_, comm)), settled_(state.settled), sources_(scene, timeStep_),
+      steps_(state.steps) {
   const bool bed = ground_.grains && ground_.walls;
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
       state.vehicle.has_value() != scene.vehicle.has_value() ||
@@ -40,7 +41,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
   if (bed) keepSurface(ground_, state.surface);
   surface_ = surfaceHeight(ground_);
   if (ground_.grains) {
-    ground_.grains->restore(*state.grains);
+    ground_.grains->restore(*state.grains, !sources_.empty());
     ground_.grains->setSteps(steps_);
   }
   if (scene.vehicle) {

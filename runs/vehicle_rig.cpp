@@ -146,7 +146,9 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     groundMargin_ = kBedMargin;
     // A grain listed at one end of its half skin may touch at the other.
     model.margin = grains.skin * grains.radius + groundMargin_;
-    const std::string& soil = scene.terrain ? scene.terrain->material : scene.grains.front().material;
+    const std::string& soil = scene.terrain          ? scene.terrain->material
+                              : scene.grains.empty() ? scene.sources.front().material
+                                                     : scene.grains.front().material;
     model.law = pairLaw(scene, soil, scene.vehicle->material.empty() ? soil : scene.vehicle->material, grains.mass);
     if (scene.vehicle->material.empty()) model.law.friction = static_cast<float>(spec.frictionGround);
     model.scale = ground.grains->scale();

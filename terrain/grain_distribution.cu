@@ -35,7 +35,10 @@ struct NoteOrigins {
   std::uint32_t* origin;
   GROUSER_HD void operator()(int i) const {
     const auto slot = static_cast<std::uint32_t>(i);
-    origin[i] = slot < keptCount ? kept[slot] : slot < owned ? former + (slot - keptCount) : contact::RowOrigins::kNone;
+    if (slot < keptCount)
+      origin[i] = kept[slot] < former ? kept[slot] : contact::RowOrigins::kNone; // added since: no row yet
+    else
+      origin[i] = slot < owned ? former + (slot - keptCount) : contact::RowOrigins::kNone;
   }
 };
 
@@ -96,7 +99,7 @@ void Grains::shareOut() {
   rows.data = arrivedRows_.data();
 
   subdomain.findMasters(position_[0].data(), owned);
-  const std::uint32_t former = static_cast<std::uint32_t>(slots_);
+  const std::uint32_t former = neighbours_.rows();
   slots_ = owned + subdomain.ghosts();
   forOwnArrays([&](auto& array, std::uint32_t width) { array.resizeKeeping(slots_ * width); });
   position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
@@ -107,7 +110,7 @@ void Grains::shareOut() {
   base::forEach(exec_, "note origins", static_cast<std::int64_t>(slots_),
                 NoteOrigins{subdomain.kept().data(), static_cast<std::uint32_t>(kept),
                             static_cast<std::uint32_t>(owned), former, origin_.data()});
-  origins_ = {nullptr, nullptr, former, rows};
+  origins_ = {nullptr, nullptr, rows};
 }
 
 /// The masters' new states set out; the ghosts elsewhere take them when completeGhosts() is called there.

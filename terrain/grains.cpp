@@ -45,8 +45,36 @@ void checkDistinct(const std::vector<Position>& position, const std::vector<std:
                                          std::max(id[order[k - 1]], id[order[k]])));
 }
 
+/// Where the grains start; the first of them has the id `first`.
+std::vector<Position> placesOf(const std::vector<GrainStart>& start, std::size_t first,
+                               const base::PositionScale& scale, double radius) {
+  std::vector<Position> places(start.size());
+  const double limit = scale.limit();
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const Vec3d& x = start[i].position;
+    if (!(std::fabs(x.x) < limit && std::fabs(x.y) < limit && std::fabs(x.z) < limit))
+      throw base::InputError(
+          fmt::format("grain {} at ({}, {}, {}) m is farther than {:.6g} m from the origin, the range of "
+                      "positions for grains of radius {} m; move the scene nearer to the origin",
+                      first + i, x.x, x.y, x.z, limit, radius));
+    places[i] = scale.fromMetres(x);
+  }
+  return places;
+}
+
 /// The first cuts: as many grains in each slab of an axis as in the others.
-Partition startingPartition(const std::vector<Position>& position, int ranks, const std::array<int, 3>& wanted) {
+Partition startingPartition(const std::vector<Position>& position, const PartitionOptions& options,
+                            const base::PositionScale& scale) {
+  std::array<int, 3> wanted = options.subdomains;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int given = static_cast<int>(options.cuts[a].size()) + 1;
+    if (given == 1) continue;
+    if (wanted[a] != 0 && wanted[a] != given)
+      throw base::InputError(fmt::format("parallel.cuts_{} gives {} planes, which make {} subdomains, but "
+                                         "parallel.subdomains says {} along that axis; make them agree",
+                                         "xyz"[a], given - 1, given, wanted[a]));
+    wanted[a] = given;
+  }
   base::Vec3l low{}, high{};
   for (std::size_t i = 0; i < position.size(); ++i) {
     const base::Vec3l u = base::toUnits(position[i]);
@@ -61,7 +89,14 @@ Partition startingPartition(const std::vector<Position>& position, int ranks, co
     const std::int64_t width = std::max<std::int64_t>(1, (high[a] - low[a]) / kPartitionBins + 1);
     for (const Position& p : position) ++weights[k][static_cast<std::size_t>((base::toUnits(p)[a] - low[a]) / width)];
   }
-  return {latticeShape(ranks, size, wanted), low, high, weights};
+  const Partition chosen(latticeShape(options.comm.size(), size, wanted), low, high, weights);
+  std::array<std::vector<std::int64_t>, 3> cuts;
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    cuts[k] = chosen.cuts(a);
+    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) cuts[k][c] = wholeUnits(options.cuts[k][c], scale);
+  }
+  return Partition(cuts);
 }
 
 } // namespace
@@ -74,20 +109,10 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
       boundaryCount_(static_cast<int>(boundaries.walls.size()) + (boundaries.floor ? 1 : 0)),
       neighbours_(exec, diameterUnits_, skinUnits_, frictional_) {
   if (boundaryCount_ > 31) throw base::InputError(fmt::format("{} planes; at most 31 are possible", boundaryCount_));
-  std::vector<Position> all(count_);
-  const double limit = scale_.limit();
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Vec3d& x = start[i].position;
-    if (!(std::fabs(x.x) < limit && std::fabs(x.y) < limit && std::fabs(x.z) < limit))
-      throw base::InputError(
-          fmt::format("grain {} at ({}, {}, {}) m is farther than {:.6g} m from the origin, the range of "
-                      "positions for grains of radius {} m; move the scene nearer to the origin",
-                      i, x.x, x.y, x.z, limit, model.radius));
-    all[i] = scale_.fromMetres(x);
-  }
+  const std::vector<Position> all = placesOf(start, 0, scale_, model.radius);
   if (!comm_.alone()) {
     subdomain_ = std::make_unique<Subdomain>(exec, partition, diameterUnits_ + skinUnits_);
-    subdomain_->setPartition(startingPartition(all, comm_.size(), partition.subdomains));
+    subdomain_->setPartition(startingPartition(all, partition, scale_));
   }
   std::vector<Position> position;
   std::vector<Vec4f> velocity, spin;
@@ -130,6 +155,39 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
     floorView_ = boundaries.floor->view();
     floorView_.heights = floorHeights_.data();
   }
+}
+
+void Grains::add(const std::vector<GrainStart>& more) {
+  completeGhosts();
+  const std::vector<Position> all = placesOf(more, count_, scale_, model_.radius);
+  std::vector<Position> position;
+  std::vector<Vec4f> velocity, spin;
+  std::vector<std::uint32_t> id;
+  const PartitionView owner = subdomain_ ? subdomain_->partition().view() : Partition().view();
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    if (owner.ownerOf(base::toUnits(all[i])) != comm_.rank()) continue;
+    const Vec3f v = more[i].velocity.as<float>(), w = more[i].spin.as<float>();
+    position.push_back(all[i]);
+    velocity.push_back({v.x, v.y, v.z, 0}), spin.push_back({w.x, w.y, w.z, 0});
+    id.push_back(static_cast<std::uint32_t>(count_ + i));
+  }
+  checkDistinct(position, id);
+  const std::size_t before = slots_, fresh = position.size();
+  const auto append = [&]<class T>(base::Array<T>& array, const std::vector<T>& values) {
+    if (values.empty()) return;
+    array.resizeKeeping(before * values.size() / fresh + values.size());
+    base::copyToDevice(exec_, array.data() + before * values.size() / fresh, values.data(), values.size() * sizeof(T));
+  };
+  append(position_[0], position), append(velocity_[0], velocity), append(spin_[0], spin), append(id_, id);
+  append(remainders_, std::vector<Remainders>(fresh));
+  if (model_.ledger) append(dissipated_, std::vector<double>(fresh));
+  const auto boundaries = static_cast<std::size_t>(boundaryCount_);
+  if (boundaries > 0) append(wallTouching_, std::vector<std::uint32_t>(fresh));
+  if (frictional_) append(wallShear_, std::vector<Vec3f>(fresh * boundaries));
+  slots_ += fresh, count_ += more.size();
+  position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
+  if (subdomain_) subdomain_->appended(fresh);
+  invalidateNeighbours();
 }
 
 void Grains::setPartition(const Partition& partition) {

@@ -5,6 +5,8 @@
 #include "base/fixed_point.hpp"
 #include "terrain/grain_step.cuh"
 
+#include <utility>
+
 namespace grouser::terrain {
 
 using base::Position;
@@ -178,7 +180,11 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
 }
 
 bool Grains::refreshNeighbours() {
-  if (!stale_) return false;
+  if (stale_) rebuild();
+  return std::exchange(slotsChanged_, false);
+}
+
+void Grains::rebuild() {
   if (subdomain_) shareOut();
   neighbours_.sort(position_[0].data(), slots_);
   permute();
@@ -192,8 +198,8 @@ bool Grains::refreshNeighbours() {
   base::forEach(exec_, "keep reference", static_cast<std::int64_t>(slots_),
                 KeepReference{position_[0].data(), reference_.data()});
   stale_ = false;
+  slotsChanged_ = true;
   ++rebuilds_;
-  return true;
 }
 
 void Grains::listNearBoundaries() {
@@ -275,7 +281,7 @@ void Grains::beginStep(const contact::GrainLoadsView* loads) {
 }
 
 GrainLedger Grains::ledger() {
-  if (rebuilds_ == 0) refreshNeighbours();
+  if (stale_) rebuild();
   completeGhosts();
   const double scale = model_.law.stiffness * model_.radius * model_.radius;
   MeasureGrain measure{kernelData(nullptr),

@@ -57,10 +57,13 @@ public:
   const GrainModel& model() const { return model_; }
   const base::PositionScale& scale() const { return scale_; }
 
-  /// Makes the neighbour list valid for the next step. True when it had to be rebuilt: slots have changed.
+  /// Makes the neighbour list valid for the next step. True when slots have changed since it was last asked.
   bool refreshNeighbours();
   /// Asks for a rebuild at the next refresh; for tests and for callers that rely on slots.
   void invalidateNeighbours() { stale_ = true; }
+
+  /// More grains, with the ids that follow; between steps. Throws InputError as the constructor does.
+  void add(const std::vector<GrainStart>& more);
 
   /// Forces and one advance. `loads` come from rigid parts; null without them. The list must be valid.
   /// Throws SimulationError at a fault, with step, time, grain, place and remedy.
@@ -100,7 +103,8 @@ public:
   /// same bits as one that was not stopped, on any device, any number of ranks and with any skin. Throws InputError
   /// when the state is of other grains.
   GrainState state() const;
-  void restore(const GrainState& state);
+  /// `grows`: the state may hold more grains than the scene began with.
+  void restore(const GrainState& state, bool grows = false);
   GrainLedger ledger();
   std::size_t deviceBytes() const;
   const contact::NeighbourList& neighbours() const { return neighbours_; } ///< as last built
@@ -116,6 +120,7 @@ private:
 
   GrainKernelData kernelData(const contact::GrainLoadsView* loads);
   void advanceGrains(const contact::GrainLoadsView* loads, const base::Array<std::uint32_t>* active);
+  void rebuild();
   void permute();
   void listNearBoundaries();
   void checkFlags();
@@ -165,7 +170,7 @@ private:
   double waitedBefore_{0}, replicatedSeconds_{0};
   std::int64_t balancedAt_{0}, rebalancings_{0};
 
-  bool stale_{true};
+  bool stale_{true}, slotsChanged_{false};
   std::int64_t rebuilds_{0}, steps_{0};
 };
 

@@ -110,8 +110,8 @@ GrainState Grains::ownRows() const {
 
 std::vector<std::uint32_t> Grains::stateWords() const { return state().words(); }
 
-void Grains::restore(const GrainState& saved) {
-  if (saved.total != static_cast<std::int64_t>(count_) ||
+void Grains::restore(const GrainState& saved, bool grows) {
+  if (saved.total < static_cast<std::int64_t>(count_) || (saved.total > static_cast<std::int64_t>(count_) && !grows) ||
       saved.layout != GrainLayout{model_.ledger, boundaryCount_, frictional_})
     throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
                                        "resume with the scene that was run",
@@ -128,7 +128,7 @@ void Grains::restore(const GrainState& saved) {
       owner.push_back(subdomain_->partition().view().ownerOf(base::toUnits(placed(saved, k))));
   const GrainState s = redistribute(comm_, saved, owner);
 
-  slots_ = s.rows();
+  slots_ = s.rows(), count_ = static_cast<std::size_t>(saved.total);
   std::vector<Position> position(slots_);
   std::vector<Vec4f> velocity(slots_), spin(slots_);
   for (std::size_t k = 0; k < slots_; ++k) {

@@ -48,6 +48,10 @@ Partition::Partition(const std::array<int, 3>& shape, const base::Vec3l& low, co
   }
 }
 
+Partition::Partition(const std::array<std::vector<std::int64_t>, 3>& cuts) : cuts_(cuts) {
+  for (std::size_t a = 0; a < 3; ++a) shape_[a] = static_cast<int>(cuts[a].size()) + 1;
+}
+
 PartitionView Partition::view() const {
   PartitionView v{};
   for (std::size_t a = 0; a < 3; ++a) {

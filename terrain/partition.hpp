@@ -38,6 +38,9 @@ public:
   Partition(const std::array<int, 3>& shape, const base::Vec3l& low, const base::Vec3l& high,
             const std::array<std::vector<std::int64_t>, 3>& weights);
 
+  /// With planes at these places [units], ascending on each axis.
+  explicit Partition(const std::array<std::vector<std::int64_t>, 3>& cuts);
+
   int count() const { return shape_[0] * shape_[1] * shape_[2]; }
   const std::array<int, 3>& shape() const { return shape_; }
   const std::vector<std::int64_t>& cuts(int axis) const { return cuts_[static_cast<std::size_t>(axis)]; } ///< [units]

@@ -148,6 +148,15 @@ void Subdomain::findLeaving(const Position* position, std::size_t slots) {
   handOver_.route(ranks, leaving, leaving.size());
 }
 
+void Subdomain::appended(std::size_t count) {
+  if (!haveRoles_) return;
+  const std::size_t before = role_.size();
+  role_.resizeKeeping(before + count), ghostMark_.resizeKeeping(before + count);
+  const std::vector<std::uint32_t> unique(count, static_cast<std::uint32_t>(Role::unique)), own(count, 0);
+  base::copyToDevice(exec_, role_.data() + before, unique.data(), count * sizeof(std::uint32_t));
+  base::copyToDevice(exec_, ghostMark_.data() + before, own.data(), count * sizeof(std::uint32_t));
+}
+
 void Subdomain::findMasters(const Position* position, std::size_t owned) {
   owned_ = owned;
   const auto n = static_cast<std::int64_t>(owned);

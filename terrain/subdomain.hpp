@@ -5,7 +5,11 @@
 #include "contact/exchange.hpp"
 #include "terrain/partition.hpp"
 
+#include <array>
+#include <array>
 #include <cstdint>
+#include <vector>
+#include <vector>
 
 namespace grouser::terrain {
 
@@ -20,6 +24,7 @@ enum class Role : std::uint32_t {
 struct PartitionOptions {
   base::Comm comm;                        ///< alone: one subdomain, and none of what follows
   std::array<int, 3> subdomains{0, 0, 0}; ///< wanted along x, y, z; 0: automatic
+  std::array<std::vector<double>, 3> cuts; ///< [m] planes across x, y, z at the start; empty: chosen
   bool rebalance = true;                  ///< move the cuts when one rank has clearly more work than another
 };
 
@@ -50,6 +55,8 @@ public:
 
   /// The grains were sorted: slot i now holds what was in slot order[i].
   void sorted(const std::uint32_t* order, std::size_t slots);
+  /// Grains were appended that belong here until the next hand-over.
+  void appended(std::size_t count);
   /// The slots hold owned grains only: they were loaded, not sorted.
   void forgetRoles() { haveRoles_ = false; }
   const std::uint32_t* roles() const { return role_.data(); }

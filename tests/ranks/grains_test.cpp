@@ -45,7 +45,7 @@ Boundaries box(const GrainModel& m) {
 }
 
 PartitionOptions shared(const std::array<int, 3>& shape = {0, 0, 0}, bool rebalance = false) {
-  return {test::comm(), shape, rebalance};
+  return {test::comm(), shape, {}, rebalance};
 }
 
 /// All words, on every rank, in the order of ids.

@@ -34,8 +34,8 @@ TEST(Partition, EveryPlaceHasOneOwner) {
 
 TEST(Partition, EvenWeightIsCutIntoEqualSlabs) {
   const Partition p({4, 1, 1}, {0, 0, 0}, {4000000, 10, 10}, evenWeights());
-  for (int k = 0; k < 3; ++k) // to a bin's width
-    EXPECT_NEAR(static_cast<double>(p.cuts(0)[static_cast<std::size_t>(k)]), 1e6 * (k + 1), 1000);
+  for (int k = 0; k < 3; ++k) // bins are whole units wide, up to one too wide each
+    EXPECT_NEAR(static_cast<double>(p.cuts(0)[static_cast<std::size_t>(k)]), 1e6 * (k + 1), kPartitionBins);
 }
 
 TEST(Partition, CutsMoveTowardsTheWork) {
@@ -43,7 +43,7 @@ TEST(Partition, CutsMoveTowardsTheWork) {
   for (std::size_t b = 0; b < kPartitionBins / 10; ++b)
     weights[0][b] *= 9; // a tenth of the length has half of the work
   const Partition p({2, 1, 1}, {0, 0, 0}, {4096000, 10, 10}, weights);
-  EXPECT_NEAR(static_cast<double>(p.cuts(0)[0]), 409600, 2000);
+  EXPECT_NEAR(static_cast<double>(p.cuts(0)[0]), 409600, kPartitionBins);
 }
 
 TEST(Partition, CutsNeverFallTogether) {

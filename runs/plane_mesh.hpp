@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+#include "runs/scene.hpp"
+
+namespace grouser::runs {
+
+/// The planes of a scene as triangles, for pictures: of each the polygon that borders the room between all of them,
+/// within a box around the grains. Empty without planes.
+base::TriangleMesh planeMesh(const Scene& scene);
+
+} // namespace grouser::runs

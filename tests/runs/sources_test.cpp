@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sources.hpp"
+
+#include "base/error.hpp"
+#include "runs/simulation.hpp"
+#include "tests/runs/scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::runs {
+namespace {
+
+constexpr const char* kDrip = R"(version = 1
+[run]
+duration = 1.0
+time_step = 1e-4
+gravity = [0, 0, -10]
+seed = 3
+threads = 1
+[material.glass]
+stiffness = 1e5
+[[source]]
+low = [-0.2, -0.1, 1.0]
+high = [0.2, 0.1, 1.1]
+velocity = [0, 0, -1]
+radius = 0.02
+material = "glass"
+number = 3
+every = 0.1
+start = 0.05
+total = 10
+)";
+
+Scene drip(const std::vector<std::string>& overrides = {}) { return parseScene(kDrip, "drip.toml", overrides); }
+
+TEST(Sources, GivesBatchesOnTimeAndTheRestLast) {
+  const Sources sources(drip(), 1e-4);
+  std::vector<std::pair<std::int64_t, std::size_t>> seen;
+  for (std::int64_t step = 0; step < 10000; ++step)
+    if (const auto batch = sources.enteringAt(step); !batch.empty()) seen.emplace_back(step, batch.size());
+  EXPECT_EQ(seen, (std::vector<std::pair<std::int64_t, std::size_t>>{{500, 3}, {1500, 3}, {2500, 3}, {3500, 1}}));
+}
+
+TEST(Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
+  const Scene scene = drip();
+  const auto batch = Sources(scene, 1e-4).enteringAt(1500);
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_GE(batch[i].position[a], scene.sources[0].low[a]);
+      EXPECT_LE(batch[i].position[a], scene.sources[0].high[a]);
+    }
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(norm(batch[i].position - batch[j].position), 0.04);
+  }
+  EXPECT_EQ(batch[0].position, Sources(drip(), 1e-4).enteringAt(1500)[0].position);
+  EXPECT_NE(batch[0].position, Sources(drip({"run.seed=4"}), 1e-4).enteringAt(1500)[0].position);
+}
+
+TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
+  const Scene scene = drip();
+  Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+  while (simulation.steps() < 4000) simulation.step();
+  EXPECT_EQ(simulation.ground().grains->count(), 10u);
+  const Simulation::Ledger l = simulation.ledger();
+  EXPECT_GT(l.kinetic, 1.0);
+  // Free fall: what symplectic Euler leaves is m g v dt / 2 a grain, and 10 grains of 0.084 kg fall at 1 to 4.5 m/s.
+  EXPECT_NEAR(l.residual, 0, 10 * 0.084 * 10 * 4.5 * 1e-4 / 2 * 1.01);
+  // The first three have fallen for 0.35 s: h = v t + g t^2 / 2, exactly but for the step's g t dt / 2.
+  const auto s = simulation.ground().grains->snapshot();
+  const auto first = Sources(scene, 1e-4).enteringAt(500);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(first[i].position.z - s.position[i].z, 0.35 + 5 * 0.35 * 0.35, 10 * 0.35 * 1e-4 / 2 * 1.01);
+}
+
+TEST(Sources, ResumedBetweenTwoBatchesGivesTheSameBits) {
+  const Scene scene = drip();
+  Simulation straight(scene, base::cpuExec(1), [](double, double) {});
+  while (straight.steps() < 4000) straight.step();
+  for (const std::int64_t stop : {0, 499, 500, 1500, 2600}) {
+    Simulation first(scene, base::cpuExec(1), [](double, double) {});
+    while (first.steps() < stop) first.step();
+    Simulation second(scene, base::cpuExec(2), first.save());
+    while (second.steps() < 4000) second.step();
+    EXPECT_EQ(second.stateHash(), straight.stateHash()) << "stopped at step " << stop;
+  }
+}
+
+TEST(Sources, ABoxWithoutRoomIsRefused) {
+  try {
+    Simulation simulation(drip({"source.0.number=200", "source.0.total=200"}), base::cpuExec(1), [](double, double) {});
+    FAIL();
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("source.0: source: 200 grains of radius 0.02 m do not find room"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+} // namespace
+} // namespace grouser::runs
