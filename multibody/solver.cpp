@@ -110,8 +110,9 @@ void Solver::Impl::describe() {
     rows += __builtin_popcount(hardRows(system.constraints()[k].kind));
   rows -= static_cast<int>(redundancy.rows.size());
   out << "multibody: " << system.movableBodies() << " bodies, " << model.joints().size() << " joints, "
-      << model.pointSprings().size() << " point springs, " << rows << " constraint rows, " << system.parts().size()
-      << " independent parts, " << system.elimination().blocks() << " blocks in the factor\n";
+      << model.pointSprings().size() << " point springs, " << rows << " constraint rows, "
+      << system.elimination().articulation().independent << " independent parts, "
+      << system.elimination().articulation().closings.size() << " loops\n";
   if (!model.bushings().empty() || !model.couplings().empty())
     out << model.bushings().size() << " bushings, " << model.couplings().size() << " couplings\n";
   out << "degrees of freedom: " << freedom << '\n';

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "multibody/detail/lanes.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -11,24 +13,16 @@
 /// same, hence the same bits. The last two lanes start as zero and stay zero.
 namespace grouser::multibody::detail {
 
-#define GROUSER_KERNEL inline __attribute__((always_inline))
-
 inline constexpr int kStride = 8;
 struct alignas(64) Block : std::array<double, 6 * kStride> {};
 struct alignas(64) Vector6 : std::array<double, kStride> {};
 
-using Lanes = double __attribute__((vector_size(64)));
-using HalfLanes = double __attribute__((vector_size(32)));
-using QuarterLanes = double __attribute__((vector_size(16)));
+using Column8 = double __attribute__((vector_size(64)));
+using Column4 = double __attribute__((vector_size(32)));
+using Column2 = double __attribute__((vector_size(16)));
 
-GROUSER_KERNEL void load(Lanes& c, const double* p) { std::memcpy(&c, p, sizeof c); }
-GROUSER_KERNEL void store(double* p, const Lanes& c) { std::memcpy(p, &c, sizeof c); }
-
-GROUSER_KERNEL void clear6(double* p) {
-  const Lanes zero{};
-#pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) store(p + kStride * j, zero);
-}
+GROUSER_KERNEL void load(Column8& c, const double* p) { std::memcpy(&c, p, sizeof c); }
+GROUSER_KERNEL void store(double* p, const Column8& c) { std::memcpy(p, &c, sizeof c); }
 
 /// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. A row that is not in the bit mask
 /// `active`, or whose pivot does not exceed its entry of `smallest` in size, is left out: its 1/d is 0. Returns the
@@ -36,7 +30,7 @@ GROUSER_KERNEL void clear6(double* p) {
 GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInverse, const double* __restrict smallest,
                                 unsigned active) {
   unsigned kept = 0;
-  Lanes a[6];
+  Column8 a[6];
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) load(a[j], A + kStride * j);
 #pragma GCC unroll 6
@@ -46,7 +40,7 @@ GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInvers
     kept |= static_cast<unsigned>(keep) << j;
     const double inverse = keep ? 1 / d : 0.0;
     dInverse[j] = inverse;
-    const Lanes l = a[j] * inverse;
+    const Column8 l = a[j] * inverse;
 #pragma GCC unroll 6
     for (int k = j + 1; k < 6; ++k) a[k] -= l * a[j][k];
     store(A + kStride * j, l);
@@ -57,7 +51,7 @@ GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInvers
 /// W <- W L^-T, and V = W diag(1/d).
 GROUSER_KERNEL void solveRight6(double* __restrict W, double* __restrict V, const double* __restrict L,
                                 const double* __restrict dInverse) {
-  Lanes w[6];
+  Column8 w[6];
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     load(w[j], W + kStride * j);
@@ -68,29 +62,14 @@ GROUSER_KERNEL void solveRight6(double* __restrict W, double* __restrict V, cons
   }
 }
 
-/// V = W M^-1 for a body alone; `inverse` holds 1/m and the inverse inertia on its diagonal blocks.
-GROUSER_KERNEL void timesBodyInverse6(double* __restrict V, const double* __restrict W,
-                                      const double* __restrict inverse) {
-  Lanes w[6];
-#pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) load(w[j], W + kStride * j);
-#pragma GCC unroll 6
-  for (int j = 0; j < 3; ++j) store(V + kStride * j, w[j] * inverse[0]);
-#pragma GCC unroll 6
-  for (int j = 3; j < 6; ++j) {
-    const double* const column = inverse + kStride * j;
-    store(V + kStride * j, w[3] * column[3] + w[4] * column[4] + w[5] * column[5]);
-  }
-}
-
 /// K -= V W^T.
 GROUSER_KERNEL void subtractProduct6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
-  Lanes v[6];
+  Column8 v[6];
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) load(v[j], V + kStride * j);
 #pragma GCC unroll 6
   for (int c = 0; c < 6; ++c) {
-    Lanes k;
+    Column8 k;
     load(k, K + kStride * c);
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) k -= v[j] * W[kStride * j + c];
@@ -100,7 +79,7 @@ GROUSER_KERNEL void subtractProduct6(double* __restrict K, const double* __restr
 
 /// y -= V x.
 GROUSER_KERNEL void subtractTimes6(double* __restrict y, const double* __restrict V, const double* __restrict x) {
-  Lanes sum, v;
+  Column8 sum, v;
   load(sum, y);
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
@@ -113,27 +92,17 @@ GROUSER_KERNEL void subtractTimes6(double* __restrict y, const double* __restric
 /// y -= V^T x.
 GROUSER_KERNEL void subtractTransposedTimes6(double* __restrict y, const double* __restrict V,
                                              const double* __restrict x) {
-  Lanes s, v;
+  Column8 s, v;
   load(s, x);
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     load(v, V + kStride * j);
-    const Lanes p = v * s;
+    const Column8 p = v * s;
     // Halves of a register: ((0 + 4) + 2) + ((1 + 5) + 3).
-    const HalfLanes h = HalfLanes{p[0], p[1], p[2], p[3]} + HalfLanes{p[4], p[5], 0, 0};
-    const QuarterLanes q = QuarterLanes{h[0], h[1]} + QuarterLanes{h[2], h[3]};
+    const Column4 h = Column4{p[0], p[1], p[2], p[3]} + Column4{p[4], p[5], 0, 0};
+    const Column2 q = Column2{h[0], h[1]} + Column2{h[2], h[3]};
     y[j] -= q[0] + q[1];
   }
-}
-
-/// y <- M^-1 y for a body alone.
-GROUSER_KERNEL void applyBodyInverse6(double* __restrict y, const double* __restrict inverse) {
-#pragma GCC unroll 6
-  for (int i = 0; i < 3; ++i) y[i] *= inverse[0];
-  const double a = y[3], b = y[4], c = y[5];
-#pragma GCC unroll 6
-  for (int i = 3; i < 6; ++i)
-    y[i] = inverse[3 * kStride + i] * a + inverse[4 * kStride + i] * b + inverse[5 * kStride + i] * c;
 }
 
 /// y <- L^-1 y.

@@ -20,15 +20,12 @@ void cosSin(const JointFrames& f, double& c, double& s) {
 
 } // namespace
 
+JointPlacesOf<double> placesOf(const Constraint& c) {
+  return {c.point_A, c.point_B, column(c.axes_A, 0), column(c.axes_A, 2), column(c.axes_B, 0), column(c.axes_B, 2)};
+}
+
 void placeFrames(const Constraint& c, const Frame& A, const Frame& B, JointFrames& f) {
-  f.p_A = A.p + A.R * c.point_A;
-  f.p_B = B.p + B.R * c.point_B;
-  if (c.kind == ConstraintKind::kPointSpring) return;
-  f.x_A = A.R * column(c.axes_A, 0);
-  f.z_A = A.R * column(c.axes_A, 2);
-  f.y_A = cross(f.z_A, f.x_A);
-  f.x_B = B.R * column(c.axes_B, 0);
-  f.z_B = B.R * column(c.axes_B, 2);
+  placeFrames(placesOf(c), A, B, f);
 }
 
 JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B) {
@@ -38,44 +35,11 @@ JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B) {
 }
 
 void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]) {
-  const Vec3d d = f.p_B - f.p_A;
   for (double& e : error) e = 0;
-  switch (c.kind) {
-  case ConstraintKind::kPointSpring:
-  case ConstraintKind::kBushing:
-    return;
-  case ConstraintKind::kDistance:
-    error[0] = norm(d) - c.length;
-    return;
-  case ConstraintKind::kCylindrical:
-    error[0] = dot(f.x_A, d);
-    error[1] = dot(f.y_A, d);
-    error[2] = dot(f.x_A, f.z_B);
-    error[3] = dot(f.y_A, f.z_B);
-    return;
-  case ConstraintKind::kPrismatic:
-    error[0] = dot(f.x_A, d);
-    error[1] = dot(f.y_A, d);
-    error[2] = dot(f.x_A, f.z_B);
-    error[3] = dot(f.y_A, f.z_B);
-    error[4] = dot(f.y_A, f.x_B);
-    return;
-  case ConstraintKind::kFixed:
-    error[5] = dot(f.y_A, f.x_B);
-    [[fallthrough]];
-  case ConstraintKind::kRevolute:
-    error[3] = dot(f.x_A, f.z_B);
-    error[4] = dot(f.y_A, f.z_B);
-    break;
-  case ConstraintKind::kUniversal:
-    error[3] = dot(f.z_A, f.x_B);
-    break;
-  case ConstraintKind::kSpherical:
-    break;
-  }
-  error[0] = dot(f.x_A, d);
-  error[1] = dot(f.y_A, d);
-  error[2] = dot(f.z_A, d);
+  if (c.kind == ConstraintKind::kDistance)
+    error[0] = norm(f.p_B - f.p_A) - c.length;
+  else
+    jointError(c.kind, f, error);
 }
 
 RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
@@ -95,22 +59,6 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
     rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
     return;
   }
-  case ConstraintKind::kPrismatic:
-    rows.force[0] = f.x_A;
-    rows.force[1] = f.y_A;
-    rows.torque[2] = cross(f.z_B, f.x_A);
-    rows.torque[3] = cross(f.z_B, f.y_A);
-    rows.torque[4] = cross(f.x_B, f.y_A);
-    rows.force[kAxisRow] = f.z_A;
-    return;
-  case ConstraintKind::kCylindrical:
-    rows.force[0] = f.x_A;
-    rows.force[1] = f.y_A;
-    rows.torque[2] = cross(f.z_B, f.x_A);
-    rows.torque[3] = cross(f.z_B, f.y_A);
-    rows.force[kSlideRow] = f.z_A;
-    rows.torque[kAxisRow] = f.z_A;
-    return;
   case ConstraintKind::kBushing: {
     // Columns of R_A Y^T: Y^T e = e + phi x e / 2 + beta phi x (phi x e).
     const Vec3d phi = relativeRotation(f);
@@ -121,27 +69,12 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
       const Vec3d first = cross(phi, e), t = e + 0.5 * first + beta * cross(phi, first);
       rows.torque[static_cast<std::size_t>(3 + i)] = t.x * f.x_A + t.y * f.y_A + t.z * f.z_A;
     }
-    break;
+    rows.force[0] = f.x_A, rows.force[1] = f.y_A, rows.force[2] = f.z_A;
+    return;
   }
-  case ConstraintKind::kFixed:
-    rows.torque[3] = cross(f.z_B, f.x_A);
-    rows.torque[4] = cross(f.z_B, f.y_A);
-    rows.torque[5] = cross(f.x_B, f.y_A);
-    break;
-  case ConstraintKind::kRevolute:
-    rows.torque[3] = cross(f.z_B, f.x_A);
-    rows.torque[4] = cross(f.z_B, f.y_A);
-    rows.torque[kAxisRow] = f.z_A;
-    break;
-  case ConstraintKind::kUniversal:
-    rows.torque[3] = cross(f.x_B, f.z_A);
-    break;
-  case ConstraintKind::kSpherical:
-    break;
+  default:
+    jointRows(c.kind, f, rows);
   }
-  rows.force[0] = f.x_A;
-  rows.force[1] = f.y_A;
-  rows.force[2] = f.z_A;
 }
 
 void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, Block& jacobianA,

@@ -2,52 +2,13 @@
 #pragma once
 
 #include "multibody/detail/block.hpp"
+#include "multibody/detail/joint_rows.hpp"
 #include "multibody/model.hpp"
 #include "multibody/state.hpp"
 
 #include <array>
 
 namespace grouser::multibody::detail {
-
-/// Constraint equations. d = p_B - p_A joins the origins of the two joint frames; x, y, z with index A or B are their
-/// axes; x_A stands for the centre of mass of A (and so on) where it is subtracted from a point. All in world
-/// components.
-///
-///   point row along u_A       C = u_A . d
-///     rate                    C' = u_A . (v_B + w_B x r_B - v_A) - w_A . ((p_B - x_A) x u_A),      r_B = p_B - x_B
-///     J                       B: [u_A, r_B x u_A]        A: [-u_A, -(p_B - x_A) x u_A]
-///                             A and B feel opposite forces at the same point p_B: no momentum is made, closed or not.
-///   angle row                 C = u_A . t_B  (axes that shall stay perpendicular)
-///     rate                    C' = (w_B - w_A) . (t_B x u_A)
-///     J                       B: [0, t_B x u_A]          A: the opposite
-///
-///   spherical   points x, y, z
-///   revolute    points x, y, z;  angles (x_A, z_B), (y_A, z_B)
-///   universal   points x, y, z;  angle (z_A, x_B)
-///   fixed       points x, y, z;  angles (x_A, z_B), (y_A, z_B), (y_A, x_B)
-///   prismatic   points x, y;     angles (x_A, z_B), (y_A, z_B), (y_A, x_B)
-///   cylindrical points x, y;     angles (x_A, z_B), (y_A, z_B)
-///   distance    C = |d| - length: point row along d / |d|
-///   axis rows   revolute, cylindrical: angle rate z_A . (w_B - w_A), row 5;
-///               prismatic (row 5), cylindrical (row 4): point row along z_A.        Drive, spring, damper, coupling.
-///   point spring  distance l = |d|, n = d / l:  J of a point row along n.                  Row 0.
-///   bushing     points x, y, z (rows 0 to 2); rotation vector phi of R_AB (rows 3 to 5), whose rate in the axes of A
-///   is
-///                 phi' = Y(phi) w_AB:   J_i: B: [0, R_A Y^T e_i], A: the opposite.       (Y: rotation.hpp)
-enum class ConstraintKind {
-  kRevolute,
-  kSpherical,
-  kUniversal,
-  kPrismatic,
-  kFixed,
-  kCylindrical,
-  kDistance,
-  kPointSpring,
-  kBushing
-};
-
-inline constexpr int kAxisRow = 5;  ///< of a revolute, prismatic, and of the angle of a cylindrical
-inline constexpr int kSlideRow = 4; ///< of a cylindrical
 
 /// Constant part of one constraint.
 struct Constraint {
@@ -60,23 +21,9 @@ struct Constraint {
   double length = 0; ///< of a distance joint [m]
 };
 
-/// Rotation matrix and origin of a body.
-struct Frame {
-  Mat3d R;
-  Vec3d p;
-};
-
-/// Joint frames in the world.
-struct JointFrames {
-  Vec3d p_A, p_B;
-  Vec3d x_A, y_A, z_A;
-  Vec3d x_B, z_B;
-};
-
-/// Each row as a generalised force on B: `force` at p_B plus `torque`; A feels the opposite at the same point.
-struct RowDirections {
-  std::array<Vec3d, 6> force{}, torque{};
-};
+using Frame = FrameOf<double>;
+using JointFrames = JointFramesOf<double>;
+using RowDirections = RowDirectionsOf<double>;
 
 /// Bit mask of the hard rows of a kind (the axis row not among them).
 constexpr unsigned hardRows(ConstraintKind kind) {
@@ -101,6 +48,13 @@ constexpr unsigned hardRows(ConstraintKind kind) {
   return 0;
 }
 
+/// Of a joint: the three rows that are forces; the others are torques.
+constexpr unsigned forceRows(ConstraintKind kind) {
+  return kind == ConstraintKind::kPrismatic     ? 1u << kAxisRow | 0x03u
+         : kind == ConstraintKind::kCylindrical ? 1u << kSlideRow | 0x03u
+                                                : 0x07u;
+}
+
 /// Bit mask of the rows that springs, dampers, drives and couplings may use.
 constexpr unsigned axisRows(ConstraintKind kind) {
   switch (kind) {
@@ -122,6 +76,9 @@ constexpr unsigned axisRows(ConstraintKind kind) {
 constexpr bool isJoint(ConstraintKind kind) {
   return kind != ConstraintKind::kPointSpring && kind != ConstraintKind::kBushing;
 }
+
+/// The joint frames in the bodies.
+JointPlacesOf<double> placesOf(const Constraint& c);
 
 /// Writes the joint frames at the bodies' frames A and B.
 void placeFrames(const Constraint& c, const Frame& A, const Frame& B, JointFrames& f);

@@ -33,20 +33,6 @@ ConstraintKind kindOf(JointType type) {
   return ConstraintKind::kFixed;
 }
 
-/// Inverse of a symmetric positive definite matrix, by cofactors.
-Mat3d inverseOf(const Mat3d& a) {
-  Mat3d c;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      c.m[j][i] = a.m[i1][j1] * a.m[i2][j2] - a.m[i1][j2] * a.m[i2][j1];
-    }
-  const double inverse = 1 / (a.m[0][0] * c.m[0][0] + a.m[0][1] * c.m[1][0] + a.m[0][2] * c.m[2][0]);
-  for (auto& row : c.m)
-    for (double& x : row) x *= inverse;
-  return c;
-}
-
 } // namespace
 
 ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
@@ -58,7 +44,7 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
       movable_.push_back(b);
     }
 
-  std::vector<Elimination::Edge> edges;
+  std::vector<ConstraintEdge> edges;
   const auto add = [&](Constraint c) {
     if (c.bodyA == kWorld) c.bodyA = worldFrame;
     if (c.bodyB == kWorld) c.bodyB = worldFrame;
@@ -66,7 +52,14 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
     c.nodeB = nodeOf[at(c.bodyB)];
     constraints_.push_back(c);
     hard_.push_back(hardRows(c.kind));
-    edges.push_back({c.nodeA, c.nodeB, !isJoint(c.kind)});
+    ConstraintEdge edge;
+    edge.bodies = {c.nodeA, c.nodeB};
+    // A rod leaves five freedoms: cheaper as a row that closes a loop.
+    edge.joint = isJoint(c.kind) && c.kind != ConstraintKind::kDistance;
+    edge.hard = hardRows(c.kind);
+    edge.rows = edge.hard | axisRows(c.kind);
+    edge.forceRows = forceRows(c.kind);
+    edges.push_back(edge);
   };
   for (int j = 0; j < static_cast<int>(model.joints().size()); ++j) {
     const Joint& joint = model.joints()[at(j)];
@@ -91,23 +84,14 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
   firstAxis_.push_back(static_cast<int>(axes_.size()));
 
   elimination_ = std::make_unique<Elimination>(movableBodies(), edges);
-  for (const auto& steps : elimination_->parts()) {
-    Part part;
-    part.steps = {steps};
-    for (int k = steps.firstStep; k < steps.endStep; ++k) {
-      const int node = elimination_->order()[at(k)];
-      if (node < movableBodies())
-        part.bodies.push_back(node);
-      else
-        part.constraints.push_back(node - movableBodies());
-    }
-    parts_.push_back(std::move(part));
-  }
+  Part whole;
+  for (int node = 0; node < movableBodies(); ++node) whole.bodies.push_back(node);
+  for (int k = 0; k < static_cast<int>(constraints_.size()); ++k) whole.constraints.push_back(k);
+  for (int i = 0; i < static_cast<int>(model.couplings().size()); ++i) whole.couplings.push_back(i);
+  parts_.push_back(std::move(whole));
   for (const Coupling& c : model.couplings())
     couplings_.push_back({axisOf(c.joint1, c.axis1), axisOf(c.joint2, c.axis2), c.ratio, c.offset});
   setOffsets();
-  mergeCoupledParts();
-  for (std::size_t p = 0; p < parts_.size(); ++p) parts_[p].index = static_cast<int>(p);
   linearisation_.assign(parts_.size(), 0);
   redundant_.assign(constraints_.size(), 0);
   expectedLost_.assign(parts_.size(), 0);
@@ -120,10 +104,9 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
   rows_.resize(constraints_.size());
   frames_.resize(constraints_.size());
   inertia_.resize(movable_.size());
-  for (const int b : movable_) inverseInertia_.push_back(inverseOf(model.bodies()[at(b)].inertia_B));
-  sized_.assign(constraints_.size(), 0);
   com_A_.resize(constraints_.size());
   com_B_.resize(constraints_.size());
+  makeLinks();
 }
 
 /// Offsets that were not given: as the bodies are placed.
@@ -156,21 +139,24 @@ void ConstraintSystem::place(const std::vector<Pose>& poses, std::vector<Frame>&
 }
 
 /// Size of J M^-1 J^T of each row alone, taken once; the mean moment of inertia stands for the tensor.
-void ConstraintSystem::setSize(int k, const Block& jacobianA, const Block& jacobianB) {
-  double smallest[6] = {};
-  const auto add = [&](int node, const Block& J) {
-    if (node < 0) return;
-    const double m = 1 / model_->bodies()[at(movable_[at(node)])].mass;
-    const Mat3d& I = inertia_[at(node)];
-    const double i = 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
-    for (std::size_t r = 0; r < 6; ++r)
-      for (std::size_t c = 0; c < 6; ++c) smallest[r] += (c < 3 ? m : i) * J[kStride * c + r] * J[kStride * c + r];
-  };
-  add(constraints_[at(k)].nodeA, jacobianA);
-  add(constraints_[at(k)].nodeB, jacobianB);
-  std::copy(smallest, smallest + 6, size_[at(k)].begin());
-  setPivotThreshold(k);
-  sized_[at(k)] = 1;
+void ConstraintSystem::setSizes() {
+  for (int k = 0; k < static_cast<int>(constraints_.size()); ++k) {
+    Block jacobianA{}, jacobianB{};
+    rowBlocks(rows(k), jointFrames(k).p_B, com_A(k), com_B(k), jacobianA, jacobianB);
+    const auto add = [&](int node, const Block& J) {
+      if (node < 0) return;
+      const double m = 1 / model_->bodies()[at(movable_[at(node)])].mass;
+      const Mat3d& I = inertia(node);
+      const double i = 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
+      for (std::size_t r = 0; r < 6; ++r)
+        for (std::size_t c = 0; c < 6; ++c)
+          size_[at(k)][r] += (c < 3 ? m : i) * J[kStride * c + r] * J[kStride * c + r];
+    };
+    add(constraints_[at(k)].nodeA, jacobianA);
+    add(constraints_[at(k)].nodeB, jacobianB);
+  }
+  sized_ = true;
+  for (int k = 0; k < static_cast<int>(constraints_.size()); ++k) setPivotThreshold(k);
 }
 
 /// Where rows are known to be redundant, only those with a good pivot are kept: which row of a constraint follows from
@@ -185,7 +171,7 @@ void ConstraintSystem::setPivotThreshold(int k) {
 
 void ConstraintSystem::noteRedundant(int constraint, int row) {
   redundant_[at(constraint)] |= 1u << row;
-  sized_[at(constraint)] = 0;
+  if (sized_) setPivotThreshold(constraint);
   for (const Part& part : parts_)
     if (std::find(part.constraints.begin(), part.constraints.end(), constraint) != part.constraints.end())
       ++expectedLost_[at(part.index)];
@@ -193,21 +179,23 @@ void ConstraintSystem::noteRedundant(int constraint, int row) {
 
 void ConstraintSystem::scalePivotThreshold(double scale) {
   pivotScale_ = scale;
-  std::fill(sized_.begin(), sized_.end(), static_cast<char>(0));
+  for (int k = 0; sized_ && k < static_cast<int>(constraints_.size()); ++k) setPivotThreshold(k);
 }
 
 /// With redundant rows, first only good pivots are kept. If more rows are lost than the redundant ones a singular
 /// position is near: then every row with a pivot is kept.
 int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
   ++linearisation_[at(part.index)];
-  int leftOut = setUpAndFactor(part, frames, laws);
+  setUp(frames, laws);
+  if (!sized_) setSizes();
+  int leftOut = elimination_->factor();
   const int expected = expectedLost_[at(part.index)];
   if (expected > 0) {
     if (leftOut > expected) {
       strict_ = true;
       for (const int k : part.constraints)
         if (redundant_[at(k)]) setPivotThreshold(k);
-      leftOut = setUpAndFactor(part, frames, laws);
+      leftOut = elimination_->factor();
       strict_ = false;
       for (const int k : part.constraints)
         if (redundant_[at(k)]) setPivotThreshold(k);
@@ -219,18 +207,10 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
   return leftOut;
 }
 
-int ConstraintSystem::setUpAndFactor(const Part& part, const std::vector<Frame>& frames,
-                                     const std::vector<AxisLaw>& laws) {
-  for (const int node : part.bodies) {
-    const Body& body = model_->bodies()[at(movable_[at(node)])];
-    const Mat3d& R = frames[at(movable_[at(node)])].R;
-    inertia_[at(node)] = rotatedInertia(R, body.inertia_B);
-    if (elimination_->bodyAlone(node))
-      elimination_->setBodyInverse(node, 1 / body.mass, rotatedInertia(R, inverseInertia_[at(node)]).m);
-    else
-      elimination_->setBody(node, body.mass, inertia_[at(node)].m);
-  }
-  for (const int k : part.constraints) {
+void ConstraintSystem::setUp(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
+  packed_ = true;
+  lineariseLinks(frames, laws);
+  for (const int k : loose_) {
     const Constraint& c = constraints_[at(k)];
     placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], frames_[at(k)]);
     setRowDirections(c, frames_[at(k)], rows_[at(k)]);
@@ -248,35 +228,26 @@ int ConstraintSystem::setUpAndFactor(const Part& part, const std::vector<Frame>&
     }
     active_[at(k)] = active;
 
-    Block jacobianA{}, jacobianB{};
-    rowBlocks(rows_[at(k)], frames_[at(k)].p_B, com_A_[at(k)], com_B_[at(k)], jacobianA, jacobianB);
-    if (!sized_[at(k)]) setSize(k, jacobianA, jacobianB);
-    elimination_->setConstraint(k, jacobianA, jacobianB, compliance, active);
+    elimination_->setJoint(k, rows_[at(k)], frames_[at(k)].p_B, com_A_[at(k)], com_B_[at(k)], compliance, active);
   }
-  int leftOut = 0;
-  for (const Elimination::Part& steps : part.steps) leftOut += elimination_->factor(steps);
-  return leftOut;
 }
 
 void ConstraintSystem::solve(const Part& part, std::vector<Vector6>& x) const {
-  for (const Elimination::Part& steps : part.steps) elimination_->solve(steps, x.data());
-  // The symmetric system is solved for -dLambda.
-  for (const int k : part.constraints)
-    for (double& lambda : x[at(movableBodies() + k)]) lambda *= -1;
+  elimination_->solve(x.data());
   if (couplingsOn_ && !part.couplings.empty()) solveCouplings(part, x);
 }
 
 double ConstraintSystem::rate(int k, int row, const std::vector<Twist>& twist) const {
   const Constraint& c = constraints_[at(k)];
-  const Vec3d &e = rows_[at(k)].force[at(row)], &t = rows_[at(k)].torque[at(row)];
+  const Vec3d &e = rows(k).force[at(row)], &t = rows(k).torque[at(row)];
   double sum = 0;
   if (c.nodeB >= 0) {
     const Twist& V = twist[at(c.bodyB)];
-    sum += dot(e, V.v) + dot(cross(frames_[at(k)].p_B - com_B_[at(k)], e) + t, V.w);
+    sum += dot(e, V.v) + dot(cross(jointFrames(k).p_B - com_B(k), e) + t, V.w);
   }
   if (c.nodeA >= 0) {
     const Twist& V = twist[at(c.bodyA)];
-    sum -= dot(e, V.v) + dot(cross(frames_[at(k)].p_B - com_A_[at(k)], e) + t, V.w);
+    sum -= dot(e, V.v) + dot(cross(jointFrames(k).p_B - com_A(k), e) + t, V.w);
   }
   return sum;
 }

@@ -3,6 +3,7 @@
 
 #include "multibody/detail/constraint.hpp"
 #include "multibody/detail/elimination.hpp"
+#include "multibody/detail/link_lanes.hpp"
 #include "multibody/state.hpp"
 
 #include <array>
@@ -57,7 +58,6 @@ public:
   /// What depends on one another through constraints, springs or couplings.
   struct Part {
     int index = 0;
-    std::vector<Elimination::Part> steps;
     std::vector<int> bodies; ///< movable bodies (nodes)
     std::vector<int> constraints;
     std::vector<int> couplings;
@@ -93,9 +93,14 @@ public:
   void solve(const Part& part, std::vector<Vector6>& x) const;
 
   /// Quantities of the last linearise().
-  const RowDirections& rows(int constraint) const { return rows_[static_cast<std::size_t>(constraint)]; }
-  const JointFrames& jointFrames(int constraint) const { return frames_[static_cast<std::size_t>(constraint)]; }
-  const Mat3d& inertia(int node) const { return inertia_[static_cast<std::size_t>(node)]; }
+  const RowDirections& rows(int constraint) const { return unpacked(rows_, constraint); }
+  const JointFrames& jointFrames(int constraint) const { return unpacked(frames_, constraint); }
+  const Mat3d& inertia(int node) const {
+    if (packed_) unpack();
+    return inertia_[static_cast<std::size_t>(node)];
+  }
+  const Vec3d& com_A(int constraint) const { return unpacked(com_A_, constraint); }
+  const Vec3d& com_B(int constraint) const { return unpacked(com_B_, constraint); }
   unsigned activeRows(int constraint) const { return active_[static_cast<std::size_t>(constraint)]; }
   /// Which linearise() of a part the system holds: changes with each.
   long long linearisation(const Part& part) const { return linearisation_[static_cast<std::size_t>(part.index)]; }
@@ -103,6 +108,11 @@ public:
   double rowSize(int constraint, int row) const {
     return size_[static_cast<std::size_t>(constraint)][static_cast<std::size_t>(row)];
   }
+  /// All bodies with the joints of the spanning tree, and the constraints that are not in it.
+  const std::vector<LinkLanes>& links() const { return links_; }
+  const std::vector<int>& loose() const { return loose_; }
+  /// Inertias of a batch of links in world axes, by columns of the lower triangle.
+  const Lanes (&inertiaOf(std::size_t batch) const)[6] { return elimination_->links(static_cast<int>(batch)).inertia; }
   /// Rate of one row: J (v, w).
   double rate(int constraint, int row, const std::vector<Twist>& twist) const;
   double rateOfAxis(int axis, const std::vector<Twist>& twist) const {
@@ -123,11 +133,17 @@ public:
   std::string describe(int constraint, int row) const;
 
 private:
-  void setSize(int constraint, const Block& jacobianA, const Block& jacobianB);
-  int setUpAndFactor(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
+  void makeLinks();
+  void lineariseLinks(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
+  void unpack() const;
+  template <class T> const T& unpacked(const std::vector<T>& values, int constraint) const {
+    if (packed_ && inTree_[static_cast<std::size_t>(constraint)]) unpack();
+    return values[static_cast<std::size_t>(constraint)];
+  }
+  void setSizes();
+  void setUp(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
   void setPivotThreshold(int constraint);
   void setOffsets();
-  void mergeCoupledParts();
   void factorCouplings(const Part& part);
   void solveCouplings(const Part& part, std::vector<Vector6>& x) const;
 
@@ -137,11 +153,16 @@ private:
   std::vector<Part> parts_;
   std::unique_ptr<Elimination> elimination_;
   std::vector<unsigned> hard_, active_;
-  std::vector<RowDirections> rows_;
-  std::vector<JointFrames> frames_;
-  std::vector<Mat3d> inertia_, inverseInertia_; ///< in world axes; inverse in the body's own
-  std::vector<char> sized_;                     ///< of each constraint: its smallest pivots are set
-  std::vector<Vec3d> com_A_, com_B_;
+  std::vector<LinkLanes> links_; ///< one a batch of the elimination
+  std::vector<char> inTree_;     ///< of each constraint
+  std::vector<int> loose_;
+  // One a constraint or body; of the tree taken out of the lanes when somebody asks.
+  mutable bool packed_ = false;
+  mutable std::vector<RowDirections> rows_;
+  mutable std::vector<JointFrames> frames_;
+  mutable std::vector<Mat3d> inertia_; ///< in world axes
+  bool sized_ = false;                 ///< size_ is set
+  mutable std::vector<Vec3d> com_A_, com_B_;
   std::vector<std::array<double, 6>> size_; ///< J M^-1 J^T of each row alone
   double pivotScale_ = 1;
   std::vector<unsigned> redundant_; ///< of each constraint: as noted

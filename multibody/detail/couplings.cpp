@@ -15,50 +15,25 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void ConstraintSystem::addImpulse(int k, int row, double impulse, std::vector<Vector6>& x) const {
   const Constraint& c = constraints_[at(k)];
-  const Vec3d force = impulse * rows_[at(k)].force[at(row)], torque = impulse * rows_[at(k)].torque[at(row)];
+  const Vec3d force = impulse * rows(k).force[at(row)], torque = impulse * rows(k).torque[at(row)];
   const auto add = [&](int node, double sign, const Vec3d& com) {
     if (node < 0) return;
-    const Vec3d moment = cross(frames_[at(k)].p_B - com, force) + torque;
+    const Vec3d moment = cross(jointFrames(k).p_B - com, force) + torque;
     for (int i = 0; i < 3; ++i) x[at(node)][at(i)] += sign * force[i], x[at(node)][at(3 + i)] += sign * moment[i];
   };
-  add(c.nodeB, 1, com_B_[at(k)]);
-  add(c.nodeA, -1, com_A_[at(k)]);
+  add(c.nodeB, 1, com_B(k));
+  add(c.nodeA, -1, com_A(k));
 }
 
 double ConstraintSystem::rowTimes(int k, int row, const std::vector<Vector6>& x) const {
   const Constraint& c = constraints_[at(k)];
-  const Vec3d &e = rows_[at(k)].force[at(row)], &t = rows_[at(k)].torque[at(row)];
+  const Vec3d &e = rows(k).force[at(row)], &t = rows(k).torque[at(row)];
   const auto share = [&](int node, const Vec3d& com) {
     if (node < 0) return 0.0;
     const Vector6& v = x[at(node)];
-    return dot(e, {v[0], v[1], v[2]}) + dot(cross(frames_[at(k)].p_B - com, e) + t, {v[3], v[4], v[5]});
+    return dot(e, {v[0], v[1], v[2]}) + dot(cross(jointFrames(k).p_B - com, e) + t, {v[3], v[4], v[5]});
   };
-  return share(c.nodeB, com_B_[at(k)]) - share(c.nodeA, com_A_[at(k)]);
-}
-
-/// A coupling makes one part of the parts that its joints belong to.
-void ConstraintSystem::mergeCoupledParts() {
-  std::vector<int> partOf(constraints_.size());
-  const auto mark = [&] {
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-      for (const int k : parts_[p].constraints) partOf[at(k)] = static_cast<int>(p);
-  };
-  mark();
-  for (int c = 0; c < static_cast<int>(couplings_.size()); ++c) {
-    int first = partOf[at(axes_[at(couplings_[at(c)].axis1)].constraint)];
-    int second = partOf[at(axes_[at(couplings_[at(c)].axis2)].constraint)];
-    if (second < first) std::swap(first, second);
-    Part& into = parts_[at(first)];
-    into.couplings.push_back(c);
-    if (first == second) continue;
-    const Part& from = parts_[at(second)];
-    into.steps.insert(into.steps.end(), from.steps.begin(), from.steps.end());
-    into.bodies.insert(into.bodies.end(), from.bodies.begin(), from.bodies.end());
-    into.constraints.insert(into.constraints.end(), from.constraints.begin(), from.constraints.end());
-    into.couplings.insert(into.couplings.end(), from.couplings.begin(), from.couplings.end());
-    parts_.erase(parts_.begin() + second);
-    mark();
-  }
+  return share(c.nodeB, com_B(k)) - share(c.nodeA, com_A(k));
 }
 
 /// Y and the Cholesky factor of S = b Y. A coupling whose pivot vanishes follows from the others and is left out.
@@ -72,9 +47,7 @@ void ConstraintSystem::factorCouplings(const Part& part) {
     for (const int k : part.constraints) y[at(movableBodies() + k)] = {};
     addImpulse(two.constraint, two.row, 1, y);
     addImpulse(one.constraint, one.row, -row.ratio, y);
-    for (const Elimination::Part& steps : part.steps) elimination_->solve(steps, y.data());
-    for (const int k : part.constraints)
-      for (double& lambda : y[at(movableBodies() + k)]) lambda *= -1;
+    elimination_->solve(y.data());
 
     // Row i of the factor L of S = L L^T, from the couplings before it.
     std::vector<double>& L = couplingFactor_[at(c)];

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/elimination.hpp"
 
+#include "multibody/detail/constraint.hpp"
+
 #include <algorithm>
 #include <cstddef>
-#include <set>
-#include <tuple>
-#include <utility>
 
 namespace grouser::multibody::detail {
 
@@ -13,312 +12,457 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// For each constraint the bodies that must be eliminated before it, and how many of them.
-struct Waiting {
-  std::vector<std::vector<int>> constraintsOf; ///< one a body: those that wait for it
-  std::vector<int> count;                      ///< one a constraint
-};
+/// What the world contributes to a solution.
+constexpr Vector6 kStill{};
 
-Waiting findWaiting(int bodies, const std::vector<Elimination::Edge>& edges) {
-  std::vector<std::vector<int>> jointsOf(at(bodies));
-  std::vector<int> worldJoints;
-  for (int c = 0; c < static_cast<int>(edges.size()); ++c) {
-    if (edges[at(c)].soft) continue;
-    for (const int b : {edges[at(c)].bodyA, edges[at(c)].bodyB})
-      if (b >= 0)
-        jointsOf[at(b)].push_back(c);
-      else
-        worldJoints.push_back(c);
-  }
+/// One number of a lane.
+double& in(Lanes& lanes, int lane) { return reinterpret_cast<double*>(&lanes)[lane]; }
 
-  // Spanning forest, breadth first: from the world, then from the body with the most joints of what is left.
-  std::vector<int> treeOf(at(bodies), -1), child(edges.size(), -1);
-  std::vector<int> queue;
-  const auto take = [&](int body, int constraint, int tree) {
-    if (body < 0 || treeOf[at(body)] >= 0) return;
-    treeOf[at(body)] = tree;
-    if (constraint >= 0) child[at(constraint)] = body;
-    queue.push_back(body);
-  };
-  const auto spread = [&](int tree) {
-    for (std::size_t next = 0; next < queue.size(); ++next)
-      for (const int c : jointsOf[at(queue[next])]) {
-        take(edges[at(c)].bodyA, c, tree);
-        take(edges[at(c)].bodyB, c, tree);
-      }
-    queue.clear();
-  };
-  for (const int c : worldJoints) take(edges[at(c)].bodyA, c, 0), take(edges[at(c)].bodyB, c, 0);
-  spread(0);
-  for (int tree = 1;; ++tree) {
-    int root = -1;
-    for (int b = 0; b < bodies; ++b)
-      if (treeOf[at(b)] < 0 && (root < 0 || jointsOf[at(b)].size() > jointsOf[at(root)].size())) root = b;
-    if (root < 0) break;
-    take(root, -1, tree);
-    spread(tree);
-  }
+void set(Vec3L& v, int lane, const base::Vec3<double>& value) {
+  in(v.x, lane) = value.x, in(v.y, lane) = value.y, in(v.z, lane) = value.z;
+}
 
-  Waiting waiting{std::vector<std::vector<int>>(at(bodies)), std::vector<int>(edges.size(), 0)};
-  const auto wait = [&](int constraint, int body) {
-    waiting.constraintsOf[at(body)].push_back(constraint);
-    ++waiting.count[at(constraint)];
-  };
-  for (int c = 0; c < static_cast<int>(edges.size()); ++c) {
-    const auto [a, b, soft] = edges[at(c)];
-    if (soft) {
-      wait(c, a >= 0 ? a : b);
-    } else if (child[at(c)] >= 0) {
-      wait(c, child[at(c)]);
-    } else {
-      const int tree = treeOf[at(a >= 0 ? a : b)];
-      for (int body = 0; body < bodies; ++body)
-        if (treeOf[at(body)] == tree) wait(c, body);
-    }
-  }
-  return waiting;
+GROUSER_KERNEL Vec3L vector(const Lanes (&a)[6], int first) { return {a[first], a[first + 1], a[first + 2]}; }
+
+GROUSER_KERNEL Lanes dot6(const Lanes (&a)[6], const Lanes (&b)[6]) {
+  return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+/// Symmetric matrix, lower triangle by columns 00 10 20 11 21 22, times a vector.
+GROUSER_KERNEL Vec3L timesSymmetric(const Lanes (&m)[6], const Vec3L& v) {
+  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
+          m[2] * v.x + m[4] * v.y + m[5] * v.z};
+}
+/// Row-major matrix, and its transpose, times a vector.
+GROUSER_KERNEL Vec3L times(const Lanes (&m)[9], const Vec3L& v) {
+  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+          m[6] * v.x + m[7] * v.y + m[8] * v.z};
+}
+GROUSER_KERNEL Vec3L transposedTimes(const Lanes (&m)[9], const Vec3L& v) {
+  return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
+          m[2] * v.x + m[5] * v.y + m[8] * v.z};
+}
+
+GROUSER_KERNEL void put(Lanes (&a)[6], const Vec3L& v, const Vec3L& w) {
+  a[0] = v.x, a[1] = v.y, a[2] = v.z, a[3] = w.x, a[4] = w.y, a[5] = w.z;
+}
+
+/// Reads a node's vector of each lane, six of its eight numbers.
+GROUSER_KERNEL void gatherNodes(const double* const (&row)[kLanes], Lanes (&out)[6]) {
+  Lanes low[4], high[4];
+  gather4(row, 0, low);
+  gather4(row, 4, high);
+  out[0] = low[0], out[1] = low[1], out[2] = low[2], out[3] = low[3], out[4] = high[0], out[5] = high[1];
 }
 
 } // namespace
 
-Elimination::Elimination(int bodies, const std::vector<Edge>& edges)
-    : bodies_(bodies), nodes_(bodies + static_cast<int>(edges.size())) {
-  findOrder(edges);
-  findProgram(edges);
-  diagonal_.assign(at(nodes_), Block{});
-  dInverse_.assign(at(nodes_), {});
-  smallest_.assign(at(nodes_), {});
-  active_.assign(at(nodes_), 0x3fu);
-  kept_.assign(at(nodes_), 0x3fu);
-  w_.assign(slots_.size(), Block{});
-  v_.assign(slots_.size(), Block{});
+void Elimination::setBody(int body, double mass, const double (&I)[3][3]) {
+  const Place place = placeOfBody_[at(body)];
+  Links& links = links_[at(place.batch)];
+  in(links.mass, place.lane) = mass;
+  const double lower[6] = {I[0][0], I[1][0], I[2][0], I[1][1], I[2][1], I[2][2]};
+  for (int i = 0; i < 6; ++i) in(links.inertia[i], place.lane) = lower[i];
 }
 
-void Elimination::findOrder(const std::vector<Edge>& edges) {
-  std::vector<std::set<int>> neighbours(at(nodes_));
-  for (std::size_t c = 0; c < edges.size(); ++c)
-    for (const int b : {edges[c].bodyA, edges[c].bodyB})
-      if (b >= 0) {
-        neighbours[at(b)].insert(bodies_ + static_cast<int>(c));
-        neighbours[at(bodies_) + c].insert(b);
-      }
-
-  // Minimum degree; among equals bodies first, then by index.
-  Waiting waiting = findWaiting(bodies_, edges);
-  std::set<std::tuple<std::size_t, bool, int>> queue;
-  const auto key = [&](int n) { return std::make_tuple(neighbours[at(n)].size(), n >= bodies_, n); };
-  const auto eligible = [&](int n) { return n < bodies_ || waiting.count[at(n - bodies_)] == 0; };
-  for (int n = 0; n < bodies_; ++n) queue.insert(key(n));
-  std::vector<int> rough;
-  laterNeighbours_.assign(at(nodes_), {});
-  while (!queue.empty()) {
-    const int p = std::get<2>(*queue.begin());
-    queue.erase(queue.begin());
-    rough.push_back(p);
-    const std::vector<int> around(neighbours[at(p)].begin(), neighbours[at(p)].end());
-    laterNeighbours_[at(p)] = around;
-    for (const int i : around) {
-      if (eligible(i)) queue.erase(key(i));
-      neighbours[at(i)].erase(p);
-      for (const int j : around)
-        if (j != i) neighbours[at(i)].insert(j);
-    }
-    for (const int i : around)
-      if (eligible(i)) queue.insert(key(i));
-    if (p < bodies_)
-      for (const int c : waiting.constraintsOf[at(p)])
-        if (--waiting.count[at(c)] == 0) queue.insert(key(bodies_ + c));
+void Elimination::setJoint(int k, const RowDirectionsOf<double>& rows, const base::Vec3<double>& p_B,
+                           const base::Vec3<double>& com_A, const base::Vec3<double>& com_B, const double* compliance,
+                           unsigned active) {
+  if (closingOf_[at(k)] >= 0) {
+    Block jacobians[2]{};
+    rowBlocks(rows, p_B, com_A, com_B, jacobians[0], jacobians[1]);
+    setConstraint(k, jacobians, compliance, active);
+    return;
   }
-  postorder(rough);
-}
-
-/// Postorder of the elimination tree: the same factor, walked along each branch; one root for each independent part.
-void Elimination::postorder(const std::vector<int>& rough) {
-  std::vector<int> rank(at(nodes_), 0);
-  for (std::size_t k = 0; k < rough.size(); ++k) rank[at(rough[k])] = static_cast<int>(k);
-  std::vector<std::vector<int>> children(at(nodes_));
-  std::vector<int> roots;
-  for (const int p : rough) {
-    const auto& later = laterNeighbours_[at(p)];
-    if (later.empty())
-      roots.push_back(p);
-    else
-      children[at(*std::min_element(later.begin(), later.end(), [&](int a, int b) {
-        return rank[at(a)] < rank[at(b)];
-      }))].push_back(p);
-  }
-  for (const int root : roots) {
-    Part part;
-    part.firstStep = static_cast<int>(order_.size());
-    std::vector<std::pair<int, std::size_t>> stack{{root, 0}};
-    while (!stack.empty()) {
-      auto& [node, next] = stack.back();
-      if (next < children[at(node)].size()) {
-        const int child = children[at(node)][next++];
-        stack.emplace_back(child, 0);
-      } else {
-        order_.push_back(node);
-        stack.pop_back();
-      }
-    }
-    part.endStep = static_cast<int>(order_.size());
-    parts_.push_back(part);
-  }
-}
-
-void Elimination::findProgram(const std::vector<Edge>& edges) {
-  std::vector<int> position(at(nodes_), 0);
-  for (int k = 0; k < nodes_; ++k) position[at(order_[at(k)])] = k;
-  std::vector<std::vector<int>> slotOfColumn(at(nodes_)); // parallel to laterNeighbours_
-  for (const int p : order_) {
-    auto& later = laterNeighbours_[at(p)];
-    std::sort(later.begin(), later.end(), [&](int a, int b) { return position[at(a)] < position[at(b)]; });
-    for (const int i : later) {
-      slotOfColumn[at(p)].push_back(static_cast<int>(slots_.size()));
-      slots_.push_back({i, p});
-    }
-  }
-  const auto findSlot = [&](int row, int column) {
-    const auto& later = laterNeighbours_[at(column)];
-    const auto it = std::find(later.begin(), later.end(), row);
-    return slotOfColumn[at(column)][at(static_cast<int>(it - later.begin()))];
-  };
-
-  alone_.assign(at(bodies_), 0);
-  std::vector<char> touched(at(nodes_), 0);
-  for (const int p : order_) {
-    Step step;
-    step.node = p;
-    const auto& later = laterNeighbours_[at(p)];
-    step.firstSlot = later.empty() ? 0 : slotOfColumn[at(p)].front();
-    step.endSlot = step.firstSlot + static_cast<int>(later.size());
-    step.bodyAlone = p < bodies_ && !touched[at(p)];
-    if (step.bodyAlone) alone_[at(p)] = 1;
-    step.firstUpdate = static_cast<int>(updates_.size());
-    for (std::size_t i = 0; i < later.size(); ++i) {
-      updates_.push_back({slotOfColumn[at(p)][i], slotOfColumn[at(p)][i], ~later[i]});
-      touched[at(later[i])] = 1;
-      for (std::size_t j = 0; j < i; ++j)
-        updates_.push_back({slotOfColumn[at(p)][i], slotOfColumn[at(p)][j], findSlot(later[i], later[j])});
-    }
-    step.endUpdate = static_cast<int>(updates_.size());
-    steps_.push_back(step);
-  }
-
-  isFill_.assign(slots_.size(), 1);
-  ends_.resize(edges.size());
-  for (std::size_t c = 0; c < edges.size(); ++c) {
-    const int node = bodies_ + static_cast<int>(c);
-    const auto place = [&](int body, int& slot, bool& transpose) {
-      if (body < 0) return;
-      transpose = position[at(node)] < position[at(body)];
-      slot = transpose ? findSlot(body, node) : findSlot(node, body);
-      isFill_[at(slot)] = 0;
-    };
-    place(edges[c].bodyA, ends_[c].slotA, ends_[c].transposeA);
-    place(edges[c].bodyB, ends_[c].slotB, ends_[c].transposeB);
-  }
-}
-
-void Elimination::setBody(int body, double mass, const double (&inertia)[3][3]) {
-  Block& D = diagonal_[at(body)];
-  D.fill(0);
+  const Place place = placeOfJoint_[at(k)];
+  Links& links = links_[at(place.batch)];
+  const int lane = place.lane;
+  const double side = sideOf_[at(k)];
+  const base::Vec3<double>&child = side > 0 ? com_B : com_A, &parent = side > 0 ? com_A : com_B;
   for (int i = 0; i < 3; ++i) {
-    D[at((kStride + 1) * i)] = mass;
-    for (int j = 0; j < 3; ++j) D[at(kStride * (3 + j) + 3 + i)] = inertia[i][j];
+    set(links.force[i], lane, side * rows.force[at(links.forceRow[at(i)])]);
+    set(links.torque[i], lane, side * rows.torque[at(links.torqueRow[at(i)])]);
+  }
+  set(links.arm, lane, p_B - child);
+  set(links.away, lane, child - parent);
+  for (int i = 0; i < links.freedoms; ++i) {
+    const int r = links.freeRow[at(i)];
+    const bool holds = active >> r & 1u;
+    in(links.softness[i], lane) = holds && compliance[r] != 0 ? 1 / compliance[r] : 0;
+    in(links.free[i], lane) = holds && compliance[r] == 0 ? 0 : 1;
+  }
+  kept_[at(k)] = active;
+}
+
+void Elimination::setConstraint(int k, const Block* jacobians, const double* compliance, unsigned active) {
+  Closing& z = closings_[at(closingOf_[at(k)])];
+  std::copy(jacobians, jacobians + z.bodies.size(), z.jacobians.begin());
+  std::copy(compliance, compliance + 6, z.compliance.begin());
+  z.active = active;
+}
+
+void Elimination::setSmallestPivots(int k, const double (&smallest)[6]) {
+  if (closingOf_[at(k)] < 0) return;
+  std::copy(smallest, smallest + 6, closings_[at(closingOf_[at(k)])].smallest.begin());
+}
+
+void Elimination::startClosings() {
+  for (Column& column : columns_)
+    for (Lanes& l : column.l) l = all(0);
+  for (Block& block : w_) block.fill(0);
+  for (std::size_t index = 0; index < closings_.size(); ++index) {
+    Closing& z = closings_[index];
+    z.atTop.fill(0);
+    diagonal_[index].fill(0);
+    for (std::size_t r = 0; r < 6; ++r) diagonal_[index][(kStride + 1) * r] = -z.compliance[r];
+    for (std::size_t i = 0; i < z.bodies.size(); ++i)
+      for (std::size_t r = 0; r < 6; ++r)
+        if (const Onward& to = z.entries[i][r]; to.entry)
+          for (int c = 0; c < 6; ++c) to.entry[to.stride * c] += z.jacobians[i][at(kStride * c) + r];
   }
 }
 
-void Elimination::setConstraint(int constraint, const Block& jacobianA, const Block& jacobianB,
-                                const double* compliance, unsigned active) {
-  const std::size_t node = at(bodies_ + constraint);
-  Block& D = diagonal_[node];
-  D.fill(0);
-  for (std::size_t i = 0; i < 6; ++i) D[(kStride + 1) * i] = -compliance[i];
-  active_[node] = active;
-  const auto put = [&](int slot, bool transpose, const Block& J) {
-    if (slot < 0) return;
-    Block& K = w_[at(slot)];
-    if (transpose)
-      for (std::size_t i = 0; i < 6; ++i)
-        for (std::size_t j = 0; j < 6; ++j) K[kStride * i + j] = J[kStride * j + i];
-    else
-      K = J;
+/// Directions dual to the rows; free ones of them, and the sweep of the file's head. `pairs`: where the products of two
+/// columns go.
+GROUSER_KERNEL void factorBatch(Elimination::Links& b, Elimination::Column* columns, double* const* pairs) {
+  if (b.joint[0] >= 0) {
+    const Lanes volume = dot(b.torque[0], cross(b.torque[1], b.torque[2]));
+    const Lanes inverse = 1.0 / volume;
+    b.dual[0] = cross(b.torque[1], b.torque[2]) * inverse;
+    b.dual[1] = cross(b.torque[2], b.torque[0]) * inverse;
+    b.dual[2] = cross(b.torque[0], b.torque[1]) * inverse;
+    for (int i = 0; i < b.freedoms; ++i) {
+      const int r = b.freeRow[at(i)];
+      for (int j = 0; j < 3; ++j) {
+        // The rows of forces are orthonormal: dual to themselves.
+        if (b.forceRow[at(j)] == r) put(b.s[i], b.force[j], {});
+        if (b.torqueRow[at(j)] == r) put(b.s[i], cross(b.arm, b.dual[j]), b.dual[j]);
+      }
+    }
+  }
+
+  for (int i = 0; i < b.freedoms; ++i) {
+    const Vec3L v = vector(b.s[i], 0), w = vector(b.s[i], 3);
+    put(b.u[i], timesSymmetric(b.vv, v) + times(b.vw, w), transposedTimes(b.vw, v) + timesSymmetric(b.ww, w));
+    const Lanes(&u)[6] = b.u[i];
+    const Lanes inverseD = b.free[i] / (dot6(b.s[i], u) + b.softness[i]);
+    b.inverseD[i] = inverseD;
+    Lanes h[6];
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) h[j] = u[j] * inverseD;
+    b.vv[0] -= h[0] * u[0], b.vv[1] -= h[1] * u[0], b.vv[2] -= h[2] * u[0];
+    b.vv[3] -= h[1] * u[1], b.vv[4] -= h[2] * u[1], b.vv[5] -= h[2] * u[2];
+    b.ww[0] -= h[3] * u[3], b.ww[1] -= h[4] * u[3], b.ww[2] -= h[5] * u[3];
+    b.ww[3] -= h[4] * u[4], b.ww[4] -= h[5] * u[4], b.ww[5] -= h[5] * u[5];
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j)
+#pragma GCC unroll 3
+      for (int k = 0; k < 3; ++k) b.vw[3 * j + k] -= h[j] * u[3 + k];
+    for (int c = 0; c < b.columns; ++c) {
+      Lanes(&l)[6] = columns[c].l;
+      const Lanes product = dot6(b.s[i], l);
+      columns[c].w[i] = product;
+#pragma GCC unroll 6
+      for (int j = 0; j < 6; ++j) l[j] -= h[j] * product;
+    }
+  }
+
+  for (int c = 0; c < b.columns; ++c)
+    for (int other = 0; other <= c; ++other, pairs += kLanes) {
+      Lanes sum = all(0);
+      for (int i = 0; i < b.freedoms; ++i) sum += columns[c].w[i] * columns[other].w[i] * b.inverseD[i];
+      for (int lane = 0; lane < b.count; ++lane) *pairs[lane] -= sum[lane];
+    }
+}
+
+/// Articulated inertia at the parent's centre of mass: with the twist shifted as v = v_parent + w x d, vw becomes
+/// vw - vv [d], ww becomes ww + [d] vw' - vw^T [d]; [d] is the matrix of d x.
+GROUSER_KERNEL void shifted(const Elimination::Links& b, Lanes (&vw)[9], Lanes (&ww)[6]) {
+  const Lanes &x = b.away.x, &y = b.away.y, &z = b.away.z;
+  const Lanes m[9] = {b.vv[0], b.vv[1], b.vv[2], b.vv[1], b.vv[3], b.vv[4], b.vv[2], b.vv[4], b.vv[5]};
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    // A row times [d] is that row x d.
+    const Lanes &a0 = m[3 * i], &a1 = m[3 * i + 1], &a2 = m[3 * i + 2];
+    vw[3 * i] = b.vw[3 * i] - (a1 * z - a2 * y);
+    vw[3 * i + 1] = b.vw[3 * i + 1] - (a2 * x - a0 * z);
+    vw[3 * i + 2] = b.vw[3 * i + 2] - (a0 * y - a1 * x);
+  }
+  // [d] vw': each column is d x that column. vw^T [d]: row i is (column i of vw) x d.
+  const auto left = [&](int row, int column) {
+    const Lanes &c0 = vw[column], &c1 = vw[3 + column], &c2 = vw[6 + column];
+    return row == 0 ? y * c2 - z * c1 : row == 1 ? z * c0 - x * c2 : x * c1 - y * c0;
   };
-  const Ends& e = ends_[at(constraint)];
-  put(e.slotA, e.transposeA, jacobianA);
-  put(e.slotB, e.transposeB, jacobianB);
+  const auto right = [&](int row, int column) {
+    const Lanes &c0 = b.vw[row], &c1 = b.vw[3 + row], &c2 = b.vw[6 + row];
+    return column == 0 ? c1 * z - c2 * y : column == 1 ? c2 * x - c0 * z : c0 * y - c1 * x;
+  };
+  ww[0] = b.ww[0] + (left(0, 0) - right(0, 0));
+  ww[1] = b.ww[1] + (left(1, 0) - right(1, 0));
+  ww[2] = b.ww[2] + (left(2, 0) - right(2, 0));
+  ww[3] = b.ww[3] + (left(1, 1) - right(1, 1));
+  ww[4] = b.ww[4] + (left(2, 1) - right(2, 1));
+  ww[5] = b.ww[5] + (left(2, 2) - right(2, 2));
 }
 
-void Elimination::setBodyInverse(int body, double inverseMass, const double (&inverseInertia)[3][3]) {
-  setBody(body, inverseMass, inverseInertia);
-}
-
-void Elimination::setSmallestPivots(int constraint, const double (&smallest)[6]) {
-  std::copy(smallest, smallest + 6, smallest_[at(bodies_ + constraint)].begin());
-}
-
-int Elimination::factor(const Part& part) { return factorPart(part); }
-
-// Wide registers where the processor has them, chosen at load time. No fused multiply-add in any: the bits are equal.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx512f", "avx2", "default")))
-#endif
-int Elimination::factorPart(const Part& part) {
-  int leftOut = 0;
-  for (int s = part.firstStep; s < part.endStep; ++s) {
-    const Step& step = steps_[at(s)];
-    for (int k = step.firstSlot; k < step.endSlot; ++k)
-      if (isFill_[at(k)]) clear6(w_[at(k)].data());
+/// Adds what is left of inertia and columns to the parents'.
+GROUSER_KERNEL void passOn(Elimination::Links& b, Elimination::Column* columns, std::vector<Elimination::Links>& all) {
+  Lanes vw[9], ww[6];
+  shifted(b, vw, ww);
+  if (b.aligned) {
+    Elimination::Links& parent = all[at(b.parentBatch[0])];
+    for (int i = 0; i < 6; ++i) parent.vv[i] += b.vv[i];
+    for (int i = 0; i < 9; ++i) parent.vw[i] += vw[i];
+    for (int i = 0; i < 6; ++i) parent.ww[i] += ww[i];
+  } else {
+    for (int lane = 0; lane < b.count; ++lane) {
+      if (b.parentBatch[at(lane)] < 0) continue;
+      Elimination::Links& parent = all[at(b.parentBatch[at(lane)])];
+      const int to = b.parentLane[at(lane)];
+      for (int i = 0; i < 6; ++i) in(parent.vv[i], to) += b.vv[i][lane];
+      for (int i = 0; i < 9; ++i) in(parent.vw[i], to) += vw[i][lane];
+      for (int i = 0; i < 6; ++i) in(parent.ww[i], to) += ww[i][lane];
+    }
   }
-  for (int s = part.firstStep; s < part.endStep; ++s) {
-    const Step& step = steps_[at(s)];
-    const std::size_t p = at(step.node);
-    double* const L = diagonal_[p].data();
-    double* const d = dInverse_[p].data();
-    if (step.bodyAlone) {
-      for (int k = step.firstSlot; k < step.endSlot; ++k) timesBodyInverse6(v_[at(k)].data(), w_[at(k)].data(), L);
+  for (int c = 0; c < b.columns; ++c) {
+    const Elimination::Column& column = columns[c];
+    const Vec3L force = vector(column.l, 0), torque = vector(column.l, 3) + cross(b.away, force);
+    const Lanes total[6] = {force.x, force.y, force.z, torque.x, torque.y, torque.z};
+    if (b.aligned) {
+      Lanes* const to = reinterpret_cast<Lanes*>(column.onward[0].entry);
+      for (int i = 0; i < 6; ++i) to[i] += total[i];
     } else {
-      kept_[p] = factor6(L, d, smallest_[p].data(), active_[p]);
-      leftOut += __builtin_popcount(active_[p] & ~kept_[p]);
-      for (int k = step.firstSlot; k < step.endSlot; ++k) solveRight6(w_[at(k)].data(), v_[at(k)].data(), L, d);
+      for (int lane = 0; lane < b.count; ++lane)
+        if (const auto to = column.onward[at(lane)]; to.entry)
+          for (int i = 0; i < 6; ++i) to.entry[to.stride * i] += total[i][lane];
     }
-    for (int k = step.firstUpdate; k < step.endUpdate; ++k) {
-      const Update& u = updates_[at(k)];
-      if (u.target < 0)
-        subtractProduct6(diagonal_[at(~u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
-      else
-        subtractProduct6(w_[at(u.target)].data(), v_[at(u.left)].data(), w_[at(u.right)].data());
+  }
+}
+
+int Elimination::factor() {
+  startClosings();
+  return sweep();
+}
+
+GROUSER_LANES int Elimination::sweep() {
+  int leftOut = 0;
+  for (Links& b : links_) {
+    const Lanes zero = all(0);
+    b.vv[0] = b.vv[3] = b.vv[5] = b.mass;
+    b.vv[1] = b.vv[2] = b.vv[4] = zero;
+    for (Lanes& x : b.vw) x = zero;
+    for (int i = 0; i < 6; ++i) b.ww[i] = b.inertia[i];
+  }
+  for (const Operation& operation : program_) {
+    if (operation.closes) {
+      leftOut += factorClosing(closings_[at(operation.index)]);
+      continue;
     }
+    Links& b = links_[at(operation.index)];
+    Column* const columns = columns_.data() + b.firstColumn;
+    factorBatch(b, columns, pairs_.data() + b.firstPair);
+    passOn(b, columns, links_);
   }
   return leftOut;
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx512f", "avx2", "default")))
-#endif
-void Elimination::solvePart(const Part& part, Vector6* x) const {
-  for (int s = part.firstStep; s < part.endStep; ++s) {
-    const Step& step = steps_[at(s)];
-    double* const y = x[step.node].data();
-    if (!step.bodyAlone) forward6(y, diagonal_[at(step.node)].data());
-    for (int k = step.firstSlot; k < step.endSlot; ++k)
-      subtractTimes6(x[slots_[at(k)].row].data(), v_[at(k)].data(), y);
+int Elimination::factorClosing(Closing& z) {
+  const std::size_t index = static_cast<std::size_t>(&z - closings_.data());
+  double* const L = diagonal_[index].data();
+  const unsigned kept = factor6(L, z.dInverse.data(), z.smallest.data(), z.active);
+  kept_[at(z.constraint)] = kept;
+  for (const int slot : z.slots) solveRight6(w_[at(slot)].data(), v_[at(slot)].data(), L, z.dInverse.data());
+  if (z.top >= 0) solveRight6(z.atTop.data(), z.vTop.data(), L, z.dInverse.data());
+
+  for (std::size_t i = 0; i < z.slots.size(); ++i) {
+    const double* const v = v_[at(z.slots[i])].data();
+    subtractProduct6(diagonal_[at(z.neighbours[i])].data(), v, w_[at(z.slots[i])].data());
+    for (std::size_t j = 0; j < i; ++j)
+      subtractProduct6(w_[at(slotOf(z.neighbours[i], z.neighbours[j]))].data(), v, w_[at(z.slots[j])].data());
+    if (z.top < 0) continue;
+    // L of the neighbour at the top.
+    Block product{};
+    subtractProduct6(product.data(), z.vTop.data(), w_[at(z.slots[i])].data());
+    for (std::size_t r = 0; r < 6; ++r)
+      if (const Onward& to = z.onto[i][r]; to.entry)
+        for (int c = 0; c < 6; ++c) to.entry[to.stride * c] += product[kStride * r + at(c)];
   }
-  for (int s = part.endStep - 1; s >= part.firstStep; --s) {
-    const Step& step = steps_[at(s)];
-    double* const y = x[step.node].data();
-    const double* const L = diagonal_[at(step.node)].data();
-    if (step.bodyAlone)
-      applyBodyInverse6(y, L);
-    else
-      for (int i = 0; i < 6; ++i) y[i] *= dInverse_[at(step.node)][at(i)];
-    for (int k = step.firstSlot; k < step.endSlot; ++k)
-      subtractTransposedTimes6(y, v_[at(k)].data(), x[slots_[at(k)].row].data());
-    if (!step.bodyAlone) backward6(y, L);
+  if (z.top >= 0) {
+    Block product{};
+    subtractProduct6(product.data(), z.vTop.data(), z.atTop.data());
+    const Place place = placeOfBody_[at(z.top)];
+    Links& b = links_[at(place.batch)];
+    const auto entry = [&](int row, int column) { return product[at(kStride * column + row)]; };
+    for (int j = 0, n = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i, ++n) {
+        in(b.vv[n], place.lane) += entry(i, j);
+        in(b.ww[n], place.lane) += entry(3 + i, 3 + j);
+      }
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) in(b.vw[3 * i + j], place.lane) += entry(i, 3 + j);
+  }
+  return __builtin_popcount(z.active & ~kept);
+}
+
+namespace {
+
+GROUSER_KERNEL void forwardBatch(const Elimination::Links& b, const Elimination::Column* columns, Vector6* x,
+                                 int bodies) {
+  const double* row[kLanes];
+  for (int l = 0; l < kLanes; ++l) row[l] = x[b.body[at(l)]].data();
+  Lanes p[6], c[6] = {}, delta[6] = {};
+  gatherNodes(row, p);
+  if (b.joint[0] >= 0) {
+    for (int l = 0; l < kLanes; ++l) row[l] = x[bodies + b.joint[at(l)]].data();
+    gatherNodes(row, c);
+    // A free or soft row asks for no motion by itself.
+    Lanes asked[6];
+    for (int r = 0; r < 6; ++r) asked[r] = c[r];
+    for (int i = 0; i < b.freedoms; ++i) asked[b.freeRow[at(i)]] *= 1.0 - b.free[i];
+    const Vec3L v =
+        b.force[0] * asked[b.forceRow[0]] + b.force[1] * asked[b.forceRow[1]] + b.force[2] * asked[b.forceRow[2]];
+    const Vec3L w =
+        b.dual[0] * asked[b.torqueRow[0]] + b.dual[1] * asked[b.torqueRow[1]] + b.dual[2] * asked[b.torqueRow[2]];
+    put(delta, v + cross(b.arm, w), w);
+  }
+  for (int r = 0; r < 6; ++r) b.delta[r] = delta[r], b.residual[r] = c[r];
+  for (int i = 0; i < b.freedoms; ++i) {
+    const Lanes right = dot6(b.s[i], p) + b.softness[i] * c[b.freeRow[at(i)]];
+    b.right[i] = right;
+    const Lanes q = right * b.inverseD[i];
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) p[j] -= b.u[i][j] * q;
+  }
+  const Vec3L v = vector(delta, 0), w = vector(delta, 3);
+  Vec3L force = vector(p, 0) - (timesSymmetric(b.vv, v) + times(b.vw, w));
+  Vec3L torque = vector(p, 3) - (transposedTimes(b.vw, v) + timesSymmetric(b.ww, w));
+  put(p, force, torque);
+  for (int r = 0; r < 6; ++r) b.p[r] = p[r];
+
+  for (int k = 0; k < b.columns; ++k) {
+    const Elimination::Column& column = columns[k];
+    Lanes sum = dot6(column.l, delta);
+    for (int i = 0; i < b.freedoms; ++i) sum += column.w[i] * (b.right[i] * b.inverseD[i]);
+    for (int l = 0; l < b.count; ++l) x[column.node[at(l)]][at(column.rowOf[at(l)])] -= sum[l];
+  }
+
+  torque += cross(b.away, force);
+  const Lanes low[4] = {force.x, force.y, force.z, torque.x}, high[4] = {torque.y, torque.z, all(0), all(0)};
+  Lanes lowRow[kLanes], highRow[kLanes];
+  transpose4(low, lowRow);
+  transpose4(high, highRow);
+  for (int l = 0; l < b.count; ++l) {
+    if (b.parentNode[at(l)] < 0) continue;
+    Lanes* const to = reinterpret_cast<Lanes*>(x[b.parentNode[at(l)]].data());
+    to[0] += lowRow[l];
+    to[1] += highRow[l];
   }
 }
 
-void Elimination::solve(const Part& part, Vector6* x) const { solvePart(part, x); }
+GROUSER_KERNEL void backwardBatch(const Elimination::Links& b, const Elimination::Column* columns, Vector6* x,
+                                  int bodies) {
+  const double* row[kLanes];
+  for (int l = 0; l < kLanes; ++l) row[l] = b.parentNode[at(l)] >= 0 ? x[b.parentNode[at(l)]].data() : kStill.data();
+  Lanes y[6];
+  gatherNodes(row, y);
+  const Vec3L w = vector(y, 3), v = vector(y, 0) + cross(w, b.away);
+  Vec3L force = timesSymmetric(b.vv, v) + times(b.vw, w) - vector(b.p, 0);
+  Vec3L torque = transposedTimes(b.vw, v) + timesSymmetric(b.ww, w) - vector(b.p, 3);
+  put(y, v + vector(b.delta, 0), w + vector(b.delta, 3));
+
+  Lanes right[6];
+  for (int i = 0; i < b.freedoms; ++i) right[i] = b.right[i];
+  for (int k = 0; k < b.columns; ++k) {
+    const Elimination::Column& column = columns[k];
+    Lanes mu;
+    for (int l = 0; l < kLanes; ++l) mu[l] = x[column.node[at(l)]][at(column.rowOf[at(l)])];
+    force += vector(column.l, 0) * mu;
+    torque += vector(column.l, 3) * mu;
+    for (int i = 0; i < b.freedoms; ++i) right[i] -= column.w[i] * mu;
+  }
+
+  Lanes lambda[6];
+  if (b.joint[0] >= 0) {
+    const Vec3L torqueThere = torque - cross(b.arm, force);
+    for (int j = 0; j < 3; ++j) {
+      lambda[b.forceRow[at(j)]] = dot(b.force[j], force);
+      lambda[b.torqueRow[at(j)]] = dot(b.dual[j], torqueThere);
+    }
+  }
+  for (int i = b.freedoms - 1; i >= 0; --i) {
+    const Lanes q = (right[i] - dot6(b.u[i], y)) * b.inverseD[i];
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) y[j] += b.s[i][j] * q;
+    if (b.joint[0] < 0) continue;
+    const int r = b.freeRow[at(i)];
+    lambda[r] = b.free[i] > 0.0 ? b.softness[i] * (b.residual[r] - q) : lambda[r];
+  }
+
+  const auto write = [&](const Lanes(&z)[6], int first, const std::array<int, kLanes>& node) {
+    const Lanes low[4] = {z[0], z[1], z[2], z[3]}, high[4] = {z[4], z[5], all(0), all(0)};
+    Lanes lowRow[kLanes], highRow[kLanes];
+    transpose4(low, lowRow);
+    transpose4(high, highRow);
+    for (int l = 0; l < b.count; ++l) {
+      Lanes* const to = reinterpret_cast<Lanes*>(x[first + node[at(l)]].data());
+      to[0] = lowRow[l];
+      to[1] = highRow[l];
+    }
+  };
+  write(y, 0, b.body);
+  if (b.joint[0] >= 0) write(lambda, bodies, b.joint);
+}
+
+} // namespace
+
+GROUSER_LANES void Elimination::sweepForward(Vector6* x) const {
+  for (const Operation& operation : program_) {
+    if (operation.closes) {
+      forwardClosing(closings_[at(operation.index)], x);
+    } else {
+      const Links& b = links_[at(operation.index)];
+      forwardBatch(b, columns_.data() + b.firstColumn, x, bodies_);
+    }
+  }
+}
+
+GROUSER_LANES void Elimination::sweepBackward(Vector6* x) const {
+  for (auto operation = program_.rbegin(); operation != program_.rend(); ++operation) {
+    if (operation->closes) {
+      backwardClosing(closings_[at(operation->index)], x);
+    } else {
+      const Links& b = links_[at(operation->index)];
+      backwardBatch(b, columns_.data() + b.firstColumn, x, bodies_);
+    }
+  }
+}
+
+void Elimination::forwardClosing(const Closing& z, Vector6* x) const {
+  const std::size_t index = static_cast<std::size_t>(&z - closings_.data());
+  double* const y = x[bodies_ + z.constraint].data();
+  forward6(y, diagonal_[index].data());
+  for (std::size_t i = 0; i < z.slots.size(); ++i)
+    subtractTimes6(x[bodies_ + closings_[at(z.neighbours[i])].constraint].data(), v_[at(z.slots[i])].data(), y);
+  if (z.top >= 0) subtractTimes6(x[z.top].data(), z.vTop.data(), y);
+}
+
+void Elimination::backwardClosing(const Closing& z, Vector6* x) const {
+  const std::size_t index = static_cast<std::size_t>(&z - closings_.data());
+  double* const y = x[bodies_ + z.constraint].data();
+  for (std::size_t r = 0; r < 6; ++r) y[r] *= z.dInverse[r];
+  for (std::size_t i = 0; i < z.slots.size(); ++i)
+    subtractTransposedTimes6(y, v_[at(z.slots[i])].data(),
+                             x[bodies_ + closings_[at(z.neighbours[i])].constraint].data());
+  if (z.top >= 0) subtractTransposedTimes6(y, z.vTop.data(), x[z.top].data());
+  backward6(y, diagonal_[index].data());
+}
+
+void Elimination::solve(Vector6* x) const {
+  sweepForward(x);
+  sweepBackward(x);
+  // The sweeps took the multipliers of the loops with the opposite sign.
+  for (const Closing& z : closings_)
+    for (double& lambda : x[bodies_ + z.constraint]) lambda *= -1;
+}
 
 } // namespace grouser::multibody::detail

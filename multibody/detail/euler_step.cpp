@@ -31,10 +31,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration; below, the iteration itself converges.
-constexpr double kFastSpin = 0.3;
-
 /// Iterations before a slow position solve is helped.
 constexpr int kPatience = 4;
 
@@ -42,108 +38,84 @@ constexpr int kPatience = 4;
 
 void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                  double dt) {
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    const Wrench& wrench = loads.external[at(b)];
-    const Twist& V = state.twist[at(b)];
-    gyro[at(node)] = gyroscopicMomentum(system.inertia(node), V.w, dt);
-    set(x[at(node)], dt * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
-        (state.spinMomentum[at(b)] - system.inertia(node) * V.w) - gyro[at(node)] + dt * wrench.torque);
-    newTwist[at(b)] = V;
-  }
-  for (const int k : part.constraints) {
+  startLinks(state, loads, dt);
+  for (const int k : system.loose()) {
     impulse[at(k)] = {};
-    const Constraint& c = system.constraints()[at(k)];
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const std::size_t row = at(system.axes()[at(a)].row);
-      oldRate[at(a)] = system.rate(k, static_cast<int>(row), state.twist);
+      const int row = system.axes()[at(a)].row;
+      oldRate[at(a)] = system.rate(k, row, state.twist);
       // The known force of a spring acts along its row.
-      const Vec3d force = dt * laws[at(a)].force * system.rows(k).force[row];
-      const Vec3d torque = dt * laws[at(a)].force * system.rows(k).torque[row];
-      const Vec3d& p = system.jointFrames(k).p_B;
-      if (c.nodeB >= 0) {
-        add(x[at(c.nodeB)], force, cross(p - frames[at(c.bodyB)].p, force) + torque);
-      }
-      if (c.nodeA >= 0) {
-        add(x[at(c.nodeA)], -force, -(cross(p - frames[at(c.bodyA)].p, force) + torque));
-      }
+      system.addImpulse(k, row, dt * laws[at(a)].force, x);
     }
   }
   for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
 }
 
-void EulerStep::moveTrial(const ConstraintSystem::Part& part, const State& state, double dt) {
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    const Pose& X = state.pose[at(b)];
-    trialPose[at(b)].position = X.position + dt * newTwist[at(b)].v;
-    trialPose[at(b)].orientation = (rotationBy(dt * newTwist[at(b)].w) * X.orientation).normalized();
-    system.placeBody(b, trialPose[at(b)], trial);
-  }
-}
-
-double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, int& worst) {
-  double largest = 0;
+/// Gaps of all joints and couplings over -dt. `first`: also what soft and driven axes ask for.
+double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first) {
+  double largest = setLinkGaps(dt, first);
   const double scale = -1 / dt;
-  for (const int k : part.constraints) {
-    const Constraint& c = system.constraints()[at(k)];
-    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
+  // Written so that a gap that is not a number counts as the largest.
+  const auto meet = [&](double gap) {
+    if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap);
+  };
+  for (const int k : system.loose()) {
     double error[6];
-    positionError(c, trialFrames[at(k)], error);
+    positionError(system.constraints()[at(k)], trialFramesOf(k), error);
     Vector6& residual = x[at(rowNode(k))];
     const unsigned hard = system.hardRowsOf(k);
     for (int r = 0; r < 6; ++r) {
       const double gap = hard >> r & 1u ? error[r] : 0;
       residual[at(r)] = scale * gap;
-      // Written so that a gap that is not a number counts as the largest.
-      if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap), worst = k;
+      meet(gap);
     }
+    if (first)
+      for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
+        residual[at(system.axes()[at(a)].row)] = (laws[at(a)].driven ? laws[at(a)].speed : 0) - oldRate[at(a)];
   }
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
     const double gap = trialPosition(state, row.axis2) - row.ratio * trialPosition(state, row.axis1) - row.offset;
     x[at(system.couplingNode(c))][0] = scale * gap;
-    if (system.couplingKept(c) && !(std::fabs(gap) <= largest)) largest = std::fabs(gap);
+    if (system.couplingKept(c)) meet(gap);
   }
   return largest;
+}
+
+JointFrames EulerStep::trialFramesOf(int k) const {
+  const Constraint& c = system.constraints()[at(k)];
+  return framesOf(c, trial[at(c.bodyA)], trial[at(c.bodyB)]);
+}
+
+/// The one with the widest gap at the end of the step as the current iterate has it; -1 if there are only couplings.
+int EulerStep::worstConstraint() const {
+  int worst = -1;
+  double largest = 0;
+  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
+    double error[6];
+    positionError(system.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
+    for (int r = 0; r < 6; ++r)
+      if ((system.hardRowsOf(static_cast<int>(k)) >> r & 1u) && !(std::fabs(error[r]) <= largest))
+        largest = std::fabs(error[r]), worst = static_cast<int>(k);
+  }
+  return worst;
 }
 
 /// Position of an axis at the end of the step as the current iterate has it.
 double EulerStep::trialPosition(const State& state, int axis) const {
   const Axis& a = system.axes()[at(axis)];
   return axisPositionAfter(system.constraints()[at(a.constraint)], system.jointFrames(a.constraint),
-                           trialFrames[at(a.constraint)], a.row, axisPositionIn(state, system, axis));
-}
-
-double EulerStep::setGyroResidual(const ConstraintSystem::Part& part, double dt) {
-  double largest = 0;
-  for (const int node : part.bodies) {
-    const Mat3d& I = system.inertia(node);
-    const Vec3d g = gyroscopicMomentum(I, newTwist[at(system.bodyOf(node))].w, dt);
-    const Vec3d residual = gyro[at(node)] - g;
-    gyro[at(node)] = g;
-    set(x[at(node)], {}, residual);
-    const double turn = dt * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual);
-    if (!(turn <= largest)) largest = turn;
-  }
-  return largest;
+                           trialFramesOf(a.constraint), a.row, axisPositionIn(state, system, axis));
 }
 
 void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
   system.solve(part, x);
-  if (mixing.on() && !relinearised) mixing.improve(part, {newTwist, impulse, couplingImpulse}, x);
-  for (const int node : part.bodies) {
-    Twist& V = newTwist[at(system.bodyOf(node))];
-    V.v += linear(x[at(node)]);
-    V.w += angular(x[at(node)]);
-    // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
-    const Mat3d& I = system.inertia(node);
-    if (!relinearised && dt * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
-      V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, dt);
-      gyro[at(node)] = gyroscopicMomentum(I, V.w, dt); // solved: nothing is left for the next iterate
-    }
+  if (mixing.on() && !relinearised) {
+    unpackIterate();
+    mixing.improve(part, {newTwist, impulse, couplingImpulse}, x);
   }
-  for (const int k : part.constraints)
+  correctLinks(dt);
+  for (const int k : system.loose())
     for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
   for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
 }
@@ -153,12 +125,8 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
 
   // First solve from the old twist: the gap it would open already holds the curvature of the constraints.
   setFirstResidual(part, state, loads, dt);
-  moveTrial(part, state, dt);
-  int worst = -1;
-  setGapResidual(part, state, dt, worst);
-  for (const int k : part.constraints)
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-      x[at(rowNode(k))][at(system.axes()[at(a)].row)] = (laws[at(a)].driven ? laws[at(a)].speed : 0) - oldRate[at(a)];
+  moveLinks(dt);
+  setGapResidual(part, state, dt, true);
 
   double gap = 0, before = 0;
   int iteration = 0;
@@ -166,29 +134,34 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
   relinearised = false;
   for (;;) {
     applyCorrection(part, dt);
-    moveTrial(part, state, dt);
+    moveLinks(dt);
     ++iteration;
-    gap = setGapResidual(part, state, dt, worst);
-    const double turn = relinearised ? 0 : setGyroResidual(part, dt);
+    gap = setGapResidual(part, state, dt, false);
+    const double turn = relinearised ? 0 : setLinkGyro(dt);
     if (gap <= options.positionTolerance && turn <= options.positionTolerance) break;
     // Slow: a singular position is near. Mixed first, then with the matrix taken anew at each iterate
     // (rattle_step.cpp).
-    mixing.remember(part, gap, newTwist);
-    if (iteration == kPatience && !(gap <= 0.2 * before)) mixing.switchOn();
+    if (iteration >= kPatience) {
+      unpackIterate();
+      mixing.remember(part, gap, newTwist);
+      if (iteration == kPatience && !(gap <= 0.2 * before)) mixing.switchOn();
+    }
     before = gap;
     if (iteration < options.maxIterations || (mixing.on() && iteration < 3 * options.maxIterations)) continue;
     if (iteration < 5 * options.maxIterations && gap > options.positionTolerance) {
-      if (!relinearised) {
-        relinearised = true;
+      if (!relinearised && std::isfinite(mixing.bestGap()) && !(gap <= mixing.bestGap())) {
         mixing.takeBest(part, newTwist);
-        moveTrial(part, state, dt);
+        packTwists();
+        moveLinks(dt);
       }
+      relinearised = true;
       system.linearise(part, trial, laws);
       for (const int node : part.bodies) x[at(node)] = {};
-      gap = setGapResidual(part, state, dt, worst);
+      gap = setGapResidual(part, state, dt, false);
       continue;
     }
     if (gap <= kGapFailure) break;
+    const int worst = worstConstraint();
     std::ostringstream message;
     message << "multibody step from t = " << state.time << " s";
     if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
@@ -203,16 +176,7 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
 
 /// Work, momenta, readings and poses of one part once its impulses are known.
 void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    const Wrench& wrench = loads.external[at(b)];
-    const Twist &before = state.twist[at(b)], &after = newTwist[at(b)];
-    const Vec3d path = 0.5 * dt * (before.v + after.v), turn = 0.5 * dt * (before.w + after.w);
-    state.ledger.gravityWork += model.bodies()[at(b)].mass * dot(loads.gravity, path);
-    state.ledger.externalWork += dot(wrench.force, path) + dot(wrench.torque, turn);
-    state.spinMomentum[at(b)] += dt * wrench.torque;
-    checkTwist(model.bodies()[at(b)], after, state.time, dt);
-  }
+  finishLinks(state, loads, dt);
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
     for (const auto& [axis, share] : {std::pair{row.axis2, 1.0}, std::pair{row.axis1, -row.ratio}}) {
@@ -222,18 +186,14 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
     }
     state.coupling[at(c)].force = couplingImpulse[at(c)] / dt;
   }
-  for (const int k : part.constraints) readConstraint(k, state, dt);
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    if (relinearised) {
+  for (const int k : system.loose()) readConstraint(k, state, dt);
+  if (relinearised)
+    for (const int node : part.bodies) {
       // The impulses belong to rows of several positions: the momentum is what the twist says.
-      const Mat3d I = rotatedInertia(frames[at(b)].R, model.bodies()[at(b)].inertia_B);
-      state.spinMomentum[at(b)] = I * newTwist[at(b)].w + gyroscopicMomentum(I, newTwist[at(b)].w, dt);
+      const std::size_t b = at(system.bodyOf(node));
+      const Mat3d I = rotatedInertia(frames[b].R, model.bodies()[b].inertia_B);
+      state.spinMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
-    state.twist[at(b)] = newTwist[at(b)];
-    state.pose[at(b)] = trialPose[at(b)];
-    frames[at(b)] = trial[at(b)];
-  }
 }
 
 void EulerStep::addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
@@ -246,11 +206,12 @@ void EulerStep::addSpin(int k, const Vec3d& force, const Vec3d& torque, State& s
 void EulerStep::readConstraint(int k, State& state, double dt) {
   const Constraint& c = system.constraints()[at(k)];
   const RowDirections& rows = system.rows(k);
+  const JointFrames after = trialFramesOf(k);
   std::array<double, 6> total = impulse[at(k)];
   for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
     const std::size_t row = at(system.axes()[at(a)].row);
     const AxisLaw& law = laws[at(a)];
-    const double newRate = system.rate(k, static_cast<int>(row), newTwist);
+    const double newRate = system.rate(k, static_cast<int>(row), state.twist);
     total[row] += dt * law.force;
     const double path = 0.5 * dt * (oldRate[at(a)] + newRate);
     const AxisWork work = axisLaws.work(law, impulse[at(k)][row] / dt, newRate, path, dt);
@@ -268,15 +229,13 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
   addSpin(k, force, torque, state);
 
   if (c.kind == ConstraintKind::kPointSpring) {
-    state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, trialFrames[at(k)], 0)};
+    state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, after, 0)};
     return;
   }
   if (c.kind == ConstraintKind::kBushing) {
-    const auto position = [&](int row) { return axisPosition(c, trialFrames[at(k)], row); };
-    state.bushing[at(c.source)] = {force * (1 / dt),
-                                   torque * (1 / dt),
-                                   {position(0), position(1), position(2)},
-                                   relativeRotation(trialFrames[at(k)])};
+    const auto position = [&](int row) { return axisPosition(c, after, row); };
+    state.bushing[at(c.source)] = {
+        force * (1 / dt), torque * (1 / dt), {position(0), position(1), position(2)}, relativeRotation(after)};
     return;
   }
   JointReading& reading = state.joint[at(c.source)];
@@ -302,15 +261,16 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
 EulerStep::EulerStep(const Problem& problem)
     : model(problem.model), options(problem.options), system(problem.system), driveStart(problem.driveStart),
       last(problem.last), axisLaws(model), laws(system.axes().size()), x(at(system.nodes())),
-      impulse(system.constraints().size()), couplingImpulse(system.couplings().size()),
-      oldRate(system.axes().size(), 0.0), newRates(system.axes().size(), 0.0), gyro(at(system.movableBodies())),
-      mixing(system, model), newTwist(model.bodies().size()), trialPose(model.bodies().size()),
-      trialFrames(system.constraints().size()) {
-  for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
-  system.place(trialPose, frames);
+      steps(system.links().size()), impulse(system.constraints().size()), couplingImpulse(system.couplings().size()),
+      oldRate(system.axes().size(), 0.0), newRates(system.axes().size(), 0.0), mixing(system, model),
+      newTwist(model.bodies().size()) {
+  std::vector<Pose> poses;
+  for (const Body& body : model.bodies()) poses.push_back(body.pose);
+  system.place(poses, frames);
   trial = frames;
-  for (int node = 0; node < system.movableBodies(); ++node)
-    inertiaSpread.push_back(spreadOf(model.bodies()[at(system.bodyOf(node))].inertia_B));
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t l = 0; l < kLanes; ++l)
+      steps[i].spread[l] = spreadOf(model.bodies()[at(system.links()[i].body[l])].inertia_B);
 }
 
 void EulerStep::step(State& state, const Loads& loads, double dt) {

@@ -4,6 +4,7 @@
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/integrator.hpp"
 #include "multibody/detail/mixing.hpp"
+#include "multibody/detail/rotation_lanes.hpp"
 
 #include <array>
 #include <vector>
@@ -20,13 +21,39 @@ private:
   void solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
   void setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt);
   void applyCorrection(const ConstraintSystem::Part& part, double dt);
-  void moveTrial(const ConstraintSystem::Part& part, const State& state, double dt);
-  double setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, int& worst);
-  double setGyroResidual(const ConstraintSystem::Part& part, double dt);
+  double setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first);
+  int worstConstraint() const;
   void finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
   void addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
   void readConstraint(int k, State& state, double dt);
   double trialPosition(const State& state, int axis) const;
+  JointFrames trialFramesOf(int k) const;
+
+  /// Four bodies and their joints in the course of a step (euler_links.cpp).
+  struct alignas(64) LinkStep {
+    Vec3L v0, w0, force, torque; ///< before the step
+    Vec3L position;
+    QuatL orientation;
+    Vec3L v, w, gyro; ///< current iterate; gyroscopic momentum
+    FrameL trial;     ///< where it leads to
+    QuatL newOrientation;
+    JointFramesL joint;
+    Lanes impulse[6];
+    Lanes oldRate[2];         ///< of the axes, before the step
+    Lanes startCos, startSin; ///< of a joint's angle
+    Lanes spread;             ///< of the inertias (spreadOf())
+  };
+  void startLinks(const State& state, const Loads& loads, double dt);
+  void correctLinks(double dt);
+  void unpackIterate();
+  void packTwists();
+  static void solveSpin(const Lanes (&inertia)[6], LinkStep& s, int l, double dt);
+  void moveLinks(double dt);
+  double setLinkGaps(double dt, bool first);
+  double setLinkGyro(double dt);
+  void finishLinks(State& state, const Loads& loads, double dt);
+  void readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total, const Lanes& newRate, State& state,
+                double dt) const;
   int rowNode(int k) const { return system.movableBodies() + k; }
 
   const Model& model;
@@ -36,19 +63,17 @@ private:
   StepReport& last;
   AxisLaws axisLaws;
 
-  std::vector<AxisLaw> laws;                  ///< one an axis
-  std::vector<Vector6> x;                     ///< residuals in, corrections out; one a node
-  std::vector<std::array<double, 6>> impulse; ///< Lambda, one a constraint
-  std::vector<double> couplingImpulse;        ///< one a coupling
-  std::vector<double> oldRate, newRates;      ///< before and after the step, one an axis
-  std::vector<double> inertiaSpread;          ///< one a movable body
-  std::vector<Vec3d> gyro;                    ///< gyroscopic momentum at the current iterate, one a movable body
+  std::vector<AxisLaw> laws;   ///< one an axis
+  std::vector<Vector6> x;      ///< residuals in, corrections out; one a node
+  std::vector<LinkStep> steps; ///< one a batch of links
+  std::vector<std::array<double, 6>>
+      impulse;                           ///< Lambda, one a constraint; of joints that bodies hang by where asked for
+  std::vector<double> couplingImpulse;   ///< one a coupling
+  std::vector<double> oldRate, newRates; ///< before and after the step, one an axis
   Mixing mixing;
-  bool relinearised = false;            ///< the current part's position solve had to leave J(q)
-  std::vector<Twist> newTwist;          ///< current iterate, one a body
-  std::vector<Pose> trialPose;          ///< one a body
-  std::vector<Frame> frames, trial;     ///< bodies' frames at the start and at the end of the step
-  std::vector<JointFrames> trialFrames; ///< one a constraint
+  bool relinearised = false;        ///< the position solve had to leave J(q)
+  std::vector<Twist> newTwist;      ///< current iterate, one a body, where mixing asks for it
+  std::vector<Frame> frames, trial; ///< bodies' frames at the start and at the end of the step
 };
 
 } // namespace grouser::multibody::detail

@@ -67,6 +67,7 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
       values(body == 0 ? moved(p.A, u, -h) : p.A, body == 1 ? moved(p.B, u, -h) : p.B, minus);
       const bool revolute = p.c.kind == ConstraintKind::kRevolute || p.c.kind == ConstraintKind::kCylindrical;
       for (int r = 0; r < 6; ++r) {
+        if (!((hardRows(p.c.kind) | axisRows(p.c.kind)) >> r & 1u)) continue; // a direction without a law
         if (revolute && r == kAxisRow) continue; // its rate equals the angle's only when the axes coincide: next test
         EXPECT_NEAR((body == 0 ? JA : JB)[static_cast<std::size_t>(kStride * dof + r)], (plus[r] - minus[r]) / (2 * h),
                     tolerance)
@@ -150,110 +151,6 @@ TEST(MultibodyAngle, GrowsWithTheRelativeRotationOverManyTurns) {
   }
 }
 
-/// A saddle-point system with made-up numbers on a given graph, in the solver and as a dense matrix.
-struct MadeUpSystem {
-  MadeUpSystem(int bodyCount, std::vector<Elimination::Edge> graph)
-      : bodies(bodyCount), edges(std::move(graph)), e(bodies, edges),
-        n(6 * (static_cast<std::size_t>(bodies) + edges.size())), K(n * n, 0.0) {
-    for (int b = 0; b < bodies; ++b) addBody(b);
-  }
-
-  double& entry(std::size_t i, std::size_t j) { return K[n * i + j]; }
-
-  double number() {
-    seed = seed * 1664525u + 1013904223u;
-    return static_cast<double>(seed >> 8) / 16777216.0 - 0.5;
-  }
-
-  void addBody(int b) {
-    const double m = 1 + b, I[3][3] = {{2, 0.3, 0.1}, {0.3, 3, 0.2}, {0.1, 0.2, 2.5}};
-    const double d = 2 * (3 * 2.5 - 0.04) - 0.3 * (0.75 - 0.02) + 0.1 * (0.06 - 0.3); // I^-1 by cofactors
-    const double inverse[3][3] = {{(7.5 - 0.04) / d, (0.02 - 0.75) / d, (0.06 - 0.3) / d},
-                                  {(0.02 - 0.75) / d, (5 - 0.01) / d, (0.03 - 0.4) / d},
-                                  {(0.06 - 0.3) / d, (0.03 - 0.4) / d, (6 - 0.09) / d}};
-    if (e.bodyAlone(b))
-      e.setBodyInverse(b, 1 / m, inverse);
-    else
-      e.setBody(b, m, I);
-    const std::size_t first = 6 * static_cast<std::size_t>(b);
-    for (std::size_t i = 0; i < 3; ++i) {
-      entry(first + i, first + i) = m;
-      for (std::size_t j = 0; j < 3; ++j) entry(first + 3 + i, first + 3 + j) = I[i][j];
-    }
-  }
-
-  /// Full rows of random numbers in the rows of the mask.
-  void addConstraint(int c, const double (&G)[6], unsigned active) {
-    Block J[2] = {};
-    for (auto& side : J)
-      for (std::size_t i = 0; i < 48; ++i)
-        if (i % kStride < 6 && (active >> (i % kStride) & 1u)) side[i] = number();
-    e.setConstraint(c, J[0], J[1], G, active);
-    const auto& edge = edges[static_cast<std::size_t>(c)];
-    const int body[2] = {edge.bodyA, edge.bodyB};
-    const std::size_t row = 6 * static_cast<std::size_t>(bodies + c);
-    for (std::size_t r = 0; r < 6; ++r) {
-      entry(row + r, row + r) = -G[r];
-      for (int side = 0; side < 2; ++side)
-        for (std::size_t i = 0; i < 6 && body[side] >= 0; ++i) {
-          const std::size_t column = 6 * static_cast<std::size_t>(body[side]) + i;
-          entry(row + r, column) = entry(column, row + r) = J[side][kStride * i + r];
-        }
-    }
-  }
-
-  /// Largest residual of the solution for a random right-hand side (zero in rows that are not active).
-  double residual() {
-    std::vector<Vector6> x(n / 6);
-    std::vector<double> rhs(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      bool empty = true;
-      for (std::size_t j = 0; j < n; ++j) empty = empty && entry(i, j) == 0;
-      x[i / 6][i % 6] = rhs[i] = empty ? 0 : number();
-    }
-    for (const auto& part : e.parts()) {
-      e.factor(part);
-      e.solve(part, x.data());
-    }
-    double worst = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = -rhs[i];
-      for (std::size_t j = 0; j < n; ++j) sum += entry(i, j) * x[j / 6][j % 6];
-      if (!(std::fabs(sum) <= worst)) worst = std::fabs(sum);
-    }
-    return worst;
-  }
-
-  int bodies;
-  std::vector<Elimination::Edge> edges;
-  Elimination e;
-  std::size_t n;
-  std::vector<double> K;
-  unsigned seed = 12345;
-};
-
-TEST(MultibodyElimination, SolvesABranchedGraphWithLoopsSpringsAndTwoParts) {
-  MadeUpSystem s(
-      9, {{-1, 0}, {0, 1}, {1, 2}, {2, 0}, {2, 3}, {2, 4}, {2, 5}, {5, 6}, {6, 3}, {7, 8}, {8, -1}, {4, 1, true}});
-  EXPECT_EQ(s.e.parts().size(), 2u);
-  for (int c = 0; c < 12; ++c) s.addConstraint(c, {0, 0.3, 0.1, 0.2, 0.3, 0.5}, 0x3f);
-  EXPECT_LT(s.residual(), 1e-10); // round-off times the growth of an LDL^T without pivoting
-}
-
-TEST(MultibodyElimination, SolvesHardLoopsBetweenTwoBusyBodies) {
-  // Two loops through bodies 0 and 1, five hard rows a joint: rows of a loop are independent only once both are in.
-  MadeUpSystem s(6, {{0, 1}, {0, 2}, {2, 3}, {3, 1}, {0, 4}, {4, 5}, {5, 1}});
-  for (int c = 0; c < 7; ++c) s.addConstraint(c, {0, 0, 0, 0, 0, 0}, 0x1f);
-  EXPECT_LT(s.residual(), 1e-9);
-}
-
-TEST(MultibodyElimination, SolvesAHardChainFixedAtItsFoot) {
-  // Six hard rows between the world and body 0 leave it no freedom: the next joint must wait for its own body.
-  MadeUpSystem s(3, {{-1, 0}, {0, 1}, {1, 2}});
-  for (int c = 0; c < 3; ++c) s.addConstraint(c, {0, 0, 0, 0, 0, 0}, c == 0 ? 0x3f : 0x1f);
-  EXPECT_LT(s.residual(), 1e-9);
-}
-
 TEST(MultibodyRotation, DiscreteSpinMomentumIsTheSameAtBothEndsOfAStep) {
   // The inertia turns with the body by exp(dt w); backwards in time dt changes sign.
   const Mat3d R = rotationBy({0.4, -0.3, 0.7}).matrix(), I = rotatedInertia(R, Mat3d::diagonal({1, 2, 3 - 1e-3}));
@@ -263,18 +160,6 @@ TEST(MultibodyRotation, DiscreteSpinMomentumIsTheSameAtBothEndsOfAStep) {
     const Vec3d before = I * w + gyroscopicMomentum(I, w, dt), after = turned * w + gyroscopicMomentum(turned, w, -dt);
     EXPECT_LT(length(after - before), 1e-14 * length(before) * 10) << dt; // round-off of a few dozen operations
   }
-}
-
-TEST(MultibodyElimination, FillOfARingIsConstantForEachLink) {
-  const auto blocks = [](int links) {
-    RingSpec spec;
-    spec.links = links;
-    Model model;
-    addRing(model, spec);
-    return ConstraintSystem(model).elimination().blocks();
-  };
-  EXPECT_EQ(blocks(92) - blocks(46), 46 * 4); // two body-joint blocks, two joint-joint blocks a link
-  EXPECT_EQ(blocks(184) - blocks(92), 92 * 4);
 }
 
 } // namespace

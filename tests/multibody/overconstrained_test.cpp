@@ -204,7 +204,8 @@ TEST(Overconstrained, AStartInLineIsReportedAsSingularAndMovesOn) {
       const Vec3d d = m.state.pose[1].position - m.state.pose[0].position;
       apart = std::max(apart, length(d - Vec3d{1, 0, 0}));
     }
-    EXPECT_LT(apart, integrator == Integrator::kRattle ? 1e-11 : 1e-8);
+    // Gaps of up to the tolerance, over the sine of the angles next to the line, half a step's 5e-3 rad: 4e-8.
+    EXPECT_LT(apart, integrator == Integrator::kRattle ? 1e-11 : 4e-8);
   }
 }
 

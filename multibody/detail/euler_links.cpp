@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Euler step of the bodies and of the joints they hang by, four at a time (link_lanes.hpp). euler_step.cpp states
+// the scheme and treats what is left: constraints that close loops, springs between points, bushings, couplings.
+#include "multibody/detail/euler_step.hpp"
+
+#include "multibody/detail/vector6.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace grouser::multibody::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t kWidth = kLanes;
+
+constexpr Vector6 kStill{};
+
+/// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
+/// Newton's method within the iteration; below, the iteration itself converges.
+constexpr double kFastSpin = 0.3;
+
+GROUSER_KERNEL Vec3L axisForce(const LinkLanes& b, int a) { return b.rows.force[at(b.axisRow[at(a)])]; }
+GROUSER_KERNEL Vec3L axisTorque(const LinkLanes& b, int a) { return b.rows.torque[at(b.axisRow[at(a)])]; }
+
+/// Three and six consecutive numbers of each lane.
+GROUSER_KERNEL Vec3L gather3(const double* const (&row)[kLanes]) {
+  Vec3L v;
+#pragma GCC unroll 4
+  for (std::size_t l = 0; l < kWidth; ++l) v.x[l] = row[l][0], v.y[l] = row[l][1], v.z[l] = row[l][2];
+  return v;
+}
+GROUSER_KERNEL void gather6(const double* const (&row)[kLanes], Vec3L& first, Vec3L& second) {
+  Lanes low[4], high[4];
+  gather4(row, 0, low);
+  gather4(row, 2, high);
+  first = {low[0], low[1], low[2]}, second = {low[3], high[2], high[3]};
+}
+GROUSER_KERNEL void gatherNode(const std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
+                               Lanes (&out)[6]) {
+  const double* row[kLanes];
+  for (std::size_t l = 0; l < kWidth; ++l) row[l] = x[at(first + node[l])].data();
+  Lanes low[4], high[4];
+  gather4(row, 0, low);
+  gather4(row, 4, high);
+  out[0] = low[0], out[1] = low[1], out[2] = low[2], out[3] = low[3], out[4] = high[0], out[5] = high[1];
+}
+/// Idle lanes write what the first lane writes.
+GROUSER_KERNEL void scatterNode(std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
+                                const Lanes (&in)[6]) {
+  const Lanes low[4] = {in[0], in[1], in[2], in[3]}, high[4] = {in[4], in[5], all(0), all(0)};
+  Lanes lowRow[kLanes], highRow[kLanes];
+  transpose4(low, lowRow);
+  transpose4(high, highRow);
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    double* const to = x[at(first + node[l])].data();
+    store4(to, lowRow[l]);
+    store4(to + 4, highRow[l]);
+  }
+}
+
+GROUSER_KERNEL void gatherTwists(const State& state, const std::array<int, kLanes>& body, Vec3L& v, Vec3L& w) {
+  static_assert(sizeof(Twist) == 6 * sizeof(double));
+  const double* row[kLanes];
+  for (std::size_t l = 0; l < kWidth; ++l)
+    row[l] = at(body[l]) < state.twist.size() ? &state.twist[at(body[l])].v.x : kStill.data();
+  gather6(row, v, w);
+}
+
+GROUSER_KERNEL Lanes largestOf(const Lanes& largest, const Lanes& value) {
+  // Written so that what is not a number counts as the largest.
+  return value <= largest ? largest : value;
+}
+
+double largestLane(const Lanes& x) {
+  double largest = 0;
+  for (int l = 0; l < kLanes; ++l)
+    if (!(x[l] <= largest)) largest = x[l];
+  return largest;
+}
+
+double sumOf(const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
+
+/// Rate of an axis of B relative to A: of the child relative to its parent, times the side.
+GROUSER_KERNEL Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
+                              const Vec3L& parentW) {
+  const Vec3L& p = b.frames.p_B;
+  const Vec3L there = (v + cross(w, p - b.com)) - (parentV + cross(parentW, p - b.parentCom));
+  return b.side * (dot(axisForce(b, a), there) + dot(axisTorque(b, a), w - parentW));
+}
+
+} // namespace
+
+/// Momentum that is there and comes from outside, and the rates of the axes before the step.
+GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads, double dt) {
+  static_assert(sizeof(Wrench) == 6 * sizeof(double) && sizeof(Pose) == 7 * sizeof(double));
+  const Vec3L gravity = all(loads.gravity);
+  const Lanes h = all(dt);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    LinkStep& s = steps[i];
+    const Lanes(&I)[6] = system.inertiaOf(i);
+    const double* row[kLanes];
+    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &loads.external[at(b.body[l])].force.x;
+    Vec3L force, torque;
+    gather6(row, force, torque);
+    gatherTwists(state, b.body, s.v, s.w);
+    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.spinMomentum[at(b.body[l])].x;
+    const Vec3L spin = gather3(row);
+    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.pose[at(b.body[l])].position.x;
+    Lanes low[4], high[4];
+    gather4(row, 0, low);
+    gather4(row, 3, high);
+    s.position = {low[0], low[1], low[2]};
+    s.orientation = {high[0], high[1], high[2], high[3]};
+
+    s.v0 = s.v, s.w0 = s.w, s.force = force, s.torque = torque;
+    s.gyro = gyroscopicMomentum(I, s.w, dt);
+    const Vec3L f = h * (force + b.mass * gravity);
+    const Vec3L m = (spin - timesInertia(I, s.w)) - s.gyro + h * torque;
+    scatterNode(x, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
+    for (Lanes& lambda : s.impulse) lambda = all(0);
+  }
+
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    LinkStep& s = steps[i];
+    if (b.axes == 0) continue;
+    s.startCos = dot(b.frames.x_A, b.frames.x_B), s.startSin = dot(b.frames.y_A, b.frames.x_B);
+    Vec3L parentV, parentW;
+    gatherTwists(state, b.parent, parentV, parentW);
+    for (int a = 0; a < b.axes; ++a) {
+      s.oldRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
+      // The known force of a spring acts along its row.
+      for (int l = 0; l < b.count; ++l) {
+        const double known = laws[at(b.axis[at(a)][at(l)])].force;
+        if (known == 0) continue;
+        const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
+        const double impulse_B = b.side[l] * dt * known;
+        const Vec3d along = impulse_B * get(axisForce(b, a)), about = impulse_B * get(axisTorque(b, a));
+        const Vec3d p = get(b.frames.p_B);
+        add(x[at(b.node[at(l)])], along, cross(p - get(b.com), along) + about);
+        if (const int parent = b.parentNode[at(l)]; parent >= 0)
+          add(x[at(parent)], -along, -(cross(p - get(b.parentCom), along) + about));
+      }
+    }
+  }
+}
+
+/// The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
+void EulerStep::solveSpin(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
+  const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
+  const auto put = [l](Vec3L& v, const Vec3d& value) { v.x[l] = value.x, v.y[l] = value.y, v.z[l] = value.z; };
+  const double lower[6] = {inertia[0][l], inertia[1][l], inertia[2][l], inertia[3][l], inertia[4][l], inertia[5][l]};
+  const Mat3d I{{{lower[0], lower[1], lower[2]}, {lower[1], lower[3], lower[4]}, {lower[2], lower[4], lower[5]}}};
+  const Vec3d w = twistOfSpin(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
+  put(s.w, w);
+  put(s.gyro, gyroscopicMomentum(I, w, dt)); // solved: nothing is left for the next iterate
+}
+
+/// Takes the corrections into twists and impulses.
+GROUSER_LANES void EulerStep::correctLinks(double dt) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    LinkStep& s = steps[i];
+    Lanes d[6];
+    gatherNode(x, b.node, 0, d);
+    s.v += Vec3L{d[0], d[1], d[2]};
+    s.w += Vec3L{d[3], d[4], d[5]};
+    const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > kFastSpin;
+    if (__builtin_expect(anyOf(fast), 0))
+      for (int l = 0; l < kLanes; ++l)
+        if (fast[l] && !relinearised) solveSpin(system.inertiaOf(i), s, l, dt);
+    if (!b.joint) continue;
+    gatherNode(x, b.constraint, system.movableBodies(), d);
+    for (int r = 0; r < 6; ++r) s.impulse[r] += d[r];
+  }
+}
+
+/// The iterate body by body and joint by joint, for who needs it so.
+void EulerStep::unpackIterate() {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    const LinkStep& s = steps[i];
+    for (int l = 0; l < b.count; ++l) {
+      newTwist[at(b.body[at(l)])] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
+      if (!b.joint) continue;
+      for (std::size_t r = 0; r < 6; ++r) impulse[at(b.constraint[at(l)])][r] = s.impulse[r][l];
+    }
+  }
+}
+
+void EulerStep::packTwists() {
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      LinkStep& s = steps[i];
+      const Twist& V = newTwist[at(system.links()[i].body[l])];
+      s.v.x[l] = V.v.x, s.v.y[l] = V.v.y, s.v.z[l] = V.v.z;
+      s.w.x[l] = V.w.x, s.w.y[l] = V.w.y, s.w.z[l] = V.w.z;
+    }
+}
+
+GROUSER_LANES void EulerStep::moveLinks(double dt) {
+  const Lanes h = all(dt);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    LinkStep& s = steps[i];
+    s.trial.p = s.position + h * s.v;
+    s.newOrientation = turned(rotationBy(h * s.w), s.orientation);
+    s.trial.R = matrixOf(s.newOrientation);
+    const Mat3L& R = s.trial.R;
+    const Lanes c[3][4] = {{R.m[0][0], R.m[0][1], R.m[0][2], R.m[1][0]},
+                           {R.m[1][1], R.m[1][2], R.m[2][0], R.m[2][1]},
+                           {R.m[2][2], s.trial.p.x, s.trial.p.y, s.trial.p.z}};
+    for (int part = 0; part < 3; ++part) {
+      Lanes out[kLanes];
+      transpose4(c[part], out);
+      for (std::size_t l = 0; l < kWidth; ++l)
+        store4(reinterpret_cast<double*>(&trial[at(b.body[l])]) + 4 * part, out[l]);
+    }
+  }
+}
+
+/// Gaps of the joints as residuals; in the first iteration also what soft and driven axes ask for.
+GROUSER_LANES double EulerStep::setLinkGaps(double dt, bool first) {
+  Lanes largest = all(0);
+  const Lanes scale = all(-1 / dt);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    LinkStep& s = steps[i];
+    if (!b.joint) continue;
+    FrameL parent, A, B;
+    gatherFrames(trial, b.parent, parent);
+    b.sort(s.trial, parent, A, B);
+    placeFrames(b.places, A, B, s.joint);
+    Lanes error[6] = {};
+    jointError(b.kind, s.joint, error);
+    Lanes residual[6];
+    for (int r = 0; r < 6; ++r) {
+      largest = largestOf(largest, absolute(error[r]));
+      residual[r] = scale * error[r];
+    }
+    if (first)
+      for (int a = 0; a < b.axes; ++a) {
+        Lanes wanted;
+        for (std::size_t l = 0; l < kWidth; ++l) {
+          const AxisLaw& law = laws[at(b.axis[at(a)][l])];
+          wanted[l] = law.driven ? law.speed : 0;
+        }
+        residual[b.axisRow[at(a)]] = wanted - s.oldRate[a];
+      }
+    scatterNode(x, b.constraint, system.movableBodies(), residual);
+  }
+  return largestLane(largest);
+}
+
+GROUSER_LANES double EulerStep::setLinkGyro(double dt) {
+  Lanes largest = all(0);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    LinkStep& s = steps[i];
+    const Lanes(&I)[6] = system.inertiaOf(i);
+    const Vec3L g = gyroscopicMomentum(I, s.w, dt), residual = s.gyro - g;
+    s.gyro = g;
+    scatterNode(x, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
+    largest = largestOf(largest, all(3 * dt) / (I[0] + I[3] + I[5]) * squareRoot(norm2(residual)));
+  }
+  return largestLane(largest);
+}
+
+/// Work, momenta, readings and poses, once the impulses are known.
+GROUSER_LANES void EulerStep::finishLinks(State& state, const Loads& loads, double dt) {
+  const Vec3L gravity = all(loads.gravity);
+  const Lanes half = all(0.5 * dt), h = all(dt), perTime = all(1 / dt);
+  Lanes gravityWork = all(0), externalWork = all(0), driveWork = all(0), springWork = all(0), dissipated = all(0);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    const LinkStep& s = steps[i];
+    const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
+    gravityWork += b.real * (b.mass * dot(gravity, path));
+    externalWork += b.real * (dot(s.force, path) + dot(s.torque, turn));
+    const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
+    const LaneMask sound = (v2 - v2 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
+    for (int l = 0; l < b.count; ++l) {
+      const std::size_t body = at(b.body[at(l)]);
+      if (!sound[l])
+        checkTwist(model.bodies()[body], {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}}, state.time,
+                   dt);
+      state.spinMomentum[body] += Vec3d{dt * s.torque.x[l], dt * s.torque.y[l], dt * s.torque.z[l]};
+      state.twist[body] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
+      state.pose[body] = {{s.trial.p.x[l], s.trial.p.y[l], s.trial.p.z[l]},
+                          {s.newOrientation.w[l], s.newOrientation.x[l], s.newOrientation.y[l], s.newOrientation.z[l]}};
+    }
+  }
+
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const LinkLanes& b = system.links()[i];
+    const LinkStep& s = steps[i];
+    if (!b.joint) continue;
+    Lanes total[6], newRate[2];
+    for (int r = 0; r < 6; ++r) total[r] = s.impulse[r];
+    if (b.axes > 0) {
+      Vec3L parentV, parentW;
+      gatherTwists(state, b.parent, parentV, parentW);
+      for (int a = 0; a < b.axes; ++a) {
+        const int r = b.axisRow[at(a)];
+        newRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
+        const Lanes path = half * (s.oldRate[a] + newRate[a]);
+        const double* row[kLanes];
+        Lanes known[4], damping[4], driven;
+        for (std::size_t l = 0; l < kWidth; ++l) {
+          const AxisLaw& law = laws[at(b.axis[at(a)][l])];
+          row[l] = &law.force;
+          driven[l] = law.driven ? 1 : 0;
+        }
+        // Force, known, driveForce, softness; dampingPart and what follows it.
+        gather4(row, 0, known);
+        gather4(row, 3, damping);
+        total[r] += h * known[0];
+        const Lanes drive = driven > 0.0 ? s.impulse[r] * perTime : all(0);
+        driveWork += b.real * ((drive + known[2]) * path);
+        springWork += b.real * ((known[1] - (known[3] - damping[1]) * perTime * newRate[a]) * path);
+        dissipated += b.real * (damping[1] * perTime * newRate[a] * path);
+      }
+    }
+
+    Vec3L force{}, torque{};
+    for (std::size_t r = 0; r < 6; ++r) {
+      force += b.rows.force[r] * total[r];
+      torque += b.rows.torque[r] * total[r];
+    }
+    const Vec3L& p = b.frames.p_B;
+    const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
+    const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
+    for (int l = 0; l < b.count; ++l) {
+      state.spinMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
+      if (b.parentNode[at(l)] >= 0)
+        state.spinMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
+      const int k = b.constraint[at(l)];
+      JointReading& reading = state.joint[at(system.constraints()[at(k)].source)];
+      reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
+      reading.torque = Vec3d{torque.x[l], torque.y[l], torque.z[l]} * (1 / dt);
+    }
+    for (int a = 0; a < b.axes; ++a) readAxis(b, s, a, total[b.axisRow[at(a)]], newRate[a], state, dt);
+  }
+  state.ledger.gravityWork += sumOf(gravityWork);
+  state.ledger.externalWork += sumOf(externalWork);
+  state.ledger.driveWork += sumOf(driveWork);
+  state.ledger.springWork += sumOf(springWork);
+  state.ledger.dissipated += sumOf(dissipated);
+}
+
+/// Position, rate and forces of one axis of four joints.
+GROUSER_KERNEL void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total,
+                                        const Lanes& newRate, State& state, double dt) const {
+  const int r = b.axisRow[at(a)];
+  const bool slide = b.kind == ConstraintKind::kCylindrical && r == kSlideRow;
+  Lanes position;
+  if (slide || b.kind == ConstraintKind::kPrismatic) {
+    position = dot(s.joint.z_A, s.joint.p_B - s.joint.p_A);
+  } else {
+    // The increment of the angle, as in axisPositionAfter().
+    const Lanes &c0 = s.startCos, &s0 = s.startSin;
+    const Lanes c1 = dot(s.joint.x_A, s.joint.x_B), s1 = dot(s.joint.y_A, s.joint.x_B);
+    const Lanes sine = s1 * c0 - c1 * s0, cosine = c1 * c0 + s1 * s0;
+    position = angleIncrement(sine, cosine);
+    for (std::size_t l = 0; l < kWidth; ++l)
+      position[l] = state.joint[at(system.constraints()[at(b.constraint[l])].source)].position + position[l];
+  }
+  for (int l = 0; l < b.count; ++l) {
+    const AxisLaw& law = laws[at(b.axis[at(a)][at(l)])];
+    const auto read = [&](auto& axis) {
+      axis.position = position[l];
+      axis.rate = newRate[l];
+      axis.axisForce = total[l] / dt;
+      axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
+      axis.springForce = law.springKnown - law.springSoftness / dt * newRate[l];
+    };
+    const std::size_t source = at(system.constraints()[at(b.constraint[at(l)])].source);
+    if (slide)
+      read(state.slide[source]);
+    else
+      read(state.joint[source]);
+  }
+}
+
+} // namespace grouser::multibody::detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/detail/constraint.hpp"
+#include "multibody/detail/lanes.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+using FrameL = FrameOf<Lanes>;
+using JointFramesL = JointFramesOf<Lanes>;
+using RowDirectionsL = RowDirectionsOf<Lanes>;
+
+/// Four bodies with the joints by which they hang on their parents (elimination.hpp), all of one kind: what is constant
+/// of them, and the joints as the last linearisation found them. Idle lanes repeat the first.
+struct alignas(64) LinkLanes {
+  int count = 0;
+  bool joint = false; ///< free bodies have none
+  ConstraintKind kind = ConstraintKind::kFixed;
+  std::array<int, kLanes> node{}, constraint{}; ///< of body and joint
+  std::array<int, kLanes> body{}, parent{};     ///< the model's indices; the world is the last
+  std::array<int, kLanes> parentNode{};         ///< -1: immovable
+  int axes = 0;                                 ///< rows that springs, dampers and drives may use
+  std::array<int, 2> axisRow{};
+  std::array<std::array<int, kLanes>, 2> axis{}; ///< their indices
+  std::array<int, 2> freedom{};                  ///< their places among the joint's freedoms
+
+  Lanes real;               ///< 1, or 0 in idle lanes
+  Lanes side;               ///< 1 where the child is B, -1 where it is A
+  Lanes mass, inertia_B[6]; ///< by columns of the lower triangle
+  JointPlacesOf<Lanes> places;
+
+  JointFramesL frames;
+  RowDirectionsL rows;
+  Vec3L com, parentCom;
+
+  /// Frames of A and B of those of child and parent.
+  GROUSER_KERNEL void sort(const FrameL& child, const FrameL& other, FrameL& A, FrameL& B) const {
+    const auto isB = side > 0.0;
+    const auto pick = [&](const Lanes& c, const Lanes& o, Lanes& a, Lanes& b) { a = isB ? o : c, b = isB ? c : o; };
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+      for (int j = 0; j < 3; ++j) pick(child.R.m[i][j], other.R.m[i][j], A.R.m[i][j], B.R.m[i][j]);
+    pick(child.p.x, other.p.x, A.p.x, B.p.x);
+    pick(child.p.y, other.p.y, A.p.y, B.p.y);
+    pick(child.p.z, other.p.z, A.p.z, B.p.z);
+  }
+};
+
+/// Frames of four bodies, side by side.
+GROUSER_KERNEL void gatherFrames(const std::vector<Frame>& frames, const std::array<int, kLanes>& body, FrameL& out) {
+  static_assert(sizeof(Frame) == 12 * sizeof(double));
+  const double* row[kLanes];
+  for (std::size_t l = 0; l < kLanes; ++l)
+    row[l] = reinterpret_cast<const double*>(&frames[static_cast<std::size_t>(body[l])]);
+  Lanes a[4], b[4], c[4];
+  gather4(row, 0, a);
+  gather4(row, 4, b);
+  gather4(row, 8, c);
+  out.R = {{{a[0], a[1], a[2]}, {a[3], b[0], b[1]}, {b[2], b[3], c[0]}}};
+  out.p = {c[1], c[2], c[3]};
+}
+
+} // namespace grouser::multibody::detail
