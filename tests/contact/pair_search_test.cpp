@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../device_under_test.hpp"
 #include "base/random.hpp"
+#include "contact/detail/pair_kernels.cuh"
 #include "contact/pair_search.hpp"
 
 #include <gtest/gtest.h>
@@ -146,6 +147,9 @@ TEST(PairSearch, FarStraysCostNoMemoryAndHideNoPair) {
   spheres.push_back(base::fromUnits({kFar, kFar, kFar}));
   spheres.push_back(base::fromUnits({-kFar, -kFar, kFar}));
   spheres.push_back(base::fromUnits({kFar, kFar - 5, kFar}));
+  // These differ by 0 in their low words, and share the wide cells that the strays make.
+  spheres.push_back(base::fromUnits({12345, 0, 0}));
+  spheres.push_back(base::fromUnits({12345 + (std::int64_t{1} << 32), 0, 0}));
   EXPECT_EQ(sorted(search(spheres).pairs), bruteForce(spheres));
   const base::Exec exec = testExec();
   const base::Array<Position> onDevice(exec, spheres);
@@ -160,6 +164,21 @@ TEST(PairSearch, SecondSearchForgetsTheFirst) {
   const std::int64_t first = search.find(a.data(), many.size(), {}).count;
   EXPECT_EQ(search.find(b.data(), few.size(), {}).count, static_cast<std::int64_t>(bruteForce(few).size()));
   EXPECT_EQ(search.find(a.data(), many.size(), {}).count, first);
+}
+
+TEST(PairSearch, CellsAreExactAtTheirEdges) {
+  for (const std::int64_t edge :
+       {std::int64_t{1}, std::int64_t{3}, kDiameter, std::int64_t{1} << 28, std::int64_t{7} << 36}) {
+    const detail::Divider divide(edge);
+    const std::uint64_t e = static_cast<std::uint64_t>(edge), most = (std::uint64_t{1} << 42) - 1;
+    for (std::uint64_t k = 0; k < 2000; ++k) {
+      const std::uint64_t random = base::hash(1, base::purpose("test.divider"), k) & most;
+      for (const std::uint64_t u : {random, random / e * e, random / e * e + e - 1, most - k})
+        if (u <= most && u / e <= 0xFFFFFFFFu) {
+          ASSERT_EQ(divide(u), u / e) << u << " / " << e;
+        }
+    }
+  }
 }
 
 TEST(PairSearch, WrongSizesAreRefused) {
