@@ -21,7 +21,7 @@ struct GrainLoad {
 struct GrainLoadsView {
   const std::uint32_t* range{nullptr};
   const GrainLoad* load{nullptr};
-  base::FixedPoint force; ///< quantum of the forces [N]
+  base::FixedPoint force;          ///< quantum of the forces [N]
   std::int64_t* received{nullptr}; ///< sums of the forces that the grains have taken, x y z, since the start [quanta]
 };
 

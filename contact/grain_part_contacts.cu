@@ -4,6 +4,7 @@
 #include "base/algorithms.hpp"
 #include "base/error.hpp"
 #include "base/for_each_group.cuh"
+#include "contact/rolling_resistance.hpp"
 
 namespace grouser::contact {
 
@@ -68,6 +69,8 @@ struct CarryMemory {
   std::int64_t oldCount;
   const PatchMemory* old;
   PatchMemory* memory;
+  const Vec3f* oldAngle;
+  Vec3f* angle; ///< null without rolling friction
   GROUSER_HD void operator()(int e) const {
     std::int64_t low = 0, high = oldCount;
     while (low < high) {
@@ -78,8 +81,11 @@ struct CarryMemory {
         high = middle;
     }
     const bool found = low < oldCount && oldKey[low] == key[e];
-    for (int k = 0; k < kPatches; ++k)
-      memory[e * kPatches + k] = found ? old[static_cast<std::int64_t>(oldIndex[low]) * kPatches + k] : PatchMemory{};
+    for (int k = 0; k < kPatches; ++k) {
+      const std::int64_t from = found ? static_cast<std::int64_t>(oldIndex[low]) * kPatches + k : 0;
+      memory[e * kPatches + k] = found ? old[from] : PatchMemory{};
+      if (angle) angle[e * kPatches + k] = found ? oldAngle[from] : Vec3f{};
+    }
   }
 };
 
@@ -103,8 +109,10 @@ struct Patch {
   float overlap;
 };
 
-struct Compute {
+template <unsigned kFeatures> struct Compute {
   GrainPartModel model;
+  const BasicLaw<float>* laws;
+  const double* massPerCube;
   GrainPartContacts::GrainsView grains;
   const PartMotion* motion;
   const GrainPart* parts;
@@ -112,6 +120,7 @@ struct Compute {
   const std::uint64_t* key;
   const std::uint32_t* slot;
   PatchMemory* memory;
+  Vec3f* angle; ///< null without rolling friction
   GrainLoad* load;
   PartLoad* partLoad;
   std::int64_t* sums;
@@ -122,21 +131,28 @@ struct Compute {
     const PartMotion part = motion[p];
     const Vec3d x = model.scale.toMetres(grains.position[i]);
     const Vec3d c = part.toPart(x);
+    const Ball ball = ballOf(i);
     Patch patches[kPatches];
-    const int found = findPatches(grids[parts[p].surface], c, lanes, patches);
+    const int found = findPatches(grids[parts[p].surface], c, ball.radius, lanes, patches);
     if (lanes.lane != 0) return; // the rest is for one thread
     GrainLoad result{};
     PatchMemory fresh[kPatches] = {};
+    Vec3f freshAngle[kPatches] = {};
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
+    Vec3f* heldAngle = angle ? angle + static_cast<std::int64_t>(e) * kPatches : nullptr;
     unsigned used = 0;
     base::Vec3l torqueOnPart{};
     double elastic = 0;
     for (int k = 0; k < found; ++k) {
-      fresh[k] = {patches[k].normal, recall(held, patches[k].normal, used)};
-      apply(part, i, x, patches[k], fresh[k].shear, result, torqueOnPart);
-      elastic += storedEnergy(model.law, static_cast<double>(patches[k].overlap), fresh[k].shear);
+      const int former = recall(held, patches[k].normal, used);
+      fresh[k] = {patches[k].normal, former < 0 ? Vec3f{} : held[former].shear};
+      if (angle && former >= 0) freshAngle[k] = heldAngle[former];
+      apply(part, i, ball, x, patches[k], fresh[k].shear, freshAngle[k], result, torqueOnPart, elastic);
     }
-    for (int k = 0; k < kPatches; ++k) held[k] = fresh[k];
+    for (int k = 0; k < kPatches; ++k) {
+      held[k] = fresh[k];
+      if (angle) heldAngle[k] = freshAngle[k];
+    }
     load[e] = result;
     if (found == 0) return;
     addTo(partLoad[p].force, -result.force);
@@ -147,6 +163,17 @@ struct Compute {
   }
 
 private:
+  struct Ball {
+    double radius, mass;
+    int material;
+  };
+  GROUSER_HD Ball ballOf(int i) const {
+    if (!model.manyRadii) return {model.radius, model.mass, 0};
+    const int m = static_cast<int>(grains.spin[i].w);
+    const double r = static_cast<double>(grains.velocity[i].w);
+    return {r, massPerCube[m] * r * r * r, m};
+  }
+
   GROUSER_HD static void addTo(base::Vec3l& target, const base::Vec3l& value) {
     base::atomicAdd64(&target.x, value.x);
     base::atomicAdd64(&target.y, value.y);
@@ -154,11 +181,11 @@ private:
   }
 
   /// The deepest touch first, then the deepest that belongs to none of the patches so far.
-  template <class Lanes>
-  GROUSER_HD int findPatches(const SurfaceGridView& grid, const Vec3d& c, const Lanes& lanes, Patch* patches) const {
+  template <class Lanes> GROUSER_HD int findPatches(const SurfaceGridView& grid, const Vec3d& c, double ballRadius,
+                                                    const Lanes& lanes, Patch* patches) const {
     const std::int64_t cell = grid.cellAt(c);
     if (cell < 0) return 0;
-    const float radius = static_cast<float>(model.radius);
+    const float radius = static_cast<float>(ballRadius);
     const std::uint32_t first = grid.start[cell], last = grid.start[cell + 1];
     int found = 0;
     for (; found < kPatches; ++found) {
@@ -166,7 +193,7 @@ private:
       std::uint32_t at = last;
       for (std::uint32_t k = first + static_cast<std::uint32_t>(lanes.lane); k < last; k += Lanes::width) {
         const Disc& disc = grid.disc[grid.entry[k]];
-        if (outOfReach(disc, c, model.radius)) continue;
+        if (outOfReach(disc, c, ballRadius)) continue;
         const DiscDistance d = distanceTo(disc, c);
         const float overlap = radius + disc.radius - d.distance;
         if (overlap <= deepest) continue;
@@ -184,37 +211,53 @@ private:
     return found;
   }
 
-  /// The spring of the patch whose normal lay closest in the last step.
-  GROUSER_HD static Vec3f recall(const PatchMemory* held, const Vec3f& normal, unsigned& used) {
+  /// The patch whose normal lay closest in the last step; -1 where there is none.
+  GROUSER_HD static int recall(const PatchMemory* held, const Vec3f& normal, unsigned& used) {
     int best = -1;
     float alignment = kSamePatch;
     for (int k = 0; k < kPatches; ++k) {
       const float cosine = dot(held[k].normal, normal);
       if (!(used >> k & 1) && cosine > alignment) best = k, alignment = cosine;
     }
-    if (best < 0) return {};
-    used |= 1u << best;
-    return held[best].shear;
+    if (best >= 0) used |= 1u << best;
+    return best;
   }
 
   /// Force of one patch, in the part's frame as the history is, then quantised in the world.
-  GROUSER_HD void apply(const PartMotion& part, int i, const Vec3d& x, const Patch& patch, Vec3f& shear,
-                        GrainLoad& result, base::Vec3l& torqueOnPart) const {
-    const Vec3d outward = part.rotation * patch.normal.as<double>();
-    const Vec3d arm = outward * -(model.radius - static_cast<double>(patch.overlap));
+  GROUSER_HD void apply(const PartMotion& part, int i, const Ball& ball, const Vec3d& x, const Patch& patch,
+                        Vec3f& shear, Vec3f& rolled, GrainLoad& result, base::Vec3l& torqueOnPart,
+                        double& elastic) const {
+    const BasicLaw<float>& law = laws[ball.material];
+    const Vec3d outward = part.rotation * patch.normal.template as<double>();
+    const Vec3d arm = outward * -(ball.radius - static_cast<double>(patch.overlap));
     const Vec3d point = x + arm;
-    const Vec3d relative =
-        grains.velocity[i].xyz().as<double>() + cross(grains.spin[i].xyz().as<double>(), arm) - part.velocityAt(point);
-    const Touch touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).as<float>(),
-                      static_cast<float>(model.mass)};
-    const Reaction reaction = linearForce(model.law, touch, static_cast<float>(model.timeStep), shear);
-    const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.as<double>());
+    const Vec3d spin = grains.spin[i].xyz().template as<double>();
+    const Vec3d relative = grains.velocity[i].xyz().template as<double>() + cross(spin, arm) - part.velocityAt(point);
+    const float mass = static_cast<float>(ball.mass), radius = static_cast<float>(ball.radius);
+    const float dt = static_cast<float>(model.timeStep);
+    const Touch touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(), mass,
+                      radius};
+    const Reaction reaction = contactForce<kFeatures>(law, touch, dt, shear);
+    const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.template as<double>());
     const Vec3d force = model.force.value(quanta);
     result.force += quanta;
-    result.torque += cross(arm, force).as<float>();
+    result.torque += cross(arm, force).template as<float>();
     result.dissipated += reaction.dissipated;
+    elastic += storedEnergy(law, static_cast<double>(patch.overlap), ball.radius, shear);
     if (patch.overlap > result.deepest) result.deepest = patch.overlap;
     torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
+    if ((kFeatures & kGeneral) && law.rollingFriction > 0) {
+      const Vec3f rolling = transposedTimes(part.rotation, spin - part.spin).template as<float>();
+      const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
+      const Vec3f torque =
+          rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt, rolled, result.dissipated);
+      const float k = rollingStiffness(law, reaction.normalStiffness, radius);
+      elastic += 0.5 * static_cast<double>(k * dot(rolled, rolled));
+      // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.
+      const base::Vec3l turned = model.torque.quantise(part.rotation * torque.template as<double>());
+      result.torque += model.torque.value(turned).template as<float>();
+      torqueOnPart -= turned;
+    }
   }
 };
 
@@ -222,8 +265,16 @@ private:
 
 GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
                                      const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
-                                     const base::Comm& comm)
-    : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()) {
+                                     const base::Comm& comm, const GrainPartMaterials& materials)
+    : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()), rolling_(false), features_(0) {
+  std::vector<BasicLaw<float>> laws;
+  for (const ContactLaw& law : materials.laws) laws.push_back(law.as<float>());
+  if (laws.empty()) laws.push_back(model.law.as<float>());
+  for (const BasicLaw<float>& law : laws) features_ |= law.features();
+  rolling_ = (features_ & kRollingFriction) != 0;
+  laws_ = base::Array<BasicLaw<float>>(exec, laws);
+  massPerCube_ = base::Array<double>(exec, materials.massPerCube);
+  angle_ = base::Array<Vec3f>(exec), oldAngle_ = base::Array<Vec3f>(exec);
   std::vector<SurfaceGridView> views;
   for (const base::SphereSet* set : sets) {
     const double edge = set->spacing > 0.006 ? 0.75 * set->spacing : 0.0045;
@@ -252,6 +303,13 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   sums_ = base::Array<std::int64_t>(exec, 6);
 }
 
+/// What travels with a pair.
+std::vector<ExchangeField> GrainPartContacts::history() {
+  std::vector<ExchangeField> fields{{key_.data(), 2}, {memory_.data(), kPatches * sizeof(PatchMemory) / 4}};
+  if (rolling_) fields.push_back({angle_.data(), kPatches * sizeof(Vec3f) / 4});
+  return fields;
+}
+
 void GrainPartContacts::handOver(const std::uint32_t* destination) {
   if (!listed_) return; // what was restored is on all ranks
   if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_);
@@ -264,14 +322,12 @@ void GrainPartContacts::handOver(const std::uint32_t* destination) {
   base::forEach(exec_, "read destinations of pairs", static_cast<std::int64_t>(leaving.size()),
                 ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
   exchange_->route(ranks, leaving, leaving.size());
-  const auto fields = [&] {
-    return std::vector<ExchangeField>{{key_.data(), 2}, {memory_.data(), kPatches * sizeof(PatchMemory) / 4}};
-  };
-  exchange_->start(fields());
+  exchange_->start(history());
   key_.resizeKeeping(pairs_ + exchange_->coming());
   memory_.resizeKeeping(kPatches * key_.size());
+  if (rolling_) angle_.resizeKeeping(kPatches * key_.size());
   exchange_->putFrom(pairs_);
-  exchange_->finish(fields());
+  exchange_->finish(history());
   // Those that left are found by no grain of the next list.
   pairs_ += exchange_->coming();
   listed_ = false;
@@ -282,6 +338,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   const std::size_t oldPairs = pairs_;
   key_.swap(oldKey_);
   memory_.swap(oldMemory_);
+  angle_.swap(oldAngle_);
   oldIndex_.resize(oldPairs);
   base::iota(exec_, oldIndex_.data(), oldPairs);
   base::sortByKey(exec_, oldKey_.data(), oldIndex_.data(), oldPairs);
@@ -321,12 +378,13 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   key_.resize(pairs_);
   slot_.resize(pairs_);
   memory_.resize(pairs_ * kPatches);
+  if (rolling_) angle_.resize(pairs_ * kPatches);
   load_.resize(pairs_);
   list.key = key_.data(), list.slot = slot_.data();
   base::forEach(exec_, "list parts near grains", n, list);
   base::forEach(exec_, "carry patch history", static_cast<std::int64_t>(pairs_),
                 CarryMemory{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
-                            oldMemory_.data(), memory_.data()});
+                            oldMemory_.data(), memory_.data(), oldAngle_.data(), rolling_ ? angle_.data() : nullptr});
   listed_ = true;
 }
 
@@ -338,9 +396,18 @@ std::vector<std::int64_t> GrainPartContacts::allSums() const {
 
 void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
   base::setZero(exec_, sums_.data(), 2 * sizeof(std::int64_t));
-  base::forEachGroup<16>(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
-                         Compute{model_, grains, motion.data(), parts_.data(), gridViews_.data(), key_.data(),
-                                 slot_.data(), memory_.data(), load_.data(), loads, sums_.data()});
+  const auto run = [&]<unsigned kFeatures>() {
+    base::forEachGroup<16>(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
+                           Compute<kFeatures>{model_, laws_.data(), massPerCube_.data(), grains, motion.data(),
+                                              parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
+                                              memory_.data(), rolling_ ? angle_.data() : nullptr, load_.data(), loads,
+                                              sums_.data()});
+  };
+  // Most beds are linear with friction; all else takes the general functions.
+  if ((features_ & ~kFriction) == 0 && !model_.manyRadii)
+    run.template operator()<kFriction>();
+  else
+    run.template operator()<kGeneral>();
 }
 
 GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.data(), model_.force, sums_.data() + 3}; }
@@ -353,7 +420,7 @@ GrainPartContacts::Ledger GrainPartContacts::ledger() const {
 
 std::size_t GrainPartContacts::bytes() const {
   std::size_t total = range_.bytes() + count_.bytes() + slot_.bytes() + key_.bytes() + oldKey_.bytes() +
-                      memory_.bytes() + oldMemory_.bytes() + load_.bytes();
+                      memory_.bytes() + oldMemory_.bytes() + angle_.bytes() + oldAngle_.bytes() + load_.bytes();
   for (const SurfaceGrid& grid : grids_) total += grid.bytes();
   return total;
 }

@@ -3,9 +3,9 @@
 
 #include "base/comm.hpp"
 #include "base/position.hpp"
+#include "contact/contact_law.hpp"
 #include "contact/exchange.hpp"
 #include "contact/grain_loads.hpp"
-#include "contact/linear_law.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/saved_contacts.hpp"
@@ -31,14 +31,21 @@ struct GrainPart {
   base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]
 };
 
-/// Constants of the contacts between grains and parts.
+/// Constants of the contacts between grains and parts. Kernels take a copy. Forces are computed in single precision.
 struct GrainPartModel {
-  double radius{}, mass{}; ///< of a grain [m], [kg]
+  double radius{}, mass{}; ///< of a grain, of the largest where they differ [m], [kg]
   double timeStep{};       ///< [s]
   double margin{};         ///< parts may move this far relative to the grains before the pairs are looked for anew [m]
-  LinearLaw law;
+  ContactLaw law;
   base::PositionScale scale;
   base::FixedPoint force, torque, energy; ///< quanta of the sums
+  bool manyRadii{false};                  ///< each grain has its own radius in velocity.w and material in spin.w
+};
+
+/// Where grains differ: by material, their law against the parts (instead of the model's) and mass over radius^3.
+struct GrainPartMaterials {
+  std::vector<ContactLaw> laws;
+  std::vector<double> massPerCube; ///< [kg/m3]
 };
 
 /// Contacts of grains with rigid parts made of spheres.
@@ -52,7 +59,7 @@ public:
   /// `sets`: the unique sphere sets; `parts`: instances of them.
   GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
                     const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
-                    const base::Comm& comm = {});
+                    const base::Comm& comm = {}, const GrainPartMaterials& materials = {});
 
   struct GrainsView {
     const base::Position* position;
@@ -90,6 +97,7 @@ public:
 
 private:
   std::vector<std::int64_t> allSums() const;
+  std::vector<ExchangeField> history();
 
   base::Exec exec_;
   base::Comm comm_;
@@ -104,6 +112,12 @@ private:
   base::Array<std::uint32_t> range_, count_, slot_, oldIndex_;
   base::Array<std::uint64_t> key_, oldKey_;
   base::Array<PatchMemory> memory_, oldMemory_;
+  bool rolling_;
+  base::Array<base::Vec3f> angle_,
+      oldAngle_;                      ///< rolling angles [rad] beside the memories; empty without rolling friction
+  base::Array<BasicLaw<float>> laws_; ///< by material
+  base::Array<double> massPerCube_;
+  unsigned features_;
   base::Array<GrainLoad> load_;
   base::Array<std::int64_t> sums_; ///< of this step: contacts, elastic; since the start: dissipated, force x, y, z
 };

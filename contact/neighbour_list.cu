@@ -11,13 +11,13 @@
 namespace grouser::contact {
 
 using base::Position;
-using base::Vec3f;
 using base::Vec3i;
 using base::Vec3l;
 
 namespace {
 
-constexpr std::uint32_t kMaxCapacity = 64; // bits of the touching mask
+constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
+constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
 constexpr int kChunk = 512;
 
 using Cell = base::Vec3<std::uint32_t>;
@@ -103,6 +103,8 @@ struct Collect {
   std::uint32_t *count, *slot;
   std::int64_t grainStride, slotStride;
   const std::uint32_t* ghost; ///< null where all grains have rows
+  RadiiInW radii;
+  std::int64_t skin;
 
   GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
 
@@ -113,6 +115,7 @@ struct Collect {
     }
     const Position p = position[i];
     const Cell c = grid.local(p);
+    const std::int64_t own = radii.sphere ? radii.units(i) + skin : 0;
     const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
     std::uint32_t found = 0;
     for (std::uint32_t x = c.x == 0 ? 0 : c.x - 1; x <= c.x + 1 && x < grid.cells.x; ++x)
@@ -120,7 +123,8 @@ struct Collect {
         const std::uint32_t last = start[grid.key({x, y, z1}) + 1];
         for (std::uint32_t j = start[grid.key({x, y, z0})]; j < last; ++j) {
           if (static_cast<int>(j) == i || !near(p, position[j])) continue;
-          if (base::squaredNorm(base::difference(p, position[j])) >= reach2) continue;
+          const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
+          if (base::squaredNorm(base::difference(p, position[j])) >= (radii.sphere ? reach * reach : reach2)) continue;
           if (found < capacity) insert(i, found, j);
           ++found;
         }
@@ -147,30 +151,30 @@ struct Collect {
   }
 };
 
-/// Takes the tangential springs of pairs that stood in the old list too.
+/// Takes the history of pairs that stood in the old list too.
 struct CarryHistory {
   const std::uint32_t* order; ///< old row of each new slot, or RowOrigins
   const std::uint32_t* id;
   const std::uint32_t *count, *slot;
-  std::int64_t grainStride, slotStride;
-  Vec3f* shear;
+  std::int64_t grainStride, slotStride, maskWords;
+  int width; ///< numbers of history of a contact
+  float* history;
   std::uint64_t* touching;
   const std::uint32_t *oldCount, *oldSlot, *oldId;
-  const Vec3f* oldShear;
+  const float* oldHistory;
   const std::uint64_t* oldTouching;
-  std::int64_t oldGrainStride, oldSlotStride;
+  std::int64_t oldGrainStride, oldSlotStride, oldMaskWords;
   std::uint32_t former; ///< rows in the old list; later ones are in `arrived`
   TravellingRows arrived;
 
   GROUSER_HD void operator()(int i) const {
+    for (std::int64_t w = 0; w < maskWords; ++w) touching[i * maskWords + w] = 0;
     if (order[i] >= former) {
-      touching[i] = order[i] == RowOrigins::kNone || !arrived.data ? 0 : fromArrived(i, order[i] - former);
+      if (order[i] != RowOrigins::kNone && arrived.data) fromArrived(i, order[i] - former);
       return;
     }
     const std::int64_t o = order[i];
     const std::uint32_t oldN = oldCount[o], n = count[i];
-    const std::uint64_t oldMask = oldTouching[o];
-    std::uint64_t mask = 0;
     // Both lists ascend in the neighbours' ids: one merge.
     std::uint32_t m = 0;
     for (std::uint32_t k = 0; k < n; ++k) {
@@ -179,29 +183,28 @@ struct CarryHistory {
       while (m < oldN && oldId[oldSlot[o * oldGrainStride + m * oldSlotStride]] < wanted) ++m;
       if (m == oldN) break;
       const std::int64_t b = o * oldGrainStride + m * oldSlotStride;
-      if (oldId[oldSlot[b]] != wanted || !(oldMask >> m & 1)) continue;
-      mask |= std::uint64_t{1} << k;
-      if (shear) shear[a] = oldShear[b];
+      if (oldId[oldSlot[b]] != wanted || !(oldTouching[o * oldMaskWords + m / 64] >> (m & 63u) & 1)) continue;
+      take(i, k, a, oldHistory + b * width);
     }
-    touching[i] = mask;
   }
 
 private:
-  GROUSER_HD std::uint64_t fromArrived(int i, std::uint32_t row) const {
+  GROUSER_HD void take(int i, std::uint32_t k, std::int64_t a, const void* from) const {
+    touching[i * maskWords + k / 64] |= std::uint64_t{1} << (k & 63u);
+    if (width) memcpy(history + a * width, from, static_cast<std::size_t>(width) * sizeof(float));
+  }
+
+  GROUSER_HD void fromArrived(int i, std::uint32_t row) const {
     const std::uint32_t* data = arrived.data + static_cast<std::uint64_t>(row) * arrived.words();
     const std::uint32_t oldN = data[0], n = count[i];
-    std::uint64_t mask = 0;
     std::uint32_t m = 0;
     for (std::uint32_t k = 0; k < n; ++k) {
       const std::int64_t a = i * grainStride + k * slotStride;
       const std::uint32_t wanted = id[slot[a]];
       while (m < oldN && data[1 + m] < wanted) ++m;
       if (m == oldN) break;
-      if (data[1 + m] != wanted) continue;
-      mask |= std::uint64_t{1} << k;
-      if (shear) memcpy(static_cast<void*>(&shear[a]), data + 1 + arrived.capacity + 3 * m, sizeof(Vec3f));
+      if (data[1 + m] == wanted) take(i, k, a, data + 1 + arrived.capacity + arrived.width * m);
     }
-    return mask;
   }
 };
 
@@ -214,17 +217,22 @@ GROUSER_HD std::uint32_t bitsSet(std::uint64_t mask) {
 struct CountTouching {
   const std::uint32_t* slots;
   const std::uint64_t* touching;
+  std::int64_t maskWords;
   std::uint32_t* out;
   std::uint32_t rows; ///< slots from here on have no row yet
-  GROUSER_HD void operator()(int k) const { out[k] = slots[k] < rows ? bitsSet(touching[slots[k]]) : 0; }
+  GROUSER_HD void operator()(int k) const {
+    std::uint32_t bits = 0;
+    for (std::int64_t w = 0; slots[k] < rows && w < maskWords; ++w) bits += bitsSet(touching[slots[k] * maskWords + w]);
+    out[k] = bits;
+  }
 };
 
 struct ExportRow {
   const std::uint32_t* slots;
   const std::uint32_t *count, *slot, *id;
-  const Vec3f* shear;
+  const float* history;
   const std::uint64_t* touching;
-  std::int64_t grainStride, slotStride;
+  std::int64_t grainStride, slotStride, maskWords;
   TravellingRows rows;
   std::uint32_t rowCount;
   GROUSER_HD void operator()(int k) const {
@@ -232,10 +240,10 @@ struct ExportRow {
     std::uint32_t* out = rows.data + static_cast<std::uint64_t>(k) * rows.words();
     std::uint32_t n = 0;
     for (std::uint32_t m = 0; i < rowCount && m < count[i]; ++m) {
-      if (!(touching[i] >> m & 1)) continue;
+      if (!(touching[i * maskWords + m / 64] >> (m & 63u) & 1)) continue;
       const std::int64_t at = i * grainStride + m * slotStride;
       out[1 + n] = id[slot[at]];
-      if (shear) memcpy(out + 1 + rows.capacity + 3 * n, &shear[at], sizeof(Vec3f));
+      if (rows.width) memcpy(out + 1 + rows.capacity + rows.width * n, history + at * rows.width, rows.width * 4);
       ++n;
     }
     out[0] = n;
@@ -244,12 +252,12 @@ struct ExportRow {
 
 } // namespace
 
-NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, bool history)
-    : exec_(exec), diameter_(diameter), skin_(skin), history_(history) {
+NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width)
+    : exec_(exec), diameter_(diameter), skin_(skin), width_(width) {
   for (Lists* lists : {&now_, &old_}) {
     lists->count = base::Array<std::uint32_t>(exec);
     lists->slot = base::Array<std::uint32_t>(exec);
-    lists->shear = base::Array<Vec3f>(exec);
+    lists->history = base::Array<float>(exec);
     lists->touching = base::Array<std::uint64_t>(exec);
     lists->id = base::Array<std::uint32_t>(exec);
   }
@@ -286,15 +294,17 @@ void NeighbourList::allocate(Lists& lists, std::size_t count) const {
   const std::size_t entries = count * capacity_;
   lists.count.resize(count);
   lists.slot.resize(entries);
-  if (history_) lists.shear.resize(entries);
-  lists.touching.resize(count);
+  lists.history.resize(entries * static_cast<std::size_t>(width_));
+  lists.maskWords = (capacity_ + 63) / 64;
+  lists.touching.resize(count * static_cast<std::size_t>(lists.maskWords));
   lists.id.resize(count);
   // Grain by grain on the CPU (one cache line a list), slot by slot on the GPU (coalesced).
   lists.grainStride = exec_.onCpu() ? capacity_ : 1;
   lists.slotStride = exec_.onCpu() ? 1 : static_cast<std::int64_t>(count);
 }
 
-void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins) {
+void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
+                          const RadiiInW& radii) {
   const auto n = static_cast<std::int64_t>(count_);
   std::swap(now_, old_);
   for (;;) {
@@ -302,22 +312,39 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
     base::forEach(exec_, "collect neighbours", n,
                   Collect{Grid{low_, cells_, edge_}, position, id, cellStart_.data(),
                           (diameter_ + skin_) * (diameter_ + skin_), capacity_, now_.count.data(), now_.slot.data(),
-                          now_.grainStride, now_.slotStride, origins ? origins->ghost : nullptr});
+                          now_.grainStride, now_.slotStride, origins ? origins->ghost : nullptr, radii, skin_});
     const std::uint32_t most = base::maximum(exec_, now_.count.data(), count_);
     if (most <= capacity_) break;
-    if (most > kMaxCapacity)
+    const std::uint32_t limit = radii.sphere ? kMostOthers : kMostEqual;
+    if (most > limit)
       throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours within reach, more than " +
-                                  std::to_string(kMaxCapacity) + ": the bed has collapsed into itself; use a smaller " +
-                                  "time step or stiffer grains");
-    capacity_ = std::min(kMaxCapacity, (most + 3) / 4 * 4);
+                                  std::to_string(limit) + ": the bed has collapsed into itself" +
+                                  (radii.sphere ? ", or its radii are too unlike; use stiffer grains, a smaller time "
+                                                  "step, a smaller skin or larger small grains"
+                                                : "; use a smaller time step or stiffer grains"));
+    capacity_ = std::min(limit, (most + 3) / 4 * 4);
   }
   base::copyOnDevice(exec_, now_.id.data(), id, count_ * sizeof(std::uint32_t));
   if (haveOld_) {
     base::forEach(exec_, "carry contact history", n,
-                  CarryHistory{origins ? origins->origin : order_.data(), id, now_.count.data(), now_.slot.data(),
-                               now_.grainStride, now_.slotStride, history_ ? now_.shear.data() : nullptr,
-                               now_.touching.data(), old_.count.data(), old_.slot.data(), old_.id.data(),
-                               old_.shear.data(), old_.touching.data(), old_.grainStride, old_.slotStride,
+                  CarryHistory{origins ? origins->origin : order_.data(),
+                               id,
+                               now_.count.data(),
+                               now_.slot.data(),
+                               now_.grainStride,
+                               now_.slotStride,
+                               now_.maskWords,
+                               width_,
+                               now_.history.data(),
+                               now_.touching.data(),
+                               old_.count.data(),
+                               old_.slot.data(),
+                               old_.id.data(),
+                               old_.history.data(),
+                               old_.touching.data(),
+                               old_.grainStride,
+                               old_.slotStride,
+                               old_.maskWords,
                                static_cast<std::uint32_t>(old_.count.size()),
                                origins ? origins->arrived : TravellingRows{}});
   } else {
@@ -330,39 +357,38 @@ std::uint32_t NeighbourList::mostTouching(const std::uint32_t* slots, std::size_
   if (!haveOld_ || count == 0) return 0;
   base::Array<std::uint32_t> bits(exec_, count);
   base::forEach(exec_, "count neighbours in touch", static_cast<std::int64_t>(count),
-                CountTouching{slots, now_.touching.data(), bits.data(), rows()});
+                CountTouching{slots, now_.touching.data(), now_.maskWords, bits.data(), rows()});
   return base::maximum(exec_, bits.data(), count);
 }
 
 void NeighbourList::exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const {
   if (!haveOld_) return;
   base::forEach(exec_, "export rows", static_cast<std::int64_t>(count),
-                ExportRow{slots, now_.count.data(), now_.slot.data(), now_.id.data(),
-                          history_ ? now_.shear.data() : nullptr, now_.touching.data(), now_.grainStride,
-                          now_.slotStride, travelling, rows()});
+                ExportRow{slots, now_.count.data(), now_.slot.data(), now_.id.data(), now_.history.data(),
+                          now_.touching.data(), now_.grainStride, now_.slotStride, now_.maskWords, travelling, rows()});
 }
 
 NeighbourView NeighbourList::view() {
-  return {now_.count.data(),    now_.slot.data(), history_ ? now_.shear.data() : nullptr,
-          now_.touching.data(), now_.grainStride, now_.slotStride};
+  return {now_.count.data(), now_.slot.data(), now_.history.data(), now_.touching.data(),
+          now_.grainStride,  now_.slotStride,  now_.maskWords};
 }
 
 std::size_t NeighbourList::bytes() const {
   std::size_t total = order_.bytes() + key_.bytes() + cellStart_.bytes();
   for (const Lists* lists : {&now_, &old_})
-    total +=
-        lists->count.bytes() + lists->slot.bytes() + lists->shear.bytes() + lists->touching.bytes() + lists->id.bytes();
+    total += lists->count.bytes() + lists->slot.bytes() + lists->history.bytes() + lists->touching.bytes() +
+             lists->id.bytes();
   return total;
 }
 
 NeighbourList::HostCopy NeighbourList::toHost() const {
-  return {now_.count.toHost(),    now_.slot.toHost(), now_.shear.toHost(),
-          now_.touching.toHost(), now_.grainStride,   now_.slotStride};
+  return {now_.count.toHost(), now_.slot.toHost(), now_.history.toHost(), now_.touching.toHost(),
+          now_.grainStride,    now_.slotStride,    now_.maskWords};
 }
 
 void NeighbourList::setHistory(const HostCopy& copy) {
   now_.touching.assign(copy.touching);
-  if (history_) now_.shear.assign(copy.shear);
+  if (width_) now_.history.assign(copy.history);
 }
 
 } // namespace grouser::contact

@@ -9,25 +9,33 @@
 namespace grouser::contact {
 
 /// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
-/// ids, each with the tangential spring of that contact. Bit k of `touching[i]` says that slot k touched in the last
-/// step.
+/// ids, each with the history of that contact: `width` numbers. Bit k of the mask at touching[i * maskWords] says that
+/// slot k touched in the last step.
 struct NeighbourView {
   const std::uint32_t* count;
   const std::uint32_t* slot;
-  base::Vec3f* shear; ///< null where the scene has no friction
+  float* history; ///< null where contacts have none
   std::uint64_t* touching;
   std::int64_t grainStride, slotStride;
+  std::int64_t maskWords; ///< 1 among equal spheres
 
   GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
 };
 
 /// Rows that came from other ranks with grains that were handed over: for each row `words(capacity)` words, namely the
-/// number of neighbours in touch, `capacity` ids of those (ascending), and `capacity` springs where there is history.
+/// number of neighbours in touch, `capacity` ids of those (ascending), and `capacity` histories of `width` numbers.
 struct TravellingRows {
   std::uint32_t* data;
   std::uint32_t capacity;
-  bool history;
-  GROUSER_HD std::uint32_t words() const { return 1 + capacity * (history ? 4 : 1); }
+  std::uint32_t width;
+  GROUSER_HD std::uint32_t words() const { return 1 + capacity * (1 + width); }
+};
+
+/// Radii of spheres that are not all alike: by slot, in `w` [m], each a whole number of units of length.
+struct RadiiInW {
+  const base::Vec4f* sphere = nullptr; ///< null: all have the list's diameter
+  float unitsPerLength = 0;            ///< a power of two
+  GROUSER_HD std::int64_t units(int i) const { return static_cast<std::int64_t>(sphere[i].w * unitsPerLength); }
 };
 
 /// Where the rows of a list on one of several ranks come from.
@@ -38,15 +46,16 @@ struct RowOrigins {
   TravellingRows arrived;
 };
 
-/// Every pair of equal spheres closer than diameter + skin, listed from both sides, with contact history.
+/// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history.
 ///
 /// Valid while no grain has moved more than half the skin. Lists grow when they are full and never drop a neighbour.
 /// Grains are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not depend on when
 /// the list is rebuilt: candidates that do not touch add nothing, and the order is that of the ids.
 class NeighbourList {
 public:
-  /// `diameter` and `skin` in units of the scene's position scale; `history` allocates tangential springs.
-  NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, bool history);
+  /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: numbers of history
+  /// that each contact has, 0 for none.
+  NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width);
 
   /// Sorts `count` grains in space. Afterwards `order()[i]` is the old slot of the grain that belongs in slot i.
   void sort(const base::Position* position, std::size_t count);
@@ -54,9 +63,9 @@ public:
 
   /// Lists the neighbours of grains already permuted by `order()`, and carries history over from the last list.
   /// `id` is ascending-comparable global id by new slot.
-  void build(const base::Position* position, const std::uint32_t* id) { build(position, id, nullptr); }
-  /// The same on one of several ranks.
-  void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins);
+  /// `origins`: on one of several ranks, else null; `radii`: of spheres of several sizes.
+  void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins = nullptr,
+             const RadiiInW& radii = {});
 
   /// Neighbours in touch, at most, of the grains in `slots` (device array).
   std::uint32_t mostTouching(const std::uint32_t* slots, std::size_t count) const;
@@ -75,30 +84,33 @@ public:
   /// Contacts with history, for checkpoints and the state hash: arrays by slot, host side.
   struct HostCopy {
     std::vector<std::uint32_t> count, slot;
-    std::vector<base::Vec3f> shear;
+    std::vector<float> history; ///< [slot][width]; empty where contacts have none
     std::vector<std::uint64_t> touching;
-    std::int64_t grainStride{}, slotStride{};
+    std::int64_t grainStride{}, slotStride{}, maskWords{};
+    bool touched(std::size_t i, std::uint32_t k) const {
+      return touching[i * static_cast<std::size_t>(maskWords) + k / 64] >> (k & 63u) & 1;
+    }
     std::int64_t at(std::size_t i, std::uint32_t k) const {
       return static_cast<std::int64_t>(i) * grainStride + k * slotStride;
     }
   };
   HostCopy toHost() const;
-  /// Takes over touching bits and springs of a host copy of the present list.
+  /// Takes over touching bits and history of a host copy of the present list.
   void setHistory(const HostCopy& copy);
 
 private:
   struct Lists {
     base::Array<std::uint32_t> count, slot;
-    base::Array<base::Vec3f> shear;
+    base::Array<float> history;
     base::Array<std::uint64_t> touching;
     base::Array<std::uint32_t> id; ///< by slot, as at the build
-    std::int64_t grainStride{}, slotStride{};
+    std::int64_t grainStride{}, slotStride{}, maskWords{};
   };
   void allocate(Lists& lists, std::size_t count) const;
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
-  bool history_;
+  int width_;
   std::uint32_t capacity_{16};
   std::size_t count_{0};
   bool haveOld_{false};

@@ -21,6 +21,42 @@ double clampedDuration(double zeta) {
   return base::log((zeta + s) / (zeta - s)) / s;
 }
 
+/// Argument at which `restitutionAt`, which falls steadily, is `restitution`; to the given accuracy or to the last bit.
+template <class F> double ratioFor(double restitution, const F& restitutionAt, double accuracy) {
+  double low = 0, high = 1;
+  while (restitutionAt(high) > restitution) high *= 2;
+  for (int i = 0; i < 200 && high - low > accuracy; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (restitutionAt(middle) > restitution ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// One clamped Hertz impact at unit speed, in units where x'' = -x^(3/2) - c x^(1/4) x'.
+double clampedHertzRestitution(double beta) {
+  const double c = 2 * beta * std::sqrt(1.5);
+  const auto acceleration = [c](double x, double v) {
+    const double root = std::sqrt(x > 0 ? x : 0);
+    const double force = x * root + c * std::sqrt(root) * v;
+    return force > 0 ? -force : 0.0;
+  };
+  constexpr double kStep = 3.2 / 4000;
+  double x = 0, v = 1;
+  for (int i = 0; i < 1000000; ++i) {
+    // Runge and Kutta, order 4.
+    const double h = kStep;
+    const double a1 = acceleration(x, v), v2 = v + 0.5 * h * a1;
+    const double a2 = acceleration(x + 0.5 * h * v, v2), v3 = v + 0.5 * h * a2;
+    const double a3 = acceleration(x + 0.5 * h * v2, v3), v4 = v + h * a3;
+    const double a4 = acceleration(x + h * v3, v4);
+    x += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
+    v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    if (v < 0 && (x <= 0 || acceleration(x, v) == 0)) return -v;
+  }
+  return 0; // creeps back: c is huge
+}
+
 } // namespace
 
 double contactDuration(double omega0, double zeta, bool attraction) {
@@ -40,17 +76,32 @@ double dampingRatioFor(double restitution, bool attraction) {
     const double l = -base::log(restitution);
     return l / std::sqrt(base::kPi * base::kPi + l * l);
   }
-  // e falls steadily with zeta: bisect.
-  double low = 0, high = 1;
-  while (restitutionOf(high, false) > restitution) high *= 2;
-  for (int i = 0; i < 200 && low < high; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (restitutionOf(middle, false) > restitution ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return ratioFor(
+      restitution, [](double zeta) { return restitutionOf(zeta, false); }, 0);
 }
 
 double stableStep(double omega0, double zeta) { return 2 * (std::sqrt(1 + zeta * zeta) - zeta) / omega0; }
+
+double hertzRestitutionOf(double beta, bool attraction) {
+  if (attraction) return restitutionOf(beta * std::sqrt(1.2), true);
+  return beta <= 0 ? 1 : clampedHertzRestitution(beta);
+}
+
+double hertzDampingRatioFor(double restitution, bool attraction) {
+  if (restitution >= 1) return 0;
+  if (attraction) return std::sqrt(5.0 / 6) * dampingRatioFor(restitution, true);
+  return ratioFor(restitution, clampedHertzRestitution, 1e-7);
+}
+
+HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double effectiveMass, double speed) {
+  // Johnson 1985, Contact Mechanics, eq. 11.23 and 11.24; 4 sqrt(pi) / 5 Gamma(2/5) / Gamma(9/10) = 2.943275...
+  const double deepest =
+      base::pow(15 * effectiveMass * speed * speed / (16 * effectiveModulus * std::sqrt(effectiveRadius)), 0.4);
+  return {deepest, 2.9432751844 * deepest / speed};
+}
+
+double rayleighTime(double radius, double density, double shearModulus, double poisson) {
+  return base::kPi * radius * std::sqrt(density / shearModulus) / (0.1631 * poisson + 0.8766);
+}
 
 } // namespace grouser::contact

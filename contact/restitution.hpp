@@ -18,4 +18,22 @@ double contactDuration(double omega0, double zeta, bool attraction);
 /// current velocity: omega_0 dt < 2 (sqrt(1 + zeta^2) - zeta).
 double stableStep(double omega0, double zeta);
 
+/// Coefficient of restitution [-] of the Hertz law with the dashpot c_n = 2 beta sqrt(k_n m_eff), k_n = 2 E_eff a; at
+/// any speed. With attraction e follows from beta / sqrt(5/6) as in the linear law (Antypov and Elliott 2011, EPL
+/// 94:50004). Without, it is the equation of motion that decides: integrated here to 1e-6. (Thornton, Cummins and
+/// Cleary 2013, Powder Technol. 233:30, fit it by a polynomial that is up to 0.008 off near e = 1.)
+double hertzRestitutionOf(double beta, bool attraction);
+
+/// beta that gives `restitution`, in (0, 1]. Inverse of `hertzRestitutionOf`.
+double hertzDampingRatioFor(double restitution, bool attraction);
+
+/// An elastic Hertz impact at `speed` [m/s]: deepest overlap [m] and duration [s].
+struct HertzImpact {
+  double deepest, duration;
+};
+HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double effectiveMass, double speed);
+
+/// Time a Rayleigh wave takes along half the surface of a sphere [s].
+double rayleighTime(double radius, double density, double shearModulus, double poisson);
+
 } // namespace grouser::contact

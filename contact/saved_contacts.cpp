@@ -45,35 +45,45 @@ SavedGrainPatches GrainPartContacts::save() const {
   key.resize(pairs_);
   std::vector<PatchMemory> memory = memory_.toHost();
   memory.resize(pairs_ * kPatches);
+  std::vector<base::Vec3f> angle = angle_.toHost();
+  if (rolling_) angle.resize(pairs_ * kPatches);
   if (listed_ && !comm_.alone()) {
     // Each rank has the pairs of its own grains; what was only restored is on all of them.
     const auto keys = comm_.gatherAll(key);
     const auto memories = comm_.gatherAll(memory);
-    key.clear(), memory.clear();
+    const auto angles = comm_.gatherAll(angle);
+    key.clear(), memory.clear(), angle.clear();
     for (std::size_t r = 0; r < keys.size(); ++r) {
       key.insert(key.end(), keys[r].begin(), keys[r].end());
       memory.insert(memory.end(), memories[r].begin(), memories[r].end());
+      angle.insert(angle.end(), angles[r].begin(), angles[r].end());
     }
   }
   std::vector<std::uint32_t> order(key.size()), words;
+  std::vector<float> angles;
   for (std::size_t e = 0; e < key.size(); ++e) order[e] = static_cast<std::uint32_t>(e);
   base::sortByKey(base::cpuExec(1), key.data(), order.data(), key.size());
   for (std::size_t k = 0; k < key.size(); ++k)
     for (int q = 0; q < kPatches; ++q) {
-      const PatchMemory& m = memory[static_cast<std::size_t>(order[k]) * kPatches + static_cast<std::size_t>(q)];
+      const std::size_t at = static_cast<std::size_t>(order[k]) * kPatches + static_cast<std::size_t>(q);
+      const PatchMemory& m = memory[at];
       if (norm2(m.normal) == 0) continue;
       std::uint32_t raw[kWords];
       std::memcpy(raw, &key[k], 8);
       std::memcpy(raw + 2, &m, sizeof m);
       words.insert(words.end(), raw, raw + kWords);
+      if (rolling_) angles.insert(angles.end(), {angle[at].x, angle[at].y, angle[at].z});
     }
-  return {words, allSums()};
+  return {words, angles, allSums()};
 }
 
 void GrainPartContacts::restore(const SavedGrainPatches& saved) {
-  if (saved.sums.size() != sums_.size() || saved.memories.size() % kWords != 0) refuse();
+  if (saved.sums.size() != sums_.size() || saved.memories.size() % kWords != 0 ||
+      saved.angles.size() != (rolling_ ? saved.memories.size() / kWords * 3 : 0))
+    refuse();
   std::vector<std::uint64_t> keys;
   std::vector<PatchMemory> memories;
+  std::vector<base::Vec3f> angles;
   std::size_t place = 0;
   for (std::size_t w = 0; w < saved.memories.size(); w += kWords) {
     std::uint64_t key;
@@ -81,18 +91,24 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
     if (keys.empty() || keys.back() != key) {
       keys.push_back(key);
       memories.resize(keys.size() * kPatches);
+      if (rolling_) angles.resize(memories.size());
       place = 0;
     }
     if ((key & 0xFFFFu) >= partCount_ || place == kPatches) refuse();
     float f[6];
     std::memcpy(f, &saved.memories[w + 2], sizeof f);
-    memories[(keys.size() - 1) * kPatches + place++] = {{f[0], f[1], f[2]}, {f[3], f[4], f[5]}};
+    const std::size_t at = (keys.size() - 1) * kPatches + place++;
+    memories[at] = {{f[0], f[1], f[2]}, {f[3], f[4], f[5]}};
+    if (!rolling_) continue;
+    const float* a = saved.angles.data() + w / kWords * 3;
+    angles[at] = {a[0], a[1], a[2]};
   }
   // A list of just the pairs in touch: the next refresh takes the history from it, as from any former list.
   pairs_ = keys.size();
   listed_ = false;
   key_.assign(keys);
   memory_.assign(memories);
+  angle_.assign(angles);
   sums_.assign(comm_.first() ? saved.sums : std::vector<std::int64_t>(saved.sums.size()));
 }
 

@@ -21,8 +21,9 @@ struct SavedPatches {
 /// Contacts of grains with parts.
 struct SavedGrainPatches {
   /// Eight words a patch in touch: key (grain id << 16 | part), low word first; PatchMemory. By ascending key, patches
-  /// of one key in their order. The hash takes just these.
+  /// of one key in their order. The hash takes these and the angles.
   std::vector<std::uint32_t> memories;
+  std::vector<float> angles;      ///< [patches][3] rolling angle of each [rad]; empty without rolling friction
   std::vector<std::int64_t> sums; ///< of the last step and since the start, as GrainPartContacts keeps them
 };
 

@@ -51,17 +51,17 @@ void addPlanes(const Scene& scene, const std::string& material, double mass, ter
 
 /// Throws before any memory is taken when the bed cannot fit into this machine.
 void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
-  constexpr double kBytes = 900;
+  constexpr double kBytesPerGrain = 900;
   const Terrain& t = *scene.terrain;
   const double spacing = options.spacingInRadii * options.radius;
   const double layers = options.layers > 0 ? options.layers : std::max(1.0, options.depth / spacing);
   const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (grains * kBytes > memory || grains > 4e9)
+  if (grains * kBytesPerGrain > memory || grains > 4e9)
     throw base::InputError(fmt::format(
         "{}: terrain.grain_radius = {:g} [m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} "
         "GiB: use larger grains, fewer layers or a smaller terrain.size",
-        scene.file.string(), options.radius, grains, grains * kBytes / 1073741824.0, memory / 1073741824.0));
+        scene.file.string(), options.radius, grains, grains * kBytesPerGrain / 1073741824.0, memory / 1073741824.0));
 }
 
 terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {
@@ -81,7 +81,7 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
   const terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
   const terrain::GrainModel bare = grainModel(scene, t.material, options.radius, timeStep);
   const std::string& groundMaterial = t.groundMaterial.empty() ? t.material : t.groundMaterial;
-  const contact::LinearLaw wallLaw = pairLaw(scene, t.material, groundMaterial, bare.mass);
+  const contact::ContactLaw wallLaw = pairLaw(scene, t.material, groundMaterial, bare.mass);
   terrain::GrainModel model = bare;
   model.floorLaw = wallLaw;
 
@@ -183,7 +183,7 @@ struct StepLimit {
     if (limit < step) step = limit, what = name;
   }
   /// A grain of `mass` in `count` contacts of one law at once; tangential springs act on 7/2 of the inverse mass.
-  void considerGrain(const contact::LinearLaw& law, double mass, double count, const std::string& name) {
+  void considerGrain(const contact::ContactLaw& law, double mass, double count, const std::string& name) {
     const double normal = count * law.stiffness / mass;
     const double tangential = law.friction > 0 ? 3.5 * 0.5 * count * law.tangentialStiffness / mass : 0;
     const double omega2 = std::max(normal, tangential);

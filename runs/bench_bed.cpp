@@ -85,7 +85,7 @@ std::vector<terrain::GrainStart> lattice(const BedBench& b) {
 
 terrain::Boundaries box(const BedBench& b, const terrain::GrainModel& model) {
   const double edge = static_cast<double>(sideOf(b.grains)) * kSpacing * b.radius;
-  contact::LinearLaw law = model.law;
+  contact::ContactLaw law = model.law;
   // Against a wall the whole grain swings: the same restitution is less damping.
   law.damping /= std::sqrt(2.0f), law.tangentialDamping /= std::sqrt(2.0f);
   return {{{{0, 0, 1}, 0, law},

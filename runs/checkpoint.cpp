@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-constexpr int kVersion = 2; // of the layout below
+constexpr int kVersion = 3; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -56,13 +56,17 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive.perGrain("/grains/velocity", g.velocity, g.total);
     archive.perGrain("/grains/spin", g.spin, g.total);
     archive.perGrain("/grains/remainders", g.remainders, g.total);
+    archive.perGrain("/grains/radius", g.radius, g.total);
+    archive.perGrain("/grains/material", g.material, g.total);
     archive.perGrain("/grains/dissipated", g.dissipated, g.total);
     archive.perGrain("/grains/wall_bits", g.wallBits, g.total);
     archive.perGrain("/grains/wall_shear", g.wallShear, g.total);
+    archive.perGrain("/grains/wall_rolling", g.wallRolling, g.total);
     archive.perGrain("/grains/contacts", g.contacts, g.total);
     archive.perGrain("/grains/travelled", g.travelled, g.total);
     archive.perContact("/grains/neighbour", g.neighbour, g.contacts);
     archive.perContact("/grains/contact_shear", g.contactShear, g.contacts);
+    archive.perContact("/grains/contact_rolling", g.contactRolling, g.contacts);
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
   }
@@ -75,6 +79,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/ground/states", v.ground.states);
     archive("/vehicle/ground/sums", v.ground.sums);
     archive("/vehicle/bed/memories", v.bed.memories);
+    archive("/vehicle/bed/angles", v.bed.angles);
     archive("/vehicle/bed/sums", v.bed.sums);
     archive("/vehicle/ground_forces", v.groundForces);
     archive("/vehicle/mean_steps", v.meanSteps);

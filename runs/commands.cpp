@@ -113,9 +113,7 @@ void sinkageCommand(const SinkageCommand& command) {
 }
 
 void planCommand(const PlanCommand& command) {
-  const Scene scene = loadScene(command.scene, command.overrides);
-  fmt::print("{}", planText(scene));
-  if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
+  fmt::print("{}", planText(loadScene(command.scene, command.overrides)));
 }
 
 void spheresCommand(const SpheresCommand& command) {

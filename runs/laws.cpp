@@ -24,7 +24,7 @@ double sphereMass(double density, double radius) {
   return density * (4.0 / 3.0) * base::kPi * radius * radius * radius;
 }
 
-contact::LinearLaw pairLaw(const Scene& scene, const std::string& a, const std::string& b, double effectiveMass) {
+contact::ContactLaw pairLaw(const Scene& scene, const std::string& a, const std::string& b, double effectiveMass) {
   const Material &ma = scene.material(a), &mb = scene.material(b);
   const ContactPair* pair = scene.contact(a, b);
   double stiffness = a == b ? ma.stiffness : 2 * ma.stiffness * mb.stiffness / (ma.stiffness + mb.stiffness);
@@ -39,7 +39,7 @@ contact::LinearLaw pairLaw(const Scene& scene, const std::string& a, const std::
   if (pair && (pair->restitution || pair->damping))
     damping = dampingOf(pair->restitution, pair->damping, attraction, omega0);
 
-  contact::LinearLaw law;
+  contact::ContactLaw law;
   law.stiffness = static_cast<float>(stiffness);
   law.damping = static_cast<float>(damping);
   law.tangentialStiffness =

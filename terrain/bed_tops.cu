@@ -41,8 +41,9 @@ struct OfGrains {
   const base::Position* position;
   base::PositionScale scale;
   double grainRadius;
+  const Vec4f* radiusInW; ///< null where all have grainRadius
   GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
-  GROUSER_HD double radius(int) const { return grainRadius; }
+  GROUSER_HD double radius(int g) const { return radiusInW ? static_cast<double>(radiusInW[g].w) : grainRadius; }
 };
 
 template <class Source> struct RaiseTops {
@@ -77,7 +78,8 @@ std::vector<double> heights(const std::vector<std::uint64_t>& words) {
 
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach) {
   // Slaves are true copies: they change no maximum.
-  const OfGrains source{grains.positions(), grains.scale(), grains.model().radius};
+  const OfGrains source{grains.positions(), grains.scale(), grains.model().radius,
+                        grains.manyRadii() ? grains.velocities() : nullptr};
   std::vector<std::uint64_t> words = raise(exec, source, grains.slots(), grid, reach);
   grains.comm().minimum(words.data(), words.size());
   return heights(words);

@@ -52,7 +52,8 @@ template <class Each> void Grains::forOwnArrays(const Each& each) {
   each(remainders_, 1), each(id_, 1);
   if (!dissipated_.empty() || model_.ledger) each(dissipated_, 1);
   if (boundaryCount_ > 0) each(wallTouching_, 1);
-  if (boundaryCount_ > 0 && frictional_) each(wallShear_, static_cast<std::uint32_t>(boundaryCount_));
+  if (boundaryCount_ > 0 && historyWidth_ > 0)
+    each(wallHistory_, static_cast<std::uint32_t>(boundaryCount_ * historyWidth_));
 }
 
 /// Every grain goes to the rank that its centre lies with, and ghosts are made of those near the borders. Afterwards
@@ -67,7 +68,7 @@ void Grains::shareOut() {
   // The rows of the neighbour list travel with their grains, as ids and springs.
   Exchange& exchange = subdomain.handOver();
   const std::size_t kept = subdomain.kept().size(), owned = kept + exchange.coming();
-  contact::TravellingRows rows{nullptr, 0, frictional_};
+  contact::TravellingRows rows{nullptr, 0, static_cast<std::uint32_t>(historyWidth_)};
   rows.capacity = static_cast<std::uint32_t>(
       subdomain.comm().maximumOf(neighbours_.mostTouching(exchange.leavingSlots(), exchange.leaving())));
   base::Array<std::uint32_t> leavingRows(exec_, exchange.leaving() * rows.words());

@@ -3,35 +3,65 @@
 
 #include "base/fixed_point.hpp"
 #include "base/position.hpp"
-#include "contact/linear_law.hpp"
+#include "contact/contact_law.hpp"
 #include "terrain/height_field.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace grouser::terrain {
 
+/// What a scene of grains may have beyond the features of contact laws; a template parameter of its kernels.
+inline constexpr unsigned kManyRadii = contact::kManyMasses; ///< each grain its own radius, in velocity.w, and mass
+inline constexpr unsigned kManyMaterials = 1u << 8; ///< each grain its own material, in spin.w; implies kManyRadii
+inline constexpr unsigned kBoundaries = 1u << 9;    ///< walls or floor
+inline constexpr unsigned kLoads = 1u << 10;        ///< loads from rigid parts
+inline constexpr unsigned kLedger = 1u << 11;       ///< dissipation is summed
+
 /// A rigid plane that fills the half-space behind its normal.
 struct Wall {
-  base::Vec3d normal;     ///< unit, towards the grains
-  double offset{};        ///< normal . x = offset on the plane [m]
-  contact::LinearLaw law; ///< between grain and plane
+  base::Vec3d normal;      ///< unit, towards the grains
+  double offset{};         ///< normal . x = offset on the plane [m]
+  contact::ContactLaw law; ///< between grain and plane
 };
 
-/// Constants of a bed of equal spheres. Kernels take a copy.
+/// What grains of several materials need beyond a GrainModel; empty where all are of one.
+struct GrainMaterials {
+  std::vector<double> density;                 ///< [materials] [kg/m3]
+  std::vector<contact::ContactLaw> grains;     ///< [materials][materials], symmetric
+  std::vector<contact::ContactLaw> boundaries; ///< [walls and floor][materials], the floor last
+
+  std::size_t count() const { return density.size(); }
+};
+
+/// In what the forces are computed. Both promise the same bits on every device, for any number of threads and ranks.
+/// The state is the same for both: positions in whole units of about 1e-8 of a diameter, velocities and spins as
+/// float plus remainder, springs of contacts as float. In double nothing more is rounded to float between the state and
+/// its change: laws, normals, overlaps, lever arms and sums; the forces of rigid parts are integers in both.
+enum class Precision { single, double_ };
+
+/// Constants of a bed of spheres. Kernels take a copy.
 struct GrainModel {
-  double radius{};             ///< [m]
-  double mass{};               ///< [kg]
-  double timeStep{};           ///< [s]
-  base::Vec3d gravity;         ///< [m/s2]
-  contact::LinearLaw law;      ///< grain on grain
-  contact::LinearLaw floorLaw; ///< grain on the height-field floor, where there is one
-  double skin{0.3};            ///< of the neighbour list, as a share of the radius [-]
-  double maxOverlap{0.2};      ///< as a share of the radius [-]; more stops the run
-  bool ledger{true};           ///< whether dissipation is summed grain by grain
-
-  bool frictional() const { return law.friction > 0; }
+  double radius{};              ///< of the largest grain [m]
+  double smallestRadius{0};     ///< of those that may enter later too [m]; 0: as the grains that are there at the start
+  double mass{};                ///< of that grain [kg]
+  double timeStep{};            ///< [s]
+  base::Vec3d gravity;          ///< [m/s2]
+  contact::ContactLaw law;      ///< grain on grain
+  contact::ContactLaw floorLaw; ///< grain on the height-field floor, where there is one
+  double skin{0.3};             ///< of the neighbour list, as a share of the smallest grain's radius [-]
+  double maxOverlap{0.2};       ///< as a share of the grain's radius [-]; more stops the run
+  bool ledger{true};            ///< whether dissipation is summed grain by grain
+  GrainMaterials materials;     ///< instead of law, floorLaw and the walls' laws where grains are of several
+  Precision precision{Precision::single};
+  bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
 };
+
+/// Whether a kernel was compiled for just these features; else the general one runs.
+bool hasOwnKernel(unsigned features, Precision precision);
+/// The features in words: "linear, friction, planes or floor".
+std::string featureText(unsigned features);
 
 /// Energies [J] and counts of the grains at one instant, from state functions; sums are order-free.
 struct GrainLedger {

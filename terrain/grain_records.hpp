@@ -10,9 +10,9 @@ namespace grouser::terrain {
 using base::Vec4f;
 
 /// What walls and floor do to one grain in one step.
-struct BoundaryLoad {
-  base::Vec3f force, torque; ///< [N], [N m] about the centre
-  float dissipated, deepest; ///< [J]; deepest overlap [m]
+template <class Real> struct BoundaryLoad {
+  base::Vec3<Real> force, torque; ///< [N], [N m] about the centre
+  Real dissipated, deepest;       ///< [J]; deepest overlap [m]
 };
 
 /// What stops a run; the smallest key (code, then grain id) is kept.

@@ -53,14 +53,19 @@ GrainState inOrder(const GrainState& s) {
     out.id.push_back(s.id[k]);
     out.position.push_back(s.position[k]), out.velocity.push_back(s.velocity[k]), out.spin.push_back(s.spin[k]);
     out.remainders.push_back(s.remainders[k]), out.travelled.push_back(s.travelled[k]);
+    if (!s.radius.empty()) out.radius.push_back(s.radius[k]);
+    if (!s.material.empty()) out.material.push_back(s.material[k]);
     if (!s.dissipated.empty()) out.dissipated.push_back(s.dissipated[k]);
     if (!s.wallBits.empty()) out.wallBits.push_back(s.wallBits[k]);
     if (!s.wallShear.empty())
       for (std::size_t b = 0; b < walls; ++b) out.wallShear.push_back(s.wallShear[k * walls + b]);
+    if (!s.wallRolling.empty())
+      for (std::size_t b = 0; b < walls; ++b) out.wallRolling.push_back(s.wallRolling[k * walls + b]);
     out.contacts.push_back(s.contacts[k]);
     for (std::size_t c = first[k]; c < first[k + 1]; ++c) {
       out.neighbour.push_back(s.neighbour[c]);
       if (!s.contactShear.empty()) out.contactShear.push_back(s.contactShear[c]);
+      if (!s.contactRolling.empty()) out.contactRolling.push_back(s.contactRolling[c]);
     }
   }
   return out;
@@ -76,13 +81,17 @@ GrainState redistribute(const base::Comm& comm, const GrainState& s, const std::
   for (std::size_t k = 0; k < s.rows(); ++k) {
     RowPacker put(to[static_cast<std::size_t>(destination[k])]);
     put(s.id[k]), put(s.position[k]), put(s.velocity[k]), put(s.spin[k]), put(s.remainders[k]), put(s.travelled[k]);
+    if (s.layout.radii) put(s.radius[k]);
+    if (s.layout.materials) put(s.material[k]);
     if (s.layout.ledger) put(s.dissipated[k]);
     if (walls > 0) put(s.wallBits[k]);
     for (std::size_t b = 0; s.layout.friction && b < walls; ++b) put(s.wallShear[k * walls + b]);
+    for (std::size_t b = 0; s.layout.rolling && b < walls; ++b) put(s.wallRolling[k * walls + b]);
     put(s.contacts[k]);
     for (const std::size_t end = c + s.contacts[k]; c < end; ++c) {
       put(s.neighbour[c]);
       if (s.layout.friction) put(s.contactShear[c]);
+      if (s.layout.rolling) put(s.contactRolling[c]);
     }
   }
   std::vector<base::Bytes> bytes;
@@ -99,13 +108,17 @@ GrainState redistribute(const base::Comm& comm, const GrainState& s, const std::
       out.velocity.push_back(row.take<base::Vec3f>()), out.spin.push_back(row.take<base::Vec3f>());
       out.remainders.push_back(row.take<Remainders>());
       out.travelled.push_back(row.take<base::Vec3<std::uint32_t>>());
+      if (s.layout.radii) out.radius.push_back(row.take<float>());
+      if (s.layout.materials) out.material.push_back(row.take<std::uint32_t>());
       if (s.layout.ledger) out.dissipated.push_back(row.take<double>());
       if (walls > 0) out.wallBits.push_back(row.take<std::uint32_t>());
       for (std::size_t b = 0; s.layout.friction && b < walls; ++b) out.wallShear.push_back(row.take<base::Vec3f>());
+      for (std::size_t b = 0; s.layout.rolling && b < walls; ++b) out.wallRolling.push_back(row.take<base::Vec3f>());
       out.contacts.push_back(row.take<std::uint32_t>());
       for (std::uint32_t n = 0; n < out.contacts.back(); ++n) {
         out.neighbour.push_back(row.take<std::uint32_t>());
         if (s.layout.friction) out.contactShear.push_back(row.take<base::Vec3f>());
+        if (s.layout.rolling) out.contactRolling.push_back(row.take<base::Vec3f>());
       }
     }
   }

@@ -16,6 +16,9 @@ struct GrainLayout {
   std::int64_t ledger{};     ///< 1: dissipation is summed
   std::int64_t boundaries{}; ///< planes and floor together
   std::int64_t friction{};   ///< 1: contacts have springs
+  std::int64_t rolling{};    ///< 1: contacts have rolling angles too
+  std::int64_t radii{};      ///< 1: each grain has its own
+  std::int64_t materials{};  ///< of the grains; 0: one
   bool operator==(const GrainLayout&) const = default;
 };
 
@@ -24,18 +27,22 @@ struct GrainLayout {
 /// each has some of the rows; on one, all.
 struct GrainState {
   GrainLayout layout;
-  std::int64_t total{};                  ///< grains of the scene
-  std::vector<std::uint32_t> id;         ///< [rows], ascending
-  std::vector<base::Position> position;  ///< [rows]
-  std::vector<base::Vec3f> velocity;     ///< [rows] [m/s]
-  std::vector<base::Vec3f> spin;         ///< [rows] [rad/s]
-  std::vector<Remainders> remainders;    ///< [rows]
-  std::vector<double> dissipated;        ///< [rows] since the start [J]; empty without a ledger
-  std::vector<std::uint32_t> wallBits;   ///< [rows] bit a wall or floor in touch; empty without them
-  std::vector<base::Vec3f> wallShear;    ///< [rows][walls and floor] [m], zero out of touch; empty without friction
-  std::vector<std::uint32_t> contacts;   ///< [rows] neighbours in touch
-  std::vector<std::uint32_t> neighbour;  ///< ids of those, ascending for each grain, grain by grain
-  std::vector<base::Vec3f> contactShear; ///< [m], one a neighbour; empty without friction
+  std::int64_t total{};                    ///< grains of the scene
+  std::vector<std::uint32_t> id;           ///< [rows], ascending
+  std::vector<base::Position> position;    ///< [rows]
+  std::vector<base::Vec3f> velocity;       ///< [rows] [m/s]
+  std::vector<base::Vec3f> spin;           ///< [rows] [rad/s]
+  std::vector<Remainders> remainders;      ///< [rows]
+  std::vector<float> radius;               ///< [rows] [m]; empty where all are alike
+  std::vector<std::uint32_t> material;     ///< [rows]; empty where there is one
+  std::vector<double> dissipated;          ///< [rows] since the start [J]; empty without a ledger
+  std::vector<std::uint32_t> wallBits;     ///< [rows] bit a wall or floor in touch; empty without them
+  std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], zero out of touch; empty without friction
+  std::vector<std::uint32_t> contacts;     ///< [rows] neighbours in touch
+  std::vector<std::uint32_t> neighbour;    ///< ids of those, ascending for each grain, grain by grain
+  std::vector<base::Vec3f> contactShear;   ///< [m], one a neighbour; empty without friction
+  std::vector<base::Vec3f> wallRolling;    ///< as wallShear [rad]; empty without rolling friction
+  std::vector<base::Vec3f> contactRolling; ///< as contactShear [rad]; empty without rolling friction
 
   // When the neighbour list was built, so that a resumed run builds the next one at the same step.
   std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] since then [units], as wrapping words

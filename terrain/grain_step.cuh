@@ -1,173 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/for_each.cuh"
-#include "contact/grain_loads.hpp"
-#include "contact/neighbour_list.hpp"
-#include "terrain/grain_model.hpp"
-#include "terrain/grain_records.hpp"
+#include "terrain/grain_kernel_data.cuh"
 
 namespace grouser::terrain {
 
-/// Everything the step needs, by value.
-struct GrainKernelData {
-  // Constants.
-  float radius, diameter, unit, timeStep, halfMass, mass;
-  std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
-  double stepPerMass, stepPerInertia, unitsPerSpeed; // dt/m, dt/I, dt/unit
-  double unitLength;
-  float maxOverlap, maxSpeed2;
-  base::Vec3d gravityStep; // g dt
-  contact::LinearLaw law, floorLaw;
-  const Wall* walls;
-  int wallCount, boundaryCount; ///< planes; planes and floor together
-  bool hasFloor;
-  HeightFieldView floor;
-  std::int64_t count;          ///< slots
-  const std::uint32_t* active; ///< slots that this launch is for; null: all
-
-  // State. Positions, velocities and spins are read from `now` and written to `next`: neighbours still read `now`.
-  const base::Position* position;
-  const Vec4f *velocity, *spin;
-  base::Position* nextPosition;
-  Vec4f *nextVelocity, *nextSpin;
-  Remainders* remainders;
-  const std::uint32_t* id;
-  const base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
-  contact::NeighbourView neighbours;
-  const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
-  const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
-  BoundaryLoad* boundaryLoads;       ///< by place in that list
-  base::Vec3f* wallShear;            ///< [slot][wall or floor]
-  std::uint32_t* wallTouching;       ///< bit a wall, bit `wallCount` the floor
-  double* dissipated;
-  contact::GrainLoadsView loads;
-  StepFlags* flags;
-};
-
-/// Walls and floor on the grains near them. A kernel of its own: the search on the floor needs many registers, and only
-/// one layer of grains needs the search.
-template <bool kFriction> struct BoundaryContacts {
-  GrainKernelData d;
-
-  GROUSER_HD void operator()(int k) const {
-    const int i = static_cast<int>(d.nearBoundary[k]);
-    const base::Vec3f v = d.velocity[i].xyz(), w = d.spin[i].xyz();
-    const base::Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
-    BoundaryLoad sum{};
-    const std::uint32_t before = d.wallTouching[i];
-    std::uint32_t now = 0;
-    for (int b = 0; b < d.wallCount; ++b) {
-      const double distance = dot(d.walls[b].normal, x) - d.walls[b].offset;
-      const float overlap = static_cast<float>(static_cast<double>(d.radius) - distance);
-      if (overlap <= 0) continue;
-      now |= 1u << b;
-      touchBoundary(i, b, before, d.walls[b].law, d.walls[b].normal.as<float>(), overlap, v, w, sum);
-    }
-    if (d.hasFloor && !d.floor.clearOf(x, d.radius)) {
-      const FootPoint foot = d.floor.closestPoint(x);
-      const float overlap = static_cast<float>(static_cast<double>(d.radius) - foot.distance);
-      if (overlap > 0) {
-        now |= 1u << d.wallCount;
-        touchBoundary(i, d.wallCount, before, d.floorLaw, foot.normal.as<float>(), overlap, v, w, sum);
-      }
-    }
-    if (now != before) d.wallTouching[i] = now;
-    d.boundaryLoads[k] = sum;
-  }
-
-private:
-  GROUSER_HD void touchBoundary(int i, int boundary, std::uint32_t before, const contact::LinearLaw& law,
-                                const base::Vec3f& outward, float overlap, const base::Vec3f& v, const base::Vec3f& w,
-                                BoundaryLoad& sum) const {
-    const base::Vec3f normal = -outward; // from the grain to the wall
-    const base::Vec3f arm = normal * (d.radius - overlap);
-    contact::Touch touch{normal, overlap, v + cross(w, arm), d.mass};
-    base::Vec3f shear{};
-    const std::int64_t at = static_cast<std::int64_t>(i) * d.boundaryCount + boundary;
-    if (kFriction && (before >> boundary & 1)) shear = d.wallShear[at];
-    const contact::Reaction reaction = contact::linearForce(law, touch, d.timeStep, shear);
-    if (kFriction) d.wallShear[at] = shear;
-    sum.force += reaction.force;
-    if (kFriction) sum.torque += cross(arm, reaction.force);
-    sum.dissipated += reaction.dissipated;
-    if (overlap > sum.deepest) sum.deepest = overlap;
-  }
-};
-
 /// One grain, one step: gather its contacts in the order of the neighbours' ids, then advance it by symplectic Euler.
 /// The scene's features are template parameters, so that what is absent costs nothing.
-template <bool kFriction, bool kBoundaries, bool kLoads, bool kLedger> struct GrainStep {
-  GrainKernelData d;
+template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatures, Real> {
+  using Kernel = GrainKernel<kFeatures, Real>;
+  using Kernel::d, Kernel::f, Kernel::has;
+  using Vec = base::Vec3<Real>;
 
   struct Sum {
-    base::Vec3f force, torque;
-    float dissipated = 0, deepest = 0;
+    Vec force, torque;
+    Real dissipated = 0;
+    float deepest = 0;
   };
 
   GROUSER_HD void operator()(int k) const {
     const int i = d.active ? static_cast<int>(d.active[k]) : k;
     Sum sum;
     const base::Position p = d.position[i];
-    const base::Vec3f v = d.velocity[i].xyz(), w = d.spin[i].xyz();
-    gatherGrains(i, p, v, w, sum);
-    if (kBoundaries) addBoundaries(i, sum);
+    const Vec4f v = d.velocity[i], w = d.spin[i];
+    const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
+    gatherGrains(i, p, v.xyz().template as<Real>(), w.xyz().template as<Real>(), size, sum);
+    if (has(kBoundaries)) addBoundaries(i, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
-    if (kLoads) addLoads(i, force, torque, sum);
-    if (kLedger) d.dissipated[i] += static_cast<double>(sum.dissipated);
-    advance(i, p, v, w, force, torque, sum.deepest);
+    if (has(kLoads)) addLoads(i, size, force, torque, sum);
+    if (has(kLedger)) d.dissipated[i] += static_cast<double>(sum.dissipated);
+    advance(i, p, v, w, size, force, torque, sum.deepest);
   }
 
 private:
-  GROUSER_HD void gatherGrains(int i, const base::Position& p, const base::Vec3f& v, const base::Vec3f& w,
+  GROUSER_HD void gatherGrains(int i, const base::Position& p, const Vec& v, const Vec& w, const GrainSize<Real>& own,
                                Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
-    const std::uint64_t before = d.neighbours.touching[i];
-    std::uint64_t now = 0;
+    // 64 neighbours a word; of equal spheres no more can be near.
+    std::uint64_t* touching = d.neighbours.touching + (has(kManyRadii) ? i * d.neighbours.maskWords : i);
+    std::uint64_t before = *touching, now = 0;
     for (std::uint32_t k = 0; k < n; ++k) {
+      if (has(kManyRadii) && k > 0 && (k & 63u) == 0) {
+        *touching++ = now;
+        before = *touching, now = 0;
+      }
       const std::int64_t at = d.neighbours.at(i, k);
       const std::uint32_t j = d.neighbours.slot[at];
       const base::Vec3i apart = base::difference(p, d.position[j]);
       const std::int64_t distance2 = base::squaredNorm(apart);
-      if (distance2 >= d.diameterUnits2) continue;
+      GrainSize<Real> other{};
+      std::int64_t reach2 = d.diameterUnits2;
+      Real reach = f.diameterUnits;
+      if (has(kManyRadii)) {
+        other = Kernel::sizeOf(static_cast<int>(j));
+        const std::int64_t units = own.units + other.units;
+        reach2 = units * units, reach = static_cast<Real>(units);
+      }
+      if (distance2 >= reach2) continue;
       if (distance2 == 0) { // no direction to push in: the overlap alarm
         sum.deepest = d.diameter;
         continue;
       }
-      now |= std::uint64_t{1} << k;
+      now |= std::uint64_t{1} << (k & 63u);
       // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
-      const float distance = sqrtf(static_cast<float>(distance2));
-      const float overlap =
-          static_cast<float>(d.diameterUnits2 - distance2) / (static_cast<float>(d.diameterUnits) + distance) * d.unit;
-      const base::Vec3f normal = apart.as<float>() * (1.0f / distance);
-      // Both lever arms meet in the middle, so angular momentum balances too.
-      const float arm = 0.5f * distance * d.unit;
-      contact::Touch touch{normal, overlap, v - d.velocity[j].xyz(), d.halfMass};
-      touch.velocity += cross(w + d.spin[j].xyz(), normal * arm);
-      base::Vec3f shear{};
-      if (kFriction && (before >> k & 1)) shear = d.neighbours.shear[at];
-      const contact::Reaction reaction = contact::linearForce(d.law, touch, d.timeStep, shear);
-      if (kFriction) d.neighbours.shear[at] = shear;
-      sum.force += reaction.force;
-      if (kFriction) sum.torque += cross(normal * arm, reaction.force);
-      sum.dissipated += 0.5f * reaction.dissipated; // the other half is the neighbour's
-      if (overlap > sum.deepest) sum.deepest = overlap;
+      const Real distance = contact::squareRoot(static_cast<Real>(distance2));
+      const Real overlap = static_cast<Real>(reach2 - distance2) / (reach + distance) * f.unit;
+      const Vec normal = apart.as<Real>() * (Real(1) / distance);
+      const Vec vj = d.velocity[j].xyz().template as<Real>(), wj = d.spin[j].xyz().template as<Real>();
+      touchGrain(at, before >> (k & 63u) & 1, normal, overlap, distance * f.unit, own, other, v - vj, w, wj, sum);
     }
-    d.neighbours.touching[i] = now;
+    *touching = now;
+  }
+
+  /// `held`: the history is that of this contact. `relative`: velocity of the centres.
+  GROUSER_HD void touchGrain(std::int64_t at, bool held, const Vec& normal, Real overlap, Real distance,
+                             const GrainSize<Real>& own, const GrainSize<Real>& other, const Vec& relative,
+                             const Vec& w, const Vec& wj, Sum& sum) const {
+    contact::BasicTouch<Real> touch{normal, overlap, relative, f.halfMass, Real(0.5) * f.radius};
+    // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
+    Real arm = Real(0.5) * distance;
+    if (has(kManyRadii)) {
+      arm = own.radius - Real(0.5) * overlap;
+      touch.velocity += cross(w * arm + wj * (other.radius - Real(0.5) * overlap), normal);
+      touch.effectiveMass = own.mass * other.mass / (own.mass + other.mass);
+      touch.effectiveRadius = own.radius * other.radius / (own.radius + other.radius);
+    } else {
+      touch.velocity += cross(w + wj, normal * arm);
+    }
+    const contact::BasicLaw<Real>& law =
+        has(kManyMaterials) ? f.pairLaws[own.material * d.materials + other.material] : f.law;
+    float* history = Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
+    Vec shear{};
+    if (Kernel::hasHistory() && held) shear = loadVector(history).template as<Real>();
+    const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
+    if (Kernel::hasHistory()) storeVector(history, shear.template as<float>());
+    sum.force += reaction.force;
+    if (has(contact::kFriction)) sum.torque += cross(normal * arm, reaction.force);
+    Real dissipated = reaction.dissipated;
+    if (has(contact::kRollingFriction)) {
+      Vec angle{};
+      if (held) angle = loadVector(history + 3).template as<Real>();
+      const Real inertia = has(kManyRadii) ? contact::rollingInertia(own.mass, own.radius, other.mass, other.radius)
+                                           : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
+      const contact::RollingMotion<Real> motion{normal, w - wj, touch.effectiveRadius, inertia};
+      sum.torque += contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle,
+                                           dissipated);
+      storeVector(history + 3, angle.template as<float>());
+    }
+    sum.dissipated += Real(0.5) * dissipated; // the other half is the neighbour's
+    if (static_cast<float>(overlap) > sum.deepest) sum.deepest = static_cast<float>(overlap);
   }
 
   GROUSER_HD void addBoundaries(int i, Sum& sum) const {
     const std::uint32_t place = d.boundaryOf[i];
     if (place == 0) return;
-    const BoundaryLoad& load = d.boundaryLoads[place - 1];
+    const BoundaryLoad<Real>& load = f.boundaryLoads[place - 1];
     sum.force += load.force;
     sum.torque += load.torque;
     sum.dissipated += load.dissipated;
-    if (load.deepest > sum.deepest) sum.deepest = load.deepest;
+    if (static_cast<float>(load.deepest) > sum.deepest) sum.deepest = static_cast<float>(load.deepest);
   }
 
   /// Forces from rigid parts come as integers and are added as such: the parts receive exactly their opposite.
-  GROUSER_HD void addLoads(int i, base::Vec3d& force, base::Vec3d& torque, Sum& sum) const {
+  GROUSER_HD void addLoads(int i, const GrainSize<Real>& size, base::Vec3d& force, base::Vec3d& torque,
+                           Sum& sum) const {
     const std::uint32_t range = d.loads.range[i];
     if (range == 0) return;
     base::Vec3l quanta{};
@@ -176,24 +132,33 @@ private:
       const contact::GrainLoad& load = d.loads.load[first + k];
       quanta += load.force;
       torque += load.torque.template as<double>();
-      sum.dissipated += load.dissipated;
+      sum.dissipated += static_cast<Real>(load.dissipated);
       // Stones do get caught between tooth and track: a part may press a grain deeper than grains may press each other,
       // but not to its middle.
-      if (load.deepest > d.radius) sum.deepest = load.deepest;
+      if (load.deepest > static_cast<float>(size.radius)) sum.deepest = load.deepest;
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
-  GROUSER_HD void advance(int i, const base::Position& p, base::Vec3f v, base::Vec3f w, const base::Vec3d& force,
-                          const base::Vec3d& torque, float deepest) const {
+  GROUSER_HD void advance(int i, const base::Position& p, Vec4f v4, Vec4f w4, const GrainSize<Real>& size,
+                          const base::Vec3d& force, const base::Vec3d& torque, float deepest) const {
+    base::Vec3f v = v4.xyz(), w = w4.xyz();
+    double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
+    float maxOverlap = d.maxOverlap;
+    if (has(kManyRadii)) {
+      const double mass = static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
+      stepPerMass = d.timeStep / mass;
+      stepPerInertia = d.timeStep / (0.4 * mass * radius * radius);
+      maxOverlap = d.maxOverlapShare * static_cast<float>(size.radius);
+    }
     Remainders kept = d.remainders[i];
     base::Vec3l moved = base::toUnits(p);
     for (int a = 0; a < 3; ++a) {
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
-      const double speed = addKeeping(v[a], rv, force[a] * d.stepPerMass + d.gravityStep[a]);
-      if (kFriction || kLoads) addKeeping(w[a], rw, torque[a] * d.stepPerInertia);
+      const double speed = addKeeping(v[a], rv, force[a] * stepPerMass + d.gravityStep[a]);
+      if (Kernel::hasHistory() || has(kLoads)) addKeeping(w[a], rw, torque[a] * stepPerInertia);
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.
@@ -201,8 +166,8 @@ private:
     }
     const base::Position q = base::fromUnits(moved);
     d.nextPosition[i] = q;
-    d.nextVelocity[i] = {v.x, v.y, v.z, 0};
-    d.nextSpin[i] = {w.x, w.y, w.z, 0};
+    d.nextVelocity[i] = {v.x, v.y, v.z, has(kManyRadii) ? v4.w : 0.0f};
+    d.nextSpin[i] = {w.x, w.y, w.z, has(kManyMaterials) ? w4.w : 0.0f};
     d.remainders[i] = kept;
 
     const base::Vec3<std::uint32_t> r = d.reference[i];
@@ -219,7 +184,7 @@ private:
       fault = Fault::notANumber;
     else if (!inside)
       fault = Fault::range;
-    else if (deepest > d.maxOverlap)
+    else if (deepest > maxOverlap)
       fault = Fault::overlap;
     else if (speed2 > d.maxSpeed2)
       fault = Fault::speed;

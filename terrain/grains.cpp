@@ -2,6 +2,7 @@
 #include "terrain/grains.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,46 @@ namespace {
 
 constexpr StepFlags kNoFlags{~std::uint64_t{0}, 0, 0};
 
-bool anyFriction(const GrainModel& model, const Boundaries& boundaries) {
-  bool friction = model.law.friction > 0 || (boundaries.floor && model.floorLaw.friction > 0);
-  for (const Wall& wall : boundaries.walls) friction = friction || wall.law.friction > 0;
-  return friction;
+/// Laws against walls and floor, [walls and floor][materials].
+std::vector<contact::ContactLaw> boundaryLaws(const GrainModel& model, const Boundaries& boundaries) {
+  if (model.materials.count() > 0) return model.materials.boundaries;
+  std::vector<contact::ContactLaw> laws;
+  for (const Wall& wall : boundaries.walls) laws.push_back(wall.law);
+  if (boundaries.floor) laws.push_back(model.floorLaw);
+  return laws;
+}
+
+unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool manyRadii) {
+  std::vector<contact::ContactLaw> laws = boundaryLaws(model, boundaries);
+  if (model.materials.count() > 0)
+    laws.insert(laws.end(), model.materials.grains.begin(), model.materials.grains.end());
+  else
+    laws.push_back(model.law);
+  unsigned features = 0;
+  bool linear = false;
+  for (const contact::ContactLaw& law : laws) features |= law.features(), linear = linear || !law.hertz;
+  if (linear && features & contact::kHertz) features |= contact::kGeneral; // each contact decides
+  if (manyRadii) features |= kManyRadii;
+  if (model.materials.count() > 0) features |= kManyMaterials;
+  if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
+  if (model.ledger) features |= kLedger;
+  return features;
+}
+
+int historyWidthOf(unsigned features) {
+  return features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
+}
+
+double smallestOf(const GrainModel& model, const std::vector<GrainStart>& start) {
+  double least = model.smallestRadius > 0 ? model.smallestRadius : model.radius;
+  for (const GrainStart& g : start) least = g.radius > 0 ? std::min(least, g.radius) : least;
+  return least;
+}
+
+/// The nearest radius [m] that is both a float and a whole number of units.
+float storedRadius(double radius, const base::PositionScale& scale) {
+  const auto nearest = static_cast<float>(radius);
+  return static_cast<float>(std::floor(static_cast<double>(nearest) * scale.perMetre + 0.5) * scale.unit);
 }
 
 std::int64_t wholeUnits(double length, const base::PositionScale& scale) {
@@ -104,10 +141,18 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
 Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries,
                const std::vector<GrainStart>& start, const PartitionOptions& partition)
     : exec_(exec), model_(model), scale_(base::positionScale(2 * model.radius)), comm_(partition.comm),
-      count_(start.size()), slots_(0), diameterUnits_(wholeUnits(2 * model.radius, scale_)),
-      skinUnits_(wholeUnits(model.skin * model.radius, scale_)), frictional_(anyFriction(model, boundaries)),
+      count_(start.size()), slots_(0), smallestRadius_(smallestOf(model, start)),
+      diameterUnits_(wholeUnits(2 * model.radius, scale_)),
+      skinUnits_(wholeUnits(model.skin * smallestRadius_, scale_)),
+      features_(featuresOf(model, boundaries, smallestRadius_ != model.radius || model.materials.count() > 0)),
+      historyWidth_(historyWidthOf(features_)),
       boundaryCount_(static_cast<int>(boundaries.walls.size()) + (boundaries.floor ? 1 : 0)),
-      neighbours_(exec, diameterUnits_, skinUnits_, frictional_) {
+      neighbours_(exec, diameterUnits_, skinUnits_, historyWidth_) {
+  // Overlaps are whole units: a grain a thousand times smaller would see its own in steps of 1e-5 of its size.
+  if (smallestRadius_ < 1e-3 * model.radius)
+    throw base::InputError(fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be 1000 times the "
+                                       "smallest",
+                                       smallestRadius_, model.radius));
   if (boundaryCount_ > 31) throw base::InputError(fmt::format("{} planes; at most 31 are possible", boundaryCount_));
   const std::vector<Position> all = placesOf(start, 0, scale_, model.radius);
   if (!comm_.alone()) {
@@ -122,8 +167,8 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
     if (owner.ownerOf(base::toUnits(all[i])) != comm_.rank()) continue;
     const Vec3f v = start[i].velocity.as<float>(), w = start[i].spin.as<float>();
     position.push_back(all[i]);
-    velocity.push_back({v.x, v.y, v.z, 0});
-    spin.push_back({w.x, w.y, w.z, 0});
+    velocity.push_back({v.x, v.y, v.z, radiusInW(start[i])});
+    spin.push_back({w.x, w.y, w.z, static_cast<float>(start[i].material)});
     id.push_back(static_cast<std::uint32_t>(i));
   }
   checkDistinct(position, id); // two at one place have one owner
@@ -138,17 +183,24 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   id_ = base::Array<std::uint32_t>(exec, id);
   reference_ = base::Array<base::Vec3<std::uint32_t>>(exec, slots_);
   const std::size_t perBoundary = boundaryCount_ > 0 ? slots_ : 0;
-  wallShear_ = base::Array<Vec3f>(exec, frictional_ ? perBoundary * static_cast<std::size_t>(boundaryCount_) : 0);
+  wallHistory_ = base::Array<float>(exec, perBoundary * static_cast<std::size_t>(boundaryCount_ * historyWidth_));
   wallTouching_ = base::Array<std::uint32_t>(exec, perBoundary);
   nearBoundary_ = base::Array<std::uint32_t>(exec);
   boundaryOf_ = base::Array<std::uint32_t>(exec, perBoundary);
-  boundaryLoads_ = base::Array<BoundaryLoad>(exec);
   dissipated_ = base::Array<double>(exec, model.ledger ? slots_ : 0);
   origin_ = base::Array<std::uint32_t>(exec), arrivedRows_ = base::Array<std::uint32_t>(exec);
   flags_ = base::Mirrored<StepFlags>(exec, 1);
   *flags_.host() = kNoFlags;
   flags_.upload();
   walls_ = base::Array<Wall>(exec, boundaries.walls);
+  std::vector<double> massPerCube;
+  for (const double density : model.materials.density) massPerCube.push_back(density * (4.0 / 3 * base::kPi));
+  if (massPerCube.empty()) massPerCube.push_back(model.mass / (model.radius * model.radius * model.radius));
+  massPerCube_ = base::Array<double>(exec, massPerCube);
+  if (model.precision == Precision::single)
+    makeForces(single_, boundaryLaws(model, boundaries));
+  else
+    makeForces(double_, boundaryLaws(model, boundaries));
   if (boundaries.floor) {
     hasFloor_ = true;
     floorHeights_ = base::Array<double>(exec, boundaries.floor->heights());
@@ -168,7 +220,8 @@ void Grains::add(const std::vector<GrainStart>& more) {
     if (owner.ownerOf(base::toUnits(all[i])) != comm_.rank()) continue;
     const Vec3f v = more[i].velocity.as<float>(), w = more[i].spin.as<float>();
     position.push_back(all[i]);
-    velocity.push_back({v.x, v.y, v.z, 0}), spin.push_back({w.x, w.y, w.z, 0});
+    velocity.push_back({v.x, v.y, v.z, radiusInW(more[i])});
+    spin.push_back({w.x, w.y, w.z, static_cast<float>(more[i].material)});
     id.push_back(static_cast<std::uint32_t>(count_ + i));
   }
   checkDistinct(position, id);
@@ -183,11 +236,35 @@ void Grains::add(const std::vector<GrainStart>& more) {
   if (model_.ledger) append(dissipated_, std::vector<double>(fresh));
   const auto boundaries = static_cast<std::size_t>(boundaryCount_);
   if (boundaries > 0) append(wallTouching_, std::vector<std::uint32_t>(fresh));
-  if (frictional_) append(wallShear_, std::vector<Vec3f>(fresh * boundaries));
+  append(wallHistory_, std::vector<float>(fresh * boundaries * static_cast<std::size_t>(historyWidth_)));
   slots_ += fresh, count_ += more.size();
   position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
   if (subdomain_) subdomain_->appended(fresh);
   invalidateNeighbours();
+}
+
+float Grains::radiusInW(const GrainStart& grain) const {
+  return manyRadii() ? storedRadius(grain.radius > 0 ? grain.radius : model_.radius, scale_) : 0.0f;
+}
+
+template <class Real>
+void Grains::makeForces(Forces<Real>& forces, const std::vector<contact::ContactLaw>& boundaries) {
+  using Law = contact::BasicLaw<Real>;
+  const auto converted = [&](const std::vector<contact::ContactLaw>& laws) {
+    std::vector<Law> out;
+    for (const contact::ContactLaw& law : laws) out.push_back(law.template as<Real>());
+    return base::Array<Law>(exec_, out);
+  };
+  forces.pairs = converted(model_.materials.grains);
+  forces.boundaries = converted(boundaries);
+  forces.boundaryLoads = base::Array<BoundaryLoad<Real>>(exec_);
+}
+
+bool Grains::manyRadii() const { return (features_ & kManyRadii) != 0; }
+
+contact::RadiiInW Grains::radii() const {
+  return manyRadii() ? contact::RadiiInW{velocity_[0].data(), static_cast<float>(scale_.perMetre)}
+                     : contact::RadiiInW{};
 }
 
 void Grains::setPartition(const Partition& partition) {
@@ -252,8 +329,10 @@ void Grains::stopFor(std::uint64_t key) const {
 }
 
 void Grains::stop() {
-  velocity_[0].zero();
-  spin_[0].zero();
+  std::vector<Vec4f> velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
+  for (Vec4f& v : velocity) v = {0, 0, 0, v.w};
+  for (Vec4f& w : spin) w = {0, 0, 0, w.w};
+  velocity_[0].assign(velocity), spin_[0].assign(spin);
   remainders_.zero();
 }
 
@@ -262,15 +341,15 @@ GrainSnapshot Grains::snapshot() const {
   GrainSnapshot out;
   out.first = blockStart(comm_, static_cast<std::int64_t>(count_), comm_.rank()), out.total = count_;
   for (const Position& p : s.position) out.position.push_back(scale_.toMetres(p));
-  out.velocity = s.velocity, out.spin = s.spin;
+  out.velocity = s.velocity, out.spin = s.spin, out.radius = s.radius;
   return out;
 }
 
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
-                      wallShear_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + nearBoundary_.bytes() +
-                      boundaryOf_.bytes() + boundaryLoads_.bytes() + origin_.bytes() + arrivedRows_.bytes() +
-                      (subdomain_ ? subdomain_->bytes() : 0);
+                      wallHistory_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + nearBoundary_.bytes() +
+                      boundaryOf_.bytes() + single_.boundaryLoads.bytes() + double_.boundaryLoads.bytes() +
+                      origin_.bytes() + arrivedRows_.bytes() + (subdomain_ ? subdomain_->bytes() : 0);
   for (int k = 0; k < 2; ++k) total += position_[k].bytes() + velocity_[k].bytes() + spin_[k].bytes();
   return total;
 }

@@ -2,8 +2,7 @@
 #include "terrain/grains.hpp"
 
 #include "base/algorithms.hpp"
-#include "base/fixed_point.hpp"
-#include "terrain/grain_step.cuh"
+#include "terrain/grain_kernels.cuh"
 
 #include <utility>
 
@@ -36,7 +35,8 @@ struct KeepReference {
 /// Marks the grains that may touch a wall or the floor before any grain has moved half the skin.
 struct MarkNearBoundary {
   GrainKernelData d;
-  double reach;               ///< radius plus half the skin [m]
+  double reach; ///< half the skin, and the radius where all have one [m]
+  bool manyRadii;
   const std::uint32_t* ghost; ///< null where there are none
   std::uint32_t* mark;
   GROUSER_HD void operator()(int i) const {
@@ -45,8 +45,9 @@ struct MarkNearBoundary {
       return;
     }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
-    bool near = d.hasFloor && !d.floor.clearOf(x, reach);
-    for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < reach;
+    const double within = reach + (manyRadii ? static_cast<double>(d.velocity[i].w) : 0.0);
+    bool near = d.hasFloor && !d.floor.clearOf(x, within);
+    for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
     mark[i] = near ? 1u : 0u;
   }
 };
@@ -64,105 +65,28 @@ struct ListNearBoundary {
   }
 };
 
-/// Runs the step with just the features this scene has.
-template <bool kFriction, bool kBoundaries>
-void runStep(const base::Exec& exec, const GrainKernelData& d, std::int64_t count, bool loads, bool ledger) {
-  if (loads && ledger)
-    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, true, true>{d});
-  else if (loads)
-    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, true, false>{d});
-  else if (ledger)
-    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, false, true>{d});
-  else
-    base::forEach(exec, "grain step", count, GrainStep<kFriction, kBoundaries, false, false>{d});
-}
-
-/// One grain's share of the ledger, in quanta.
-struct MeasureGrain {
-  GrainKernelData d;
-  base::FixedPoint energy, momentum;
-  std::int64_t*
-      sums; ///< kinetic, rotational, potential, elastic, dissipated, px, py, pz, 2 x contacts, boundary contacts
-  std::uint64_t* extremes;    ///< complements of the deepest overlap [units] and the largest speed [um/s]
-  const std::uint32_t* ghost; ///< null where there are none
-
-  GROUSER_HD void operator()(int i) const {
-    if (ghost && ghost[i]) return;
-    const Vec3d v = d.velocity[i].xyz().as<double>(), w = d.spin[i].xyz().as<double>();
-    const base::Vec3l u = base::toUnits(d.position[i]);
-    const Vec3d x = u.as<double>() * d.unitLength;
-    const double m = static_cast<double>(d.mass);
-    const double inertia = 0.4 * m * d.radius * d.radius;
-    double elastic = 0, deepest = 0;
-    std::int64_t touching = 0, boundary = 0;
-    for (std::uint32_t k = 0; k < d.neighbours.count[i]; ++k) {
-      const std::int64_t at = d.neighbours.at(i, k);
-      const std::int64_t distance2 =
-          base::squaredNorm(base::difference(d.position[i], d.position[d.neighbours.slot[at]]));
-      if (distance2 >= d.diameterUnits2) continue;
-      const double distance = sqrt(static_cast<double>(distance2));
-      const double overlap =
-          static_cast<double>(d.diameterUnits2 - distance2) / (d.diameterUnits + distance) * d.unitLength;
-      deepest = overlap > deepest ? overlap : deepest;
-      const bool held = d.neighbours.shear && (d.neighbours.touching[i] >> k & 1);
-      elastic += 0.5 * contact::storedEnergy(d.law, overlap, held ? d.neighbours.shear[at] : Vec3f{});
-      ++touching;
-    }
-    for (int b = 0; b < d.wallCount; ++b) {
-      const double overlap = d.radius - (dot(d.walls[b].normal, x) - d.walls[b].offset);
-      if (overlap <= 0) continue;
-      deepest = overlap > deepest ? overlap : deepest;
-      elastic += contact::storedEnergy(d.walls[b].law, overlap, wallShear(i, b));
-      ++boundary;
-    }
-    if (d.hasFloor && !d.floor.clearOf(x, d.radius)) {
-      const double overlap = d.radius - d.floor.closestPoint(x).distance;
-      if (overlap > 0) {
-        deepest = overlap > deepest ? overlap : deepest;
-        elastic += contact::storedEnergy(d.floorLaw, overlap, wallShear(i, d.wallCount));
-        ++boundary;
-      }
-    }
-    const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
-    add(0, energy.quantise(0.5 * m * dot(v, v)));
-    add(1, energy.quantise(0.5 * inertia * dot(w, w)));
-    add(2, energy.quantise(-m * dot(gravity, x)));
-    add(3, energy.quantise(elastic));
-    add(4, energy.quantise(d.dissipated ? d.dissipated[i] : 0.0));
-    for (int a = 0; a < 3; ++a) add(5 + a, momentum.quantise(m * v[a]));
-    add(8, touching);
-    add(9, boundary);
-    base::atomicMin64(extremes, ~static_cast<std::uint64_t>(deepest / d.unitLength));
-    base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e6));
-  }
-  GROUSER_HD Vec3f wallShear(int i, int b) const {
-    return d.wallShear && (d.wallTouching[i] >> b & 1) ? d.wallShear[static_cast<std::int64_t>(i) * d.boundaryCount + b]
-                                                       : Vec3f{};
-  }
-  GROUSER_HD void add(int which, std::int64_t quanta) const { base::atomicAdd64(sums + which, quanta); }
-};
-
 } // namespace
 
 GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   GrainKernelData d{};
   const double dt = model_.timeStep, r = model_.radius;
-  d.radius = static_cast<float>(r), d.diameter = static_cast<float>(2 * r);
-  d.unit = static_cast<float>(scale_.unit), d.unitLength = scale_.unit;
-  d.timeStep = static_cast<float>(dt);
-  d.mass = static_cast<float>(model_.mass), d.halfMass = static_cast<float>(0.5 * model_.mass);
+  d.features = features_ | (loads ? kLoads : 0u);
+  d.timeStep = dt;
+  d.diameter = static_cast<float>(2 * r);
+  d.unitLength = scale_.unit, d.unitsPerLength = static_cast<float>(scale_.perMetre);
   d.diameterUnits = diameterUnits_, d.diameterUnits2 = diameterUnits_ * diameterUnits_;
   d.halfSkinUnits2 = (skinUnits_ / 2) * (skinUnits_ / 2);
   d.stepPerMass = dt / model_.mass;
   d.stepPerInertia = dt / (0.4 * model_.mass * r * r);
   d.unitsPerSpeed = dt * scale_.perMetre;
   d.maxOverlap = static_cast<float>(model_.maxOverlap * r);
-  const double maxSpeed = 0.5 * model_.skin * r / dt;
+  d.maxOverlapShare = static_cast<float>(model_.maxOverlap);
+  const double maxSpeed = 0.5 * model_.skin * smallestRadius_ / dt;
   d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
   d.gravityStep = model_.gravity * dt;
-  d.law = model_.law, d.floorLaw = model_.floorLaw;
   d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = boundaryCount_;
   d.hasFloor = hasFloor_, d.floor = floorView_;
+  d.materials = static_cast<int>(massPerCube_.size()), d.massPerCube = massPerCube_.data();
   d.count = static_cast<std::int64_t>(slots_);
   d.position = position_[0].data(), d.nextPosition = position_[1].data();
   d.velocity = velocity_[0].data(), d.nextVelocity = velocity_[1].data();
@@ -171,13 +95,23 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.id = id_.data();
   d.reference = reference_.data();
   d.neighbours = neighbours_.view();
-  d.nearBoundary = nearBoundary_.data(), d.boundaryOf = boundaryOf_.data(), d.boundaryLoads = boundaryLoads_.data();
-  d.wallShear = wallShear_.data(), d.wallTouching = wallTouching_.data();
+  d.nearBoundary = nearBoundary_.data(), d.boundaryOf = boundaryOf_.data();
+  d.wallHistory = wallHistory_.data(), d.wallTouching = wallTouching_.data();
   d.dissipated = dissipated_.data();
   if (loads) d.loads = *loads;
   d.flags = flags_.device().data();
   return d;
 }
+
+template <class Real> ForceData<Real> Grains::forceData(Forces<Real>& forces) {
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  return {real(model_.radius),        real(scale_.unit),   real(model_.timeStep),
+          real(0.5 * model_.mass),    real(model_.mass),   real(static_cast<double>(diameterUnits_)),
+          model_.law.as<Real>(),      forces.pairs.data(), forces.boundaries.data(),
+          forces.boundaryLoads.data()};
+}
+template ForceData<float> Grains::forceData(Forces<float>&);
+template ForceData<double> Grains::forceData(Forces<double>&);
 
 bool Grains::refreshNeighbours() {
   if (stale_) rebuild();
@@ -192,7 +126,7 @@ void Grains::rebuild() {
     subdomain_->sorted(neighbours_.order(), slots_);
     origins_.origin = origin_.data(), origins_.ghost = subdomain_->ghostMarks();
   }
-  neighbours_.build(position_[0].data(), id_.data(), subdomain_ ? &origins_ : nullptr);
+  neighbours_.build(position_[0].data(), id_.data(), subdomain_ ? &origins_ : nullptr, radii());
   if (boundaryCount_ > 0) listNearBoundaries();
   reference_.resize(slots_);
   base::forEach(exec_, "keep reference", static_cast<std::int64_t>(slots_),
@@ -206,12 +140,15 @@ void Grains::listNearBoundaries() {
   const auto n = static_cast<std::int64_t>(slots_);
   base::Array<std::uint32_t> mark(exec_, slots_), before(exec_, slots_);
   boundaryOf_.resize(slots_);
+  const double reach = (manyRadii() ? 0 : model_.radius) + 0.5 * model_.skin * smallestRadius_ + scale_.unit;
   base::forEach(exec_, "mark grains near boundaries", n,
-                MarkNearBoundary{kernelData(nullptr), model_.radius * (1 + 0.5 * model_.skin) + scale_.unit, ghosts(),
-                                 mark.data()});
+                MarkNearBoundary{kernelData(nullptr), reach, manyRadii(), ghosts(), mark.data()});
   const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), slots_);
   nearBoundary_.resize(total);
-  boundaryLoads_.resize(total);
+  if (model_.precision == Precision::single)
+    single_.boundaryLoads.resize(total);
+  else
+    double_.boundaryLoads.resize(total);
   base::forEach(exec_, "list grains near boundaries", n,
                 ListNearBoundary{before.data(), n, total, nearBoundary_.data(), boundaryOf_.data()});
   base::synchronize(exec_);
@@ -236,83 +173,43 @@ void Grains::permute() {
   };
   gatherOwn(remainders_);
   gatherOwn(id_);
-  gatherOwn(wallShear_, boundaryCount_);
+  gatherOwn(wallHistory_, boundaryCount_ * historyWidth_);
   gatherOwn(wallTouching_);
   gatherOwn(dissipated_);
   gatherOwn(origin_);
 }
 
-void Grains::advanceGrains(const contact::GrainLoadsView* loads, const base::Array<std::uint32_t>* active) {
+template <class Real> void Grains::advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads,
+                                                 const base::Array<std::uint32_t>* active) {
   GrainKernelData d = kernelData(loads);
   const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
   if (active) d.active = active->data();
-  const bool boundaries = boundaryCount_ > 0, withLoads = loads != nullptr;
-  if (frictional_ && boundaries)
-    runStep<true, true>(exec_, d, count, withLoads, model_.ledger);
-  else if (frictional_)
-    runStep<true, false>(exec_, d, count, withLoads, model_.ledger);
-  else if (boundaries)
-    runStep<false, true>(exec_, d, count, withLoads, model_.ledger);
-  else
-    runStep<false, false>(exec_, d, count, withLoads, model_.ledger);
+  runGrainStep(exec_, d, forceData(forces), count, model_.specialised);
+}
+
+template <class Real> void Grains::stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads) {
+  if (boundaryCount_ > 0)
+    runBoundaryContacts(exec_, kernelData(loads), forceData(forces), static_cast<std::int64_t>(nearBoundary_.size()),
+                        model_.specialised);
+  if (subdomain_) {
+    // Grains that need no ghost go first: meanwhile the ghosts are on their way.
+    advanceGrains(forces, loads, &subdomain_->uniques());
+    completeGhosts();
+    advanceGrains(forces, loads, &subdomain_->masters());
+  } else {
+    advanceGrains(forces, loads, nullptr);
+  }
 }
 
 void Grains::beginStep(const contact::GrainLoadsView* loads) {
-  if (boundaryCount_ > 0) {
-    const GrainKernelData d = kernelData(loads);
-    const auto near = static_cast<std::int64_t>(nearBoundary_.size());
-    if (frictional_)
-      base::forEach(exec_, "boundary contacts", near, BoundaryContacts<true>{d});
-    else
-      base::forEach(exec_, "boundary contacts", near, BoundaryContacts<false>{d});
-  }
-  if (subdomain_) {
-    // Grains that need no ghost go first: meanwhile the ghosts are on their way.
-    advanceGrains(loads, &subdomain_->uniques());
-    completeGhosts();
-    advanceGrains(loads, &subdomain_->masters());
-  } else {
-    advanceGrains(loads, nullptr);
-  }
+  if (model_.precision == Precision::single)
+    stepWith(single_, loads);
+  else
+    stepWith(double_, loads);
   flags_.download();
   position_[0].swap(position_[1]);
   velocity_[0].swap(velocity_[1]);
   spin_[0].swap(spin_[1]);
-}
-
-GrainLedger Grains::ledger() {
-  if (stale_) rebuild();
-  completeGhosts();
-  const double scale = model_.law.stiffness * model_.radius * model_.radius;
-  MeasureGrain measure{kernelData(nullptr),
-                       base::fixedPointFor(scale, 32),
-                       base::fixedPointFor(model_.mass * 10, 32),
-                       nullptr,
-                       nullptr,
-                       ghosts()};
-  base::Array<std::int64_t> sums(exec_, 10);
-  base::Array<std::uint64_t> extremes(exec_, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
-  measure.sums = sums.data();
-  measure.extremes = extremes.data();
-  base::forEach(exec_, "measure grains", static_cast<std::int64_t>(slots_), measure);
-  std::vector<std::int64_t> q = sums.toHost();
-  std::vector<std::uint64_t> most = extremes.toHost();
-  if (subdomain_) {
-    subdomain_->comm().sum(q.data(), q.size());
-    subdomain_->comm().minimum(most.data(), most.size());
-  }
-  GrainLedger ledger;
-  ledger.kinetic = measure.energy.value(q[0]);
-  ledger.rotational = measure.energy.value(q[1]);
-  ledger.potential = measure.energy.value(q[2]);
-  ledger.elastic = measure.energy.value(q[3]);
-  ledger.dissipated = measure.energy.value(q[4]);
-  ledger.momentum = measure.momentum.value({q[5], q[6], q[7]});
-  ledger.contacts = q[8] / 2;
-  ledger.boundaryContacts = q[9];
-  ledger.deepestOverlap = static_cast<double>(~most[0]) * scale_.unit;
-  ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
-  return ledger;
 }
 
 } // namespace grouser::terrain

@@ -18,12 +18,15 @@
 namespace grouser::terrain {
 
 struct GrainKernelData;
+template <class Real> struct ForceData;
 
 /// One grain as the user sets it; its id is its place in the list.
 struct GrainStart {
   base::Vec3d position; ///< [m]
   base::Vec3d velocity; ///< [m/s]
   base::Vec3d spin;     ///< [rad/s]
+  double radius{0};     ///< [m], at most the model's; 0: the model's
+  int material{0};      ///< among the model's
 };
 
 /// The grains of a scene on the host, by id: all of them, or on several ranks this rank's block of ids.
@@ -32,6 +35,7 @@ struct GrainSnapshot {
   std::vector<base::Vec3d> position; ///< [m]
   std::vector<base::Vec3f> velocity; ///< [m/s]
   std::vector<base::Vec3f> spin;     ///< [rad/s]
+  std::vector<float> radius;         ///< [m]; empty where all are the model's
 };
 
 /// Rigid surroundings of the grains: plane walls and a height-field floor.
@@ -40,7 +44,10 @@ struct Boundaries {
   std::optional<HeightField> floor;
 };
 
-/// Equal spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
+/// Spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
+///
+/// Of one radius and material, neither is stored with the grains. Where they differ, the radius lies in velocity.w (a
+/// whole number of units of length that a float holds) and the material in spin.w.
 ///
 /// State lives on the device of `exec`, sorted in space; results do not depend on the sorting, on when lists are
 /// rebuilt, on the number of threads, on the device, or on the number of ranks and what each of them owns. On several
@@ -48,7 +55,7 @@ struct Boundaries {
 class Grains {
 public:
   /// `start`: all grains of the scene, on every rank. Throws InputError when a grain lies outside the range of the
-  /// integer positions or two grains coincide.
+  /// integer positions, two grains coincide, or radii are too unlike for their positions' scale.
   Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries, const std::vector<GrainStart>& start,
          const PartitionOptions& partition = {});
 
@@ -56,6 +63,10 @@ public:
   std::size_t slots() const { return slots_; } ///< on this rank, slaves among them; local
   const GrainModel& model() const { return model_; }
   const base::PositionScale& scale() const { return scale_; }
+  /// Sum of features of laws and grains, without loads; local.
+  unsigned features() const { return features_; }
+  bool manyRadii() const;
+  double smallestRadius() const { return smallestRadius_; } ///< of the scene [m]; local
 
   /// Makes the neighbour list valid for the next step. True when slots have changed since it was last asked.
   bool refreshNeighbours();
@@ -118,13 +129,26 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
+  /// Laws and loads in the precision of the forces; empty in the other.
+  template <class Real> struct Forces {
+    base::Array<contact::BasicLaw<Real>> pairs, boundaries;
+    base::Array<BoundaryLoad<Real>> boundaryLoads;
+  };
+
   GrainKernelData kernelData(const contact::GrainLoadsView* loads);
-  void advanceGrains(const contact::GrainLoadsView* loads, const base::Array<std::uint32_t>* active);
+  template <class Real> ForceData<Real> forceData(Forces<Real>& forces);
+  template <class Real> void makeForces(Forces<Real>& forces, const std::vector<contact::ContactLaw>& boundaries);
+  template <class Real> void stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads);
+  template <class Real> void advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads,
+                                           const base::Array<std::uint32_t>* active);
+  contact::RadiiInW radii() const;
+  float radiusInW(const GrainStart& grain) const;
   void rebuild();
   void permute();
   void listNearBoundaries();
   void checkFlags();
   [[noreturn]] void stopFor(std::uint64_t fault) const;
+  GrainLayout layout() const;
   GrainState ownRows() const;
   void restoreContacts(const GrainState& state, const std::vector<std::uint32_t>& id);
 
@@ -141,8 +165,10 @@ private:
   base::PositionScale scale_;
   base::Comm comm_;
   std::size_t count_, slots_;
+  double smallestRadius_;
   std::int64_t diameterUnits_, skinUnits_;
-  bool frictional_;
+  unsigned features_;
+  int historyWidth_; ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
   int boundaryCount_;
 
   base::Array<base::Position> position_[2];
@@ -150,11 +176,13 @@ private:
   base::Array<Remainders> remainders_;
   base::Array<std::uint32_t> id_;
   base::Array<base::Vec3<std::uint32_t>> reference_;
-  base::Array<base::Vec3f> wallShear_;
+  base::Array<float> wallHistory_; ///< [slot][wall or floor][historyWidth_]
   base::Array<std::uint32_t> wallTouching_;
   base::Array<double> dissipated_;
   base::Array<std::uint32_t> nearBoundary_, boundaryOf_;
-  base::Array<BoundaryLoad> boundaryLoads_;
+  base::Array<double> massPerCube_;
+  Forces<float> single_;
+  Forces<double> double_;
   base::Mirrored<StepFlags> flags_;
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;

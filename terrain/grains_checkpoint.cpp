@@ -15,7 +15,19 @@ using base::Vec3i;
 
 namespace {
 
-Vec4f withZero(const Vec3f& v) { return {v.x, v.y, v.z, 0}; }
+Vec3f vectorAt(const std::vector<float>& numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+/// History of contacts as it lies on the device: spring and rolling angle of each, one after the other.
+std::vector<float> historyOf(const std::vector<Vec3f>& shear, const std::vector<Vec3f>& rolling) {
+  std::vector<float> history;
+  for (std::size_t c = 0; c < shear.size(); ++c) {
+    history.insert(history.end(), {shear[c].x, shear[c].y, shear[c].z});
+    if (!rolling.empty()) history.insert(history.end(), {rolling[c].x, rolling[c].y, rolling[c].z});
+  }
+  return history;
+}
 
 /// Where the grain was `travelled` ago.
 Position before(const Position& now, const base::Vec3<std::uint32_t>& travelled) {
@@ -42,12 +54,18 @@ std::vector<std::uint32_t> GrainState::words() const {
     for (const std::size_t end = c + contacts[g]; c < end; ++c) {
       put(neighbour[c]);
       if (!contactShear.empty()) put(contactShear[c]);
+      if (!contactRolling.empty()) put(contactRolling[c]);
     }
+    if (!radius.empty()) put(radius[g]);
+    if (!material.empty()) put(material[g]);
     if (wallBits.empty()) continue;
     put(wallBits[g]);
     const auto walls = static_cast<std::size_t>(layout.boundaries);
-    for (std::size_t b = 0; b < walls && layout.friction; ++b)
-      if (wallBits[g] >> b & 1) put(wallShear[g * walls + b]);
+    for (std::size_t b = 0; b < walls && layout.friction; ++b) {
+      if (!(wallBits[g] >> b & 1)) continue;
+      put(wallShear[g * walls + b]);
+      if (layout.rolling) put(wallRolling[g * walls + b]);
+    }
   }
   return words;
 }
@@ -60,13 +78,18 @@ GrainState Grains::state() const {
   return redistribute(comm_, own, block);
 }
 
+GrainLayout Grains::layout() const {
+  return {model_.ledger,     boundaryCount_,      historyWidth_ > 0,
+          historyWidth_ > 3, manyRadii() ? 1 : 0, static_cast<std::int64_t>(model_.materials.count())};
+}
+
 /// The rows of the grains that this rank integrates.
 GrainState Grains::ownRows() const {
   const auto position = position_[0].toHost();
   const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
   const auto remainders = remainders_.toHost();
   const auto id = id_.toHost(), wallBits = wallTouching_.toHost();
-  const auto wallShear = wallShear_.toHost();
+  const auto wallHistory = wallHistory_.toHost();
   const auto dissipated = dissipated_.toHost();
   const auto reference = reference_.toHost();
   const bool listed = rebuilds_ > 0;
@@ -78,32 +101,39 @@ GrainState Grains::ownRows() const {
   std::sort(slotOf.begin(), slotOf.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
 
   GrainState s;
-  s.layout = {model_.ledger, boundaryCount_, frictional_};
+  s.layout = layout();
   s.total = static_cast<std::int64_t>(count_), s.skin = model_.skin, s.rebuilds = rebuilds_;
-  const auto walls = static_cast<std::size_t>(boundaryCount_);
+  const auto walls = static_cast<std::size_t>(boundaryCount_), width = static_cast<std::size_t>(historyWidth_);
   for (const std::uint32_t i : slotOf) {
     s.id.push_back(id[i]);
     s.position.push_back(position[i]);
     s.velocity.push_back(velocity[i].xyz());
     s.spin.push_back(spin[i].xyz());
     s.remainders.push_back(remainders[i]);
+    if (s.layout.radii) s.radius.push_back(velocity[i].w);
+    if (s.layout.materials) s.material.push_back(static_cast<std::uint32_t>(spin[i].w));
     if (model_.ledger) s.dissipated.push_back(dissipated[i]);
     s.travelled.push_back(listed ? base::Vec3<std::uint32_t>{position[i].x - reference[i].x,
                                                              position[i].y - reference[i].y,
                                                              position[i].z - reference[i].z}
                                  : base::Vec3<std::uint32_t>{});
     s.contacts.push_back(0);
-    for (std::size_t k = 0; listed && k < lists.count[i]; ++k) {
-      if (!(lists.touching[i] >> k & 1)) continue;
-      const auto at = static_cast<std::size_t>(lists.at(i, static_cast<std::uint32_t>(k)));
+    for (std::uint32_t k = 0; listed && k < lists.count[i]; ++k) {
+      if (!lists.touched(i, k)) continue;
+      const auto at = static_cast<std::size_t>(lists.at(i, k));
       s.neighbour.push_back(id[lists.slot[at]]);
-      if (!lists.shear.empty()) s.contactShear.push_back(lists.shear[at]);
+      if (width > 0) s.contactShear.push_back(vectorAt(lists.history, at * width));
+      if (width > 3) s.contactRolling.push_back(vectorAt(lists.history, at * width + 3));
       ++s.contacts.back();
     }
     if (walls > 0) s.wallBits.push_back(wallBits[i]);
     // Springs of walls out of touch are never read again.
-    for (std::size_t b = 0; b < walls && frictional_; ++b)
-      s.wallShear.push_back(wallBits[i] >> b & 1 ? wallShear[i * walls + b] : Vec3f{});
+    for (std::size_t b = 0; b < walls && width > 0; ++b) {
+      const bool held = wallBits[i] >> b & 1;
+      const std::size_t at = (i * walls + b) * width;
+      s.wallShear.push_back(held ? vectorAt(wallHistory, at) : Vec3f{});
+      if (width > 3) s.wallRolling.push_back(held ? vectorAt(wallHistory, at + 3) : Vec3f{});
+    }
   }
   return s;
 }
@@ -112,7 +142,7 @@ std::vector<std::uint32_t> Grains::stateWords() const { return state().words(); 
 
 void Grains::restore(const GrainState& saved, bool grows) {
   if (saved.total < static_cast<std::int64_t>(count_) || (saved.total > static_cast<std::int64_t>(count_) && !grows) ||
-      saved.layout != GrainLayout{model_.ledger, boundaryCount_, frictional_})
+      saved.layout != layout())
     throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
                                        "resume with the scene that was run",
                                        saved.total, count_));
@@ -133,12 +163,14 @@ void Grains::restore(const GrainState& saved, bool grows) {
   std::vector<Vec4f> velocity(slots_), spin(slots_);
   for (std::size_t k = 0; k < slots_; ++k) {
     position[k] = placed(s, k);
-    velocity[k] = withZero(s.velocity[k]), spin[k] = withZero(s.spin[k]);
+    const Vec3f &v = s.velocity[k], &w = s.spin[k];
+    velocity[k] = {v.x, v.y, v.z, s.radius.empty() ? 0.0f : s.radius[k]};
+    spin[k] = {w.x, w.y, w.z, s.material.empty() ? 0.0f : static_cast<float>(s.material[k])};
   }
   position_[0].assign(position), velocity_[0].assign(velocity), spin_[0].assign(spin);
   position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
   remainders_.assign(s.remainders), id_.assign(s.id), dissipated_.assign(s.dissipated);
-  wallTouching_.assign(s.wallBits), wallShear_.assign(s.wallShear);
+  wallTouching_.assign(s.wallBits), wallHistory_.assign(historyOf(s.wallShear, s.wallRolling));
   if (subdomain_) subdomain_->forgetRoles();
   neighbours_.forget();
   invalidateNeighbours();
@@ -169,9 +201,11 @@ void Grains::restoreContacts(const GrainState& s, const std::vector<std::uint32_
   std::vector<std::size_t> first(s.rows() + 1);
   for (std::size_t g = 0; g < s.rows(); ++g) first[g + 1] = first[g] + s.contacts[g];
   auto lists = neighbours_.toHost();
+  const std::vector<float> history = historyOf(s.contactShear, s.contactRolling);
+  const auto width = static_cast<std::size_t>(historyWidth_), words = static_cast<std::size_t>(lists.maskWords);
   const auto ghost = ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>(slots_);
   for (std::size_t i = 0; i < slots_; ++i) {
-    lists.touching[i] = 0;
+    std::fill_n(lists.touching.begin() + static_cast<std::ptrdiff_t>(i * words), words, 0);
     if (ghost[i]) continue;
     // Both ascend in the neighbours' ids.
     const auto row = static_cast<std::size_t>(std::lower_bound(s.id.begin(), s.id.end(), id[i]) - s.id.begin());
@@ -180,8 +214,9 @@ void Grains::restoreContacts(const GrainState& s, const std::vector<std::uint32_
     for (std::uint32_t k = 0; k < lists.count[i] && c < end; ++k) {
       const auto at = static_cast<std::size_t>(lists.at(i, k));
       if (id[lists.slot[at]] != s.neighbour[c]) continue;
-      lists.touching[i] |= std::uint64_t{1} << k;
-      if (!lists.shear.empty()) lists.shear[at] = s.contactShear[c];
+      lists.touching[i * words + k / 64] |= std::uint64_t{1} << (k & 63u);
+      std::copy_n(history.begin() + static_cast<std::ptrdiff_t>(c * width), width,
+                  lists.history.begin() + static_cast<std::ptrdiff_t>(at * width));
       ++c;
     }
     if (c < end)

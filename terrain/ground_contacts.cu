@@ -8,8 +8,8 @@ namespace grouser::terrain {
 GroundContacts::GroundContacts(const base::Exec& exec, const Model& model, const HeightField& ground,
                                const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                const std::vector<int>& parts)
-    : model_(model), buffers_(exec, sets, setOfPart, parts), parts_(exec, parts),
-      heights_(exec, ground.heights()), ground_(ground.view()) {
+    : model_(model), buffers_(exec, sets, setOfPart, parts), parts_(exec, parts), heights_(exec, ground.heights()),
+      ground_(ground.view()) {
   std::vector<double> reach;
   for (const base::SphereSet* set : sets) reach.push_back(contact::enclosingRadius(*set));
   reach_ = base::Array<double>(exec, reach);

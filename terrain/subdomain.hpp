@@ -6,9 +6,7 @@
 #include "terrain/partition.hpp"
 
 #include <array>
-#include <array>
 #include <cstdint>
-#include <vector>
 #include <vector>
 
 namespace grouser::terrain {
@@ -22,10 +20,10 @@ enum class Role : std::uint32_t {
 
 /// How the grains are shared out among ranks.
 struct PartitionOptions {
-  base::Comm comm;                        ///< alone: one subdomain, and none of what follows
-  std::array<int, 3> subdomains{0, 0, 0}; ///< wanted along x, y, z; 0: automatic
+  base::Comm comm;                         ///< alone: one subdomain, and none of what follows
+  std::array<int, 3> subdomains{0, 0, 0};  ///< wanted along x, y, z; 0: automatic
   std::array<std::vector<double>, 3> cuts; ///< [m] planes across x, y, z at the start; empty: chosen
-  bool rebalance = true;                  ///< move the cuts when one rank has clearly more work than another
+  bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than another
 };
 
 /// One rank's subdomain of a bed on several ranks: which grains are its own, which of them others need, and the ghosts

@@ -97,7 +97,7 @@ double pyramidSinks(double muBall, double muFloor) {
   m.law.damping = static_cast<float>(2 * 0.3 * std::sqrt(m.law.stiffness / (m.mass / 2)));
   m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
   m.law.tangentialDamping = m.law.damping / 2;
-  contact::LinearLaw onFloor = m.law;
+  contact::ContactLaw onFloor = m.law;
   m.law.friction = static_cast<float>(muBall);
   onFloor.friction = static_cast<float>(muFloor);
   const double r = m.radius;

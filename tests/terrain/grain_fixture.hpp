@@ -20,7 +20,7 @@ inline GrainModel ball(double timeStep) {
   return m;
 }
 
-inline Wall floorPlane(const contact::LinearLaw& law) { return {{0, 0, 1}, 0.0, law}; }
+inline Wall floorPlane(const contact::ContactLaw& law) { return {{0, 0, 1}, 0.0, law}; }
 
 /// Steps `n` times, rebuilding as needed.
 inline void advance(Grains& grains, std::int64_t n) {

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cmath>
+
+namespace grouser::contact {
+
+/// What a scene's contact laws may have. Force functions and kernels take a sum of these as a template parameter: what
+/// is absent is not compiled in. With kGeneral all is compiled in, and each law's own constants decide at run time;
+/// the bits are those of the special functions.
+inline constexpr unsigned kHertz = 1; ///< Hertz' normal and Mindlin's tangential stiffness; else constant stiffnesses
+inline constexpr unsigned kFriction = 2;        ///< tangential spring with Coulomb's limit
+inline constexpr unsigned kRollingFriction = 4; ///< rolling resistance with history
+inline constexpr unsigned kCohesion = 8;        ///< constant attraction while in touch
+inline constexpr unsigned kManyMasses =
+    16; ///< damping follows the effective mass of each contact, not one of the whole scene
+inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
+
+/// A contact law between two surfaces, in float or double. All of them are a normal spring and dashpot, and a
+/// tangential spring with history and dashpot that slips at Coulomb's limit (Cundall and Strack 1979,
+/// Geotechnique 29:47):
+///
+///   F_n = elastic + c_n v_n                     v_n: approach speed;  never attractive unless `attraction`
+///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; when it slips the spring is shortened to fit
+///
+/// Linear:  elastic = k overlap,  c_n = gamma m_eff,  k_t constant.
+///
+/// Hertz-Mindlin, with the contact radius a = sqrt(R_eff overlap):
+///   elastic = (4/3) E_eff a overlap,  k_t = 8 G_eff a (Mindlin 1949, no slip),  c_n = 2 beta sqrt(2 E_eff a m_eff), so
+///   that the restitution does not depend on the speed (Tsuji et al. 1992, Powder Technol. 71:239).
+///   The tangential force is -k_t(overlap) shear: the whole spring stiffens and softens with the contact radius.
+///
+/// Cohesion (DMT, Derjaguin et al. 1975): a constant pull of 2 pi w R_eff while the spheres overlap, w the energy of
+/// adhesion. At overlap zero it ends at once: parting needs that force, and the work done against it is that gained on
+/// approach. Friction and rolling friction are limited by the pressing part, F_n without the pull.
+template <class T> struct BasicLaw {
+  T stiffness{};             ///< linear: k [N/m], > 0;  Hertz: (4/3) E_eff [Pa]
+  T damping{};               ///< linear: gamma [1/s], >= 0;  Hertz: 0
+  T tangentialStiffness{};   ///< linear: k_t [N/m], >= 0;  Hertz: 8 G_eff [Pa]
+  T tangentialDamping{};     ///< linear: gamma_t [1/s], >= 0;  Hertz: 0
+  T friction{};              ///< Coulomb coefficient [-], >= 0; 0 switches the tangential force off
+  bool attraction{};         ///< whether the dashpot may pull
+  bool hertz{};              ///< which of the two
+  T rootDamping{};           ///< Hertz: 2 beta sqrt(2 E_eff) [sqrt(Pa)];  linear with many masses: 2 zeta sqrt(k)
+  T tangentialRootDamping{}; ///< the same of the tangential dashpot
+  T rollingFriction{};       ///< [-], >= 0; 0 switches rolling resistance off
+  T rollingDamping{};        ///< [-], >= 0: of the rolling spring's critical damping
+  T pullPerRadius{};         ///< cohesion: 2 pi w [N/m], >= 0
+
+  template <class U> BasicLaw<U> as() const {
+    const auto u = [](T value) { return static_cast<U>(value); };
+    return {u(stiffness),      u(damping),      u(tangentialStiffness), u(tangentialDamping),     u(friction),
+            attraction,        hertz,           u(rootDamping),         u(tangentialRootDamping), u(rollingFriction),
+            u(rollingDamping), u(pullPerRadius)};
+  }
+  /// Features that a kernel needs for this law; kManyMasses is the scene's affair.
+  unsigned features() const {
+    return (hertz ? kHertz : 0u) | (friction > 0 ? kFriction : 0u) | (rollingFriction > 0 ? kRollingFriction : 0u) |
+           (pullPerRadius > 0 ? kCohesion : 0u);
+  }
+};
+
+/// As a scene has it; kernels take their own precision.
+using ContactLaw = BasicLaw<double>;
+
+/// Two surfaces in touch, seen from side i. The normal points from i to j.
+template <class T> struct BasicTouch {
+  base::Vec3<T> normal;   ///< unit, from i to j
+  T overlap;              ///< [m], > 0
+  base::Vec3<T> velocity; ///< of i's material point relative to j's at the contact point [m/s]
+  T effectiveMass;        ///< m_i m_j / (m_i + m_j) [kg]
+  T effectiveRadius{};    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
+};
+using Touch = BasicTouch<float>;
+
+/// What one contact does in one step.
+template <class T> struct BasicReaction {
+  base::Vec3<T> force; ///< on i [N]; on j it is the exact opposite
+  T dissipated;        ///< by dashpots and sliding within the step [J]
+  T pressing;          ///< normal force without cohesion [N], what limits friction
+  T normalStiffness;   ///< dF_n / d overlap of the spring [N/m]
+};
+using Reaction = BasicReaction<float>;
+
+/// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
+GROUSER_HD float squareRoot(float x) { return sqrtf(x); }
+GROUSER_HD double squareRoot(double x) { return sqrt(x); }
+
+/// Spring force and coefficients of a contact at one overlap.
+template <class T> struct Coefficients {
+  T elastic;             ///< [N]
+  T normalStiffness;     ///< [N/m]
+  T damping;             ///< c_n [N s/m]
+  T tangentialStiffness; ///< k_t [N/m]
+  T tangentialDamping;   ///< c_t [N s/m]
+};
+
+template <unsigned kFeatures, class T>
+GROUSER_HD Coefficients<T> coefficientsOf(const BasicLaw<T>& law, T overlap, T effectiveMass, T effectiveRadius) {
+  if (kFeatures & kGeneral ? law.hertz : kFeatures & kHertz) {
+    const T a = squareRoot(effectiveRadius * overlap);
+    const T root = squareRoot(a * effectiveMass);
+    const T modulus = law.stiffness * a;
+    return {modulus * overlap, T(1.5) * modulus, law.rootDamping * root, law.tangentialStiffness * a,
+            law.tangentialRootDamping * root};
+  }
+  Coefficients<T> c{law.stiffness * overlap, law.stiffness, law.damping * effectiveMass, law.tangentialStiffness,
+                    law.tangentialDamping * effectiveMass};
+  if (kFeatures & (kManyMasses | kGeneral)) {
+    const T root = squareRoot(effectiveMass);
+    c.damping += law.rootDamping * root;
+    c.tangentialDamping += law.tangentialRootDamping * root;
+  }
+  return c;
+}
+
+/// Force of `law` on side i, and the tangential spring `shear` [m] carried to the end of the step.
+/// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit.
+///
+/// What is dissipated is the work of the dashpot, with the approach in the middle of the step as this contact alone
+/// would make it (second order in the step for a single collision), and of friction (first order). The energy that a
+/// loaded tangential spring gains or loses because k_t follows the contact radius is booked there too.
+template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T>
+contactForce(const BasicLaw<T>& law, const BasicTouch<T>& touch, T dt, base::Vec3<T>& shear) {
+  const base::Vec3<T>& n = touch.normal;
+  const T approach = dot(touch.velocity, n);
+  const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
+  T dashpot = c.damping * approach;
+  // Without attraction the dashpot may at most cancel the spring.
+  if (!law.attraction && c.elastic + dashpot < 0) dashpot = -c.elastic;
+  const T pressing = c.elastic + dashpot;
+  T normalForce = pressing;
+  if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pullPerRadius * touch.effectiveRadius;
+  const T halfStepPerMass = T(0.5) * dt / touch.effectiveMass;
+  BasicReaction<T> reaction{n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, pressing,
+                            c.normalStiffness};
+  if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
+
+  // Turn the spring into the present tangent plane, then stretch it by this step's slip.
+  const base::Vec3<T> slip = touch.velocity - n * approach;
+  shear -= n * dot(shear, n);
+  const T storedBefore = c.tangentialStiffness * dot(shear, shear);
+  if (kFeatures & kGeneral ? law.hertz : kFeatures & kHertz) // k_t grows as the root of the overlap
+    reaction.dissipated -= T(0.25) * storedBefore * approach * dt / touch.overlap;
+  shear += slip * dt;
+  base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
+  const T limit = law.friction * (pressing > 0 ? pressing : T(0));
+  const T size2 = dot(tangential, tangential);
+  if (size2 > limit * limit) {
+    // Sliding: the force lies on Coulomb's cone, and the spring is as long as it would hold that force.
+    tangential *= limit / squareRoot(size2);
+    shear = c.tangentialStiffness > 0 ? tangential * (T(-1) / c.tangentialStiffness) : base::Vec3<T>{};
+  }
+  // Work put into the tangential contact, less what its spring has gained.
+  reaction.dissipated -=
+      dot(tangential, slip) * dt + T(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
+  reaction.force += tangential;
+  return reaction;
+}
+
+/// Energy stored in the springs of a contact [J], and gained from its cohesion, from zero at overlap 0.
+template <class T> GROUSER_HD double storedEnergy(const BasicLaw<T>& law, double overlap, double effectiveRadius,
+                                                  const base::Vec3<T>& shear) {
+  const double s2 = static_cast<double>(dot(shear, shear));
+  const double k = static_cast<double>(law.stiffness), kt = static_cast<double>(law.tangentialStiffness);
+  const double pull = static_cast<double>(law.pullPerRadius) * effectiveRadius * overlap;
+  if (!law.hertz) return 0.5 * k * overlap * overlap + 0.5 * kt * s2 - pull;
+  const double a = sqrt(effectiveRadius * overlap);
+  return 0.4 * k * a * overlap * overlap + 0.5 * kt * a * s2 - pull;
+}
+
+} // namespace grouser::contact

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/for_each.cuh"
+#include "contact/grain_loads.hpp"
+#include "contact/neighbour_list.hpp"
+#include "contact/rolling_resistance.hpp"
+#include "terrain/grain_model.hpp"
+#include "terrain/grain_records.hpp"
+
+namespace grouser::terrain {
+
+/// State and constants that do not depend on the precision of the forces, by value.
+struct GrainKernelData {
+  // Constants.
+  unsigned features;
+  std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
+  double timeStep, stepPerMass, stepPerInertia, unitsPerSpeed; // dt, dt/m, dt/I, dt/unit
+  double unitLength;
+  float unitsPerLength; ///< a power of two
+  float diameter, maxOverlap, maxSpeed2;
+  float maxOverlapShare;   ///< of a grain's own radius, where they differ [-]
+  base::Vec3d gravityStep; // g dt
+  const Wall* walls;
+  int wallCount, boundaryCount; ///< planes; planes and floor together
+  bool hasFloor;
+  HeightFieldView floor;
+  int materials;               ///< at least 1
+  const double* massPerCube;   ///< [materials] mass over radius^3 [kg/m3], where masses differ
+  std::int64_t count;          ///< slots
+  const std::uint32_t* active; ///< slots that this launch is for; null: all
+
+  // State. Positions, velocities and spins are read from `now` and written to `next`: neighbours still read `now`.
+  const base::Position* position;
+  const Vec4f *velocity, *spin;
+  base::Position* nextPosition;
+  Vec4f *nextVelocity, *nextSpin;
+  Remainders* remainders;
+  const std::uint32_t* id;
+  const base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
+  contact::NeighbourView neighbours;
+  const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
+  const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
+  float* wallHistory;                ///< [slot][wall or floor][width of the neighbours' history]
+  std::uint32_t* wallTouching;       ///< bit a wall, bit `wallCount` the floor
+  double* dissipated;
+  contact::GrainLoadsView loads;
+  StepFlags* flags;
+};
+
+/// Constants in the precision of the forces, by value.
+template <class Real> struct ForceData {
+  Real radius, unit, timeStep, halfMass, mass, diameterUnits;
+  contact::BasicLaw<Real> law;                 ///< grain on grain, of one material
+  const contact::BasicLaw<Real>* pairLaws;     ///< [materials][materials], where there are several
+  const contact::BasicLaw<Real>* boundaryLaws; ///< [walls and floor][materials]
+  BoundaryLoad<Real>* boundaryLoads;           ///< by place in the list of grains near boundaries
+};
+
+/// Size of one grain, whose radius is its own or the scene's.
+template <class Real> struct GrainSize {
+  Real radius, mass;
+  std::int64_t units; ///< radius in whole units of length; 0 where all are alike
+  int material;       ///< 0 where there is one
+};
+
+GROUSER_HD base::Vec3f loadVector(const float* at) { return {at[0], at[1], at[2]}; }
+GROUSER_HD void storeVector(float* at, const base::Vec3f& v) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
+
+/// What all kernels of grains share: which features they have, and how big a grain is.
+template <unsigned kFeatures, class Real> struct GrainKernel {
+  GrainKernelData d;
+  ForceData<Real> f;
+
+  /// The features of force functions that this kernel calls.
+  static constexpr unsigned kLaw = kFeatures & (contact::kGeneral | contact::kHertz | contact::kFriction |
+                                                contact::kRollingFriction | contact::kCohesion | contact::kManyMasses);
+
+  GROUSER_HD bool has(unsigned feature) const {
+    return kFeatures & contact::kGeneral ? (d.features & feature) != 0 : (kFeatures & feature) != 0;
+  }
+  GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction); }
+  GROUSER_HD int historyWidth() const { return has(contact::kRollingFriction) ? 6 : 3; }
+
+  GROUSER_HD GrainSize<Real> sizeOf(float radius, float material) const {
+    if (!has(kManyRadii)) return {f.radius, f.mass, 0, 0};
+    const int m = has(kManyMaterials) ? static_cast<int>(material) : 0;
+    const Real r = static_cast<Real>(radius);
+    // Radii are whole units, and floats: both conversions are exact.
+    return {r, static_cast<Real>(d.massPerCube[m]) * r * r * r, static_cast<std::int64_t>(radius * d.unitsPerLength),
+            m};
+  }
+  GROUSER_HD GrainSize<Real> sizeOf(int i) const {
+    return has(kManyRadii) ? sizeOf(d.velocity[i].w, has(kManyMaterials) ? d.spin[i].w : 0.0f) : sizeOf(0, 0);
+  }
+};
+
+} // namespace grouser::terrain

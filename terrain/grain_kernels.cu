@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of grains that are compiled, and the choice among them.
+#include "terrain/grain_kernels.cuh"
+
+#include "terrain/boundary_contacts.cuh"
+#include "terrain/grain_step.cuh"
+
+namespace grouser::terrain {
+
+using contact::kCohesion;
+using contact::kFriction;
+using contact::kGeneral;
+using contact::kHertz;
+using contact::kRollingFriction;
+
+namespace {
+
+template <unsigned... kSets> struct KernelList {};
+
+/// Scenes have a ledger; benches leave it out.
+constexpr unsigned kBed = kFriction | kBoundaries | kLedger;
+using StepKernels =
+    KernelList<kBed, kBed | kLoads, kFriction | kBoundaries, kFriction | kBoundaries | kLoads, kFriction | kLedger,
+               kFriction, kLedger, kBoundaries | kLedger, kBed | kRollingFriction, kBed | kLoads | kRollingFriction,
+               kBed | kManyRadii, kBed | kManyRadii | kRollingFriction, kHertz | kBed, kHertz | kBed | kLoads,
+               kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction>;
+using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction>;
+/// In double all scenes take the general kernels.
+using NoKernels = KernelList<>;
+
+/// Features that the kernel of walls and floor asks for.
+constexpr unsigned kAtBoundaries =
+    kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kGeneral;
+
+template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features) {
+  return ((features == kSets) || ...);
+}
+
+template <template <unsigned, class> class Body, class Real, unsigned... kSets>
+void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, const char* name,
+              const GrainKernelData& d, const ForceData<Real>& f, std::int64_t count) {
+  const bool special =
+      ((features == kSets && (base::forEach(exec, name, count, Body<kSets, Real>{{d, f}}), true)) || ...);
+  if (!special) base::forEach(exec, name, count, Body<kGeneral, Real>{{d, f}});
+}
+
+} // namespace
+
+template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
+                              std::int64_t count, bool specialised) {
+  const unsigned features = specialised ? d.features : kGeneral;
+  runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
+}
+template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
+                              std::int64_t count, bool) {
+  runOneOf<GrainStep>(NoKernels{}, d.features, exec, "grain step", d, f, count);
+}
+
+template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
+                                     std::int64_t near, bool specialised) {
+  const unsigned features = specialised ? d.features & kAtBoundaries : kGeneral;
+  runOneOf<BoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near);
+}
+template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
+                                     std::int64_t near, bool) {
+  runOneOf<BoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts", d, f, near);
+}
+
+bool hasOwnKernel(unsigned features, Precision precision) {
+  return precision == Precision::single && listed(StepKernels{}, features);
+}
+
+std::string featureText(unsigned features) {
+  std::string text = features & kHertz ? "hertz" : "linear";
+  const auto add = [&](unsigned feature, const char* name) {
+    if (features & feature) text += std::string(", ") + name;
+  };
+  add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
+  add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
+  add(kBoundaries, "planes or floor"), add(kLoads, "rigid parts"), add(kLedger, "ledger");
+  return text;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_kernel_data.cuh"
+
+namespace grouser::terrain {
+
+/// One step of `count` grains, by the leanest kernel there is for the features of `d`: the one made for just these, or
+/// the general one. `Real` is float or double.
+template <class Real> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<Real>& f,
+                                        std::int64_t count, bool specialised);
+
+/// Walls and floor on the `near` grains listed near them.
+template <class Real> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d,
+                                               const ForceData<Real>& f, std::int64_t near, bool specialised);
+
+} // namespace grouser::terrain

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Energies and counts of the grains, from state functions.
+#include "terrain/grain_kernel_data.cuh"
+#include "terrain/grains.hpp"
+
+#include <algorithm>
+
+namespace grouser::terrain {
+
+using base::Vec3d;
+using base::Vec3f;
+
+namespace {
+
+/// One grain's share of the ledger, in quanta.
+template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real> {
+  using Kernel = GrainKernel<contact::kGeneral, Real>;
+  using Kernel::d, Kernel::f, Kernel::has;
+  using Law = contact::BasicLaw<Real>;
+
+  base::FixedPoint energy, momentum;
+  std::int64_t*
+      sums; ///< kinetic, rotational, potential, elastic, dissipated, px, py, pz, 2 x contacts, boundary contacts
+  std::uint64_t* extremes;    ///< complements of the deepest overlap [units] and the largest speed [um/s]
+  const std::uint32_t* ghost; ///< null where there are none
+
+  struct Held {
+    double elastic = 0, deepest = 0;
+    std::int64_t touching = 0, boundary = 0;
+  };
+
+  GROUSER_HD void operator()(int i) const {
+    if (ghost && ghost[i]) return;
+    const Vec3d v = d.velocity[i].xyz().template as<double>(), w = d.spin[i].xyz().template as<double>();
+    const base::Vec3l u = base::toUnits(d.position[i]);
+    const Vec3d x = u.template as<double>() * d.unitLength;
+    const GrainSize<Real> size = Kernel::sizeOf(i);
+    const double m = static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
+    Held held;
+    measureGrains(i, size, held);
+    measureBoundaries(i, x, size, held);
+    const double inertia = 0.4 * m * radius * radius;
+    const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
+    add(0, energy.quantise(0.5 * m * dot(v, v)));
+    add(1, energy.quantise(0.5 * inertia * dot(w, w)));
+    add(2, energy.quantise(-m * dot(gravity, x)));
+    add(3, energy.quantise(held.elastic));
+    add(4, energy.quantise(d.dissipated ? d.dissipated[i] : 0.0));
+    for (int a = 0; a < 3; ++a) add(5 + a, momentum.quantise(m * v[a]));
+    add(8, held.touching);
+    add(9, held.boundary);
+    base::atomicMin64(extremes, ~static_cast<std::uint64_t>(held.deepest / d.unitLength));
+    base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e6));
+  }
+
+private:
+  GROUSER_HD void measureGrains(int i, const GrainSize<Real>& own, Held& held) const {
+    for (std::uint32_t k = 0; k < d.neighbours.count[i]; ++k) {
+      const std::int64_t at = d.neighbours.at(i, k);
+      const auto j = static_cast<int>(d.neighbours.slot[at]);
+      const std::int64_t distance2 = base::squaredNorm(base::difference(d.position[i], d.position[j]));
+      const GrainSize<Real> other = Kernel::sizeOf(j);
+      const std::int64_t reach = has(kManyRadii) ? own.units + other.units : d.diameterUnits;
+      if (distance2 >= reach * reach) continue;
+      const double distance = sqrt(static_cast<double>(distance2));
+      const double overlap = static_cast<double>(reach * reach - distance2) / (reach + distance) * d.unitLength;
+      const double ri = static_cast<double>(own.radius), rj = static_cast<double>(other.radius);
+      const Law& law = has(kManyMaterials) ? f.pairLaws[own.material * d.materials + other.material] : f.law;
+      const bool touched = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
+      const float* history =
+          touched && Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
+      const double mi = static_cast<double>(own.mass), mj = static_cast<double>(other.mass);
+      held.elastic += 0.5 * stored(law, overlap, ri * rj / (ri + rj), mi * mj / (mi + mj), history);
+      held.deepest = overlap > held.deepest ? overlap : held.deepest;
+      ++held.touching;
+    }
+  }
+
+  GROUSER_HD void measureBoundaries(int i, const Vec3d& x, const GrainSize<Real>& size, Held& held) const {
+    const double radius = static_cast<double>(size.radius);
+    for (int b = 0; b < d.boundaryCount; ++b) {
+      if (b == d.wallCount && d.floor.clearOf(x, radius)) continue;
+      const double distance =
+          b < d.wallCount ? dot(d.walls[b].normal, x) - d.walls[b].offset : d.floor.closestPoint(x).distance;
+      const double overlap = radius - distance;
+      if (overlap <= 0) continue;
+      const bool touched = d.wallTouching[i] >> b & 1;
+      const float* history =
+          touched && Kernel::hasHistory()
+              ? d.wallHistory + (static_cast<std::int64_t>(i) * d.boundaryCount + b) * Kernel::historyWidth()
+              : nullptr;
+      held.elastic += stored(f.boundaryLaws[b * d.materials + size.material], overlap, radius,
+                             static_cast<double>(size.mass), history);
+      held.deepest = overlap > held.deepest ? overlap : held.deepest;
+      ++held.boundary;
+    }
+  }
+
+  /// `history`: null where the contact has none yet.
+  GROUSER_HD double stored(const Law& law, double overlap, double effectiveRadius, double effectiveMass,
+                           const float* history) const {
+    const Vec3f shear = history ? loadVector(history) : Vec3f{};
+    double energyHeld = contact::storedEnergy(law, overlap, effectiveRadius, shear.template as<Real>());
+    if (has(contact::kRollingFriction) && history) {
+      const auto c = contact::coefficientsOf<contact::kGeneral>(
+          law, static_cast<Real>(overlap), static_cast<Real>(effectiveMass), static_cast<Real>(effectiveRadius));
+      const Vec3d angle = loadVector(history + 3).template as<double>();
+      const Real k = contact::rollingStiffness(law, c.normalStiffness, static_cast<Real>(effectiveRadius));
+      energyHeld += 0.5 * static_cast<double>(k) * dot(angle, angle);
+    }
+    return energyHeld;
+  }
+  GROUSER_HD void add(int which, std::int64_t quanta) const { base::atomicAdd64(sums + which, quanta); }
+};
+
+/// Force of a contact pressed to the middle of a grain, or of a Hertz contact to a hundredth of that: the scale of
+/// energies [N].
+double strongest(const contact::ContactLaw& law, double radius) {
+  return law.stiffness * radius * (law.hertz ? 1e-3 * radius : 1.0);
+}
+
+} // namespace
+
+GrainLedger Grains::ledger() {
+  if (stale_) rebuild();
+  completeGhosts();
+  double force = strongest(model_.law, model_.radius);
+  for (const contact::ContactLaw& law : model_.materials.grains) force = std::max(force, strongest(law, model_.radius));
+  const base::FixedPoint energy = base::fixedPointFor(force * model_.radius, 32);
+  const base::FixedPoint momentum = base::fixedPointFor(model_.mass * 10, 32);
+  base::Array<std::int64_t> sums(exec_, 10);
+  base::Array<std::uint64_t> extremes(exec_, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
+  const auto measure = [&]<class Real>(const ForceData<Real>& f) {
+    base::forEach(
+        exec_, "measure grains", static_cast<std::int64_t>(slots_),
+        MeasureGrain<Real>{{kernelData(nullptr), f}, energy, momentum, sums.data(), extremes.data(), ghosts()});
+  };
+  if (model_.precision == Precision::single)
+    measure(forceData(single_));
+  else
+    measure(forceData(double_));
+  std::vector<std::int64_t> q = sums.toHost();
+  std::vector<std::uint64_t> most = extremes.toHost();
+  if (subdomain_) {
+    subdomain_->comm().sum(q.data(), q.size());
+    subdomain_->comm().minimum(most.data(), most.size());
+  }
+  GrainLedger ledger;
+  ledger.kinetic = energy.value(q[0]);
+  ledger.rotational = energy.value(q[1]);
+  ledger.potential = energy.value(q[2]);
+  ledger.elastic = energy.value(q[3]);
+  ledger.dissipated = energy.value(q[4]);
+  ledger.momentum = momentum.value({q[5], q[6], q[7]});
+  ledger.contacts = q[8] / 2;
+  ledger.boundaryContacts = q[9];
+  ledger.deepestOverlap = static_cast<double>(~most[0]) * scale_.unit;
+  ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
+  return ledger;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/rolling_resistance.hpp"
+
+#include <algorithm>
+
+namespace grouser::contact::testing {
+
+/// One sphere against a fixed plane z = 0, as the pure laws see it: moved by the scheme of the grains' step
+/// (symplectic Euler), in double.
+struct SphereOnPlane {
+  BasicLaw<double> law;
+  double radius, mass;
+  base::Vec3d position{}, velocity{}, spin{}, gravity{};
+  base::Vec3d shear{}, angle{};
+  double dissipated = 0, deepest = 0, strongest = 0, touched = 0;
+  bool touching = false;
+  bool fullArm = true; ///< the tangential force acts at R, as in the closed forms; else at R - overlap
+
+  double overlap() const { return radius - position.z; }
+  double inertia() const { return 0.4 * mass * radius * radius; }
+
+  void step(double dt) {
+    base::Vec3d force = gravity * mass, torque{};
+    if (overlap() > 0) {
+      if (!touching) shear = angle = {};
+      touching = true;
+      const base::Vec3d n{0, 0, -1}, arm = n * (fullArm ? radius : radius - overlap());
+      const BasicTouch<double> touch{n, overlap(), velocity + cross(spin, arm), mass, radius};
+      const auto r = contactForce<kGeneral>(law, touch, dt, shear);
+      force += r.force, torque += cross(arm, r.force);
+      dissipated += r.dissipated;
+      if (law.rollingFriction > 0) {
+        const RollingMotion<double> rolling{n, spin, radius, 1.4 * mass * radius * radius};
+        torque += rollingTorque(law, rolling, r.pressing, r.normalStiffness, dt, angle, dissipated);
+      }
+      deepest = std::max(deepest, overlap()), strongest = std::max(strongest, r.force.z);
+      touched += dt;
+    } else {
+      touching = false;
+    }
+    velocity += force * (dt / mass);
+    spin += torque * (dt / inertia());
+    position += velocity * dt;
+  }
+
+  double energy() const {
+    const double held = touching && overlap() > 0 ? storedEnergy(law, overlap(), radius, shear) : 0;
+    return 0.5 * mass * norm2(velocity) + 0.5 * inertia() * norm2(spin) - mass * dot(gravity, position) + held;
+  }
+};
+
+} // namespace grouser::contact::testing
