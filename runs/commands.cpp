@@ -113,7 +113,9 @@ void sinkageCommand(const SinkageCommand& command) {
 }
 
 void planCommand(const PlanCommand& command) {
-  fmt::print("{}", planText(loadScene(command.scene, command.overrides)));
+  const Scene scene = loadScene(command.scene, command.overrides);
+  fmt::print("{}", planText(scene));
+  if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
 }
 
 void spheresCommand(const SpheresCommand& command) {

@@ -54,6 +54,7 @@ void sinkageCommand(const SinkageCommand& command);
 struct PlanCommand {
   std::string scene;
   std::vector<std::string> overrides;
+  int ranks = 1; ///< to be planned for
 };
 void planCommand(const PlanCommand& command);
 

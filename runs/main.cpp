@@ -157,13 +157,16 @@ void addRender(CLI::App& app, runs::RenderCommand& c) {
       ->type_name("LOW HIGH");
   render->add_option("--borders", c.borders, "between subdomains [m], e.g. x=0.5 or y=-1,1; default: those in the file")
       ->allow_extra_args(false);
-  render->add_option("--look-at", c.lookAt,
-                     "vehicle (moves with it), all (whatever there is) or a place X,Y,Z [m]; default: vehicle, or all where "
-                     "there is none");
+  render->add_option(
+      "--look-at", c.lookAt,
+      "vehicle (moves with it), all (whatever there is) or a place X,Y,Z [m]; default: vehicle, or all where "
+      "there is none");
   render->add_option("--azimuth", c.azimuth, "of the camera about the vertical, 0 is +x [deg]")
       ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();
-  render->add_option("--elevation", c.elevation, "of the camera above the horizon [deg]; default: 14, 30 for a bed, 60 for what lies flat")
+  render
+      ->add_option("--elevation", c.elevation,
+                   "of the camera above the horizon [deg]; default: 14, 30 for a bed, 60 for what lies flat")
       ->check(CLI::Range(-90.0, 90.0));
   render->add_option("--distance", c.distance, "of the camera from what it looks at [m]; default: it fills the picture")
       ->check(runs::positive("a length in metres"));
@@ -224,6 +227,8 @@ void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, run
       app.add_subcommand("plan", "What a scene switches on, its size, time step, memory and cost; runs nothing");
   plan->add_option("scene", p.scene, "scene file")->required();
   plan->add_option("--set", p.overrides, kSetHelp)->allow_extra_args(false);
+  plan->add_option("--ranks", p.ranks, "also how so many ranks (mpirun -np) would share the grains")
+      ->check(runs::wholeNumber(1, 100'000));
   plan->callback([&p] { runs::planCommand(p); });
 
   CLI::App* spheres = app.add_subcommand("spheres", "Cut a closed mesh into spheres, and say how well they fit");

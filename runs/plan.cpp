@@ -21,9 +21,6 @@ namespace grouser::runs {
 
 namespace {
 
-/// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
-constexpr double kBytesPerGrain = 800;
-
 /// Grains of the bed; reads the height-map, for hills may need more.
 std::int64_t bedGrains(const Scene& scene) {
   const Terrain& t = *scene.terrain;
@@ -91,11 +88,15 @@ double shortestContact(const Scene& scene) {
   return std::isfinite(shortest) ? shortest : 0;
 }
 
-std::string planText(const Scene& scene) {
-  std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
+std::int64_t plannedGrains(const Scene& scene) {
   std::int64_t grains = static_cast<std::int64_t>(scene.grains.size());
   for (const Source& s : scene.sources) grains += s.total;
-  if (scene.terrain && scene.terrain->granular()) grains += bedGrains(scene);
+  return grains + (scene.terrain && scene.terrain->granular() ? bedGrains(scene) : 0);
+}
+
+std::string planText(const Scene& scene) {
+  std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
+  const std::int64_t grains = plannedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);
   if (grains)
     text += fmt::format("  {:<24} about {:.1f} MiB\n", "memory for grains",

@@ -3,6 +3,7 @@
 
 #include "runs/scene.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace grouser::runs {
@@ -16,5 +17,14 @@ inline constexpr double kStepsPerContact = 20;
 
 /// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
 std::string planText(const Scene& scene);
+
+/// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
+inline constexpr double kBytesPerGrain = 800;
+/// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
+std::int64_t plannedGrains(const Scene& scene);
+
+/// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, and the efficiency to expect from the
+/// stated speeds. Empty for a scene without grains.
+std::string sharePlan(const Scene& scene, int ranks);
 
 } // namespace grouser::runs
