@@ -84,15 +84,12 @@ Mechanism::Drift Mechanism::drift() const {
 }
 
 double mechanismTimeStep(const Scene& scene) {
-  double fastest = 2 * base::kPi / (kStepsPerPeriod * kLongestStep); // [rad/s]
-  const multibody::Model model = buildModel(scene.mechanism);
-  for (const multibody::Body& b : model.bodies()) fastest = std::max(fastest, norm(b.w_WB));
-  const auto inverseMass = [&](int body) {
-    return body == multibody::kWorld || model.bodies()[at(body)].fixed ? 0 : 1 / model.bodies()[at(body)].mass;
-  };
-  for (const multibody::PointSpring& s : model.pointSprings())
-    fastest = std::max(fastest, std::sqrt(s.stiffness * (inverseMass(s.bodyA) + inverseMass(s.bodyB))));
-  return std::min(2 * base::kPi / (kStepsPerPeriod * fastest), scene.run.outputInterval);
+  Mechanism mechanism(scene, kLongestStep);
+  double shortest = std::min(kStepsPerPeriod * kLongestStep, mechanism.shortestSwing());
+  for (const multibody::Twist& V : mechanism.state().twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
+  // Rows fall on whole steps.
+  const double row = scene.run.outputInterval;
+  return row / std::ceil(kStepsPerPeriod * row / shortest);
 }
 
 std::vector<std::uint32_t> MechanismState::words() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/math.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 #include "runs/mechanism_state.hpp"
@@ -46,6 +47,10 @@ public:
   /// Kinetic energy that the drives gave in a blow, since the velocities of the scene did not fit theirs [J].
   double startBlow() const { return startBlow_; }
 
+  /// Shortest period of all springs and bushings against the masses, where the bodies are now [s]; infinite without
+  /// any.
+  double shortestSwing() { return base::kPi * solver_.stableStep(state_, loads_); }
+
   /// How well the joints are closed.
   struct Drift {
     double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
@@ -73,8 +78,8 @@ private:
 /// The solver's options as a scene's [run] gives them.
 multibody::SolverOptions solverOptions(const RunSettings& run);
 
-/// The step that "auto" stands for: a hundredth of the shortest period or turn at the start, of springs one by one and
-/// of the bodies' spins, at most 1 ms.
+/// The step that "auto" stands for: a hundredth of the shortest swing of the springs or turn of a body at the start, at
+/// most 1 ms, and a whole share of the output interval.
 double mechanismTimeStep(const Scene& scene);
 
 } // namespace grouser::runs

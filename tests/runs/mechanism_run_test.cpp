@@ -111,6 +111,15 @@ TEST_F(MechanismRun, PlanNamesFreedomsAndRedundantRows) {
   EXPECT_NE(o.out.find("rows held more than once 5"), std::string::npos) << o.out;
 }
 
+TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
+  // sqrt(200 / 0.5) = 20 rad/s: a period of 0.314 s allows 3 ms, but no step is above 1 ms; with 1e4 times the
+  // stiffness it is 31.4 us, and 0.01 s of a row is 319 of that, rounded up.
+  const std::string scene = "plan " + kMechanisms + "spring_torsion.toml --set run.time_step=auto";
+  EXPECT_NE(call(scene).out.find("time step                0.001 s"), std::string::npos) << call(scene).out;
+  const Outcome stiff = call(scene + " --set spring.0.stiffness=2e6");
+  EXPECT_NE(stiff.out.find("time step                3.135e-05 s"), std::string::npos) << stiff.out;
+}
+
 TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
   const Outcome o = call("sweep " + kMechanisms + "pendulum.toml --set body.0.mass=1,2 --out s" +
                          " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
