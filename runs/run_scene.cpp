@@ -46,6 +46,21 @@ void describeRanks(const Simulation& simulation) {
              100 * ghosts / static_cast<double>(grains->count()));
 }
 
+/// How well the work was shared while driving.
+void describeSharing(const Simulation& simulation, double seconds, double waitedBefore, Summary& summary) {
+  const auto& grains = simulation.ground().grains;
+  const base::Comm& comm = simulation.comm();
+  if (!grains || !grains->subdomain()) return;
+  const std::vector<double> waited = comm.gatherValue((comm.waited() - waitedBefore) / seconds);
+  const double least = *std::min_element(waited.begin(), waited.end()),
+               most = *std::max_element(waited.begin(), waited.end());
+  fmt::print("ranks     waited for others {:.1f} to {:.1f} % of the time; cuts moved {} times\n", 100 * least,
+             100 * most, grains->rebalancings());
+  summary.figures["rank_waiting_least"] = least;
+  summary.figures["rank_waiting_most"] = most;
+  summary.figures["rebalancings"] = static_cast<double>(grains->rebalancings());
+}
+
 void describeBuild(const Simulation& simulation, const base::Exec& exec) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
@@ -176,6 +191,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   Recorder recorder(simulation, scene, options, exec, former.get());
   Checkpoints checkpoints(scene, options);
   const Clock::time_point driving = Clock::now();
+  const double waitedBefore = options.comm().waited();
   if (former) {
     checkpoints.begunAt(begin);
     fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
@@ -216,6 +232,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
                l.impulseResidual.z);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
              simulation.steps() - begin, simulation.timeStep(), summary.figures["microseconds_a_step"]);
+  describeSharing(simulation, drove, waitedBefore, summary);
   recorder.writer().finish(summary);
   return summary;
 }

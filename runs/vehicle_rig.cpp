@@ -9,6 +9,7 @@
 #include "spheredecomp/mesh.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeSt
     : exec_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)), surfaceHeight_(surfaceHeight),
       gravity_(scene.run.gravity) {
   if (ground.grains) comm_ = ground.grains->comm();
+  if (!comm_.alone()) sharedGrains_ = ground.grains.get();
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   assembly_ = vehicle::assemble(spec, assemblyOptions(scene, spec, surfaceHeight));
   solver_ = std::make_unique<multibody::Solver>(assembly_.model);
@@ -205,7 +207,17 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
   absoluteTravel_ = 0;
 }
 
-void VehicleRig::touchTrack() { track_->compute(motion_.device(), 2 * relativeTravel_, loadSums_.device().data()); }
+/// Work that every rank does alike: its time says nothing about the cuts.
+template <class Work> void VehicleRig::asAllRanksDo(const Work& work) {
+  if (!sharedGrains_) return work();
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  sharedGrains_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void VehicleRig::touchTrack() {
+  asAllRanksDo([this] { track_->compute(motion_.device(), 2 * relativeTravel_, loadSums_.device().data()); });
+}
 
 void VehicleRig::touchGround(const terrain::Grains* grains) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
@@ -239,9 +251,11 @@ void VehicleRig::collectLoads() {
 
 void VehicleRig::advance() {
   vehicle::applyControls(assembly_, driver_.at(state_.time), gravity_, loads_);
-  solver_->step(state_, loads_, timeStep_);
-  observer_->update(state_, timeStep_);
-  trackTravel();
+  asAllRanksDo([this] {
+    solver_->step(state_, loads_, timeStep_);
+    observer_->update(state_, timeStep_);
+    trackTravel();
+  });
 }
 
 void VehicleRig::trackTravel() {

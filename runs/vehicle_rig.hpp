@@ -94,11 +94,13 @@ private:
   void buildContacts(const Scene& scene, const Ground& ground);
   contact::PartMotion motionOf(std::size_t contactPart) const;
   void sumOverRanks(contact::PartLoad* loads, std::size_t count) const;
+  template <class Work> void asAllRanksDo(const Work& work);
   vehicle::GroundLoads meanGroundLoads(const std::vector<base::Vec3l>& sums, std::int64_t steps) const;
   /// Bound of how far any point of a part may have moved [m] in this step: absolute, and relative to the hull.
   void trackTravel();
 
   base::Exec exec_;
+  terrain::Grains* sharedGrains_{nullptr}; ///< told how long work takes that no cut can shift; null on one rank
   base::Comm comm_; ///< each rank touches its own grains; everything else is done alike on all of them
   double timeStep_;
   vehicle::Assembly assembly_;
