@@ -34,7 +34,8 @@ namespace grouser::multibody::detail {
 /// loop that it is part of. A row of a closing constraint whose pivot is below kPivotTolerance of its own J M^-1 J^T
 /// depends on others; it is left out (its multiplier is 0). A tree joint always has its pivots.
 ///
-/// Bodies at the same distance from the root are treated four at a time, one a lane.
+/// Bodies at the same distance from the root are treated four at a time, one a lane. (The two branches of either of a
+/// vehicle's two rings fill four lanes.)
 class Elimination {
 public:
   static constexpr double kPivotTolerance = 1e-11;
@@ -51,10 +52,9 @@ public:
     bool aligned = false; ///< the parents are the lanes of one batch, in order, and their columns too
     std::array<int, kLanes> body{}, joint{};
     std::array<int, kLanes> parentBatch{}, parentLane{}; ///< -1: none
-    std::array<int, kLanes> parentNode{};                ///< body, or the node that stays zero
+    std::array<int, kLanes> parentNode{};                ///< body; -1: the world, or nothing
     std::array<int, 3> forceRow{}, torqueRow{};
     std::array<int, 6> freeRow{};
-    unsigned hard = 0;
     std::size_t firstColumn = 0, firstPair = 0;
 
     // Set for each factorisation; rows, arms and distances taken from the parent to the child.
@@ -77,6 +77,7 @@ public:
     std::array<int, kLanes> node; ///< of its multiplier
     std::array<int, kLanes> rowOf{};
   };
+
   Elimination(int bodies, const std::vector<ConstraintEdge>& edges);
   Elimination(const Elimination&) = delete;
   Elimination& operator=(const Elimination&) = delete;
@@ -130,7 +131,7 @@ private:
   };
 
   void makeBatches(const std::vector<ConstraintEdge>& edges);
-  void makeColumns(const std::vector<ConstraintEdge>& edges);
+  void makeColumns();
   void makeClosings(const std::vector<ConstraintEdge>& edges);
   void makeProgram();
   Onward columnAt(int body, int closing, int row);
@@ -144,7 +145,7 @@ private:
   void forwardClosing(const Closing& z, Vector6* x) const;
   void backwardClosing(const Closing& z, Vector6* x) const;
 
-  int bodies_ = 0, constraints_ = 0;
+  int bodies_ = 0;
   Articulation tree_;
   std::vector<Links> links_;
   std::vector<Column> columns_;
@@ -157,7 +158,6 @@ private:
   std::vector<Operation> program_;
   std::vector<unsigned> kept_;
   std::vector<std::vector<std::pair<int, int>>> columnsOf_; ///< of a body: closing and row
-  std::vector<unsigned> rowsOf_;
 };
 
 } // namespace grouser::multibody::detail

@@ -22,10 +22,8 @@ std::vector<int> bitsOf(unsigned mask) {
 } // namespace
 
 Elimination::Elimination(int bodies, const std::vector<ConstraintEdge>& edges)
-    : bodies_(bodies), constraints_(static_cast<int>(edges.size())), tree_(takeApart(bodies, edges)),
-      placeOfBody_(at(bodies)), placeOfJoint_(edges.size()), closingOf_(edges.size(), -1), sideOf_(edges.size(), 0),
-      kept_(edges.size(), 0x3fu), columnsOf_(at(bodies)) {
-  for (const ConstraintEdge& edge : edges) rowsOf_.push_back(edge.rows);
+    : bodies_(bodies), tree_(takeApart(bodies, edges)), placeOfBody_(at(bodies)), placeOfJoint_(edges.size()),
+      closingOf_(edges.size(), -1), sideOf_(edges.size(), 0), kept_(edges.size(), 0x3fu), columnsOf_(at(bodies)) {
   for (int z = 0; z < static_cast<int>(tree_.closings.size()); ++z) {
     const Articulation::Closing& closing = tree_.closings[at(z)];
     closingOf_[at(closing.constraint)] = z;
@@ -33,7 +31,7 @@ Elimination::Elimination(int bodies, const std::vector<ConstraintEdge>& edges)
       for (const int r : bitsOf(edges[at(closing.constraint)].rows)) columnsOf_[at(b)].emplace_back(z, r);
   }
   makeBatches(edges);
-  makeColumns(edges);
+  makeColumns();
   makeClosings(edges);
   makeProgram();
 }
@@ -89,7 +87,6 @@ void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
       links.columns = static_cast<int>(columnsOf_[at(links.body[0])].size());
       if (links.joint[0] >= 0) {
         const ConstraintEdge& edge = edges[at(links.joint[0])];
-        links.hard = edge.hard;
         const std::vector<int> forces = bitsOf(edge.forceRows), torques = bitsOf(0x3fu & ~edge.forceRows);
         std::copy(forces.begin(), forces.end(), links.forceRow.begin());
         std::copy(torques.begin(), torques.end(), links.torqueRow.begin());
@@ -111,7 +108,7 @@ void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
     }
 }
 
-void Elimination::makeColumns(const std::vector<ConstraintEdge>&) {
+void Elimination::makeColumns() {
   for (Links& links : links_) {
     links.firstColumn = columns_.size();
     for (int c = 0; c < links.columns; ++c) {
@@ -164,11 +161,11 @@ void Elimination::makeClosings(const std::vector<ConstraintEdge>& edges) {
     Closing& z = closings_[at(index)];
     for (const int b : z.bodies) {
       z.entries.emplace_back();
-      for (const int r : bitsOf(rowsOf_[at(z.constraint)])) z.entries.back()[at(r)] = columnAt(b, index, r);
+      for (const int r : bitsOf(edges[at(z.constraint)].rows)) z.entries.back()[at(r)] = columnAt(b, index, r);
     }
     for (const int later : z.neighbours) {
       z.onto.emplace_back();
-      for (const int r : bitsOf(rowsOf_[at(closings_[at(later)].constraint)]))
+      for (const int r : bitsOf(edges[at(closings_[at(later)].constraint)].rows))
         z.onto.back()[at(r)] = columnAt(z.top, later, r);
     }
   }
