@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "runs/bench.hpp"
 #include "runs/bench_contacts.hpp"
+#include "runs/bench_multibody.hpp"
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
 #include "runs/option_checks.hpp"
@@ -140,6 +141,22 @@ void addContactsBench(CLI::App& app, runs::ContactsBench& c) {
   contacts->add_option("--json", c.json, "write the figures to this file");
   contacts->add_option("--plot", c.plot, "draw them into this PNG file");
   contacts->callback([&c] { runs::benchContactsCommand(c); });
+}
+
+void addMultibodyBench(CLI::App& app, runs::MultibodyBench& c) {
+  CLI::App* multibody = app.get_subcommand("bench")->add_subcommand(
+      "multibody", "The multibody solver alone, on one core: the vehicle's graph, and rings of 46, 92 and 184 shoes");
+  multibody->add_option("--vehicle", c.vehicle, "spec file; default: the light tracked vehicle");
+  multibody->add_option("--speed", c.speed, "of the sprockets [rad/s]")
+      ->check(CLI::Range(-20.0, 20.0))
+      ->capture_default_str();
+  multibody->add_option("--time-step", c.timeStep, "[s]")->check(CLI::Range(1e-6, 1e-4))->capture_default_str();
+  multibody->add_option("--steps", c.steps, "of one batch")->check(runs::wholeNumber(1))->capture_default_str();
+  multibody->add_option("--batches", c.batches, "timed batches")
+      ->check(runs::wholeNumber(1, 1000))
+      ->capture_default_str();
+  multibody->add_option("--json", c.json, "write the figures to this file");
+  multibody->callback([&c] { runs::benchMultibodyCommand(c); });
 }
 
 void addRender(CLI::App& app, runs::RenderCommand& c) {
@@ -297,6 +314,7 @@ int main(int argc, char** argv) {
   runs::StudyCommand study;
   runs::RenderCommand render;
   runs::ContactsBench contacts;
+  runs::MultibodyBench multibody;
   render.comm = ranks.comm(), contacts.ranks = &ranks, bench.ranks = &ranks;
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
@@ -306,6 +324,7 @@ int main(int argc, char** argv) {
   addSweep(app, sweep);
   addBench(app, bench);
   addContactsBench(app, contacts);
+  addMultibodyBench(app, multibody);
   addHash(app, hash);
   addStudy(app, study);
   addRender(app, render);
