@@ -223,7 +223,11 @@ void FramesFile::writeXdmf() const {
           "CollectionType=\"Temporal\">\n"
        << steps_ << "  </Grid>\n</Domain>\n</Xdmf>\n";
   file.close();
-  if (!file) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", part.string()));
+  if (!file) {
+    std::error_code error;
+    std::filesystem::remove(part, error);
+    throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", target.string()));
+  }
   std::filesystem::rename(part, target);
 }
 

@@ -38,7 +38,11 @@ void replace(const fs::path& path, const nlohmann::ordered_json& json) {
   std::ofstream file(part, std::ios::binary);
   file << json.dump(2) << '\n';
   file.close();
-  if (!file) throw std::runtime_error(part.string() + ": could not be written; is the disk full?");
+  if (!file) {
+    std::error_code error;
+    fs::remove(part, error);
+    throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+  }
   fs::rename(part, path);
 }
 
