@@ -163,7 +163,8 @@ void ConstraintSystem::setSizes() {
 /// the others may change on the way, and dropping a wrong one leaves a small pivot behind.
 void ConstraintSystem::setPivotThreshold(int k) {
   constexpr double kGoodPivot = 1e-3;
-  const double part = redundant_[at(k)] != 0 && !strict_ ? kGoodPivot : pivotScale_ * Elimination::kPivotTolerance;
+  double part = pivotScale_ * Elimination::kPivotTolerance;
+  if (redundant_[at(k)] != 0 && !strict_) part = std::max(part, kGoodPivot);
   double smallest[6];
   for (std::size_t r = 0; r < 6; ++r) smallest[r] = part * size_[at(k)][r];
   elimination_->setSmallestPivots(k, smallest);

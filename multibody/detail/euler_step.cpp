@@ -24,7 +24,8 @@
 /// drift, no stabilisation term, and the impulses that close the joints are the constraint forces themselves, so that
 /// linear and angular momentum are conserved to round-off and energy has no secular loss. Solved by Newton's method
 /// with the matrix of the velocity problem, factored once a step; the correction of an iteration is dt |w| times the
-/// one before. Soft and driven rows are linear, are solved once, and are not moved by the corrections.
+/// one before; near singular positions it is helped as in RATTLE (rattle_step.cpp). Soft and driven rows are linear,
+/// are solved once, and are not moved by the corrections.
 namespace grouser::multibody::detail {
 
 namespace {
@@ -120,8 +121,30 @@ void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
   for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
 }
 
+/// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero. Returns
+/// whether there are any; if not, nothing has changed.
+bool EulerStep::startWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
+                                     double dt) {
+  double turn = 0;
+  for (const int node : part.bodies) turn = std::max(turn, dt * norm(state.twist[at(system.bodyOf(node))].w));
+  system.scalePivotThreshold(weakPivotScale(turn));
+  const int weak = system.linearise(part, frames, laws);
+  system.scalePivotThreshold(1);
+  if (weak == 0) {
+    system.linearise(part, frames, laws);
+    return false;
+  }
+  setFirstResidual(part, state, loads, dt);
+  moveLinks(dt);
+  setGapResidual(part, state, dt, true);
+  mixing.reset();
+  return true;
+}
+
 void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
-  last.singularRows += system.linearise(part, frames, laws);
+  enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
+  const int lost = system.linearise(part, frames, laws);
+  last.singularRows += lost;
 
   // First solve from the old twist: the gap it would open already holds the curvature of the constraints.
   setFirstResidual(part, state, loads, dt);
@@ -129,49 +152,97 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
   setGapResidual(part, state, dt, true);
 
   double gap = 0, before = 0;
-  int iteration = 0;
+  int iteration = 0, since = 0; // in all; in this phase
+  Phase phase = Phase::kAllRows;
+  const auto enter = [&](Phase next) { phase = next, since = 0; };
   mixing.reset();
   relinearised = false;
-  for (;;) {
+  for (bool solved = false; !solved;) {
     applyCorrection(part, dt);
     moveLinks(dt);
-    ++iteration;
+    ++iteration, ++since;
     gap = setGapResidual(part, state, dt, false);
     const double turn = relinearised ? 0 : setLinkGyro(dt);
-    if (gap <= options.positionTolerance && turn <= options.positionTolerance) break;
-    // Slow: a singular position is near. Mixed first, then with the matrix taken anew at each iterate
-    // (rattle_step.cpp).
-    if (iteration >= kPatience) {
-      unpackIterate();
-      mixing.remember(part, gap, newTwist);
-      if (iteration == kPatience && !(gap <= 0.2 * before)) mixing.switchOn();
-    }
+    const bool done = gap <= options.positionTolerance && turn <= options.positionTolerance;
+    const bool slow = !(gap <= 0.2 * before);
     before = gap;
-    if (iteration < options.maxIterations || (mixing.on() && iteration < 3 * options.maxIterations)) continue;
-    if (iteration < 5 * options.maxIterations && gap > options.positionTolerance) {
-      if (!relinearised && std::isfinite(mixing.bestGap()) && !(gap <= mixing.bestGap())) {
-        mixing.takeBest(part, newTwist);
-        packTwists();
-        moveLinks(dt);
+    switch (phase) {
+    case Phase::kAllRows:
+      solved = done && (lost == 0 || openGap() <= kGapFailure);
+      if (solved) break;
+      if (since >= kPatience) {
+        unpackIterate();
+        mixing.remember(part, gap, newTwist);
       }
-      relinearised = true;
-      system.linearise(part, trial, laws);
-      for (const int node : part.bodies) x[at(node)] = {};
-      gap = setGapResidual(part, state, dt, false);
-      continue;
+      // Slow: a singular position is near, or the bodies turn far in a step.
+      if (since == kPatience && slow) {
+        if (startWithoutWeakRows(part, state, loads, dt))
+          enter(Phase::kWithoutWeakRows);
+        else
+          mixing.switchOn();
+      } else if (since >= (mixing.on() ? 3 : 1) * options.maxIterations) {
+        enter(Phase::kEachIterate);
+      }
+      break;
+    case Phase::kWithoutWeakRows:
+      if (done || since >= options.maxIterations || (since > 2 && slow)) {
+        // From here the others have a short way to go, and to the solution that inertia leads to.
+        unpackIterate();
+        mixing.remember(part, gap, newTwist);
+        system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
+        system.linearise(part, frames, laws);
+        system.scalePivotThreshold(1);
+        setGapResidual(part, state, dt, false);
+        mixing.switchOn();
+        enter(Phase::kMixed);
+      }
+      break;
+    case Phase::kMixed:
+      solved = done && openGap() <= kGapFailure;
+      if (!solved && (done || since >= 2 * options.maxIterations || !std::isfinite(gap))) enter(Phase::kEachIterate);
+      break;
+    case Phase::kEachIterate:
+      if (!done && since >= 3 * options.maxIterations && !(gap <= kGapFailure)) fail(state, gap, iteration, dt);
+      solved = done || since >= 3 * options.maxIterations;
+      break;
     }
-    if (gap <= kGapFailure) break;
-    const int worst = worstConstraint();
-    std::ostringstream message;
-    message << "multibody step from t = " << state.time << " s";
-    if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
-    message << " after " << iteration << " iterations; the motion is too fast for dt = " << dt
-            << " s: reduce the step, or check the loads";
-    throw base::SimulationError(message.str());
+    if (solved || phase != Phase::kEachIterate) continue;
+    if (since == 0 && std::isfinite(mixing.bestGap())) {
+      mixing.takeBest(part, newTwist);
+      packTwists();
+      moveLinks(dt);
+    }
+    relinearised = true;
+    system.linearise(part, trial, laws);
+    for (const int node : part.bodies) x[at(node)] = {};
+    setGapResidual(part, state, dt, false);
   }
   last.iterations = std::max(last.iterations, iteration);
   last.maxPositionError = std::max(last.maxPositionError, gap);
   finish(part, state, loads, dt);
+}
+
+void EulerStep::fail(const State& state, double gap, int iterations, double dt) const {
+  const int worst = worstConstraint();
+  std::ostringstream message;
+  message << "multibody step from t = " << state.time << " s";
+  if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
+  message << " after " << iterations << " iterations; the motion is too fast for dt = " << dt
+          << " s: reduce the step, or check the loads";
+  throw base::SimulationError(message.str());
+}
+
+/// Of all rows that should hold, those without a pivot too.
+double EulerStep::openGap() const {
+  double largest = 0;
+  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
+    double error[6];
+    positionError(system.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
+    for (int r = 0; r < 6; ++r)
+      if ((hardRows(system.constraints()[k].kind) >> r & 1u) && !(std::fabs(error[r]) <= largest))
+        largest = std::fabs(error[r]);
+  }
+  return largest;
 }
 
 /// Work, momenta, readings and poses of one part once its impulses are known.

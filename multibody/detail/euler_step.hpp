@@ -22,7 +22,10 @@ private:
   void setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt);
   void applyCorrection(const ConstraintSystem::Part& part, double dt);
   double setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first);
+  bool startWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt);
+  [[noreturn]] void fail(const State& state, double gap, int iterations, double dt) const;
   int worstConstraint() const;
+  double openGap() const;
   void finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
   void addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
   void readConstraint(int k, State& state, double dt);

@@ -4,11 +4,21 @@
 #include "multibody/detail/acceleration.hpp"
 #include "multibody/detail/constraint_system.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
 
 namespace grouser::multibody::detail {
+
+/// Near a singular position a row's pivot, as a part of its own J M^-1 J^T, goes with the square of the angle to it.
+/// Thresholds of pivots, times the usual one: for rows that a turn [rad] of a step can take through it,
+inline double weakPivotScale(double turn) { return std::max(10 * turn * turn, 1e-6) / Elimination::kPivotTolerance; }
+/// and for rows firm enough to carry an impulse: a gap of the tolerance leaves a deviation of up to its root across the
+/// singular direction, which must be small beside the angle, or the row's impulse would act on the motion through it.
+inline double firmPivotScale(double positionTolerance) {
+  return std::max(1.0, 1e2 * positionTolerance / Elimination::kPivotTolerance);
+}
 
 /// The position solve's iterate: twists over the step and the impulses that make them.
 struct Iterate {

@@ -110,43 +110,72 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   }
   // Below a few units in the last place of the coordinates there is nothing to gain.
   const double tolerance = std::max(options.positionTolerance, kRoundOff * scale);
-  double before = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity(), best = before;
   mixing.reset();
   Phase phase = Phase::kAllRows;
+  int since = 0; // iterations of this phase
+  const auto enter = [&](Phase next) {
+    phase = next, since = 0, best = before = std::numeric_limits<double>::infinity();
+  };
   const int limit = options.maxIterations;
+  const int lost = last.singularRows;
   for (int iteration = 1;; ++iteration) {
     system.solve(part, x);
     if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
     applyCorrection(part, h);
     moveTrial(part, state, h);
     const bool follow = updateAxes(part, h);
-    const double gap = setResiduals(part, h);
+    const double gap = setResiduals(part, h), open = gapOf[at(part.index)];
     last.iterations = std::max(last.iterations, iteration);
-    const bool done = gap <= tolerance && !follow;
+    ++since;
     // A little above the tolerance and not getting better is round-off.
-    const bool stuck = mixing.bestGap() <= 1e2 * tolerance && gap > 0.5 * before && !follow;
-    if ((done || stuck) && phase != Phase::kWithoutWeakRows) break;
-    mixing.remember(part, gap, mean);
-    if (phase == Phase::kEachIterate) {
-      if (iteration >= 3 * limit) {
+    const bool done = !follow && (gap <= tolerance || (std::min(best, gap) <= 1e2 * tolerance && gap > 0.5 * before));
+    const bool slow = since > 1 && !(gap <= 0.2 * before);
+    const bool closed = lost == 0 || open <= 1e2 * tolerance;
+    best = std::min(best, gap);
+    before = gap;
+    if (phase == Phase::kAllRows) {
+      if (done && closed) break;
+      mixing.remember(part, gap, mean);
+      if ((done || slow) && !mixing.on() && startWithoutWeakRows(part, state, loads, h)) {
+        enter(Phase::kWithoutWeakRows);
+      } else if (done) {
+        break;
+      } else if (since >= limit) {
+        enter(Phase::kEachIterate);
+      } else if (follow) {
+        linearise(part, frames);
+        mixing.forget();
+      } else if (slow && !mixing.on()) {
+        mixing.switchOn();
+      }
+    } else if (phase == Phase::kWithoutWeakRows) {
+      if (done || since >= limit || (since > 2 && slow)) {
+        // From here the others have a short way to go, and to the solution that inertia leads to.
+        mixing.reset();
+        mixing.remember(part, gap, mean);
+        system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
+        linearise(part, frames);
+        system.scalePivotThreshold(1);
+        mixing.switchOn();
+        enter(Phase::kMixed);
+      }
+    } else if (phase == Phase::kMixed) {
+      if (done && open <= 1e2 * tolerance) break;
+      if (done || since >= 2 * limit || !std::isfinite(gap)) enter(Phase::kEachIterate);
+    } else {
+      if (done) break;
+      if (since >= 2 * limit) {
         // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
         if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
         break;
       }
-      linearise(part, trial);
-    } else if (phase == Phase::kAllRows && iteration >= limit) {
-      phase = Phase::kWithoutWeakRows;
-      startWithoutWeakRows(part, state, loads, h);
-    } else if (phase == Phase::kWithoutWeakRows && (done || stuck || iteration >= 2 * limit)) {
-      phase = Phase::kEachIterate;
-      closeWeakRows(part, state, h);
-    } else if (follow) {
-      linearise(part, frames);
-      mixing.forget();
-    } else if (iteration > 1 && !(gap <= 0.2 * before) && !mixing.on()) {
-      mixing.switchOn();
     }
-    before = gap;
+    if (phase != Phase::kEachIterate) continue;
+    if (since == 0)
+      closeWeakRows(part, state, h);
+    else
+      linearise(part, trial);
   }
   // Also of rows that had no pivot.
   if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
@@ -243,19 +272,27 @@ double RattleStep::setResiduals(const Part& part, double h) {
   return largest;
 }
 
-/// The solve anew, without rows of weak pivots at q_0: near a singular position those would need huge impulses, and
-/// spoil the rest. What they leave open is second order in a motion across the singular direction, hence small.
-void RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
-  constexpr double kWeakPivot = 1e5;
+/// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero: near a
+/// singular position those would need huge impulses on the way, and spoil the rest. What they leave open is second
+/// order in a motion across the singular direction, hence small. Returns whether there are any; if not, nothing has
+/// changed.
+bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
+  double turn = 0;
+  for (const int node : part.bodies) turn = std::max(turn, std::fabs(h) * norm(state.twist[at(system.bodyOf(node))].w));
+  system.scalePivotThreshold(weakPivotScale(turn));
+  const int weak = system.linearise(part, frames, laws);
+  system.scalePivotThreshold(1);
+  if (weak == 0) {
+    system.linearise(part, frames, laws);
+    return false;
+  }
   for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
   moveTrial(part, state, h);
   updateAxes(part, h);
-  system.scalePivotThreshold(kWeakPivot);
-  linearise(part, frames);
-  system.scalePivotThreshold(1);
   setFirstResidual(part, state, loads, h);
   setResiduals(part, h);
   mixing.reset();
+  return true;
 }
 
 /// Closes what is left with the matrix of each iterate.

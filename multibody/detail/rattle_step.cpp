@@ -31,10 +31,12 @@
 ///
 /// Newton's method uses the matrix of q_0 on both sides, though Lambda acts along J(q_0) and gaps close along J(q_1): a
 /// correction is h |w| times the one before. Where a singular position is near or between q_0 and q_1 some pivots have
-/// another size or sign at q_1 and that is too slow or diverges; the iteration is then mixed (mixing.hpp), which
-/// solves the same equations. Should that fail too - q_0 is all but singular - it is done without the rows of weak
-/// pivots, and these are closed with the matrix of each iterate, by the smallest corrections in the norm of kinetic
-/// energy.
+/// another size or sign at q_1 and that is too slow or diverges. It is then done first without the rows of those
+/// pivots, which leads to where inertia takes the bodies, next to the solution (the equations have others, on the
+/// branches that meet in the singular position); from there with all rows, the corrections mixed (mixing.hpp), which
+/// solves the same equations. Should that fail - q_0 is all but singular - the weak rows are closed with the matrix of
+/// each iterate, by the smallest corrections in the norm of kinetic energy. Slow iterations without weak rows are mixed
+/// at once.
 ///
 /// The first three equations are solved in rattle_position.cpp, the last two in rattle_velocity.cpp.
 ///

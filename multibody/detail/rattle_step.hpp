@@ -19,7 +19,7 @@ public:
 private:
   using Part = ConstraintSystem::Part;
   /// What the position solve works with: see the scheme.
-  enum class Phase { kAllRows, kWithoutWeakRows, kEachIterate };
+  enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
 
   void stage(State& state, const Loads& loads, double h);
   void linearise(const Part& part, const std::vector<Frame>& at);
@@ -30,7 +30,7 @@ private:
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);
   void applyCorrection(const Part& part, double h);
-  void startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h);
+  bool startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h);
   void closeWeakRows(const Part& part, const State& state, double h);
   void moveTrial(const Part& part, const State& state, double h);
   /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.

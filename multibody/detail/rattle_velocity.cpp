@@ -26,7 +26,10 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
       laws[at(a)].driven = soft[at(a)].driven;
       drivenThen[at(a)] = soft[at(a)].driven;
     }
+  // A row that a singular position leaves hardly a pivot would take speed out of the motion through it.
+  system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
   linearise(part, trial);
+  system.scalePivotThreshold(1);
   factored[at(part.index)] = system.linearisation(part);
 
   for (const int node : part.bodies) {
