@@ -23,7 +23,8 @@ inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run ti
 /// Geotechnique 29:47):
 ///
 ///   F_n = elastic + c_n v_n                     v_n: approach speed;  never attractive unless `attraction`
-///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; when it slips the spring is shortened to fit
+///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; when it slips the spring is shortened to fit:
+///                                               linear, to all of the force; Hertz, to no more than the limit
 ///
 /// Linear:  elastic = k overlap,  c_n = gamma m_eff,  k_t constant.
 ///
@@ -142,16 +143,27 @@ contactForce(const BasicLaw<T>& law, const BasicTouch<T>& touch, T dt, base::Vec
   const base::Vec3<T> slip = touch.velocity - n * approach;
   shear -= n * dot(shear, n);
   const T storedBefore = c.tangentialStiffness * dot(shear, shear);
-  if (kFeatures & kGeneral ? law.hertz : kFeatures & kHertz) // k_t grows as the root of the overlap
-    reaction.dissipated -= T(0.25) * storedBefore * approach * dt / touch.overlap;
+  const bool hertz = kFeatures & kGeneral ? law.hertz : (kFeatures & kHertz) != 0;
+  if (hertz) { // k_t has grown as the root of the overlap, which was less by the way of this step
+    const T share = T(1) - approach * dt / touch.overlap;
+    reaction.dissipated -= T(0.5) * storedBefore * (T(1) - (share > 0 ? squareRoot(share) : T(0)));
+  }
   shear += slip * dt;
   base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
   const T limit = law.friction * (pressing > 0 ? pressing : T(0));
   const T size2 = dot(tangential, tangential);
   if (size2 > limit * limit) {
-    // Sliding: the force lies on Coulomb's cone, and the spring is as long as it would hold that force.
+    // Sliding: the force lies on Coulomb's cone.
     tangential *= limit / squareRoot(size2);
-    shear = c.tangentialStiffness > 0 ? tangential * (T(-1) / c.tangentialStiffness) : base::Vec3<T>{};
+    if (!hertz) {
+      // The spring is as long as it would hold that force.
+      shear = c.tangentialStiffness > 0 ? tangential * (T(-1) / c.tangentialStiffness) : base::Vec3<T>{};
+    } else {
+      // Where contacts begin, k_t is as small as one likes, and a spring that took over the dashpot's force would be
+      // as long: it is shortened only where it is beyond the cone alone.
+      const T spring2 = c.tangentialStiffness * c.tangentialStiffness * dot(shear, shear);
+      if (spring2 > limit * limit) shear *= limit / squareRoot(spring2);
+    }
   }
   // Work put into the tangential contact, less what its spring has gained.
   reaction.dissipated -=

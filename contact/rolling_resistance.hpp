@@ -37,6 +37,7 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<T>& law, T norma
 template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<T>& law, const RollingMotion<T>& m, T pressing,
                                                           T normalStiffness, T dt, base::Vec3<T>& angle,
                                                           T& dissipated) {
+  if (law.rollingFriction <= 0) return angle = {};
   const base::Vec3<T> rolling = m.spin - m.normal * dot(m.spin, m.normal);
   const T stiffness = rollingStiffness(law, normalStiffness, m.radius);
   angle -= m.normal * dot(angle, m.normal);

@@ -3,6 +3,8 @@
 
 #include "base/error.hpp"
 #include "contact/restitution.hpp"
+#include "contact/rolling_resistance.hpp"
+#include "runs/grain_kinds.hpp"
 #include "runs/laws.hpp"
 #include "runs/mechanism.hpp"
 #include "runs/plan.hpp"
@@ -15,6 +17,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <unistd.h>
 
 namespace grouser::runs {
@@ -30,22 +34,10 @@ terrain::HeightField readSurface(const Terrain& t) {
   return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
 }
 
-terrain::GrainModel grainModel(const Scene& scene, const std::string& material, double radius, double timeStep) {
-  terrain::GrainModel model;
-  model.radius = radius;
-  model.mass = sphereMass(scene.material(material).density, radius);
-  model.timeStep = timeStep;
-  model.gravity = scene.run.gravity;
-  model.law = pairLaw(scene, material, material, 0.5 * model.mass);
-  model.skin = scene.run.skin;
-  model.maxOverlap = scene.run.maxOverlap;
-  return model;
-}
-
-void addPlanes(const Scene& scene, const std::string& material, double mass, terrain::Boundaries& boundaries) {
+void addPlanes(const Scene& scene, Surroundings& around) {
   for (const Plane& plane : scene.planes) {
     const Vec3d normal = base::normalized(plane.normal);
-    boundaries.walls.push_back({normal, dot(normal, plane.point), pairLaw(scene, material, plane.material, mass)});
+    around.walls.push_back({normal, dot(normal, plane.point), plane.material});
   }
 }
 
@@ -79,82 +71,71 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
   const terrain::LayerOptions options = layerOptions(scene);
   checkBedSize(scene, options);
   const terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
-  const terrain::GrainModel bare = grainModel(scene, t.material, options.radius, timeStep);
+  const GrainKinds kinds = grainKinds(scene);
   const std::string& groundMaterial = t.groundMaterial.empty() ? t.material : t.groundMaterial;
-  const contact::ContactLaw wallLaw = pairLaw(scene, t.material, groundMaterial, bare.mass);
-  terrain::GrainModel model = bare;
-  model.floorLaw = wallLaw;
-
-  terrain::Boundaries boundaries;
   ground.rigid = plan.floor;
-  boundaries.floor = plan.floor;
   ground.walls = plan.walls;
   ground.layers = plan.layers;
-  if (t.walls) {
-    boundaries.walls.push_back({{1, 0, 0}, plan.walls.xMin, wallLaw});
-    boundaries.walls.push_back({{-1, 0, 0}, -plan.walls.xMax, wallLaw});
-    boundaries.walls.push_back({{0, 1, 0}, plan.walls.yMin, wallLaw});
-    boundaries.walls.push_back({{0, -1, 0}, -plan.walls.yMax, wallLaw});
-  }
-  addPlanes(scene, t.material, model.mass, boundaries);
+  Surroundings around;
+  around.floor = plan.floor, around.floorMaterial = groundMaterial;
+  if (t.walls)
+    around.walls = {{{1, 0, 0}, plan.walls.xMin, groundMaterial},
+                    {{-1, 0, 0}, -plan.walls.xMax, groundMaterial},
+                    {{0, 1, 0}, plan.walls.yMin, groundMaterial},
+                    {{0, -1, 0}, -plan.walls.yMax, groundMaterial}};
+  addPlanes(scene, around);
+  terrain::Boundaries boundaries;
+  const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   std::vector<terrain::GrainStart> start;
-  for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options)) start.push_back({seed.centre, {}, {}});
+  for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
+    start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
   ground.grains =
       std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
 }
 
 /// Throws when grains start deeper in each other or in a plane than a run allows.
-void checkStartingOverlaps(const Scene& scene) {
-  const auto& grains = scene.grains;
+void checkStartingOverlaps(const Scene& scene, const std::vector<Grain>& grains, double largest) {
+  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  std::map<Cell, std::vector<std::size_t>> cells; // of one largest diameter
+  const auto along = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (2 * largest))); };
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double most = scene.run.maxOverlap * grains[i].radius;
-    const auto refuse = [&](double overlap, const std::string& what) {
-      if (overlap > most)
-        throw base::InputError(
-            fmt::format("{}: grain.{}.position: the grain overlaps {} by {:.3g} m, more than run.max_overlap = {:g} "
-                        "of its radius; move it",
-                        scene.file.string(), i, what, overlap, scene.run.maxOverlap));
+    const Grain& g = grains[i];
+    const auto refuse = [&](double overlap, double radius, const std::string& what) {
+      if (overlap <= scene.run.maxOverlap * radius) return;
+      const std::string which = i < scene.grains.size() ? fmt::format("grain.{}.position: the grain", i)
+                                                        : fmt::format("grains: grain {} at ({:g}, {:g}, {:g}) m", i,
+                                                                      g.position.x, g.position.y, g.position.z);
+      throw base::InputError(fmt::format("{}: {} overlaps {} by {:.3g} m, more than run.max_overlap = {:g} "
+                                         "of its radius; move it",
+                                         scene.file.string(), which, what, overlap, scene.run.maxOverlap));
     };
-    for (std::size_t j = 0; j < i; ++j)
-      refuse(grains[i].radius + grains[j].radius - norm(grains[i].position - grains[j].position),
-             fmt::format("grain {}", j));
+    const std::int64_t x = along(g.position.x), y = along(g.position.y), z = along(g.position.z);
+    for (std::int64_t k = 0; k < 27; ++k) {
+      const auto found = cells.find({x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1});
+      if (found == cells.end()) continue;
+      for (const std::size_t j : found->second)
+        refuse(g.radius + grains[j].radius - norm(g.position - grains[j].position),
+               std::min(g.radius, grains[j].radius), fmt::format("grain {}", j));
+    }
+    cells[{x, y, z}].push_back(i);
     for (std::size_t k = 0; k < scene.planes.size(); ++k)
-      refuse(grains[i].radius -
-                 dot(base::normalized(scene.planes[k].normal), grains[i].position - scene.planes[k].point),
+      refuse(g.radius - dot(base::normalized(scene.planes[k].normal), g.position - scene.planes[k].point), g.radius,
              fmt::format("plane {}", k));
   }
 }
 
-/// Radius and material of the grains that are not of a bed.
-std::pair<double, std::string> kindOfGrains(const Scene& scene) {
-  if (!scene.grains.empty()) return {scene.grains.front().radius, scene.grains.front().material};
-  return {scene.sources.front().radius, scene.sources.front().material};
-}
-
-void requireKind(const Scene& scene, const char* section, double radius, const std::string& material, double ofAll,
-                 const std::string& materialOfAll) {
-  if (radius == ofAll && material == materialOfAll) return;
-  throw base::InputError(fmt::format("{}: [[{}]]: radius {} m of '{}' beside {} m of '{}'; all grains of a scene "
-                                     "have one radius and one material so far",
-                                     scene.file.string(), section, radius, material, ofAll, materialOfAll));
-}
-
 void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm,
                        Ground& ground) {
-  const auto [radius, material] = kindOfGrains(scene);
+  const GrainKinds kinds = grainKinds(scene);
+  const std::vector<Grain> grains = placedGrains(scene);
+  checkStartingOverlaps(scene, grains, kinds.largest);
   std::vector<terrain::GrainStart> start;
-  for (const Grain& g : scene.grains) {
-    requireKind(scene, "grain", g.radius, g.material, radius, material);
-    start.push_back({g.position, g.velocity, g.spin});
-  }
-  checkStartingOverlaps(scene);
-  terrain::GrainModel model = grainModel(scene, material, radius, timeStep);
+  for (const Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+  Surroundings around;
+  addPlanes(scene, around);
+  if (ground.rigid) around.floor = ground.rigid, around.floorMaterial = scene.terrain->material;
   terrain::Boundaries boundaries;
-  addPlanes(scene, material, model.mass, boundaries);
-  if (ground.rigid) {
-    boundaries.floor = ground.rigid;
-    model.floorLaw = pairLaw(scene, material, scene.terrain->material, model.mass);
-  }
+  const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   ground.grains =
       std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
 }
@@ -182,32 +163,41 @@ struct StepLimit {
     const double limit = contact::stableStep(omega, zeta);
     if (limit < step) step = limit, what = name;
   }
-  /// A grain of `mass` in `count` contacts of one law at once; tangential springs act on 7/2 of the inverse mass.
-  void considerGrain(const contact::ContactLaw& law, double mass, double count, const std::string& name) {
-    const double normal = count * law.stiffness / mass;
-    const double tangential = law.friction > 0 ? 3.5 * 0.5 * count * law.tangentialStiffness / mass : 0;
-    const double omega2 = std::max(normal, tangential);
-    consider(std::sqrt(omega2), 0.5 * law.damping / std::sqrt(omega2 * 2 / count), name);
+  /// A grain of `mass` and `radius` in `count` contacts of one law at once; tangential springs act on 7/2 of the
+  /// inverse mass, rolling springs on its inertia. A Hertz contact is as stiff as an impact at `speed` makes it.
+  void considerGrain(const contact::ContactLaw& law, double mass, double radius, double count, double speed,
+                     const std::string& name) {
+    // Eight contacts stand for twelve neighbours alike, two for two heavy bodies.
+    const double effectiveMass = count > 2 ? 0.5 * mass : mass, effectiveRadius = count > 2 ? 0.5 * radius : radius;
+    const auto c = stiffest(law, effectiveMass, effectiveRadius, speed);
+    const double normal = count * c.normalStiffness / mass;
+    const double tangential = law.friction > 0 ? 3.5 * 0.5 * count * c.tangentialStiffness / mass : 0;
+    const double rolling =
+        count * contact::rollingStiffness(law, c.normalStiffness, effectiveRadius) / (0.4 * mass * radius * radius);
+    const double omega2 = std::max({normal, tangential, rolling});
+    consider(std::sqrt(omega2), 0.5 * c.damping / effectiveMass / std::sqrt(omega2 * 2 / count), name);
   }
 };
 
 StepLimit grainStepLimit(const Scene& scene) {
   StepLimit limit;
-  const auto everyContact = [&](const std::string& material, double radius) {
-    const double mass = sphereMass(scene.material(material).density, radius);
+  const GrainKinds kinds = grainKinds(scene);
+  // The smallest grains are the quickest.
+  for (const auto& [material, radius, largest] : kinds.kinds) {
+    const double mass = sphereMass(scene.material(material).density, radius), speed = scene.run.impactSpeed;
     // Twelve neighbours: omega^2 <= 8 k / m (Gershgorin). Between two heavy bodies: 2 k / m.
-    limit.considerGrain(pairLaw(scene, material, material, 0.5 * mass), mass, 8,
-                        "grain on grain of '" + material + "'");
+    for (const std::string& other : kinds.material)
+      limit.considerGrain(pairLaw(scene, material, other, 0.5 * mass), mass, radius, 8, speed,
+                          other == material ? "grain on grain of '" + material + "'"
+                                            : "grain of '" + material + "' among those of '" + other + "'");
     const auto against = [&](const std::string& other, const std::string& name) {
-      limit.considerGrain(pairLaw(scene, material, other.empty() ? material : other, mass), mass, 2, name);
+      limit.considerGrain(pairLaw(scene, material, other.empty() ? material : other, mass), mass, radius, 2, speed,
+                          name);
     };
     for (const Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
     if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
     if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
-  };
-  for (const Grain& g : scene.grains) everyContact(g.material, g.radius);
-  for (const Source& s : scene.sources) everyContact(s.material, s.radius);
-  if (scene.terrain && scene.terrain->granular()) everyContact(scene.terrain->material, *scene.terrain->grainRadius);
+  }
   return limit;
 }
 
@@ -228,13 +218,18 @@ double stableTimeStep(const Scene& scene) {
 double chooseTimeStep(const Scene& scene) {
   if (!scene.mechanism.empty()) return scene.run.timeStep ? *scene.run.timeStep : mechanismTimeStep(scene);
   const double contact = shortestContact(scene), limit = stableTimeStep(scene);
-  const double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit);
+  double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit);
+  for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
+    automatic = std::min(automatic, kRayleighShare * rayleighTimeOf(scene.material(material), radius));
   if (!scene.run.timeStep) return automatic;
   if (*scene.run.timeStep > limit)
-    throw base::InputError(
-        fmt::format("{}: run.time_step = {:g} s is above {:.3g} s, where the stiffest contact of the scene becomes "
-                    "unstable; choose {:.3g} s or less (\"auto\": {:.3g} s), or lower its stiffness",
-                    scene.file.string(), *scene.run.timeStep, limit, limit, automatic));
+    throw base::InputError(fmt::format(
+        "{}: run.time_step = {:g} s is above {:.3g} s, where the stiffest contact of the scene becomes "
+        "unstable; choose {:.3g} s or less (\"auto\": {:.3g} s), or lower its stiffness{}",
+        scene.file.string(), *scene.run.timeStep, limit, limit, automatic,
+        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.law == "hertz"; })
+            ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s", scene.run.impactSpeed)
+            : ""));
   return *scene.run.timeStep;
 }
 
@@ -248,7 +243,8 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, 
       ground.rigid = ground.surface;
   }
   checkSources(scene);
-  if (!scene.grains.empty() || (!scene.sources.empty() && !ground.grains)) {
+  const bool single = !scene.grains.empty() || !scene.blocks.empty();
+  if (single || (!scene.sources.empty() && !ground.grains)) {
     if (ground.grains)
       throw base::InputError(scene.file.string() +
                              ": [[grain]] and a granular [terrain] in one scene; use one of them");
@@ -257,11 +253,6 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, 
                              ": [[grain]] beside a [vehicle] on rigid [terrain] is not possible so far; use "
                              "a granular terrain, or leave the grains out");
     placeSingleGrains(scene, exec, timeStep, comm, ground);
-  }
-  if (ground.grains) {
-    const bool bed = scene.terrain && scene.terrain->granular();
-    const auto kind = bed ? std::pair(*scene.terrain->grainRadius, scene.terrain->material) : kindOfGrains(scene);
-    for (const Source& s : scene.sources) requireKind(scene, "source", s.radius, s.material, kind.first, kind.second);
   }
   return ground;
 }

@@ -37,6 +37,9 @@ struct SettleReport {
 /// Step of a vehicle on rigid ground, where no grain sets it [s].
 inline constexpr double kVehicleTimeStep = 1e-4;
 
+/// The largest automatic step of hertz grains, as a share of the time a Rayleigh wave takes along the smallest [-].
+inline constexpr double kRayleighShare = 0.2;
+
 /// How the scene's bed is laid.
 terrain::LayerOptions layerOptions(const Scene& scene);
 

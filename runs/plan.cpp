@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "runs/bed.hpp"
+#include "runs/grain_kinds.hpp"
 #include "runs/laws.hpp"
 #include "runs/mechanism.hpp"
 #include "runs/mechanism_output.hpp"
@@ -36,17 +37,43 @@ std::string onOff(bool on, const std::string& what, const std::string& why) {
   return why.empty() ? line + "\n" : fmt::format("{:<33} {}\n", line, why);
 }
 
+/// Features of the grains' step, as the model of the scene will have them.
+unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
+  unsigned features = terrain::kLedger;
+  const auto add = [&](const std::string& a, const std::string& b) { features |= pairLaw(scene, a, b, 1).features(); };
+  for (const std::string& a : kinds.material) {
+    for (const std::string& b : kinds.material) add(a, b);
+    for (const Plane& p : scene.planes) add(a, p.material);
+    if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
+  }
+  if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
+  if (kinds.many()) features |= terrain::kManyRadii;
+  if (kinds.manyMaterials()) features |= terrain::kManyMaterials;
+  return scene.vehicle ? features | terrain::kLoads : features;
+}
+
 std::string switches(const Scene& scene) {
   const Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
-  const bool bed = t && t->granular(), grains = bed || !scene.grains.empty() || !scene.sources.empty();
-  const std::string soil = bed                     ? t->material
-                           : !scene.grains.empty() ? scene.grains.front().material
-                           : grains                ? scene.sources.front().material
-                                                   : "";
-  const bool friction = grains && pairLaw(scene, soil, soil, 1).friction > 0;
+  const GrainKinds kinds = grainKinds(scene);
+  const bool bed = t && t->granular(), grains = kinds.any();
   std::string text = "switched on and off\n";
-  text += onOff(grains, "grains", grains ? "" : "no [[grain]], no granular [terrain]");
-  text += onOff(friction, "friction history", grains && !friction ? "friction of the grains is 0" : "");
+  text += onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
+  if (grains) {
+    const unsigned features = grainFeatures(scene, kinds);
+    const auto has = [&](unsigned feature) { return (features & feature) != 0; };
+    text += onOff(has(contact::kFriction), "friction history", has(contact::kFriction) ? "" : "friction is 0");
+    text += onOff(has(contact::kRollingFriction), "rolling history",
+                  has(contact::kRollingFriction) ? "" : "rolling_friction is 0");
+    text += onOff(has(contact::kCohesion), "cohesion", has(contact::kCohesion) ? "" : "cohesion is 0");
+    text += onOff(has(terrain::kManyRadii), "radius of each grain",
+                  kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
+                                    : fmt::format("all {:g} m", kinds.largest));
+    text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
+    const auto precision = scene.run.precision == "double" ? terrain::Precision::double_ : terrain::Precision::single;
+    text += fmt::format("       {:<22} {}: {}; {} precision\n", "kernel of the grains",
+                        terrain::hasOwnKernel(features, precision) ? "special" : "general",
+                        terrain::featureText(features), scene.run.precision);
+  }
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
@@ -70,26 +97,25 @@ std::string switches(const Scene& scene) {
 
 double shortestContact(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const std::string& name, double radius) {
+  const GrainKinds kinds = grainKinds(scene);
+  for (const auto& [name, radius, largest] : kinds.kinds) {
     const double mass = sphereMass(scene.material(name).density, radius);
-    const auto duration = [&](const std::string& other, double effective) {
-      return base::kPi * std::sqrt(effective / pairLaw(scene, name, other, effective).stiffness);
+    const auto duration = [&](const std::string& other, double share) {
+      return contactTime(pairLaw(scene, name, other, share * mass), share * mass, share * radius,
+                         scene.run.impactSpeed);
     };
-    shortest = std::min(shortest, duration(name, 0.5 * mass));
+    for (const std::string& other : kinds.material) shortest = std::min(shortest, duration(other, 0.5));
     // Against what does not give way the whole grain swings.
-    if (scene.terrain) shortest = std::min(shortest, duration(scene.terrain->groundMaterial, mass));
-    for (const Plane& p : scene.planes) shortest = std::min(shortest, duration(p.material, mass));
+    if (scene.terrain) shortest = std::min(shortest, duration(scene.terrain->groundMaterial, 1));
+    for (const Plane& p : scene.planes) shortest = std::min(shortest, duration(p.material, 1));
     if (scene.vehicle && !scene.vehicle->material.empty())
-      shortest = std::min(shortest, duration(scene.vehicle->material, mass));
-  };
-  for (const Grain& g : scene.grains) consider(g.material, g.radius);
-  for (const Source& s : scene.sources) consider(s.material, s.radius);
-  if (scene.terrain && scene.terrain->granular()) consider(scene.terrain->material, *scene.terrain->grainRadius);
+      shortest = std::min(shortest, duration(scene.vehicle->material, 1));
+  }
   return std::isfinite(shortest) ? shortest : 0;
 }
 
 std::int64_t plannedGrains(const Scene& scene) {
-  std::int64_t grains = static_cast<std::int64_t>(scene.grains.size());
+  std::int64_t grains = placedCount(scene);
   for (const Source& s : scene.sources) grains += s.total;
   return grains + (scene.terrain && scene.terrain->granular() ? bedGrains(scene) : 0);
 }

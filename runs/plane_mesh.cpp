@@ -32,6 +32,11 @@ std::pair<Vec3d, Vec3d> room(const Scene& scene) {
   std::vector<Vec3d> points;
   double margin = 0;
   for (const Grain& g : scene.grains) points.push_back(g.position), margin = std::max(margin, 4 * g.radius);
+  for (const GrainBlock& b : scene.blocks) {
+    for (const Grain& g : b.fromFile) points.push_back(g.position);
+    if (b.low) points.push_back(*b.low), points.push_back(*b.high);
+    margin = std::max(margin, 4 * b.largestRadius());
+  }
   for (const Source& s : scene.sources)
     points.push_back(s.low), points.push_back(s.high), margin = std::max(margin, 4 * s.radius);
   for (const Plane& p : scene.planes) points.push_back(p.point);

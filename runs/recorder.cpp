@@ -180,7 +180,8 @@ Frame Recorder::currentFrame() const {
       frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
     }
     frame.borders = bordersOf(*grains);
-    frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
+    frame.radii = s.radius;
+    if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
   }
   if (const VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));

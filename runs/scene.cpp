@@ -18,14 +18,35 @@ using base::Section;
 
 namespace {
 
-const std::vector<std::string> kSections = {"version", "run",      "material", "contact", "grain",  "source",
-                                            "plane",   "terrain",  "body",     "joint",   "spring", "bushing",
-                                            "drive",   "coupling", "vehicle",  "driver",  "output", "parallel"};
+const std::vector<std::string> kSections = {
+    "version", "run",    "material", "contact", "grain",    "grains",  "source", "plane",  "terrain", "body",
+    "joint",   "spring", "bushing",  "drive",   "coupling", "vehicle", "driver", "output", "parallel"};
 
 /// One of the two ways to say how lossy a contact is.
 template <class S> void checkOneLoss(const Section& section, const S& s) {
   if (s.restitution && s.damping)
     section.fail("damping", "stands beside restitution, which says the same; remove one of the two");
+}
+
+/// What belongs to the material's law gets its default; what belongs to the other must not stand there.
+void completeLaw(const Section& section, Material& m) {
+  const bool hertz = m.law == "hertz";
+  for (const char* key : {"stiffness", "tangential_stiffness_ratio", "damping"})
+    if (hertz && section.has(key))
+      section.fail(key, "belongs to law = \"linear\"; remove it: young, poisson and restitution say it for hertz");
+  for (const char* key : {"young", "poisson"})
+    if (!hertz && section.has(key))
+      section.fail(key, "belongs to law = \"hertz\"; add that, or remove it: stiffness says it for linear");
+  if (hertz && !m.young)
+    section.fail("young", "[Pa] is missing, which law = \"hertz\" needs; add it, e.g. young = 7e7");
+  if (!m.restitution && !m.damping) m.restitution = 0.5;
+  if (!m.tangentialDampingRatio) m.tangentialDampingRatio = hertz ? 1 : 0.5;
+  if (hertz) {
+    m.poisson = m.poisson.value_or(0.25);
+  } else {
+    m.stiffness = m.stiffness.value_or(1e6);
+    m.tangentialStiffnessRatio = m.tangentialStiffnessRatio.value_or(2.0 / 7.0);
+  }
 }
 
 std::vector<Material> readMaterials(const Section& root) {
@@ -36,7 +57,7 @@ std::vector<Material> readMaterials(const Section& root) {
     Material m = section.read(detail::materialTable());
     m.name = name;
     checkOneLoss(section, m);
-    if (!m.restitution && !m.damping) m.restitution = 0.5;
+    completeLaw(section, m);
     materials.push_back(std::move(m));
   }
   return materials;
@@ -68,29 +89,12 @@ void readContacts(const Section& root, Scene& scene) {
     checkMaterial(scene, section, "", pair.first);
     checkMaterial(scene, section, "", pair.second);
     checkOneLoss(section, pair);
+    for (const char* key : {"stiffness", "damping"})
+      if (section.has(key) && scene.material(pair.first).law == "hertz")
+        section.fail(key, "belongs to law = \"linear\", but this pair is hertz; remove it");
     if (scene.contact(pair.first, pair.second))
       section.fail("", "is given twice, in both orders; remove one of the two");
     scene.contacts.push_back(std::move(pair));
-  }
-}
-
-void readGrainsAndPlanes(const Section& root, Scene& scene) {
-  for (const Section& section : root.list("grain")) {
-    scene.grains.push_back(section.read(detail::grainTable()));
-    checkMaterial(scene, section, "material", scene.grains.back().material);
-  }
-  for (const Section& section : root.list("source")) {
-    const Source s = section.read(detail::sourceTable());
-    checkMaterial(scene, section, "material", s.material);
-    for (int a = 0; a < 3; ++a)
-      if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
-    scene.sources.push_back(s);
-  }
-  for (const Section& section : root.list("plane")) {
-    scene.planes.push_back(section.read(detail::planeTable()));
-    checkMaterial(scene, section, "material", scene.planes.back().material);
-    if (base::norm2(scene.planes.back().normal) == 0)
-      section.fail("normal", "is zero; give the direction out of the solid, e.g. [0, 0, 1]");
   }
 }
 
@@ -110,6 +114,54 @@ void resolveFile(const Scene& scene, const Section& section, const std::string& 
     section.fail(key, fmt::format("does not exist; correct the path (looked for {})", places));
   }
   name = found.string();
+}
+
+void readBlock(const Section& section, Scene& scene) {
+  GrainBlock b = section.read(detail::blockTable());
+  checkMaterial(scene, section, "material", b.material);
+  const bool file = b.form == "file";
+  for (const char* key : {"low", "high", "radius"})
+    if (file == section.has(key))
+      section.fail(key, file ? "has no meaning for form = \"file\"; remove it"
+                             : "[m] is missing, which form = \"" + b.form + "\" needs; add it");
+  if (file && b.radiusTo) section.fail("radius_to", "has no meaning for form = \"file\"; remove it");
+  if ((b.form == "random") != section.has("number"))
+    section.fail("number", b.form == "random" ? "is missing, which form = \"random\" needs; add it"
+                                              : "belongs to form = \"random\"; remove it");
+  if (file != section.has("file"))
+    section.fail("file",
+                 file ? "is missing, which form = \"file\" needs; add it" : "belongs to form = \"file\"; remove it");
+  if (b.radiusTo && *b.radiusTo < *b.radius) section.fail("radius_to", "[m] is below radius; raise it");
+  for (int a = 0; !file && a < 3; ++a)
+    if ((*b.high)[a] - (*b.low)[a] < 2 * b.largestRadius() * (1 - 1e-9))
+      section.fail("high",
+                   fmt::format("[m] leaves no room for a grain of radius {:g} m; enlarge the box", b.largestRadius()));
+  if (file) {
+    resolveFile(scene, section, "file", *b.file);
+    b.fromFile = readGrainFile(*b.file, b);
+  }
+  scene.blocks.push_back(std::move(b));
+}
+
+void readGrainsAndPlanes(const Section& root, Scene& scene) {
+  for (const Section& section : root.list("grain")) {
+    scene.grains.push_back(section.read(detail::grainTable()));
+    checkMaterial(scene, section, "material", scene.grains.back().material);
+  }
+  for (const Section& section : root.list("grains")) readBlock(section, scene);
+  for (const Section& section : root.list("source")) {
+    const Source s = section.read(detail::sourceTable());
+    checkMaterial(scene, section, "material", s.material);
+    for (int a = 0; a < 3; ++a)
+      if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
+    scene.sources.push_back(s);
+  }
+  for (const Section& section : root.list("plane")) {
+    scene.planes.push_back(section.read(detail::planeTable()));
+    checkMaterial(scene, section, "material", scene.planes.back().material);
+    if (base::norm2(scene.planes.back().normal) == 0)
+      section.fail("normal", "is zero; give the direction out of the solid, e.g. [0, 0, 1]");
+  }
 }
 
 void readTerrain(const Section& section, Scene& scene) {
@@ -225,10 +277,11 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
-  if (scene.grains.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle && scene.mechanism.empty())
-    throw InputError(
-        fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[source]] or [[body]]",
-                    file.string()));
+  if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
+      scene.mechanism.empty())
+    throw InputError(fmt::format(
+        "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
+        file.string()));
   return scene;
 }
 
@@ -244,6 +297,18 @@ std::string key(const std::string& name) { return base::toToml(name); }
 SpeedTable Driver::speeds() const {
   if (table) return *table;
   return {{0}, {left.value_or(sprocketSpeed.value_or(0))}, {right.value_or(sprocketSpeed.value_or(0))}};
+}
+
+double GrainBlock::smallestRadius() const {
+  double least = radius.value_or(1e300);
+  for (const Grain& g : fromFile) least = std::min(least, g.radius);
+  return least;
+}
+
+double GrainBlock::largestRadius() const {
+  double most = radiusTo.value_or(radius.value_or(0));
+  for (const Grain& g : fromFile) most = std::max(most, g.radius);
+  return most;
 }
 
 const Material& Scene::material(const std::string& name) const {
@@ -273,6 +338,7 @@ std::string resolvedToml(const Scene& scene) {
   for (const ContactPair& p : scene.contacts)
     text += block("[contact." + key(p.first + "|" + p.second) + "]", detail::contactTable(), p);
   for (const Grain& g : scene.grains) text += block("[[grain]]", detail::grainTable(), g);
+  for (const GrainBlock& b : scene.blocks) text += block("[[grains]]", detail::blockTable(), b);
   for (const Source& s : scene.sources) text += block("[[source]]", detail::sourceTable(), s);
   for (const Plane& p : scene.planes) text += block("[[plane]]", detail::planeTable(), p);
   if (scene.terrain) text += block("[terrain]", detail::terrainTable(), *scene.terrain);
@@ -292,7 +358,8 @@ std::string fieldHelp() {
       "that is absent is not built.\n";
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
-  add(detail::grainTable()), add(detail::sourceTable()), add(detail::planeTable()), add(detail::terrainTable());
+  add(detail::grainTable()), add(detail::blockTable()), add(detail::sourceTable()), add(detail::planeTable()),
+      add(detail::terrainTable());
   add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable());
   add(detail::bushingTable()), add(detail::driveTable()), add(detail::couplingTable());
   add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());

@@ -26,6 +26,8 @@ struct RunSettings {
   double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
   std::string device = "auto";               ///< auto | cpu | cuda
+  std::string precision = "single";          ///< of the grains' forces: single | double
+  double impactSpeed = 1.0;                  ///< [m/s] that the step of hertz materials is chosen for
   int threads = 0;                           ///< 0: all
   std::string integrator = "rattle";         ///< of mechanisms: rattle | symplectic_euler
   int integratorOrder = 2;                   ///< of rattle: 2, 4, 6, 8
@@ -40,21 +42,25 @@ struct RunSettings {
 struct Material {
   std::string name;
   double density = 2500;
-  std::string law = "linear";
-  double stiffness = 1e6;
-  std::optional<double> restitution; ///< one of these two has a value after loading
-  std::optional<double> damping;     ///< [1/s] gamma of F_n = k overlap - gamma m_eff v_n
+  std::string law = "linear";           ///< linear | hertz; what belongs to the law has a value after loading
+  std::optional<double> stiffness;      ///< [N/m] linear
+  std::optional<double> young, poisson; ///< [Pa], [-] hertz
+  std::optional<double> restitution;    ///< one of these two has a value after loading
+  std::optional<double> damping;        ///< [1/s] linear: gamma of F_n = k overlap - gamma m_eff v_n
   bool attraction = false;
   double friction = 0.5;
-  double tangentialStiffnessRatio = 2.0 / 7.0;
-  double tangentialDampingRatio = 0.5;
+  std::optional<double> tangentialStiffnessRatio; ///< linear
+  std::optional<double> tangentialDampingRatio;
+  double rollingFriction = 0;
+  double rollingDampingRatio = 0.3;
+  double cohesion = 0; ///< [J/m2] energy of adhesion
   bool operator==(const Material&) const = default;
 };
 
 /// [contact."first|second"]: what a pair of materials has otherwise than the mixing rule gives.
 struct ContactPair {
   std::string first, second;
-  std::optional<double> stiffness, restitution, damping, friction;
+  std::optional<double> stiffness, restitution, damping, friction, rollingFriction, cohesion;
   bool operator==(const ContactPair&) const = default;
 };
 
@@ -65,6 +71,26 @@ struct Grain {
   std::string material;
   bool operator==(const Grain&) const = default;
 };
+
+/// [[grains]]: many grains at once.
+struct GrainBlock {
+  std::string form = "lattice";         ///< lattice | random | file
+  std::optional<base::Vec3d> low, high; ///< corners of the box that holds them whole [m]
+  std::optional<double> radius;         ///< [m]
+  std::optional<double> radiusTo;       ///< [m]; radii are then uniform from radius to this
+  double spacing = 2.1;                 ///< [-] of a lattice, in largest radii
+  double jitter = 0;                    ///< [-] of the lattice's free gap
+  std::optional<std::int64_t> number;   ///< of a random fill
+  std::optional<std::string> file;      ///< absolute path after loading
+  base::Vec3d velocity, spin;
+  std::string material;
+  std::vector<Grain> fromFile; ///< what the file held when the scene was loaded
+  double smallestRadius() const;
+  double largestRadius() const;
+  bool operator==(const GrainBlock&) const = default;
+};
+/// Grains of a text file with lines "x, y, z, r" [m]. Throws InputError with the line that is none.
+std::vector<Grain> readGrainFile(const std::string& file, const GrainBlock& block);
 
 /// [[source]]: grains that enter while the run goes.
 struct Source {
@@ -168,6 +194,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<ContactPair> contacts;
   std::vector<Grain> grains;
+  std::vector<GrainBlock> blocks;
   std::vector<Source> sources;
   std::vector<Plane> planes;
   std::optional<Terrain> terrain;

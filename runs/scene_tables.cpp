@@ -24,6 +24,12 @@ Table<RunSettings> runTable() {
   t.add("seed", &S::seed, "-", "of every random number").atLeast(0);
   t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one")
       .oneOf({"auto", "cpu", "cuda"});
+  t.add("precision", &S::precision, "", "of the grains' forces; each gives the same bits everywhere")
+      .oneOf({"single", "double"});
+  t.add("impact_speed", &S::impactSpeed, "m/s",
+        "fastest impact that the time step of hertz materials is chosen and checked for")
+      .above(0)
+      .atMost(1e4);
   t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
       .atLeast(0)
       .atMost(1024);
@@ -51,22 +57,44 @@ Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
   t.add("density", &S::density, "kg/m3", "of the solid").above(0).atMost(1e5);
-  t.add("law", &S::law, "", "contact law: linear spring and dashpot with Coulomb friction").oneOf({"linear"});
-  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness k of a contact").above(0).atMost(1e12);
+  t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction")
+      .oneOf({"linear", "hertz"});
+  t.add("stiffness", &S::stiffness, "N/m", "linear: normal stiffness k of a contact; 1e6 where not given")
+      .above(0)
+      .atMost(1e12);
+  t.add("young", &S::young, "Pa", "hertz: Young's modulus of the solid; required").above(0).atMost(1e13);
+  t.add("poisson", &S::poisson, "-", "hertz: Poisson's ratio of the solid; 0.25 where not given")
+      .atLeast(0)
+      .atMost(0.5);
   t.add("restitution", &S::restitution, "-", "rebound over impact speed; 0.5 where damping is not given either")
       .above(0)
       .atMost(1);
-  t.add("damping", &S::damping, "1/s", "gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
+  t.add("damping", &S::damping, "1/s", "linear: gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
       .atLeast(0)
       .atMost(1e9);
   t.add("attraction", &S::attraction, "", "whether the damping force may pull two parting surfaces together");
   t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
-  t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-", "tangential over normal stiffness")
+  t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
+        "linear: tangential over normal stiffness; 2/7 where not given")
       .above(0)
       .atMost(1);
-  t.add("tangential_damping_ratio", &S::tangentialDampingRatio, "-", "tangential over normal damping")
+  t.add(
+       "tangential_damping_ratio", &S::tangentialDampingRatio, "-",
+       "linear: tangential over normal damping, 0.5 where not given; hertz: over the damping 2 beta sqrt(k_t m_eff), 1 "
+       "where not given")
       .atLeast(0)
       .atMost(2);
+  t.add("rolling_friction", &S::rollingFriction, "-",
+        "torque of rolling resistance over R F_n, with an elastic-plastic spring (type C); 0 leaves it out")
+      .atLeast(0)
+      .atMost(2);
+  t.add("rolling_damping_ratio", &S::rollingDampingRatio, "-", "of the rolling spring's critical damping")
+      .atLeast(0)
+      .atMost(1);
+  t.add("cohesion", &S::cohesion, "J/m2",
+        "energy of adhesion w: touching surfaces pull with 2 pi w R_eff (DMT); 0 leaves it out")
+      .atLeast(0)
+      .atMost(1e6);
   return t;
 }
 
@@ -77,6 +105,8 @@ Table<ContactPair> contactTable() {
   t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").above(0).atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
   t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
+  t.add("rolling_friction", &S::rollingFriction, "-", "of the pair").atLeast(0).atMost(2);
+  t.add("cohesion", &S::cohesion, "J/m2", "energy of adhesion of the pair").atLeast(0).atMost(1e6);
   return t;
 }
 
@@ -88,6 +118,27 @@ Table<Grain> grainTable() {
   t.add("spin", &S::spin, "rad/s", "angular velocity at the start");
   t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of its material").required();
+  return t;
+}
+
+Table<GrainBlock> blockTable() {
+  using S = GrainBlock;
+  Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of places and radii");
+  t.add("form", &S::form, "", "lattice and random fill a box, file reads lines of x, y, z, r [m]")
+      .oneOf({"lattice", "random", "file"});
+  t.add("low", &S::low, "m", "corner of the box that holds the grains whole; not of a file");
+  t.add("high", &S::high, "m", "the opposite corner");
+  t.add("radius", &S::radius, "m", "of each, or of the smallest where radius_to is given; not of a file")
+      .above(0)
+      .atMost(1e3);
+  t.add("radius_to", &S::radiusTo, "m", "of the largest: radii are uniform between").above(0).atMost(1e3);
+  t.add("spacing", &S::spacing, "-", "of a lattice, in largest radii").atLeast(2).atMost(100);
+  t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a share of its free gap").atLeast(0).atMost(1);
+  t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
+  t.add("file", &S::file, "", "text with a grain a line, relative to the scene");
+  t.add("velocity", &S::velocity, "m/s", "at the start");
+  t.add("spin", &S::spin, "rad/s", "at the start");
+  t.add("material", &S::material, "", "name of their material").required();
   return t;
 }
 

@@ -3,6 +3,7 @@
 #include "runs/plan.hpp"
 
 #include "runs/bed.hpp"
+#include "runs/grain_kinds.hpp"
 #include "runs/placement.hpp"
 #include "terrain/partition.hpp"
 
@@ -31,9 +32,7 @@ std::string sharePlan(const Scene& scene, int ranks) {
   const bool bed = scene.terrain && scene.terrain->granular();
   const double grains = static_cast<double>(plannedGrains(scene));
   if (grains == 0) return "";
-  const double radius = bed                    ? *scene.terrain->grainRadius
-                        : scene.grains.empty() ? scene.sources.front().radius
-                                               : scene.grains.front().radius;
+  const double radius = grainKinds(scene).largest;
   std::array<double, 3> size{};
   if (bed) {
     const double volume = grains * (4.0 / 3.0) * 3.14159265 * radius * radius * radius / scene.terrain->packing;
@@ -42,6 +41,10 @@ std::string sharePlan(const Scene& scene, int ranks) {
     base::Vec3d low{1e300, 1e300, 1e300}, high = -low;
     const auto include = [&](const base::Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
     for (const Grain& g : scene.grains) include(g.position);
+    for (const GrainBlock& b : scene.blocks) {
+      for (const Grain& g : b.fromFile) include(g.position);
+      if (b.low) include(*b.low), include(*b.high);
+    }
     for (const Source& s : scene.sources) include(s.low), include(s.high);
     for (const Plane& p : scene.planes) include(p.point);
     for (int a = 0; a < 3; ++a) size[static_cast<std::size_t>(a)] = high[a] - low[a] + 2 * radius;

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "runs/grain_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -20,10 +21,12 @@ constexpr double kRoom = 2.002; // [radii] between centres that enter together
 } // namespace
 
 Sources::Sources(const Scene& scene, double timeStep) {
+  const GrainKinds kinds = grainKinds(scene);
   std::uint64_t index = 0;
   for (const Source& s : scene.sources) {
     Stream stream;
     stream.source = s;
+    stream.material = kinds.indexOf(s.material);
     stream.every = std::max<std::int64_t>(1, std::llround(s.every / timeStep));
     stream.first = std::llround(s.start / timeStep);
     const std::int64_t batches = (s.total + s.number - 1) / s.number;
@@ -64,7 +67,7 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
         return norm(g.position - place) < kRoom * s.radius;
       });
       if (taken) continue;
-      grains.push_back({place, s.velocity, s.spin});
+      grains.push_back({place, s.velocity, s.spin, s.radius, stream.material});
       break;
     }
   }

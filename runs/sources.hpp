@@ -22,6 +22,7 @@ public:
 private:
   struct Stream {
     Source source;
+    int material{};                        ///< among those of the scene's grains
     std::int64_t every{}, first{}, last{}; ///< [steps]
     std::uint64_t seed{};
   };

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/grain_kinds.hpp"
 #include "runs/laws.hpp"
 #include "runs/placement.hpp"
 #include "spheredecomp/decompose.hpp"
@@ -148,20 +149,32 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     groundMargin_ = kBedMargin;
     // A grain listed at one end of its half skin may touch at the other.
     model.margin = grains.skin * grains.radius + groundMargin_;
-    const std::string& soil = scene.terrain          ? scene.terrain->material
-                              : scene.grains.empty() ? scene.sources.front().material
-                                                     : scene.grains.front().material;
-    model.law = pairLaw(scene, soil, scene.vehicle->material.empty() ? soil : scene.vehicle->material, grains.mass);
-    if (scene.vehicle->material.empty()) model.law.friction = static_cast<float>(spec.frictionGround);
+    const GrainKinds kinds = grainKinds(scene);
+    const auto lawOf = [&](const std::string& soil) {
+      const std::string& part = scene.vehicle->material.empty() ? soil : scene.vehicle->material;
+      contact::ContactLaw law = pairLaw(scene, soil, part, kinds.many() ? std::nullopt : std::optional(grains.mass));
+      if (scene.vehicle->material.empty()) law.friction = spec.frictionGround;
+      return law;
+    };
+    model.law = lawOf(kinds.material.front());
+    model.manyRadii = kinds.many();
+    contact::GrainPartMaterials materials;
+    for (const std::string& soil : kinds.material) {
+      materials.laws.push_back(lawOf(soil));
+      materials.massPerCube.push_back(sphereMass(scene.material(soil).density, 1));
+    }
     model.scale = ground.grains->scale();
     // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
-    model.force = base::fixedPointFor(model.law.stiffness * grains.radius, 36);
-    model.torque = base::fixedPointFor(model.law.stiffness * grains.radius, 36);
-    model.energy = base::fixedPointFor(model.law.stiffness * grains.radius * grains.radius, 36);
+    double pressed = 0;
+    for (const contact::ContactLaw& law : materials.laws)
+      pressed = std::max(pressed, law.stiffness * grains.radius * (law.hertz ? 0.1 * grains.radius : 1.0));
+    model.force = base::fixedPointFor(pressed, 36);
+    model.torque = base::fixedPointFor(pressed, 36);
+    model.energy = base::fixedPointFor(pressed * grains.radius, 36);
     groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
     std::vector<contact::GrainPart> parts;
     for (const int set : setOfPart) parts.push_back({set, {}, {}});
-    bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts, comm_);
+    bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts, comm_, materials);
     ground.grains->onHandOver([this](const std::uint32_t* destination, std::size_t) { bed_->handOver(destination); });
   } else if (ground.rigid) {
     const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};

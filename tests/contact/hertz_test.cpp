@@ -178,6 +178,29 @@ TEST(HertzMindlin, ConstantNormalSpeedMatchesTheDigitisedCurves) {
   }
 }
 
+TEST(HertzMindlin, EnergyBalancesWhateverSlidesAndSticks) {
+  const Solid solid{2e7, .25, 1600};
+  const double radius = 0.02, mass = sphereMass(solid, radius);
+  for (const double damping : {0.0, 1.0})
+    for (const double friction : {0.1, 0.6})
+      for (const double vt : {0.3, 0.8, 3.0}) {
+        double residual[2];
+        for (int k = 0; k < 2; ++k) {
+          const auto law = lawOf(solid, 1, 0.4, friction, false, damping);
+          const double dt = hertzImpact(law.stiffness * 0.75, radius, mass, 1).duration / (k ? 8000 : 500);
+          SphereOnPlane s{law, radius, mass};
+          s.position.z = radius + 1.5 * dt, s.velocity = {vt, 0, -1};
+          const double before = s.energy();
+          do s.step(dt);
+          while (s.overlap() > 0 || s.velocity.z < 0);
+          residual[k] = std::fabs(s.energy() + s.dissipated - before) / before;
+        }
+        EXPECT_LT(residual[1], std::max(0.2 * residual[0], 3e-5))
+            << "first order in the step; " << residual[0] << " damping " << damping << " v_t " << vt;
+        EXPECT_LT(residual[1], 5e-4);
+      }
+}
+
 TEST(HertzMindlin, EnergyBalancesInAnObliqueImpact) {
   const Solid solid{3.8e11, .23, 4000};
   const double radius = 0.0025, mass = sphereMass(solid, radius);

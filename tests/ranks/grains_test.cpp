@@ -80,6 +80,37 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
     }
 }
 
+TEST(GrainsOnRanks, EqualBitsForManyRadiiAndMaterialsThatRollAndStick) {
+  for (const Precision precision : {Precision::single, Precision::double_}) {
+    GrainModel m = gravel();
+    m.precision = precision;
+    const auto lawOf = [](double modulus) {
+      contact::ContactLaw law;
+      law.hertz = true, law.stiffness = modulus, law.tangentialStiffness = 0.8 * modulus;
+      law.rootDamping = 0.3 * std::sqrt(modulus), law.tangentialRootDamping = 0.1 * std::sqrt(modulus);
+      law.friction = 0.5, law.rollingFriction = 0.1, law.rollingDamping = 0.3, law.pullPerRadius = 5;
+      return law;
+    };
+    m.materials.density = {2500, 1200};
+    m.materials.grains = {lawOf(4e7), lawOf(3e7), lawOf(3e7), lawOf(2e7)};
+    for (int wall = 0; wall < 4; ++wall)
+      m.materials.boundaries.insert(m.materials.boundaries.end(), {lawOf(6e7), lawOf(3e7)});
+    std::vector<GrainStart> start = thrownBlock();
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      start[i].radius = i % 3 ? m.radius : 0.4 * m.radius;
+      start[i].material = static_cast<int>(i / 7 % 2);
+    }
+    constexpr int kFew = 1200;
+    Grains alone(base::cpuExec(1), m, box(m), start), grains(base::cpuExec(1), m, box(m), start, shared({}, true));
+    advance(alone, kFew), advance(grains, kFew);
+    EXPECT_EQ(allWords(grains), alone.stateWords());
+    Grains resumed(base::cpuExec(1), m, box(m), start, shared());
+    resumed.restore(grains.state());
+    advance(resumed, 200), advance(alone, 200);
+    EXPECT_EQ(allWords(resumed), alone.stateWords());
+  }
+}
+
 TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
   const GrainModel m = gravel(0.6);
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({0, 0, 0}, true));

@@ -49,7 +49,9 @@ TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
                               "[driver.table]\ntime = [0, 1.5]\nleft = [0, 1]\nright = [0, -1]\n");
   text += "[[plane]]\nnormal = [0, 0.1, 1]\nmaterial = \"soil\"\n[material.\"wet clay\"]\ndamping = 12.5\nattraction = "
           "true\n"
-          "[[grain]]\nposition = [0.1, 0.2, 3]\nvelocity = [0, 0, -1]\nradius = 0.05\nmaterial = \"wet clay\"\n";
+          "[[grain]]\nposition = [0.1, 0.2, 3]\nvelocity = [0, 0, -1]\nradius = 0.05\nmaterial = \"wet clay\"\n"
+          "[material.glass]\nlaw = \"hertz\"\nyoung = 7e10\nrolling_friction = 0.01\ncohesion = 0.1\n"
+          "[[grains]]\nlow = [0, 0, 5]\nhigh = [1, 1, 6]\nradius = 0.05\nradius_to = 0.1\nmaterial = \"glass\"\n";
   const Scene first = parse(text, {"run.seed=7", "terrain.jitter=0.3"});
   const Scene second = parse(resolvedToml(first));
   EXPECT_EQ(second.run, first.run);
@@ -57,6 +59,8 @@ TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
   EXPECT_EQ(second.contacts, first.contacts);
   EXPECT_EQ(second.grains, first.grains);
   EXPECT_EQ(second.planes, first.planes);
+  EXPECT_EQ(second.blocks, first.blocks);
+  EXPECT_EQ(second.material("glass").poisson, 0.25);
   EXPECT_EQ(second.terrain, first.terrain);
   EXPECT_EQ(second.vehicle, first.vehicle);
   EXPECT_EQ(second.driver, first.driver);
@@ -154,8 +158,43 @@ INSTANTIATE_TEST_SUITE_P(
                {"material.soil.damping = 3", "beside restitution", "remove one"}},
         Broken{"UnsupportedLaw",
                "stiffness = 1e6",
+               "law = \"jkr\"",
+               {"material.soil.law = \"jkr\" is none of linear, hertz"}},
+        Broken{"HertzWithoutYoung",
+               "stiffness = 1e6",
                "law = \"hertz\"",
-               {"material.soil.law = \"hertz\" is none of linear"}},
+               {"material.soil", "young", "is missing", "add it"}},
+        Broken{"HertzWithStiffness",
+               "stiffness = 1e6",
+               "law = \"hertz\"\nyoung = 1e8\nstiffness = 1e6",
+               {"material.soil.stiffness", "belongs to law = \"linear\"", "remove it"}},
+        Broken{
+            "LinearWithYoung", "stiffness = 1e6", "young = 1e8", {"material.soil.young", "belongs to law = \"hertz\""}},
+        Broken{"PoissonOutOfRange",
+               "stiffness = 1e6",
+               "law = \"hertz\"\nyoung = 1e8\npoisson = 0.6",
+               {"material.soil.poisson = 0.6 [-] is outside [0, 0.5]"}},
+        Broken{"NegativeRollingFriction",
+               "stiffness = 1e6",
+               "rolling_friction = -0.1",
+               {"material.soil.rolling_friction = -0.1 [-] is outside [0, 2]"}},
+        Broken{"WrongPrecision",
+               "duration = 2",
+               "duration = 2\nprecision = \"half\"",
+               {"run.precision = \"half\" is none of single, double"}},
+        Broken{"BlockWithoutRoom",
+               "[terrain]",
+               "[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 1, 0.1]\nradius = 0.1\nmaterial = \"soil\"\n[terrain]",
+               {"grains.0.high", "leaves no room for a grain of radius 0.1 m", "enlarge the box"}},
+        Broken{"RandomWithoutNumber",
+               "[terrain]",
+               "[[grains]]\nform = \"random\"\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nradius = 0.1\nmaterial = "
+               "\"soil\"\n[terrain]",
+               {"grains.0", "number", "is missing", "add it"}},
+        Broken{"BlockOfNoFile",
+               "[terrain]",
+               "[[grains]]\nform = \"file\"\nfile = \"none.txt\"\nmaterial = \"soil\"\n[terrain]",
+               {"grains.0.file", "does not exist", "correct the path"}},
         Broken{"UnknownMaterial",
                "material = \"soil\"",
                "material = \"sol\"",

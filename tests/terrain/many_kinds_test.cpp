@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains of every law, of many radii and materials, in both precisions: one answer, and what must be conserved.
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "grain_fixture.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+using base::Vec3d;
+
+struct Kind {
+  bool hertz = false, rolling = false, cohesion = false, radii = false, materials = false;
+  Precision precision = Precision::single;
+  bool friction = true;
+};
+
+contact::ContactLaw lawOf(const Kind& kind, double factor) {
+  contact::ContactLaw law;
+  if (kind.hertz) {
+    law.hertz = true, law.stiffness = 5e7 * factor, law.tangentialStiffness = 4e7 * factor;
+    law.rootDamping = 0.4 * std::sqrt(1.5 * law.stiffness), law.tangentialRootDamping = law.rootDamping / 2;
+  } else {
+    law.stiffness = 1e5 * factor, law.tangentialStiffness = law.stiffness * 2 / 7;
+    if (kind.radii || kind.materials)
+      law.rootDamping = 0.4 * std::sqrt(law.stiffness), law.tangentialRootDamping = law.rootDamping / 2;
+    else
+      law.damping = 800, law.tangentialDamping = 400;
+  }
+  if (kind.friction) law.friction = 0.5;
+  if (kind.rolling) law.rollingFriction = 0.1, law.rollingDamping = 0.3;
+  if (kind.cohesion) law.pullPerRadius = 2;
+  return law;
+}
+
+struct Bed {
+  GrainModel model;
+  Boundaries boundaries;
+  std::vector<GrainStart> start;
+};
+
+/// A hundred grains thrown into a corner.
+Bed bedOf(const Kind& kind, int across = 5) {
+  Bed bed;
+  GrainModel& m = bed.model;
+  m = ball(1e-5);
+  m.gravity = {0, 0, -9.81};
+  m.precision = kind.precision;
+  m.law = m.floorLaw = lawOf(kind, 1);
+  bed.boundaries.walls = {{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.004, m.law}, {{0, 1, 0}, -0.004, m.law}};
+  if (kind.materials) {
+    m.materials.density = {2600, 1000};
+    const auto soft = lawOf(kind, 0.5), mixed = lawOf(kind, 0.7);
+    m.materials.grains = {m.law, mixed, mixed, soft};
+    for (int b = 0; b < 3; ++b) m.materials.boundaries.insert(m.materials.boundaries.end(), {m.law, soft});
+  }
+  for (int i = 0; i < across * across * 4; ++i) {
+    const auto u = [&](std::uint64_t k) { return base::uniform(1, 2, static_cast<std::uint64_t>(i), k); };
+    GrainStart g;
+    g.position = Vec3d{i % across + 0.2 * u(0), i / across % across + 0.2 * u(1), i / (across * across) + 0.6} * 0.0115;
+    g.velocity = {-1 - u(2), -1 + u(3), -1}, g.spin = {100 * u(4), -50 * u(5), 80 * u(6)};
+    g.radius = kind.radii ? 0.0015 + 0.0035 * u(7) : m.radius;
+    g.material = kind.materials && u(8) < 0.5 ? 1 : 0;
+    bed.start.push_back(g);
+  }
+  if (kind.radii) bed.start[0].radius = m.radius;
+  return bed;
+}
+
+std::vector<std::uint32_t> wordsAfter(const Bed& bed, int steps, int threads = 1) {
+  Grains grains(testExec(threads), bed.model, bed.boundaries, bed.start);
+  advance(grains, steps);
+  return grains.stateWords();
+}
+
+std::vector<Kind> allKinds() {
+  std::vector<Kind> kinds;
+  for (int bits = 0; bits < 64; ++bits)
+    kinds.push_back({(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0,
+                     bits & 32 ? Precision::double_ : Precision::single});
+  kinds.push_back({.friction = false});
+  kinds.push_back({.hertz = true, .friction = false});
+  kinds.push_back({.radii = true, .friction = false});
+  return kinds;
+}
+
+TEST(ManyKinds, EveryKernelGivesTheBitsOfTheGeneralOneOnAnyThreadsAndRebuilds) {
+  for (const Kind& kind : allKinds()) {
+    Bed bed = bedOf(kind);
+    const auto expected = wordsAfter(bed, 300);
+    bed.model.specialised = false, bed.model.skin = 0.7;
+    EXPECT_EQ(wordsAfter(bed, 300, 2), expected)
+        << featureText(Grains(testExec(1), bed.model, bed.boundaries, bed.start).features());
+  }
+}
+
+TEST(ManyKinds, RadiiOfOneSizeAreNotStored) {
+  Grains one(testExec(1), bedOf({}).model, bedOf({}).boundaries, bedOf({}).start);
+  EXPECT_FALSE(one.manyRadii());
+  EXPECT_TRUE(one.state().radius.empty());
+  EXPECT_TRUE(one.state().material.empty());
+  EXPECT_TRUE(one.state().contactRolling.empty());
+  const Bed bed = bedOf({.friction = false});
+  Grains smooth(testExec(1), bed.model, bed.boundaries, bed.start);
+  advance(smooth, 200);
+  EXPECT_TRUE(smooth.state().contactShear.empty());
+  EXPECT_TRUE(smooth.neighbours().toHost().history.empty()) << "frictionless: no history arrays";
+}
+
+TEST(ManyKinds, ResumedRunGivesTheSameBits) {
+  const Bed bed = bedOf({.hertz = true, .rolling = true, .cohesion = true, .radii = true, .materials = true});
+  const auto expected = wordsAfter(bed, 600);
+  Grains first(testExec(1), bed.model, bed.boundaries, bed.start);
+  advance(first, 377);
+  const GrainState saved = first.state();
+  ASSERT_FALSE(saved.contactRolling.empty());
+  Grains second(testExec(1), bed.model, bed.boundaries, bed.start);
+  second.restore(saved);
+  advance(second, 600 - 377);
+  EXPECT_EQ(second.stateWords(), expected);
+}
+
+/// Grains flying into each other without gravity or walls: momentum, angular momentum about the origin, energy.
+struct Totals {
+  Vec3d momentum, angular;
+  double scale = 0;
+};
+Totals totalsOf(const Grains& grains, const std::vector<double>& mass) {
+  Totals t;
+  const auto s = grains.snapshot();
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    const double r = s.radius.empty() ? grains.model().radius : static_cast<double>(s.radius[i]);
+    const Vec3d v = s.velocity[i].as<double>();
+    t.momentum += v * mass[i];
+    t.angular += cross(s.position[i], v * mass[i]) + s.spin[i].as<double>() * (0.4 * mass[i] * r * r);
+    t.scale += mass[i] * norm(v) * 0.05;
+  }
+  return t;
+}
+
+TEST(ManyKinds, MomentumAndAngularMomentumAreKept) {
+  for (const Precision precision : {Precision::single, Precision::double_}) {
+    Bed bed = bedOf({.hertz = true, .radii = true, .materials = true, .precision = precision});
+    bed.model.gravity = {};
+    bed.boundaries = {}, bed.model.materials.boundaries.clear();
+    std::vector<double> mass;
+    for (GrainStart& g : bed.start) {
+      g.velocity = (Vec3d{0.03, 0.03, 0.03} - g.position) * 40.0;
+      mass.push_back(bed.model.materials.density[static_cast<std::size_t>(g.material)] * 4.0 / 3 * base::kPi *
+                     g.radius * g.radius * g.radius);
+    }
+    Grains grains(testExec(1), bed.model, bed.boundaries, bed.start);
+    const Totals before = totalsOf(grains, mass);
+    std::int64_t contacts = 0;
+    for (int k = 0; k < 20; ++k) advance(grains, 200), contacts += grains.ledger().contacts;
+    ASSERT_GT(contacts, 100);
+    const Totals after = totalsOf(grains, mass);
+    // Single: each force and torque is rounded to 6e-8 of itself on either side. Double: what is left is the float of
+    // velocities and radii in these sums, and x moving between v's two ends of a step.
+    const double share = precision == Precision::single ? 2e-6 : 2e-6;
+    EXPECT_LT(norm(after.momentum - before.momentum), share * before.scale / 0.05);
+    EXPECT_LT(norm(after.angular - before.angular), 5 * share * before.scale);
+  }
+}
+
+TEST(ManyKinds, EqualSpheresAsManyRadiiMoveAlikeToRoundOff) {
+  // The kernel of many radii, forced by one far smaller grain elsewhere, against that of one radius.
+  Bed bed = bedOf({});
+  bed.model.law.rootDamping = 0;
+  const auto reference = [&](bool other) {
+    Bed b = bed;
+    if (other) b.start.push_back({{0.5, 0.5, 0.5}, {}, {}, 0.004, 0});
+    Grains grains(testExec(1), b.model, b.boundaries, b.start);
+    advance(grains, 150);
+    return grains.snapshot();
+  };
+  const auto one = reference(false), many = reference(true);
+  double worst = 0;
+  for (std::size_t i = 0; i < one.position.size(); ++i)
+    worst = std::max(worst, norm(one.position[i] - many.position[i]));
+  EXPECT_LT(worst, 1e-8) << "round-off of float forces over 150 steps, radii of 5 mm";
+}
+
+TEST(ManyKinds, SmallGrainsInReachOfALargeOneAreAllListed) {
+  // A ball with 200 small ones on its surface: more than one word of touching bits.
+  GrainModel m = ball(1e-6);
+  m.law.friction = 0.5, m.law.tangentialStiffness = 2e4;
+  m.law.damping = 500;
+  std::vector<GrainStart> start{{{0, 0, 0}, {}, {}, m.radius, 0}};
+  const int n = 200;
+  const double small = 0.0004, reach = m.radius + small - 1e-6;
+  for (int k = 0; k < n; ++k) { // Fibonacci's sphere
+    const double z = 1 - (2 * k + 1.0) / n, phi = k * 2.39996322972865332;
+    const double across = std::sqrt(1 - z * z);
+    start.push_back({Vec3d{across * base::cos(phi), across * base::sin(phi), z} * reach, {}, {}, small, 0});
+  }
+  Grains grains(testExec(1), m, {}, start);
+  advance(grains, 1);
+  EXPECT_EQ(grains.ledger().contacts, n);
+  EXPECT_EQ(grains.state().contacts[0], static_cast<std::uint32_t>(n));
+  const GrainState saved = grains.state();
+  Grains other(testExec(1), m, {}, start);
+  other.restore(saved);
+  advance(grains, 5), other.invalidateNeighbours(), advance(other, 5);
+  EXPECT_EQ(other.stateWords(), grains.stateWords());
+}
+
+TEST(ManyKinds, RadiiTooUnlikeAreRefused) {
+  GrainModel m = ball(1e-6);
+  EXPECT_THROW(Grains(testExec(1), m, {}, {{{0, 0, 0}, {}, {}, m.radius, 0}, {{1, 0, 0}, {}, {}, 1e-6, 0}}),
+               base::InputError);
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
