@@ -7,6 +7,7 @@
 #include "runs/laws.hpp"
 #include "runs/plan.hpp"
 #include "runs/simulation.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -140,6 +141,16 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
     EXPECT_EQ(one.stateHash(), resumed.stateHash());
     const auto ledger = one.ledger();
     EXPECT_LT(std::fabs(ledger.residual), 0.02 * std::fabs(ledger.potential) + 1e-3) << "first order in the step";
+  }
+}
+
+TEST(ManyKindsScene, MixtureGivesTheGoldenHashOnOneAndTwoThreads) {
+  const Scene s = loadScene(testScene("mixture.toml"));
+  const auto quiet = [](double, double) {};
+  for (const int threads : {1, 2}) {
+    Simulation run(s, testExec(threads), quiet);
+    for (int i = 0; i < 1500; ++i) run.step();
+    EXPECT_EQ(run.stateHash(), "7a4fbe4bcbf44e5c") << "the state after 1500 steps, on any machine";
   }
 }
 

@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                "[driver]",
                "[drivers]",
                {"scene.toml:25", "unknown section drivers", "did you mean driver?"}},
-        Broken{"LaterSection", "[driver]", "[[body]]", {"unknown section body", "valid here"}},
+        Broken{"LaterSection", "[driver]", "[[tyre]]", {"unknown section tyre", "valid here"}},
         Broken{"MissingDuration",
                "duration = 2\n",
                "",

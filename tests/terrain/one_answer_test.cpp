@@ -34,8 +34,7 @@ std::vector<std::uint32_t> runHeap(int threads, double skin, base::Vec3d shift =
             {shift + base::Vec3d{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {0.3, 0.1, -1}, {}});
       }
   const double offset = shift.z;
-  Grains grains(testExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}},
-                start);
+  Grains grains(testExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}}, start);
   advance(grains, 3000);
   return grains.stateWords();
 }
