@@ -159,8 +159,8 @@ TEST(ManyKinds, MomentumAndAngularMomentumAreKept) {
     ASSERT_GT(contacts, 100);
     const Totals after = totalsOf(grains, mass);
     // Single: each force and torque is rounded to 6e-8 of itself on either side. Double: what is left is the float of
-    // velocities and radii in these sums, and x moving between v's two ends of a step.
-    const double share = precision == Precision::single ? 2e-6 : 2e-6;
+    // velocities and radii in these sums.
+    constexpr double share = 2e-6;
     EXPECT_LT(norm(after.momentum - before.momentum), share * before.scale / 0.05);
     EXPECT_LT(norm(after.angular - before.angular), 5 * share * before.scale);
   }
