@@ -2,15 +2,17 @@
 #include "assets/generator_heightmaps/shapes.hpp"
 #include "base/error.hpp"
 
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <png.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/// Writes the project's height-maps as grey PNG pictures: grouser_heightmaps FOLDER
+/// Writes the project's height-maps as grey PNG pictures: see grouser_heightmaps --help.
 namespace grouser::heightmaps {
 
 /// InputError: the file cannot be written.
@@ -37,20 +39,58 @@ void write(const Picture& picture, const std::filesystem::path& file) {
 
 } // namespace grouser::heightmaps
 
-int main(int argc, char** argv) {
-  using namespace grouser::heightmaps;
-  if (argc != 2 || std::string(argv[1]) == "--help") {
-    std::printf("usage: grouser_heightmaps FOLDER\nWrites the project's height-maps as PNG pictures into FOLDER.\n");
-    return argc == 2 ? 0 : 2;
+namespace {
+
+using namespace grouser::heightmaps;
+
+std::string footer() {
+  std::string text = "Pictures, with figures for a terrain of 20 m x 8 m and heights from 0 to 0.4 m:\n";
+  for (const Picture& p : kPictures)
+    text += fmt::format("  {:<11} {:>3} x {:>3}, {:>2} bit   {}\n", p.name, p.columns, p.rows, p.bits, p.help);
+  return text +
+         "Left is x = 0, the top row is the far edge (largest y), and pixels are points: the outermost lie on the "
+         "border of the terrain. Black and white are the ends of terrain.height_range in a scene.";
+}
+
+/// The pictures that are asked for, in the size that is asked for.
+std::vector<Picture> chosen(const std::vector<std::string>& names, int bits, int columns, int rows) {
+  std::vector<Picture> pictures;
+  for (Picture p : kPictures) {
+    if (!names.empty() && std::find(names.begin(), names.end(), p.name) == names.end()) continue;
+    if (bits) p.bits = bits;
+    if (columns) p.columns = columns;
+    if (rows) p.rows = rows;
+    pictures.push_back(p);
   }
+  return pictures;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Writes the project's height-maps as grey PNG pictures.", "grouser_heightmaps");
+  app.footer(footer());
+  std::string folder;
+  std::vector<std::string> names, known;
+  int bits = 0, columns = 0, rows = 0;
+  for (const Picture& p : kPictures) known.emplace_back(p.name);
+  app.add_option("folder", folder, "where they go; a picture that is there is written anew")->required();
+  app.add_option("names", names, "of the pictures; default: all")->check(CLI::IsMember(known));
+  app.add_option("--bits", bits, "of a pixel, 8 or 16; default: as listed below")->check(CLI::IsMember({8, 16}));
+  app.add_option("--columns", columns, "pixels along x, 2 to 65536; default: as listed")->check(CLI::Range(2, 65536));
+  app.add_option("--rows", rows, "pixels along y, 2 to 65536; default: as listed")->check(CLI::Range(2, 65536));
   try {
-    for (const Picture& picture : kPictures) {
-      const auto file = std::filesystem::path(argv[1]) / (std::string(picture.name) + ".png");
+    app.parse(argc, argv);
+    for (const Picture& picture : chosen(names, bits, columns, rows)) {
+      const auto file = std::filesystem::path(folder) / (std::string(picture.name) + ".png");
       write(picture, file);
-      std::printf("%s: %d x %d pixels, %d bit\n", file.c_str(), picture.columns, picture.rows, picture.bits);
+      fmt::print("{}: {} x {} pixels, {} bit\n", file.string(), picture.columns, picture.rows, picture.bits);
     }
+    return 0;
+  } catch (const CLI::Success& e) {
+    return app.exit(e); // --help
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "grouser_heightmaps: %s\n", error.what());
+    fmt::print(stderr, "grouser_heightmaps: {}\n", error.what());
     return 2;
   }
 }

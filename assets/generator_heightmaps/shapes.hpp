@@ -38,11 +38,22 @@ inline double sideSlope(double u, double v) {
   return 0.5 + (v - 0.5) * t * t * (3 - 2 * t);
 }
 
-/// One picture: its name, its size in pixels, its depth in bits, and its shape.
+/// A step up across the way at u = 0.45, level on top, and down again at u = 0.7, each over 0.01 [0.24 m high over
+/// 0.2 m, on top 4.8 m long].
+inline double step(double u, double) {
+  const auto risen = [u](double at) {
+    const double t = u < at ? 0.0 : u > at + 0.01 ? 1.0 : (u - at) / 0.01;
+    return t * t * (3 - 2 * t);
+  };
+  return 0.2 + 0.6 * (risen(0.45) - risen(0.7));
+}
+
+/// One picture: its name, its size in pixels, its depth in bits, its shape, and what is to be seen on it.
 struct Picture {
   std::string_view name;
   int columns, rows, bits;
   double (*shape)(double, double);
+  std::string_view help;
 
   /// Value of a pixel, rounded to the nearest of 2^bits levels. Row 0 is the far edge, v = 1; pixels are points at the
   /// corners.
@@ -52,10 +63,12 @@ struct Picture {
   }
 };
 
-inline constexpr std::array<Picture, 5> kPictures{{{"flat", 17, 9, 8, flat},
-                                                   {"hills", 257, 129, 16, hills},
-                                                   {"hills8", 257, 129, 8, hills},
-                                                   {"ditch", 257, 9, 16, ditch},
-                                                   {"side_slope", 129, 65, 16, sideSlope}}};
+inline constexpr std::array<Picture, 6> kPictures{
+    {{"flat", 17, 9, 8, flat, "level, at half height"},
+     {"hills", 257, 129, 16, hills, "gentle hills; slopes up to 14 %"},
+     {"hills8", 257, 129, 8, hills, "the same hills in 8 bits, for comparison"},
+     {"ditch", 257, 9, 16, ditch, "level, with a ditch across the way, 3.2 m wide and 0.28 m deep"},
+     {"side_slope", 129, 65, 16, sideSlope, "level, then rising to the left by up to 5 %"},
+     {"step", 513, 9, 16, step, "level, with a platform across the way, 0.24 m high, that has to be climbed"}}};
 
 } // namespace grouser::heightmaps

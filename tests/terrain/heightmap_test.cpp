@@ -241,6 +241,41 @@ TEST(Heightmaps, KeptPictures_AreWhatTheGeneratorDraws) {
   }
 }
 
+TEST(Heightmaps, ShapesStayInTheRangeOfTheFormat_AtEverySize) {
+  for (const auto& picture : grouser::heightmaps::kPictures)
+    for (int i = 0; i <= 400; ++i)
+      for (int j = 0; j <= 40; ++j) {
+        const double b = picture.shape(i / 400.0, j / 40.0);
+        ASSERT_TRUE(b >= 0 && b <= 1) << picture.name << " at " << i / 400.0 << ", " << j / 40.0;
+      }
+}
+
+TEST(Heightmaps, FiguresInTheHelp_AreThoseOfTheShapes) {
+  using namespace grouser::heightmaps;
+  constexpr double kHigh = 0.4, kLong = 20, kWide = 8; // [m] the terrain that the help speaks of
+  double low = 1, high = 0, ditchFrom = 1, ditchTo = 0, topFrom = 1, topTo = 0, steepest = 0;
+  constexpr int n = 20000;
+  for (int i = 0; i <= n; ++i) {
+    const double u = double(i) / n;
+    low = std::min(low, ditch(u, 0)), high = std::max(high, ditch(u, 0));
+    if (ditch(u, 0) < 0.85 - 1e-9) ditchFrom = std::min(ditchFrom, u), ditchTo = std::max(ditchTo, u);
+    if (step(u, 0) > 0.8 - 1e-9) topFrom = std::min(topFrom, u), topTo = std::max(topTo, u);
+    for (const double v : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const double h = 1e-6, du = (hills(u + h, v) - hills(u - h, v)) / (2 * h) * kHigh / kLong,
+                   dv = (hills(u, v + h) - hills(u, v - h)) / (2 * h) * kHigh / kWide;
+      steepest = std::max(steepest, std::sqrt(du * du + dv * dv));
+    }
+  }
+  EXPECT_NEAR((high - low) * kHigh, 0.28, 1e-6);
+  EXPECT_NEAR((ditchTo - ditchFrom) * kLong, 3.2, 2 * kLong / n + 1e-3); // the cosine leaves its top slowly
+  EXPECT_NEAR((step(0.5, 0) - step(0, 0)) * kHigh, 0.24, 1e-12);
+  EXPECT_EQ(step(0.95, 0), step(0, 0));
+  EXPECT_NEAR((topTo - topFrom) * kLong, 4.8, 2 * kLong / n);
+  EXPECT_NEAR((sideSlope(1, 1) - sideSlope(1, 0)) * kHigh / kWide, 0.05, 1e-12);
+  EXPECT_GT(steepest, 0.10);
+  EXPECT_LT(steepest, 0.145);
+}
+
 TEST(Heightmaps, HillsInEightBits_AreTheSameHillsToHalfALevel) {
   const std::filesystem::path folder = std::filesystem::path(GROUSER_SOURCE_DIR) / "assets" / "heightmaps";
   const Heightmap deep = loadHeightmap(folder / "hills.png"), coarse = loadHeightmap(folder / "hills8.png");
