@@ -153,7 +153,7 @@ void applyOverride(Node& root, const std::string& text) {
 void checkVersion(const Node& root, const std::string& name) {
   const Node* version = root.find("version");
   if (!version)
-    throw InputError(fmt::format("{}: the key version is missing; begin the file with version = {}", name, kVersion));
+    throw InputError(fmt::format("{}:1: the key version is missing; begin the file with version = {}", name, kVersion));
   const auto* number = std::get_if<std::int64_t>(&version->value);
   if (!number || *number != kVersion)
     throw InputError(fmt::format("{}: version is not one that this program reads; it reads version = {}",

@@ -268,6 +268,7 @@ SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& pr
   const double fall = std::sqrt(2 * layers * (t.spacing - 1.6) * model.radius / g);
   const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
   SettleReport report;
+  double forceRatio = 0;
   int calm = 0;
   while (report.time < t.settleTimeLimit) {
     for (std::int64_t i = 0; i < checkEvery; ++i) {
@@ -276,17 +277,25 @@ SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& pr
     }
     report.steps += checkEvery;
     report.time = static_cast<double>(report.steps) * dt;
+    if (t.settleForceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step
     const terrain::GrainLedger ledger = grains.ledger();
     report.agitation = (ledger.kinetic + ledger.rotational) / unit;
     progress(report.time, report.agitation);
-    calm = report.agitation < t.settleKineticEnergy ? calm + 1 : 0;
+    const bool rests =
+        report.agitation < t.settleKineticEnergy && (!t.settleForceRatio || forceRatio < *t.settleForceRatio);
+    calm = rests ? calm + 1 : 0;
     if (calm >= 5 && report.time > fall) return report;
   }
   throw base::SimulationError(
       fmt::format("the bed has not settled within {:g} s: kinetic energy a grain is {:.3g} of m g "
-                  "radius, wanted is {:.3g}; raise terrain.settle_time_limit, lower the material's "
-                  "restitution or raise terrain.settle_kinetic_energy",
-                  t.settleTimeLimit, report.agitation, t.settleKineticEnergy));
+                  "radius, wanted is {:.3g}{}; raise terrain.settle_time_limit, lower the material's "
+                  "restitution or raise terrain.settle_kinetic_energy{}",
+                  t.settleTimeLimit, report.agitation, t.settleKineticEnergy,
+                  t.settleForceRatio ? fmt::format(", and the mean resultant force on a grain is {:.3g} of its weight, "
+                                                   "wanted is {:.3g}",
+                                                   forceRatio, *t.settleForceRatio)
+                                     : "",
+                  t.settleForceRatio ? " and settle_force_ratio" : ""));
 }
 
 void keepSurface(Ground& ground, const base::Exec& exec) {

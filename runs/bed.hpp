@@ -56,7 +56,8 @@ double chooseTimeStep(const Scene& scene);
 Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});
 
 /// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
-/// m g radius for a whole tenth of a second, but at least for the time a grain takes to fall the bed's looseness.
+/// m g radius, and the mean resultant force below the scene's share of the weight where it names one, for a whole tenth
+/// of a second, but at least for the time a grain takes to fall the bed's looseness.
 /// Throws SimulationError when the scene's time limit passes first.
 SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress);
 

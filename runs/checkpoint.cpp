@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kKind = "checkpoint";
 constexpr int kVersion = 3; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
@@ -237,7 +236,7 @@ bool isFree(const std::string& key) {
   constexpr const char* kFree[] = {
       "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
       "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
-      "terrain.heightmap", "vehicle.spec"};
+      "terrain.heightmap", "terrain.cache",       "vehicle.spec"};
   return key.rfind("output.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
          std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
 }
@@ -275,7 +274,7 @@ std::string inputsOf(const Scene& scene) {
   return text;
 }
 
-void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const base::Comm& comm) {
+void writeState(const fs::path& path, const char* kind, const Checkpoint& checkpoint, const base::Comm& comm) {
   const auto write = [&](const fs::path& part) {
     RowCounter counter(comm);
     exchange(counter, checkpoint.state);
@@ -298,14 +297,12 @@ void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const b
     exchange(rows, checkpoint.state);
     file.flush();
   };
-  writeSealed(path, kKind, kVersion, write, comm);
+  writeSealed(path, kind, kVersion, write, comm);
 }
 
-Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
-  // Only what has every bit as it was written is handed to HDF5.
-  if (comm.first()) checkSeal(path, kKind, kVersion);
-  comm.wait();
-  const Hdf5File file = Hdf5File::open(path);
+void checkStateFile(const fs::path& path, const char* kind) { checkSeal(path, kind, kVersion); }
+
+Checkpoint readState(const Hdf5File& file, const base::Comm& comm) {
   Checkpoint checkpoint;
   checkpoint.scene = file.text("/", "scene");
   checkpoint.inputs = file.text("/", "inputs");
@@ -321,6 +318,17 @@ Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
               static_cast<std::uint32_t>(terrain::blockStart(comm, grains->total, comm.rank())));
   }
   return checkpoint;
+}
+
+void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const base::Comm& comm) {
+  writeState(path, kCheckpointFile, checkpoint, comm);
+}
+
+Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
+  // Only what has every bit as it was written is handed to HDF5.
+  if (comm.first()) checkStateFile(path, kCheckpointFile);
+  comm.wait();
+  return readState(Hdf5File::open(path), comm);
 }
 
 void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const Scene& scene) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/hdf5_file.hpp"
 #include "runs/scene.hpp"
 #include "runs/simulation_state.hpp"
 
@@ -10,6 +11,10 @@
 namespace grouser::runs {
 
 inline constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// Kinds of files that hold a state, by which one is not taken for another.
+inline constexpr const char* kCheckpointFile = "checkpoint";
+inline constexpr const char* kBedFile = "settled bed";
 
 /// A stopped run: all that is needed to go on as if it had not been stopped.
 struct Checkpoint {
@@ -33,6 +38,13 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
 /// Throws base::InputError where the file is missing, foreign, of another version, cut or damaged.
 /// On several ranks, whatever their number was when it was written, each gets its rows.
 Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
+
+/// What the two above are made of. `kind` is one of those named on top; readState() takes a file that checkStateFile()
+/// has found whole, which one rank does for all.
+void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
+                const base::Comm& comm);
+void checkStateFile(const std::filesystem::path& path, const char* kind);
+Checkpoint readState(const Hdf5File& file, const base::Comm& comm);
 
 /// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
 /// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by

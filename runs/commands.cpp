@@ -65,6 +65,7 @@ void runCommand(const RunCommand& command) {
                    : !scene.output.folder.empty() ? fs::path(scene.output.folder)
                                                   : fs::path("out") / scene.name();
   options.force = command.force, options.hash = command.hash, options.steps = command.steps;
+  options.cache = command.cache;
   options.commandLine = command.commandLine;
   options.ranks = command.ranks;
   if (command.resume)
@@ -77,6 +78,7 @@ void runCommand(const RunCommand& command) {
   const fs::path results = options.folder / "results.h5";
   nameIfThere("results", results);
   nameIfThere("series", options.folder / "timeseries.csv");
+  nameIfThere("grains", options.folder / "grains.csv");
   if (scene.vehicle) fmt::print("sinkage   {}\n", writeSinkageCsv(results, options.folder).string());
   if (scene.output.plots) drawAndName(results, options.folder, kAllPlots);
   nameIfThere("picture", options.folder / "picture.png");

@@ -20,6 +20,7 @@ struct RunCommand {
   std::string folder;         ///< empty: as the scene says
   std::optional<std::int64_t> steps;
   bool force = false;
+  bool cache = true; ///< of settled beds
   bool hash = false;
   bool resume = false;
   std::string checkpoint; ///< of --resume; empty: that of the folder

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include <exception>
+#include <stdexcept>
 
 namespace {
 
@@ -42,6 +43,7 @@ void addRun(CLI::App& app, runs::RunCommand& c) {
                       "go on from this checkpoint as if the run had not been stopped; default: that of its folder")
           ->expected(0, 1)
           ->type_name("[FILE]");
+  run->add_flag("!--no-cache", c.cache, "settle the bed anew, and do not keep it; as terrain.cache = false");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
   run->callback([&c, resume] {
     c.resume = resume->count() > 0;
@@ -304,8 +306,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", runs::versionText());
   app.footer(
-      "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound, 4 device, 130 and 143 stopped by "
-      "SIGINT and SIGTERM, 1 anything else.");
+      "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound or its results could not be written, "
+      "4 device, 130 and 143 stopped by SIGINT and SIGTERM, 1 anything else.\nSettled beds are kept in GROUSER_CACHE, or else in "
+      "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
   runs::RunCommand run;
   run.ranks = &ranks;
   runs::SweepCommand sweep;
@@ -348,6 +351,8 @@ int main(int argc, char** argv) {
     return 128 + e.signal();
   } catch (const base::DeviceError& e) {
     return stop(kDevice, e.what());
+  } catch (const std::runtime_error& e) {
+    return stop(kSimulation, e.what()); // what could not be written
   } catch (const std::exception& e) {
     return stop(kOther, e.what());
   }

@@ -27,9 +27,10 @@ namespace {
 constexpr int kChunkRows = 64;
 
 /// The files of a run; what else lies in its folder is not ours.
-constexpr const char* kFiles[] = {"results.h5",    "timeseries.csv", "frames.h5",   "frames.xdmf",      "scene.toml",
-                                  "manifest.json", "sinkage.csv",    "sinkage.png", "shoe_heights.png", "drive.png",
-                                  "ledger.png",    "mechanism.png",  "picture.png", kCheckpointName};
+constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.h5",    "frames.xdmf",
+                                  "scene.toml",       "manifest.json",  "sinkage.csv",  "sinkage.png",
+                                  "shoe_heights.png", "drive.png",      "ledger.png",   "mechanism.png",
+                                  "picture.png",      "grains.csv",     kCheckpointName};
 
 void writeText(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -198,7 +199,21 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::vector<Channel> c
   for (const Channel& c : channels)
     if (!c.columns.empty() && c.columns.size() != static_cast<std::size_t>(c.width))
       throw std::logic_error("channel " + c.path + ": as many columns as numbers");
-  impl_ = std::make_unique<Impl>(folder, scene, std::move(channels), std::move(options));
+  const bool begun = !options.former && options.comm.first();
+  std::error_code unknown;
+  const bool there = fs::exists(folder, unknown);
+  try {
+    impl_ = std::make_unique<Impl>(folder, scene, std::move(channels), std::move(options));
+  } catch (const base::InputError&) {
+    throw; // before anything was touched
+  } catch (...) {
+    // The disk is full: what was begun is of no use.
+    std::error_code error;
+    for (const char* name : kFiles)
+      if (begun) fs::remove(folder / name, error);
+    if (begun && !there) fs::remove(folder, error);
+    throw;
+  }
 }
 
 RunWriter::~RunWriter() = default;
@@ -254,7 +269,11 @@ void RunWriter::finish(const Summary& summary) {
 void RunWriter::abandon(const std::string& reason) {
   if (!impl_->series) return;
   impl_->series->manifest.note("error", reason);
-  impl_->series->manifest.write("failed");
+  try {
+    impl_->series->manifest.write("failed");
+  } catch (const std::exception&) {
+    // The disk may be full. What is told is why the run ended.
+  }
 }
 
 void RunWriter::stop(const std::string& reason) {

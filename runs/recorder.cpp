@@ -132,14 +132,28 @@ Recorder::Recorder(Simulation& simulation, const Scene& scene, const RunOptions&
     : simulation_(simulation), channels_(channelsOf(simulation, scene)), row_(channels_), record_(scene.output.record),
       frames_(scene.output.frames),
       writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
-  if (const VehicleRig* rig = simulation.vehicle()) {
+  try {
+    begin(scene, options, former);
+  } catch (const std::exception& error) {
+    writer_.abandon(error.what());
+    throw;
+  }
+}
+
+void Recorder::begin(const Scene& scene, const RunOptions& options, const Checkpoint* former) {
+  if (const VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
     writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
   }
-  if (const Mechanism* mechanism = simulation.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
-  ground_ = simulation.ground().rigid ? groundMesh(*simulation.ground().rigid) : planeMesh(scene);
+  if (const Mechanism* mechanism = simulation_.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
+  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : planeMesh(scene);
   writer_.setParts(parts_, ground_);
+  if (const auto& grains = simulation_.ground().grains;
+      grains && GrainsCsv::isWanted(scene, static_cast<std::int64_t>(grains->count())))
+    grainsCsv_.emplace(options.folder,
+                       former ? std::optional(GrainsCsv::Former{former->state.steps, former->rows}) : std::nullopt,
+                       options.comm());
 }
 
 void Recorder::row() {
@@ -162,6 +176,7 @@ void Recorder::row() {
   row_.set("ledger/residual", l.residual);
   if (!simulation_.mechanism()) row_.set("ledger/impulse_residual", l.impulseResidual);
   writer_.row(row_.row());
+  if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
   simulation_.restartMeans();
 }
 

@@ -3,10 +3,12 @@
 
 #include "runs/channels.hpp"
 #include "runs/checkpoint.hpp"
+#include "runs/grains_csv.hpp"
 #include "runs/output.hpp"
 #include "runs/run_scene.hpp"
 #include "runs/simulation.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ public:
   RunWriter& writer() { return writer_; }
 
 private:
+  void begin(const Scene& scene, const RunOptions& options, const Checkpoint* former);
   Frame currentFrame() const;
 
   Simulation& simulation_;
@@ -37,6 +40,7 @@ private:
   std::vector<FramePart> parts_;
   base::TriangleMesh ground_;
   RunWriter writer_;
+  std::optional<GrainsCsv> grainsCsv_;
 };
 
 } // namespace grouser::runs

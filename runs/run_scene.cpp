@@ -61,7 +61,7 @@ void describeSharing(const Simulation& simulation, double seconds, double waited
   summary.figures["rebalancings"] = static_cast<double>(grains->rebalancings());
 }
 
-void describeBuild(const Simulation& simulation, const base::Exec& exec) {
+void describeBuild(const Simulation& simulation, const base::Exec& exec, const BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {} of radius {:g} m, {:.0f} bytes each\n", grains->count(), grains->model().radius,
@@ -71,6 +71,7 @@ void describeBuild(const Simulation& simulation, const base::Exec& exec) {
   if (simulation.settled().steps > 0)
     fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",
                simulation.settled().time, simulation.settled().agitation);
+  if (beds && !beds->story().empty()) fmt::print("bed       {}\n", beds->story());
   if (const VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
@@ -124,7 +125,7 @@ std::unique_ptr<Checkpoint> formerRun(const Scene& scene, const RunOptions& opti
 
 /// At the checkpoint, or at the start: then the bed is settled first.
 std::unique_ptr<Simulation> makeSimulation(const Scene& scene, const base::Exec& exec, const Checkpoint* former,
-                                           const base::Comm& comm) {
+                                           const base::Comm& comm, BedCache* beds) {
   if (former) return std::make_unique<Simulation>(scene, exec, former->state, comm);
   std::unique_ptr<Progress> settling;
   const auto settle = [&](double time, double agitation) {
@@ -135,7 +136,7 @@ std::unique_ptr<Simulation> makeSimulation(const Scene& scene, const base::Exec&
     settling->update(time / scene.terrain->settleTimeLimit,
                      fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   };
-  auto simulation = std::make_unique<Simulation>(scene, exec, settle, comm);
+  auto simulation = std::make_unique<Simulation>(scene, exec, settle, comm, beds);
   if (settling) settling->finish("at rest");
   return simulation;
 }
@@ -187,7 +188,10 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   requireAlike(scene, options.comm());
   const base::Exec exec = chooseDevice(scene.run.device, scene.run.threads, options.ranks);
   const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
-  const std::unique_ptr<Simulation> made = makeSimulation(scene, exec, former.get(), options.comm());
+  std::optional<BedCache> beds;
+  if (options.cache && scene.terrain && scene.terrain->cache) beds = BedCache::ofUser();
+  const std::unique_ptr<Simulation> made =
+      makeSimulation(scene, exec, former.get(), options.comm(), beds ? &*beds : nullptr);
   Simulation& simulation = *made;
   const std::int64_t whole = std::llround(scene.run.duration / simulation.timeStep()), begin = simulation.steps(),
                      total = std::min(whole, options.steps.value_or(whole));
@@ -195,7 +199,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
   const double prepared = since(start);
-  describeBuild(simulation, exec);
+  describeBuild(simulation, exec, beds ? &*beds : nullptr);
 
   Recorder recorder(simulation, scene, options, exec, former.get());
   Checkpoints checkpoints(scene, options);
@@ -204,11 +208,9 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   if (former) {
     checkpoints.begunAt(begin);
     fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
-  } else {
-    recorder.row();
-    recorder.frame();
   }
   try {
+    if (!former) recorder.row(), recorder.frame();
     drive(simulation, recorder, checkpoints, scene, total);
   } catch (const Stopped& stopped) {
     recorder.writer().stop(stopped.what());

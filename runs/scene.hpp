@@ -130,6 +130,8 @@ struct Terrain {
   bool walls = true;
   double settleTimeLimit = 3.0;
   double settleKineticEnergy = 1e-4; ///< [-] mean kinetic energy a grain over m g radius
+  std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
+  bool cache = true;                 ///< keep the settled bed for later runs, and take it from one
   bool granular() const { return kind == "granular"; }
   bool operator==(const Terrain&) const = default;
 };
@@ -172,6 +174,7 @@ struct Output {
   std::string folder;              ///< empty: out/NAME of the scene file
   std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
   bool frames = true;
+  std::optional<bool> grainsCsv; ///< every grain in every row as text; empty: in small scenes
   bool picture = true;
   bool plots = true;
   int pictureWidth = 1600;

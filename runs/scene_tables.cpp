@@ -193,6 +193,12 @@ Table<Terrain> terrainTable() {
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-", "at rest: mean kinetic energy a grain over m g radius")
       .above(0)
       .atMost(1e3);
+  t.add("settle_force_ratio", &S::settleForceRatio, "-",
+        "at rest also: mean resultant force on a grain over its weight; \"none\" asks for the energy alone")
+      .above(0)
+      .atMost(1e3)
+      .orWord("none");
+  t.add("cache", &S::cache, "", "keep the settled bed for later runs, and take it from an earlier one; same bits");
   return t;
 }
 
@@ -373,6 +379,9 @@ Table<Output> outputTable() {
   t.add("folder", &S::folder, "", "of the results, from where grouser is called; out/NAME where not given");
   t.add("record", &S::record, "", "names of what of a mechanism goes into the time series; all where empty");
   t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
+  t.add("grains_csv", &S::grainsCsv, "",
+        "grains.csv with every grain at every output time; \"auto\": up to 1000 grains and 1e6 lines")
+      .orWord("auto");
   t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
   t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);
   t.add("plots", &S::plots, "", "plots of the time series, by Python and matplotlib");

@@ -16,13 +16,14 @@ constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
 } // namespace
 
 Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress,
-                       const base::Comm& comm)
+                       const base::Comm& comm, BedCache* beds)
     : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
       ground_(buildGround(scene, exec, timeStep_, comm)), sources_(scene, timeStep_) {
   const bool bed = scene.terrain && scene.terrain->granular();
   if (scene.vehicle)
     placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
-  if (bed && scene.terrain->settleTimeLimit > 0) settled_ = settle(scene, ground_, progress);
+  if (bed && scene.terrain->settleTimeLimit > 0)
+    settled_ = beds ? beds->settle(scene, ground_, progress, comm) : settle(scene, ground_, progress);
   if (bed) keepSurface(ground_, exec);
   surface_ = surfaceHeight(ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);

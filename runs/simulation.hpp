@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/bed.hpp"
+#include "runs/bed_cache.hpp"
 #include "runs/mechanism.hpp"
 #include "runs/output.hpp"
 #include "runs/scene.hpp"
@@ -18,7 +19,9 @@ namespace grouser::runs {
 /// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
 class Simulation {
 public:
-  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {});
+  /// `beds`: where settled beds are kept; null: settles by itself.
+  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {},
+             BedCache* beds = nullptr);
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
   Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {});

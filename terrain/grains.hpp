@@ -117,6 +117,9 @@ public:
   /// `grows`: the state may hold more grains than the scene began with.
   void restore(const GrainState& state, bool grows = false);
   GrainLedger ledger();
+  /// Mean over the grains of the resultant of all forces on a grain over its weight [-], in the step that was taken
+  /// last: 1 in free fall, 0 in balance. Only right after a step; 0 without gravity.
+  double forceRatio() const;
   std::size_t deviceBytes() const;
   const contact::NeighbourList& neighbours() const { return neighbours_; } ///< as last built
   std::int64_t rebuilds() const { return rebuilds_; }

@@ -42,6 +42,12 @@ std::vector<stbi_uc> readFile(const std::filesystem::path& file) {
   return bytes;
 }
 
+/// " (bad file)": what the decoder says to its last failure; empty where it says nothing.
+std::string decodersReason() {
+  const char* reason = stbi_failure_reason();
+  return reason && *reason ? fmt::format(" ({})", reason) : "";
+}
+
 /// The decoder fills what is missing of a JPEG with grey: its end mark must be there.
 bool isCutShort(const std::vector<stbi_uc>& bytes) {
   const std::size_t n = bytes.size();
@@ -80,7 +86,7 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   map.file = file;
   int channels = 0;
   if (!stbi_info_from_memory(bytes.data(), size, &map.columns, &map.rows, &channels))
-    fail("not a picture that can be read; give a PNG (8 or 16 bit) or a JPEG");
+    fail(fmt::format("not a picture that can be read{}; give a PNG (8 or 16 bit) or a JPEG", decodersReason()));
   const std::string dimensions = fmt::format("{} x {} pixels", map.columns, map.rows);
   if (map.columns < 2 || map.rows < 2)
     fail(dimensions + "; a height-map needs at least 2 x 2, since pixels are points at the corners");
@@ -93,8 +99,8 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
     auto* const decoded = load(bytes.data(), size, &map.columns, &map.rows, &channels, 0);
     const std::unique_ptr<std::remove_pointer_t<decltype(decoded)>, FreePixels> pixels(decoded);
     if (!pixels || isCutShort(bytes))
-      fail(fmt::format("{} announced, but the picture is damaged or cut short ({}); save or copy it again", dimensions,
-                       pixels ? "no end mark" : stbi_failure_reason()));
+      fail(fmt::format("{} announced, but the picture is damaged or cut short{}; save or copy it again", dimensions,
+                       pixels ? " (no end mark)" : decodersReason()));
     map.brightness = brightnessOf(pixels.get(), count, channels, white);
   };
   map.bits = deep ? 16 : 8;

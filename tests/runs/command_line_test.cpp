@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
+#include <vector>
 
 namespace grouser::runs {
 namespace {
@@ -41,8 +43,8 @@ protected:
 
   /// `before`: for the shell, to do first.
   Outcome call(const std::string& words, const std::string& before = "") const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && " + before + "'" + program_.string() + "' " + words + " >out.txt 2>err.txt";
+    const std::string command = "cd '" + folder_.string() + "' && export GROUSER_CACHE= && " + before + "'" +
+                                program_.string() + "' " + words + " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
   }
@@ -75,8 +77,8 @@ TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
 }
 
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
-  for (const char* command :
-       {"", "run", "sweep", "bench", "bench bed", "bench step", "bench contacts", "hash", "sinkage", "plan", "spheres", "render", "fields"}) {
+  for (const char* command : {"", "run", "sweep", "bench", "bench bed", "bench step", "bench contacts", "hash",
+                              "sinkage", "plan", "spheres", "render", "fields"}) {
     const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;
@@ -137,9 +139,34 @@ TEST_F(CommandLine, FullDiskIsSaidAndLeavesNoPart) {
   writeCube();
   // Files of at most 512 bytes: the write fails in the middle, as on a full disk.
   const Outcome o = call("spheres cube.obj --radius 0.01 --csv s.csv", "trap '' XFSZ; ulimit -f 1; ");
-  EXPECT_EQ(o.code, 1);
+  EXPECT_EQ(o.code, 3);
   EXPECT_NE(o.errors.find("s.csv: could not be written whole; is the disk full?"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "s.csv"));
+}
+
+TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
+  writeGrain();
+  int begun = 0, complete = 0;
+  for (const int blocks : {0, 1, 4, 8, 12, 16, 24, 32, 48, 64, 512}) { // files of at most so many times 512 bytes
+    const std::string folder = "full" + std::to_string(blocks);
+    const Outcome o =
+        call("run grain.toml --out " + folder, "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; ");
+    if (o.code == 0) {
+      ++complete;
+      continue;
+    }
+    EXPECT_EQ(o.code, 3) << blocks << "\n" << o.errors;
+    if (blocks > 0) { // of the messages too
+      EXPECT_EQ(o.errors.rfind("grouser: error: ", 0), 0u) << blocks << "\n" << o.errors;
+      EXPECT_NE(o.errors.find("is the disk full"), std::string::npos) << blocks << "\n" << o.errors;
+    }
+    if (!fs::exists(folder_ / folder)) continue;
+    ++begun;
+    if (fs::exists(folder_ / folder / "manifest.json"))
+      EXPECT_EQ(contents(folder_ / folder / "manifest.json").find("\"finished\""), std::string::npos) << blocks;
+  }
+  EXPECT_GT(begun, 0) << "no limit struck in the middle of a run";
+  EXPECT_GT(complete, 0);
 }
 
 TEST_F(CommandLine, BrokenSceneEndsWithTwoAndTouchesNothing) {
@@ -166,6 +193,40 @@ TEST_F(CommandLine, RunLeavesItsFilesAndPrintsTheHashLast) {
   // Where Python and its packages are there, the plots are drawn and listed; where not, a warning says so.
   const bool isWarned = o.errors.find("grouser: warning: no plots") != std::string::npos;
   EXPECT_NE(manifest.find("ledger.png") != std::string::npos, isWarned) << o.errors;
+}
+
+TEST_F(CommandLine, SmallScenesLeaveEveryGrainAsText) {
+  writeGrain("two.toml", "output_interval = 3e-4\n");
+  const std::string grain = "[[grain]]\nposition = [0.1, 0, 1]\nvelocity = [0.25, 0, 0]\nradius = 0.01\nmaterial = "
+                            "\"glass\"\n";
+  std::ofstream(folder_ / "two.toml", std::ios::app) << grain;
+  ASSERT_EQ(call("run two.toml --out whole").code, 0);
+  std::istringstream file(contents(folder_ / "whole/grains.csv"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line.rfind("step,time [s],id,position.x [m],", 0), 0u) << line;
+  std::vector<std::vector<double>> rows;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  ASSERT_EQ(rows.size(), 10u) << "steps 0, 30, 60, 90 and the last, 100";
+  for (const auto& row : rows) ASSERT_EQ(row.size(), 13u);
+  EXPECT_EQ(rows[9][0], 100);
+  EXPECT_EQ(rows[9][2], 1);
+  EXPECT_NEAR(rows[9][3], 0.1 + 0.25e-3, 1e-9); // the quantum of positions: 1e-8 of a diameter
+  EXPECT_NEAR(rows[9][8], -9.81e-3, 1e-9);      // of a float at 0.01 m/s
+  EXPECT_EQ(rows[9][12], 0.01);
+
+  ASSERT_EQ(call("run two.toml --out cut --steps 70").code, 0);
+  ASSERT_EQ(call("run two.toml --out cut --resume cut/checkpoint.h5").code, 0);
+  EXPECT_EQ(contents(folder_ / "cut/grains.csv"), contents(folder_ / "whole/grains.csv"));
+
+  ASSERT_EQ(call("run two.toml --out none --set output.grains_csv=false").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "none/grains.csv"));
+  ASSERT_EQ(call("run two.toml --out many --set run.output_interval=1e-5 --set run.duration=6 --steps 2").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "many/grains.csv")) << "1.2e6 lines unless asked for";
 }
 
 TEST_F(CommandLine, FilledFolderIsKeptUnlessForced) {

@@ -50,7 +50,7 @@ protected:
     const auto start = std::chrono::steady_clock::now();
     const std::string all = "cd '" + folder_.string() +
                             "' && export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                            "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1; grouser='" +
+                            "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1 GROUSER_CACHE=; grouser='" +
                             program_.string() + "'; { " + command + "; } >out.txt 2>err.txt";
     const int status = std::system(all.c_str());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -97,6 +97,25 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   EXPECT_EQ(run(3, scene + "--out three --set 'parallel.subdomains=[1,3,1]' --set parallel.rebalance=false").hash(),
             expected);
   EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "two/timeseries.csv"));
+}
+
+TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
+  const std::string words = "run bed.toml --steps 200 --hash --set terrain.settle_time_limit=5 "
+                            "--set terrain.settle_kinetic_energy=0.05 ",
+                    kept = "export GROUSER_CACHE=\"$PWD/beds\"; ";
+  const Outcome anew = run(1, words + "--no-cache --out anew");
+  EXPECT_EQ(anew.hash().substr(0, 11), "state-hash ") << anew.err;
+  EXPECT_EQ(anew.out.find("\nbed "), std::string::npos) << anew.out;
+  const Outcome two = shell(kept + "mpirun -np 2 \"$grouser\" " + words + "--out two");
+  EXPECT_NE(two.out.find("bed       settled in "), std::string::npos) << two.out << two.err;
+  const Outcome three = shell(kept + "mpirun -np 3 \"$grouser\" " + words + "--out three"),
+                one = shell(kept + "\"$grouser\" " + words + "--out one");
+  for (const Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
+  for (const Outcome& o : {three, one}) EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
+  std::ofstream(folder_ / "damage.sh") << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
+  const Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
+  EXPECT_EQ(damaged.hash(), anew.hash());
+  EXPECT_NE(damaged.err.find("damaged"), std::string::npos) << damaged.err;
 }
 
 TEST_F(OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {

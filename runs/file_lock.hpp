@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+namespace grouser::runs {
+
+/// Held by one program at a time; given back when it is destroyed, or when the program ends in whatever way.
+class FileLock {
+public:
+  FileLock() = default;
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+
+  /// True when the lock of this file, which is made where it is missing, is now held, or where files cannot be locked
+  /// at all: some file systems cannot. False while another holds it.
+  bool take(const std::filesystem::path& file);
+
+private:
+  int descriptor_ = -1;
+};
+
+} // namespace grouser::runs

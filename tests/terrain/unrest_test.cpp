@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The share of its weight that a grain's forces leave unbalanced.
+#include "grain_fixture.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain {
+namespace {
+
+using testing::advance;
+using testing::ball;
+using testing::floorPlane;
+
+GrainModel dampedBall() {
+  GrainModel m = ball(1e-5);
+  m.gravity = {0, 0, -9.81};
+  m.law.damping = 500;
+  return m;
+}
+
+TEST(ForceRatio, FreeFall_IsOne) {
+  const GrainModel m = dampedBall();
+  Grains grains(base::cpuExec(2), m, {}, {{{0, 0, 1}, {}, {}}, {{1, 0, 1}, {1, 0, 0}, {}}, {{2, 0, 1}, {}, {}}});
+  advance(grains, 3);
+  // A float of up to 1 m/s is known to 6e-8 m/s, of g dt = 9.8e-5 m/s; the sum has a quantum of 2^-24 of that.
+  EXPECT_NEAR(grains.forceRatio(), 1.0, 1e-3);
+}
+
+TEST(ForceRatio, HalfOfTheGrainsAtRest_IsOneHalf) {
+  const GrainModel m = dampedBall();
+  // One lies on the plane where spring and weight balance, the other falls.
+  const double overlap = m.mass * norm(m.gravity) / m.law.stiffness;
+  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
+                {{{0, 0, m.radius - overlap}, {}, {}}, {{1, 0, 1}, {}, {}}});
+  advance(grains, 2);
+  EXPECT_NEAR(grains.forceRatio(), 0.5, 1e-3);
+}
+
+TEST(ForceRatio, DecaysAsABallComesToRest) {
+  const GrainModel m = dampedBall();
+  Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius}, {}, {}}});
+  advance(grains, 1);
+  EXPECT_NEAR(grains.forceRatio(), 1.0, 1e-6);
+  advance(grains, 10000); // 0.1 s; the swing decays as exp(-gamma t / 2), by exp(-25)
+  // Where it rests the spring is right to a unit of position.
+  EXPECT_LT(grains.forceRatio(), m.law.stiffness * grains.scale().unit / (m.mass * norm(m.gravity)));
+}
+
+TEST(ForceRatio, IsTheSameOnEveryDevice) {
+  if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
+  double ratio[2];
+  const base::Exec execs[] = {base::cpuExec(1), base::cudaExec()};
+  for (int k = 0; k < 2; ++k) {
+    const GrainModel m = dampedBall();
+    Grains grains(execs[k], m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius}, {}, {}}, {{1, 0, 1}, {}, {}}});
+    advance(grains, 50);
+    ratio[k] = grains.forceRatio();
+  }
+  EXPECT_EQ(ratio[0], ratio[1]);
+}
+
+} // namespace
+} // namespace grouser::terrain
