@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What users get wrong, as they would: a file is cut, a path is misspelt, a disk is full. Each ends with 2, or with 3
+// where a simulation failed, and one line that names cause and remedy, and leaves nothing half written.
+// Wrong keys and values inside a scene stand in scene_test.cpp.
+#include "scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+namespace grouser::runs {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void put(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+fs::path asset(const std::string& name) { return fs::path(GROUSER_SOURCE_DIR) / "assets" / name; }
+
+/// A picture of the project with bytes changed: 16 to 19 width, 20 to 23 height, 24 bits, 25 colour type, 28 interlace.
+std::string picture(std::size_t at = 0, const std::string& bytes = "") {
+  std::string png = contents(asset("heightmaps/flat.png"));
+  return png.replace(at, bytes.size(), bytes);
+}
+
+/// 50 grains on a floor of map.png.
+const char* const kBed = R"(version = 1
+[run]
+duration = 0.01
+time_step = 1e-4
+[material.soil]
+stiffness = 1e5
+[terrain]
+heightmap = "map.png"
+size = [0.6, 0.4]
+height_range = [0, 0.1]
+material = "soil"
+grain_radius = 0.03
+layers = 1
+settle_time_limit = 0.0
+[output]
+picture = false
+plots = false
+)";
+
+/// Two grains on a plane.
+const char* const kGrains = R"(version = 1
+[run]
+duration = 1e-3
+time_step = 1e-5
+[material.glass]
+[[plane]]
+material = "glass"
+[[grain]]
+position = [0, 0, 0.5]
+radius = 0.01
+material = "glass"
+[[grain]]
+position = [0.1, 0, 0.5]
+radius = 0.01
+material = "glass"
+[output]
+picture = false
+plots = false
+)";
+
+struct Mistake {
+  std::string name;
+  std::function<void(const fs::path& folder)> make; ///< puts scene.toml and what belongs to it there
+  std::string words = "run scene.toml";
+  std::vector<std::string> says; ///< parts of the message: cause and remedy
+  int code = 2;
+  std::string before = ""; ///< for the shell
+};
+
+std::ostream& operator<<(std::ostream& out, const Mistake& m) { return out << m.name; }
+
+Mistake badPicture(const std::string& name, const std::string& bytes, const std::vector<std::string>& says) {
+  return {name,
+          [bytes](const fs::path& f) {
+            put(f / "scene.toml", kBed);
+            put(f / "map.png", bytes);
+          },
+          "run scene.toml", says};
+}
+
+Mistake badScene(const std::string& name, const std::string& from, const std::string& to,
+                 const std::vector<std::string>& says, const std::string& scene = kGrains, int code = 2) {
+  return {name,
+          [=](const fs::path& f) {
+            put(f / "scene.toml", replaced(scene, from, to));
+            put(f / "map.png", picture());
+          },
+          "run scene.toml", says, code};
+}
+
+/// A run stopped at step 40, whose checkpoint is then spoilt; `words` go on with it.
+Mistake badCheckpoint(const std::string& name, const std::function<void(const fs::path& checkpoint)>& spoil,
+                      const std::vector<std::string>& says,
+                      const std::string& words = "run scene.toml --resume --out a") {
+  return {name,
+          [spoil](const fs::path& f) {
+            put(f / "scene.toml", kGrains);
+            put(f / "make.sh", "\"$grouser\" run scene.toml --out a --steps 40 >/dev/null 2>&1");
+            const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
+            const std::string command = "cd '" + f.string() + "' && grouser='" + program.string() + "' sh make.sh";
+            ASSERT_EQ(std::system(command.c_str()), 0);
+            spoil(f / "a/checkpoint.h5");
+          },
+          words, says};
+}
+
+Mistake badVehicle(const std::string& name, const std::function<void(const fs::path& spec)>& make,
+                   const std::vector<std::string>& says) {
+  return {name,
+          [make](const fs::path& f) {
+            put(f / "scene.toml", "version = 1\n[run]\nduration = 0.1\n[vehicle]\nspec = \"car.toml\"\nchassis = "
+                                  "\"fixed\"\n");
+            make(f / "car.toml");
+          },
+          "run scene.toml", says};
+}
+
+std::vector<Mistake> mistakes() {
+  const std::string spec = contents(asset("vehicles/light_tracked.toml"));
+  const auto nothing = [](const fs::path&) {};
+  return {
+      // Scene files as such.
+      {"SceneMissing", nothing, "run nosuch.toml", {"nosuch.toml", "cannot be read", "check the path"}},
+      {"SceneIsFolder",
+       [](const fs::path& f) { fs::create_directory(f / "scene.toml"); },
+       "run scene.toml",
+       {"scene.toml"}},
+      badScene("SceneEmpty", kGrains, "", {"scene.toml", "version"}),
+      {"SceneIsBinary",
+       [](const fs::path& f) { put(f / "scene.toml", picture()); },
+       "run scene.toml",
+       {"scene.toml:1"}},
+      {"SceneCutShort",
+       [](const fs::path& f) { put(f / "scene.toml", std::string(kGrains).substr(0, 100)); },
+       "run scene.toml",
+       {"scene.toml:"}},
+      badScene("NothingInIt", std::string(kGrains).substr(std::string(kGrains).find("[material")), "",
+               {"there is nothing to simulate", "add [terrain]"}),
+      // Pictures.
+      {"PictureMissing",
+       [](const fs::path& f) { put(f / "scene.toml", kBed); },
+       "run scene.toml",
+       {"terrain.heightmap", "does not exist", "correct the path"}},
+      badPicture("PictureEmpty", "", {"map.png", "the file is empty", "give a PNG"}),
+      badPicture("PictureIsText", "this is no picture", {"map.png", "not a picture", "give a PNG"}),
+      badPicture("PictureCutShort", picture().substr(0, 70), {"map.png", "damaged or cut short", "copy it again"}),
+      badPicture("PictureHeaderAlone", picture().substr(0, 33), {"map.png", "cut short"}),
+      badPicture("PictureOfOnePixel", picture(16, std::string("\0\0\0\1\0\0\0\1", 8)),
+                 {"1 x 1 pixels", "at least 2 x 2"}),
+      badPicture("PictureOfNoPixel", picture(16, std::string("\0\0\0\0", 4)), {"map.png"}),
+      badPicture("PictureHuge", picture(16, std::string("\0\1\0\0\0\1\0\0", 8)), {"map.png", "too large"}),
+      badPicture("PictureBeyondMeasure", picture(16, "\x7f\xff\xff\xff\x7f\xff\xff\xff"), {"map.png"}),
+      badPicture("PictureOfWrongColourType", picture(25, "\7"), {"map.png", "give a PNG"}),
+      badPicture("PictureOfWrongDepth", picture(24, "\3"), {"map.png", "give a PNG"}),
+      badPicture("PictureInterlacedWrong", picture(28, "\x09"), {"map.png"}),
+      {"PictureIsFolder",
+       [](const fs::path& f) {
+         put(f / "scene.toml", kBed);
+         fs::create_directory(f / "map.png");
+       },
+       "run scene.toml",
+       {"terrain.heightmap", "is a folder"}},
+      // Vehicles.
+      badVehicle("VehicleMissing", nothing, {"vehicle.spec", "does not exist"}),
+      badVehicle("VehicleCutShort", [spec](const fs::path& p) { put(p, spec.substr(0, spec.size() / 2)); },
+                 {"car.toml"}),
+      badVehicle("VehicleOfNegativeMass",
+                 [spec](const fs::path& p) {
+                   const std::size_t at = spec.find("mass = ");
+                   put(p, std::string(spec).replace(at, spec.find('\n', at) - at, "mass = -1"));
+                 },
+                 {"car.toml:", "mass = -1", "outside"}),
+      badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { put(p, spec); }, {".obj"}),
+      // Grains and planes where they cannot be.
+      badScene("GrainsOverlap", "position = [0.1, 0, 0.5]", "position = [0.015, 0, 0.5]",
+               {"grain.1.position", "overlaps", "move it"}),
+      badScene("GrainsAtOnePlace", "position = [0.1, 0, 0.5]", "position = [0, 0, 0.5]",
+               {"grain.1.position", "overlaps"}),
+      badScene("GrainInPlane", "position = [0, 0, 0.5]", "position = [0, 0, -0.5]",
+               {"grain.0.position", "overlaps plane 0"}),
+      badScene("GrainOutsideTheDomain", "position = [0.1, 0, 0.5]", "position = [1e9, 0, 0.5]", {"grain 1", "m"}),
+      badScene("GrainAtNoNumber", "position = [0, 0, 0.5]", "position = [nan, 0, 0.5]",
+               {"scene.toml:9", "grain.0.position", "is not finite"}),
+      badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "choose"}),
+      badScene("TooManyGrains", "grain_radius = 0.03", "grain_radius = 1e-6",
+               {"terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
+      // Simulations that fail.
+      badScene("BedDoesNotSettle", "settle_time_limit = 0.0", "settle_time_limit = 0.02",
+               {"has not settled", "raise terrain.settle_time_limit"}, kBed, 3),
+      // Where results go.
+      {"OutIsFile",
+       [](const fs::path& f) { put(f / "scene.toml", kGrains), put(f / "a", "precious"); },
+       "run scene.toml --out a",
+       {"a: is a file", "--out"}},
+      {"OutBelowFile",
+       [](const fs::path& f) { put(f / "scene.toml", kGrains), put(f / "a", "precious"); },
+       "run scene.toml --out a/b",
+       {"a/b", "--out"}},
+      {"OutNotWritable",
+       [](const fs::path& f) { put(f / "scene.toml", kGrains); },
+       "run scene.toml --out /proc/results",
+       {"/proc/results", "--out"}},
+      {"OutIsFull",
+       [](const fs::path& f) {
+         put(f / "scene.toml", kGrains);
+         fs::create_directory(f / "a"), put(f / "a/b", "precious");
+       },
+       "run scene.toml --out a",
+       {"not empty", "--force"}},
+      {"FullDisk",
+       [](const fs::path& f) { fs::copy(asset("meshes/idler.obj"), f / "idler.obj"); },
+       "spheres idler.obj --radius 0.02 --csv s.csv",
+       {"s.csv", "is the disk full?"},
+       3,
+       "trap '' XFSZ; ulimit -f 1; "},
+      // Checkpoints.
+      badCheckpoint("CheckpointMissing", [](const fs::path& c) { fs::remove(c); }, {"checkpoint.h5", "no such file"}),
+      badCheckpoint("CheckpointCut", [](const fs::path& c) { fs::resize_file(c, fs::file_size(c) / 2); },
+                    {"damaged", "start anew"}),
+      badCheckpoint("CheckpointEmpty", [](const fs::path& c) { fs::resize_file(c, 0); }, {"no checkpoint"}),
+      badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { put(c, picture()); }, {"no checkpoint"}),
+      badCheckpoint("CheckpointOfAnotherScene", nothing, {"run.seed", "set it back"},
+                    "run scene.toml --resume --out a --set run.seed=9"),
+      badCheckpoint("CheckpointElsewhere", nothing, {"a run goes on in the folder"},
+                    "run scene.toml --resume a/checkpoint.h5 --out b"),
+      badCheckpoint("CheckpointBeyondTheEnd", nothing, {"raise run.duration"},
+                    "run scene.toml --resume --out a --steps 10"),
+      badCheckpoint("HashOfWhatIsNone", nothing, {"no checkpoint"}, "hash a/results.h5"),
+      badCheckpoint("SinkageOfWhatHasNone", nothing, {"results.h5"}, "sinkage a/results.h5"),
+      badCheckpoint("FramesThatAreNone", nothing, {"checkpoint.h5"}, "render a/checkpoint.h5 --out p"),
+  };
+}
+
+class BadInput : public testing::TestWithParam<Mistake> {
+protected:
+  void SetUp() override {
+    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
+    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
+    folder_ = fs::path(testing::TempDir()) / ("grouser_bad_" + GetParam().name);
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "here");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Every file below the working folder with its bytes.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "here"))
+      all[entry.path().string()] = entry.is_regular_file() ? contents(entry.path()) : "";
+    return all;
+  }
+
+  fs::path program_, folder_;
+};
+
+TEST_P(BadInput, EndsWithOneLineAndTouchesNothing) {
+  const Mistake& m = GetParam();
+  m.make(folder_ / "here");
+  if (HasFatalFailure()) return;
+  const std::map<std::string, std::string> before = files();
+  const std::string command = "cd '" + (folder_ / "here").string() + "' && export GROUSER_CACHE=; " + m.before + "'" +
+                              program_.string() + "' " + m.words + " >../out.txt 2>../err.txt";
+  const int status = std::system(command.c_str());
+  const std::string errors = contents(folder_ / "err.txt");
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), m.code) << errors;
+  EXPECT_EQ(errors.rfind("grouser: error: ", 0), 0u) << errors;
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  for (const std::string& part : m.says) EXPECT_NE(errors.find(part), std::string::npos) << part << "\n" << errors;
+  EXPECT_EQ(files() == before, true) << "something was written, changed or removed";
+}
+
+INSTANTIATE_TEST_SUITE_P(Mistakes, BadInput, testing::ValuesIn(mistakes()),
+                         [](const auto& test) { return test.param.name; });
+
+} // namespace
+} // namespace grouser::runs
