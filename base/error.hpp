@@ -7,11 +7,27 @@
 
 namespace grouser::base {
 
+/// The text as one line: control characters, which a user's file may hold anywhere, as \n or \x1B.
+inline std::string oneLine(const std::string& text) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n')
+      line += "\\n";
+    else if (code < 0x20 || code == 0x7F)
+      line += std::string("\\x") + kDigits[code >> 4] + kDigits[code & 15];
+    else
+      line += c;
+  }
+  return line;
+}
+
 /// What the user gave is wrong: a scene, a file, an option. Exit code 2. Nothing has been written when it is thrown.
-/// The message reads `file:line: key = value is ...; remedy`.
+/// The message reads `file:line: key = value is ...; remedy`, in one line.
 class InputError : public std::runtime_error {
 public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message) : std::runtime_error(oneLine(message)) {}
 };
 
 /// The simulation cannot go on soundly: NaN, overlap, a thrown track. Exit code 3.
