@@ -5,6 +5,7 @@
 #include "base/hash.hpp"
 #include "runs/checkpoint.hpp"
 #include "runs/file_lock.hpp"
+#include "runs/grain_kinds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -61,11 +62,11 @@ std::string hashOfProgram() {
 
 /// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
 bool isOfBed(const Scene& scene, const std::string& material) {
-  return material == scene.terrain->material || material == scene.terrain->groundMaterial ||
+  const std::vector<std::string> grains = grainKinds(scene).material;
+  return material == scene.terrain->groundMaterial ||
+         std::find(grains.begin(), grains.end(), material) != grains.end() ||
          std::any_of(scene.planes.begin(), scene.planes.end(),
-                     [&](const Plane& plane) { return plane.material == material; }) ||
-         std::any_of(scene.sources.begin(), scene.sources.end(),
-                     [&](const Source& source) { return source.material == material; });
+                     [&](const Plane& plane) { return plane.material == material; });
 }
 
 /// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make

@@ -6,7 +6,7 @@
 namespace grouser::runs {
 
 GrainMemory grainMemory(int historyWidth, int boundaries, bool ledger) {
-  constexpr double kPlaces = 16;       // of a list before it grows
+  constexpr double kPlaces = 16; // of a list before it grows
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
   GrainMemory m;
   m.state = 2 * (sizeof(base::Position) + 2 * sizeof(terrain::Vec4f)) + sizeof(terrain::Remainders) + kWord;

@@ -4,10 +4,12 @@
 #include "base/math.hpp"
 #include "runs/bed.hpp"
 #include "runs/grain_kinds.hpp"
+#include "runs/grain_memory.hpp"
 #include "runs/laws.hpp"
 #include "runs/mechanism.hpp"
 #include "runs/mechanism_output.hpp"
 #include "runs/placement.hpp"
+#include "runs/progress.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
@@ -50,6 +52,31 @@ unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
   if (kinds.many()) features |= terrain::kManyRadii;
   if (kinds.manyMaterials()) features |= terrain::kManyMaterials;
   return scene.vehicle ? features | terrain::kLoads : features;
+}
+
+/// Memory of the grains, by what it is for.
+std::string memoryText(const Scene& scene, double grains) {
+  const unsigned features = grainFeatures(scene, grainKinds(scene));
+  const int width = features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
+  const bool bed = scene.terrain && scene.terrain->granular();
+  const std::size_t boundaries = scene.planes.size() + (scene.terrain ? 1 : 0) + (bed && scene.terrain->walls ? 4 : 0);
+  const GrainMemory m = grainMemory(width, static_cast<int>(boundaries));
+  std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes a grain:\n", "memory for grains",
+                                 grains * m.total() / 1048576.0, m.total());
+  const auto part = [&](const char* what, double bytes) { text += fmt::format("    {:<22} {:.0f}\n", what, bytes); };
+  part("state", m.state), part("neighbour lists", m.lists), part("contact history", m.history);
+  part("planes and floor", m.boundaries), part("ledger", m.ledger);
+  return text;
+}
+
+/// What the grains' steps cost where they have been measured; parts and vehicle come on top.
+std::string costText(double grainSteps) {
+  std::string text;
+  for (const RankSpeed& s : kRankSpeeds)
+    text += fmt::format("  {:<24} {} on {}, at {:.2g} grain steps/s (grouser bench bed), without vehicle and output\n",
+                        text.empty() ? "expected time" : "", Progress::duration(grainSteps / s.grainSteps), s.name,
+                        s.grainSteps);
+  return text;
 }
 
 std::string switches(const Scene& scene) {
@@ -124,9 +151,7 @@ std::string planText(const Scene& scene) {
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
   const std::int64_t grains = plannedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);
-  if (grains)
-    text += fmt::format("  {:<24} about {:.1f} MiB\n", "memory for grains",
-                        static_cast<double>(grains) * kBytesPerGrain / 1048576.0);
+  if (grains) text += memoryText(scene, static_cast<double>(grains));
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
     placeVehicle(scene, spec);
@@ -148,6 +173,7 @@ std::string planText(const Scene& scene) {
                       contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
   text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
   if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
+  if (grains) text += costText(steps * static_cast<double>(grains));
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
                         contact / step, resolved);

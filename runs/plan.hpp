@@ -18,6 +18,15 @@ inline constexpr double kStepsPerContact = 20;
 /// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
 std::string planText(const Scene& scene);
 
+/// What one rank does, from `grouser bench bed`: the figures that expectations rest on.
+struct RankSpeed {
+  const char* name;
+  double grainSteps; ///< particle-steps a second of one rank alone
+  double latency;    ///< of one step's messages and sums [s]
+  double bytesPerSecond;
+};
+inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 8e6, 20e-6, 2e9}, {"an H200", 2.9e9, 40e-6, 5e10}};
+
 /// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
 inline constexpr double kBytesPerGrain = 800;
 /// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.

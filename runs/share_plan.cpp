@@ -16,14 +16,6 @@ namespace grouser::runs {
 
 namespace {
 
-/// What one rank does, from `grouser bench bed`: the figures that the expectation rests on.
-struct RankSpeed {
-  const char* name;
-  double grainSteps; ///< particle-steps a second of one rank alone
-  double latency;    ///< of one step's messages and sums [s]
-  double bytesPerSecond;
-};
-constexpr RankSpeed kSpeeds[] = {{"a CPU core", 8e6, 20e-6, 2e9}, {"an H200", 2.9e9, 40e-6, 5e10}};
 constexpr double kBytesPerGhost = 48; // position, velocity and spin
 
 } // namespace
@@ -70,7 +62,7 @@ std::string sharePlan(const Scene& scene, int ranks) {
   text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
                       (each + ghosts) * kBytesPerGrain / 1048576.0);
   text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
-  for (const RankSpeed& s : kSpeeds) {
+  for (const RankSpeed& s : kRankSpeeds) {
     // Messages travel beside the work on grains that need none.
     const double work = each / s.grainSteps, messages = ghosts * kBytesPerGhost / s.bytesPerSecond;
     const double step = std::max(work, messages) + s.latency;

@@ -104,6 +104,29 @@ TEST(LeaveOut, OneRankHasNoSubdomainAndNoGhosts) {
   EXPECT_EQ(simulation->ground().grains->slots(), simulation->ground().grains->count());
 }
 
+TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
+  for (const char* friction : {"material.soil.friction=0.5", "material.soil.friction=0"}) {
+    const Scene scene = bed({friction, "terrain.size=[3, 3]"});
+    Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+    terrain::Grains& grains = *simulation.ground().grains;
+    for (int k = 0; k < 2; ++k) { // the list of now and that of the last rebuild
+      grains.invalidateNeighbours();
+      grains.refreshNeighbours();
+    }
+    const double taken = static_cast<double>(grains.deviceBytes()) / static_cast<double>(grains.count());
+    const std::string line = planLine(scene, "memory for grains");
+    const double planned = std::stod(line.substr(line.find("MiB, ") + 5));
+    // Cells of the search are counted as one a grain; a thin bed has more, and lists of grains near walls.
+    EXPECT_NEAR(planned, taken, 0.15 * taken) << friction;
+  }
+}
+
+TEST(LeaveOut, PlanNamesTheCost) {
+  EXPECT_NE(planLine(bed(), "expected time"), "");
+  EXPECT_NE(planLine(bed(), "contact history").find(" 384"), std::string::npos) << planLine(bed(), "contact history");
+  EXPECT_NE(planLine(bed({"material.soil.friction=0"}), "contact history").find(" 0"), std::string::npos);
+}
+
 TEST(LeaveOut, GrainsAloneHaveNoBoundaries) {
   const Scene free = parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[grain]]\n"
                                 "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n",

@@ -279,7 +279,8 @@ INSTANTIATE_TEST_SUITE_P(
                {"run.device = \"gpu\" is none of auto, cpu, cuda"}},
         Broken{"WrongVersion", "version = 1", "version = 2", {"scene.toml:1", "it reads version = 1"}},
         Broken{"Syntax", "layers = 2", "layers 2", {"scene.toml:20:8", "not valid TOML"}},
-        Broken{"SyntaxOverTwoLines", "stiffness = 1e6", "attraction = f\nstiffness = 1e6", {"scene.toml:6", "saw 'f\\n'"}},
+        Broken{
+            "SyntaxOverTwoLines", "stiffness = 1e6", "attraction = f\nstiffness = 1e6", {"scene.toml:6", "saw 'f\\n'"}},
         Broken{"ControlCharacterInKey", "layers = 2", "\"lay\\u001Bers\" = 2", {"unknown key terrain.lay\\x1Bers"}},
         Broken{"PlaneWithoutNormal",
                "[terrain]",
