@@ -275,7 +275,8 @@ int fail(const base::Ranks& ranks, int code, const char* message) {
   std::fflush(stdout);
   if (!ranks.comm().first()) sleep(2);
   const std::string who = ranks.comm().alone() ? "" : fmt::format("rank {}: ", ranks.comm().rank());
-  fmt::print(stderr, "grouser: error: {}{}\n", who, message);
+  std::fputs(fmt::format("grouser: error: {}{}\n", who, message).c_str(),
+             stderr); // no throw where it cannot be written
   std::fflush(stderr);
   ranks.abort(code);
   return code;
@@ -307,7 +308,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", runs::versionText());
   app.footer(
       "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound or its results could not be written, "
-      "4 device, 130 and 143 stopped by SIGINT and SIGTERM, 1 anything else.\nSettled beds are kept in GROUSER_CACHE, or else in "
+      "4 device, 130 and 143 stopped by SIGINT and SIGTERM, 1 anything else.\nSettled beds are kept in GROUSER_CACHE, "
+      "or else in "
       "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
   runs::RunCommand run;
   run.ranks = &ranks;
@@ -347,7 +349,7 @@ int main(int argc, char** argv) {
     return stop(kSimulation, e.what());
   } catch (const runs::Stopped& e) {
     std::fflush(stdout);
-    if (ranks.comm().first()) fmt::print(stderr, "grouser: {}\n", e.what());
+    if (ranks.comm().first()) std::fputs(fmt::format("grouser: {}\n", e.what()).c_str(), stderr);
     return 128 + e.signal();
   } catch (const base::DeviceError& e) {
     return stop(kDevice, e.what());

@@ -19,12 +19,12 @@ Scene bed(const std::vector<std::string>& overrides = {}) {
 
 Scene pendulum() {
   return parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\n"
-                    "position = [1, 0, 0]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", "
+                    "inertia = [1, 1, 1]\nposition = [1, 0, 0]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", "
                     "\"bob\"]\npoint = [0, 0, 0]\naxis = [0, 1, 0]\n",
                     "pendulum.toml");
 }
 
-Scene rigid() { return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml"); }
+Scene rigid() { return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.04"}); }
 
 std::unique_ptr<Simulation> made(const Scene& scene, int steps = 3) {
   auto s = std::make_unique<Simulation>(scene, base::cpuExec(1), [](double, double) {});

@@ -18,7 +18,7 @@ Scene bed(const std::vector<std::string>& overrides) {
 
 TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
   const auto settled = [](const Scene& scene, double& ratio) {
-    Ground ground = buildGround(scene, base::cpuExec(2), 2e-4);
+    Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
     const SettleReport report = settle(scene, ground, [](double, double) {});
     ground.grains->refreshNeighbours();
     ground.grains->step();
@@ -35,7 +35,7 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
 
 TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   const Scene scene = bed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
-  Ground ground = buildGround(scene, base::cpuExec(2), 2e-4);
+  Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
   try {
     settle(scene, ground, [](double, double) {});
     FAIL() << "nothing rests to 1e-9";
