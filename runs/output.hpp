@@ -109,7 +109,7 @@ public:
   /// Closes the files and completes the manifest. Without it the manifest says
   /// that the run did not end.
   void finish(const Summary& summary);
-  /// Instead of finish: the run was stopped by an error, whose message goes into the manifest.
+  /// Instead of finish: the run was stopped by an error, whose message goes into the manifest, if that can be written.
   void abandon(const std::string& reason);
   /// Instead of finish: the run was stopped and may be resumed.
   void stop(const std::string& reason);

@@ -171,15 +171,6 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
   progress.finish(fmt::format("{} steps", simulation.steps()));
 }
 
-/// Into the manifest, if it can be written: on a full disk it cannot, and the first error is the one to report.
-void noteFailure(RunWriter& writer, const std::string& reason) {
-  try {
-    writer.abandon(reason);
-  } catch (const std::exception&) {
-    return;
-  }
-}
-
 } // namespace
 
 Summary runScene(const Scene& scene, const RunOptions& options) {
@@ -218,10 +209,10 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   } catch (const base::SimulationError& error) {
     const std::string last = checkpoints.last();
     const std::string message = error.what() + (last.empty() ? "" : fmt::format(" (last checkpoint: {})", last));
-    noteFailure(recorder.writer(), message);
+    recorder.writer().abandon(message);
     throw base::SimulationError(message);
   } catch (const std::exception& error) {
-    noteFailure(recorder.writer(), error.what());
+    recorder.writer().abandon(error.what());
     throw;
   }
   const double drove = since(driving);
