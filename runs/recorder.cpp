@@ -85,15 +85,19 @@ RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, 
   if (!former) return w;
   const std::int64_t step = former->state.steps;
   w.metadata["resumed_from_step"] = std::to_string(step);
-  try {
-    FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames};
-    if (w.frames && kept.frames > 0) checkFrames(options.folder, step, former->frames);
-    w.former = std::move(kept);
-  } catch (const base::InputError& error) {
-    if (!options.force) throw;
-    if (w.comm.first()) fmt::print(stderr, "grouser: warning: {}\n", error.what());
-    w.former = FormerOutput{};
+  w.former = FormerOutput{};
+  // One rank reads and rewrites them; it tells the others what it keeps.
+  if (w.comm.first()) {
+    try {
+      FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames};
+      if (w.frames && kept.frames > 0) checkFrames(options.folder, step, former->frames);
+      w.former = std::move(kept);
+    } catch (const base::InputError& error) {
+      if (!options.force) throw;
+      fmt::print(stderr, "grouser: warning: {}\n", error.what());
+    }
   }
+  w.former->frames = w.comm.gatherValue(w.former->frames).front();
   return w;
 }
 
