@@ -19,19 +19,22 @@ struct Piece {
 
 double pieceIntegral(const Piece& p, double s) { return s * (p.a + s * (p.b / 2 + s * (p.c / 3 + s * (p.d / 4)))); }
 
-/// Second derivatives of the natural cubic spline: tridiagonal system h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i +
-/// h_i M_{i+1} = 6 (slope_i - slope_{i-1}), M = 0 at both ends (de Boor 1978, A Practical Guide to Splines, ch. IV).
+/// Second derivatives of the cubic spline whose slope is 0 at both ends, so that it goes over into the constants
+/// outside without a jump of the rate: h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i -
+/// slope_{i-1}), where h and slope outside the table are 0 (de Boor 1978, A Practical Guide to Splines, ch. IV).
 std::vector<double> secondDerivatives(const TimeLaw::Table& t) {
   const std::size_t n = t.times.size();
   std::vector<double> M(n, 0.0), diagonal(n, 1.0);
-  const auto h = [&](std::size_t i) { return t.times[i + 1] - t.times[i]; };
-  const auto slope = [&](std::size_t i) { return (t.values[i + 1] - t.values[i]) / h(i); };
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double factor = i > 1 ? h(i - 1) / diagonal[i - 1] : 0;
-    diagonal[i] = 2 * (h(i - 1) + h(i)) - factor * (i > 1 ? h(i - 1) : 0);
+  const auto h = [&](std::size_t i) { return i + 1 < n ? t.times[i + 1] - t.times[i] : 0.0; };
+  const auto slope = [&](std::size_t i) { return i + 1 < n ? (t.values[i + 1] - t.values[i]) / h(i) : 0.0; };
+  diagonal[0] = 2 * h(0), M[0] = 6 * slope(0);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double factor = h(i - 1) / diagonal[i - 1];
+    diagonal[i] = 2 * (h(i - 1) + h(i)) - factor * h(i - 1);
     M[i] = 6 * (slope(i) - slope(i - 1)) - factor * M[i - 1];
   }
-  for (std::size_t i = n - 1; i-- > 1;) M[i] = (M[i] - h(i) * M[i + 1]) / diagonal[i];
+  M[n - 1] /= diagonal[n - 1];
+  for (std::size_t i = n - 1; i-- > 0;) M[i] = (M[i] - h(i) * M[i + 1]) / diagonal[i];
   return M;
 }
 

@@ -8,9 +8,8 @@ namespace grouser::multibody {
 /// A number over time, the sum of
 ///   polynomial    c[0] + c[1] t + c[2] t^2 + ...
 ///   harmonics     amplitude sin(frequency t + phase)
-///   table         natural cubic spline through (times, values): twice continuously differentiable. Before the first
-///   and
-///                 after the last time the value stays and the rate is 0: begin and end a table of positions at rest.
+///   table         cubic spline through (times, values) that begins and ends at rest; before the first and after the
+///                 last time the value stays: the rate never jumps. It may overshoot between unequal steps.
 ///   ramps         straight lines through (times, values), constant outside: for speeds and forces
 /// What is left empty counts 0. Evaluated by base/math.hpp: the same bits on any machine.
 struct TimeLaw {

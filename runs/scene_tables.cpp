@@ -306,7 +306,8 @@ Table<DriveSection> driveTable() {
   t.add("phase", &S::phase, "deg", "of that sine at t = 0").atLeast(-3600).atMost(3600);
   t.add("time", &S::time, "s", "increasing; of the table").atLeast(0);
   t.add("values", &S::values, "as value",
-        "of the table: straight between its times for speed and torque, a smooth spline for a position; constant "
+        "of the table: straight between its times for speed and torque, a smooth spline from rest to rest for a "
+        "position; constant "
         "outside");
   return t;
 }

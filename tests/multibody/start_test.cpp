@@ -212,6 +212,22 @@ TEST(TimeLaws, RateAndIntegralBelongToTheValue) {
   }
 }
 
+TEST(TimeLaws, ATableOfPositionsBeginsAndEndsAtRest) {
+  const TimeLaw law{{}, {}, {{0, 1, 2, 3}, {0, 0.5, 0.2, 0.2}}, {}};
+  // From both sides of the ends, and of every time between: a jump of the rate would be a blow.
+  for (const double t : {0.0, 1.0, 2.0, 3.0}) {
+    const double before = law.rate(t - 1e-9), after = law.rate(t + 1e-9); // curvature of 10 times 2e-9
+    EXPECT_NEAR(before, after, 1e-7) << t;
+    if (t == 0 || t == 3) {
+      EXPECT_NEAR(law.rate(t), 0, 1e-14) << t;
+    }
+  }
+  // Two places alone: half-way after half the time, at one and a half times the mean rate.
+  const TimeLaw two{{}, {}, {{0, 2}, {0, 1}}, {}};
+  EXPECT_NEAR(two.value(1), 0.5, 1e-15);
+  EXPECT_NEAR(two.rate(1), 0.75, 1e-15);
+}
+
 TEST(SavedStates, ARunResumedGivesTheSameBitsWithEveryKindOfPart) {
   const auto build = [](Model& model) {
     Body bob = makeBody("bob", 1, {}, {{0.5, 0, -1}, {}});
