@@ -136,6 +136,11 @@ TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
   const GrainState saved = first.state(); // this rank's block of ids
   Grains second(base::cpuExec(1), m, box(m), thrownBlock(), shared());
   second.restore(saved);
+  // Nothing is lost on the way, nor what only decides when the next lists are built.
+  const GrainState again = second.state();
+  EXPECT_EQ(again.words(), saved.words());
+  EXPECT_EQ(again.travelled, saved.travelled);
+  EXPECT_EQ(again.dissipated, saved.dissipated);
   second.setSteps(1234);
   advance(second, kSteps - 1234);
   EXPECT_EQ(allWords(second), expected());
