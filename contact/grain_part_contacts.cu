@@ -102,6 +102,14 @@ struct ReadDestination {
   GROUSER_HD void operator()(int k) const { rank[k] = destination[slot[pair[k]]]; }
 };
 
+struct Forget {
+  const std::uint32_t* pair;
+  PatchMemory* memory;
+  GROUSER_HD void operator()(int k) const {
+    for (int p = 0; p < kPatches; ++p) memory[static_cast<std::int64_t>(pair[k]) * kPatches + p] = PatchMemory{};
+  }
+};
+
 /// One patch while it is being made out.
 struct Patch {
   Vec3f normal; ///< outward from the part, in its frame
@@ -311,7 +319,9 @@ std::vector<ExchangeField> GrainPartContacts::history() {
 }
 
 void GrainPartContacts::handOver(const std::uint32_t* destination) {
-  if (!listed_) return; // what was restored is on all ranks
+  if (held_ == Held::everywhere) return;
+  // Twice between two steps: nobody knows slots any more, so all ranks take all pairs.
+  if (held_ == Held::handedOver) return restore(save());
   if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_);
   const auto n = static_cast<std::int64_t>(pairs_);
   base::Array<std::uint32_t> leaves(exec_, pairs_), leaving(exec_);
@@ -323,14 +333,16 @@ void GrainPartContacts::handOver(const std::uint32_t* destination) {
                 ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
   exchange_->route(ranks, leaving, leaving.size());
   exchange_->start(history());
+  // Those that leave are found by no grain of the next list, and are not saved here.
+  base::forEach(exec_, "forget pairs that leave", static_cast<std::int64_t>(leaving.size()),
+                Forget{exchange_->leavingSlots(), memory_.data()});
   key_.resizeKeeping(pairs_ + exchange_->coming());
   memory_.resizeKeeping(kPatches * key_.size());
   if (rolling_) angle_.resizeKeeping(kPatches * key_.size());
   exchange_->putFrom(pairs_);
   exchange_->finish(history());
-  // Those that left are found by no grain of the next list.
   pairs_ += exchange_->coming();
-  listed_ = false;
+  held_ = Held::handedOver;
 }
 
 void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<PartMotion>& motion) {
@@ -385,7 +397,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   base::forEach(exec_, "carry patch history", static_cast<std::int64_t>(pairs_),
                 CarryMemory{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
                             oldMemory_.data(), memory_.data(), oldAngle_.data(), rolling_ ? angle_.data() : nullptr});
-  listed_ = true;
+  held_ = Held::listed;
 }
 
 std::vector<std::int64_t> GrainPartContacts::allSums() const {

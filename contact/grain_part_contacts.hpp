@@ -107,7 +107,13 @@ private:
   base::Array<SurfaceGridView> gridViews_;
   base::Array<GrainPart> parts_;
   std::size_t pairs_{0};
-  bool listed_{false}; ///< the pairs are those of a refresh, and know slots
+  /// Which pairs this rank holds.
+  enum class Held {
+    listed,     ///< those of its own grains, with their slots
+    handedOver, ///< those of its own grains, whose slots the next refresh finds
+    everywhere, ///< all of the scene, as every rank does: what was restored
+  };
+  Held held_{Held::everywhere};
   std::unique_ptr<Exchange> exchange_;
   base::Array<std::uint32_t> range_, count_, slot_, oldIndex_;
   base::Array<std::uint64_t> key_, oldKey_;

@@ -47,8 +47,7 @@ SavedGrainPatches GrainPartContacts::save() const {
   memory.resize(pairs_ * kPatches);
   std::vector<base::Vec3f> angle = angle_.toHost();
   if (rolling_) angle.resize(pairs_ * kPatches);
-  if (listed_ && !comm_.alone()) {
-    // Each rank has the pairs of its own grains; what was only restored is on all of them.
+  if (held_ != Held::everywhere && !comm_.alone()) {
     const auto keys = comm_.gatherAll(key);
     const auto memories = comm_.gatherAll(memory);
     const auto angles = comm_.gatherAll(angle);
@@ -105,7 +104,7 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
   }
   // A list of just the pairs in touch: the next refresh takes the history from it, as from any former list.
   pairs_ = keys.size();
-  listed_ = false;
+  held_ = Held::everywhere;
   key_.assign(keys);
   memory_.assign(memories);
   angle_.assign(angles);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains that slide over a part while they change their rank: the springs between them and the part go with them.
+#include "contact/grain_part_contacts.hpp"
+#include "terrain/grains.hpp"
+#include "tests/contact/part_fixture.hpp"
+#include "tests/ranks/ranks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+using contact::GrainPartContacts;
+
+GrainModel pebbles() {
+  GrainModel m;
+  m.radius = 0.02;
+  m.mass = 0.08;
+  m.timeStep = 1e-4;
+  m.gravity = {0, 0, -9.81};
+  m.law.stiffness = 1e5f, m.law.damping = 1000;
+  m.law.tangentialStiffness = 3e4f, m.law.friction = 0.5f;
+  m.skin = 0.2;
+  return m;
+}
+
+/// 48 pebbles on a plate that is level and rough; all slide along it, most across a border.
+std::vector<GrainStart> sliding() {
+  std::vector<GrainStart> start;
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 8; ++x) start.push_back({{-0.25 + 0.05 * x, -0.15 + 0.05 * y, 0.02 - 8e-6}, {1.5, 0.3, 0}, {}});
+  return start;
+}
+
+struct Ground {
+  explicit Ground(const PartitionOptions& partition, bool rolling)
+      : plate(contact::testing::plate(0.6, 0.01, 0.02)), grains(exec, pebbles(), {}, sliding(), partition),
+        motion(exec, std::vector<contact::PartMotion>{contact::testing::atRest({})}), loads(exec, 1) {
+    contact::GrainPartModel model;
+    model.radius = grains.model().radius, model.mass = grains.model().mass, model.timeStep = grains.model().timeStep;
+    model.margin = 0.012, model.law = grains.model().law, model.scale = grains.scale();
+    if (rolling) model.law.rollingFriction = 0.1f, model.law.rollingDamping = 0.3f;
+    model.force = model.torque = base::fixedPointFor(2e3, 36), model.energy = base::fixedPointFor(40, 36);
+    part = std::make_unique<GrainPartContacts>(exec, model, std::vector<const base::SphereSet*>{&plate},
+                                               std::vector<contact::GrainPart>{{0, {}, {}}}, partition.comm);
+    grains.onHandOver([this](const std::uint32_t* destination, std::size_t) { part->handOver(destination); });
+  }
+
+  GrainPartContacts::GrainsView view() const {
+    return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
+  }
+  void step() {
+    if (grains.refreshNeighbours()) part->refresh(view(), motion);
+    part->compute(view(), motion, loads.data());
+    const contact::GrainLoadsView onGrains = part->grainLoads();
+    grains.step(&onGrains);
+  }
+
+  base::Exec exec = base::cpuExec(1);
+  base::SphereSet plate;
+  Grains grains;
+  base::Array<contact::PartMotion> motion;
+  base::Array<contact::PartLoad> loads;
+  std::unique_ptr<GrainPartContacts> part;
+};
+
+void expectSame(const GrainPartContacts& onRanks, const GrainPartContacts& alone, std::int64_t step) {
+  const contact::SavedGrainPatches a = onRanks.save(), b = alone.save();
+  EXPECT_EQ(a.memories, b.memories) << "step " << step;
+  EXPECT_EQ(a.angles, b.angles) << "step " << step;
+  EXPECT_EQ(a.sums, b.sums) << "step " << step;
+}
+
+class PartsOnRanks : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(AndRolling, PartsOnRanks, ::testing::Bool());
+
+TEST_P(PartsOnRanks, SavedRightAfterAHandOverNothingIsMissingOrTwice) {
+  Ground alone({}, GetParam()), shared({test::comm(), {}, {}, false}, GetParam());
+  int handOvers = 0;
+  for (int step = 1; step <= 1500; ++step) {
+    alone.step(), shared.step();
+    const std::int64_t before = shared.grains.rebuilds();
+    shared.grains.ledger(); // a row of results: builds the lists anew where they are stale
+    if (shared.grains.rebuilds() == before) continue;
+    ++handOvers;
+    expectSame(*shared.part, *alone.part, step);
+  }
+  EXPECT_GE(handOvers, 10);
+}
+
+TEST_P(PartsOnRanks, HandedOverTwiceBetweenTwoStepsNothingIsLost) {
+  Ground alone({}, GetParam()), shared({test::comm(), {}, {}, false}, GetParam());
+  const Subdomain* subdomain = shared.grains.subdomain();
+  for (int step = 1; step <= 600; ++step) {
+    alone.step(), shared.step();
+    if (step % 150 != 0 || !subdomain) continue;
+    // The cuts jump, twice before the next step: nearly all grains change hands, some two times.
+    for (const double cut : {-0.2, 0.3}) {
+      std::array<std::vector<std::int64_t>, 3> weights;
+      for (auto& w : weights) w.assign(kPartitionBins, 1);
+      for (auto& w : weights) w[static_cast<std::size_t>((cut + 1) / 2 * kPartitionBins)] = 1000000;
+      const auto units = [&](double metres) {
+        return static_cast<std::int64_t>(metres * shared.grains.scale().perMetre);
+      };
+      shared.grains.setPartition(
+          {subdomain->partition().shape(), {units(-1), units(-1), units(-1)}, {units(1), units(1), units(1)}, weights});
+      shared.grains.ledger();
+      expectSame(*shared.part, *alone.part, step);
+    }
+  }
+  expectSame(*shared.part, *alone.part, 600);
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
