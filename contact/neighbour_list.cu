@@ -20,20 +20,13 @@ constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one 
 constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
 constexpr int kChunk = 512;
 
-using Cell = base::Vec3<std::uint32_t>;
-
-/// Cell of a grain, counted from the lowest representable position.
-GROUSER_HD Cell cellOf(const Position& p, std::int64_t edge) {
-  constexpr std::int64_t kBias = std::int64_t{1} << 41;
-  const Vec3l u = base::toUnits(p);
-  return {static_cast<std::uint32_t>((u.x + kBias) / edge), static_cast<std::uint32_t>((u.y + kBias) / edge),
-          static_cast<std::uint32_t>((u.z + kBias) / edge)};
-}
+using Cell = CellGrid::Cell;
 
 /// Lowest and highest cell in use. bounds[0..2] hold the complement of the minimum, so that all six grow.
 struct FindBounds {
+  CellGrid grid;
   const Position* position;
-  std::int64_t count, edge;
+  std::int64_t count;
   std::uint32_t* bounds;
 
   GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
@@ -50,7 +43,7 @@ struct FindBounds {
     const std::int64_t last = first + kChunk < count ? first + kChunk : count;
     Cell low{~0u, ~0u, ~0u}, high{0, 0, 0};
     for (std::int64_t i = first; i < last; ++i) {
-      const Cell c = cellOf(position[i], edge);
+      const Cell c = grid.cellOf(position[i]);
       low = base::min(low, c), high = base::max(high, c);
     }
     for (int a = 0; a < 3; ++a) {
@@ -60,21 +53,8 @@ struct FindBounds {
   }
 };
 
-/// Dense grid over the cells in use; z runs fastest, so the three cells of a column are neighbours in memory.
-struct Grid {
-  Cell low, cells;
-  std::int64_t edge;
-  GROUSER_HD std::uint64_t key(const Cell& c) const {
-    return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
-  }
-  GROUSER_HD Cell local(const Position& p) const {
-    const Cell c = cellOf(p, edge);
-    return {c.x - low.x, c.y - low.y, c.z - low.z};
-  }
-};
-
 struct AssignKeys {
-  Grid grid;
+  CellGrid grid;
   const Position* position;
   std::uint64_t* key;
   GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[i])); }
@@ -94,7 +74,7 @@ struct MarkStarts {
 
 /// Collects the neighbours of one grain and orders them by global id.
 struct Collect {
-  Grid grid;
+  CellGrid grid;
   const Position* position;
   const std::uint32_t* id;
   const std::uint32_t* start;
@@ -118,24 +98,34 @@ struct Collect {
     const std::int64_t own = radii.sphere ? radii.units(i) + skin : 0;
     const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
     std::uint32_t found = 0;
-    for (std::uint32_t x = c.x == 0 ? 0 : c.x - 1; x <= c.x + 1 && x < grid.cells.x; ++x)
-      for (std::uint32_t y = c.y == 0 ? 0 : c.y - 1; y <= c.y + 1 && y < grid.cells.y; ++y) {
-        const std::uint32_t last = start[grid.key({x, y, z1}) + 1];
-        for (std::uint32_t j = start[grid.key({x, y, z0})]; j < last; ++j) {
-          if (static_cast<int>(j) == i || !near(p, position[j])) continue;
-          const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
-          if (base::squaredNorm(base::difference(p, position[j])) >= (radii.sphere ? reach * reach : reach2)) continue;
-          if (found < capacity) insert(i, found, j);
-          ++found;
-        }
+    for (int column = 0; column < 9; ++column) {
+      std::uint32_t x = c.x + static_cast<std::uint32_t>(column / 3) - 1,
+                    y = c.y + static_cast<std::uint32_t>(column % 3) - 1;
+      if (!besides(0, x) || !besides(1, y)) continue;
+      const std::uint32_t last = start[grid.key({x, y, z1}) + 1];
+      for (std::uint32_t j = start[grid.key({x, y, z0})]; j < last; ++j) {
+        if (static_cast<int>(j) == i) continue;
+        const Vec3l apart = grid.period.apart(p, position[j]);
+        if (!near(apart)) continue;
+        const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
+        if (base::squaredNorm(apart.as<std::int32_t>()) >= (radii.sphere ? reach * reach : reach2)) continue;
+        if (found < capacity) insert(i, found, j);
+        ++found;
       }
+    }
     count[i] = found;
   }
 
+  /// Whether there is such a cell beside one in use along x or y; across joined sides it is at the other end.
+  GROUSER_HD bool besides(int axis, std::uint32_t& c) const {
+    const std::uint32_t cells = grid.cells[axis];
+    if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;
+    return c < cells;
+  }
+
   /// Whether 32-bit differences hold: cells may have been widened for grains far away.
-  GROUSER_HD static bool near(const Position& a, const Position& b) {
+  GROUSER_HD static bool near(const Vec3l& apart) {
     constexpr std::int64_t kSafe = std::int64_t{1} << 30;
-    const Vec3l apart = base::toUnits(b) - base::toUnits(a);
     return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&
            apart.z > -kSafe;
   }
@@ -252,8 +242,18 @@ struct ExportRow {
 
 } // namespace
 
-NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width)
-    : exec_(exec), diameter_(diameter), skin_(skin), width_(width) {
+void CellGrid::setEdge(std::int64_t least) {
+  for (int a = 0; a < 3; ++a) {
+    edge[a] = least;
+    if (!period.along(a)) continue;
+    const std::int64_t ring = std::max<std::int64_t>(3, period.length[a] / least);
+    edge[a] = period.length[a] / ring, cells[a] = static_cast<std::uint32_t>(ring), low[a] = 0;
+  }
+}
+
+NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
+                             const base::Period& period)
+    : exec_(exec), diameter_(diameter), skin_(skin), period_(period), width_(width) {
   for (Lists* lists : {&now_, &old_}) {
     lists->count = base::Array<std::uint32_t>(exec);
     lists->slot = base::Array<std::uint32_t>(exec);
@@ -274,18 +274,24 @@ void NeighbourList::sort(const Position* position, std::size_t count) {
   key_.resize(count);
   // A few grains far away must not make the grid huge: widen its cells until it fits.
   const double most = 16.0 * static_cast<double>(count) + 1e6;
-  for (edge_ = diameter_ + skin_;; edge_ *= 2) {
+  grid_.period = period_;
+  for (std::int64_t edge = diameter_ + skin_;; edge *= 2) {
+    grid_.setEdge(edge);
     bounds_.zero();
-    base::forEach(exec_, "find grid bounds", (n + kChunk - 1) / kChunk, FindBounds{position, n, edge_, bounds_.data()});
+    base::forEach(exec_, "find grid bounds", (n + kChunk - 1) / kChunk, FindBounds{grid_, position, n, bounds_.data()});
     const std::vector<std::uint32_t> b = bounds_.toHost();
-    low_ = {~b[0], ~b[1], ~b[2]};
-    cells_ = {b[3] - low_.x + 1, b[4] - low_.y + 1, b[5] - low_.z + 1};
-    if (static_cast<double>(cells_.x) * cells_.y * cells_.z <= most) break;
+    double all = 1;
+    for (int a = 0; a < 3; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      if (!period_.along(a)) grid_.low[a] = ~b[k], grid_.cells[a] = b[k + 3] - grid_.low[a] + 1;
+      all *= grid_.cells[a];
+    }
+    if (all <= most) break;
   }
-  base::forEach(exec_, "assign cell keys", n, AssignKeys{Grid{low_, cells_, edge_}, position, key_.data()});
+  base::forEach(exec_, "assign cell keys", n, AssignKeys{grid_, position, key_.data()});
   base::iota(exec_, order_.data(), count);
   base::sortByKey(exec_, key_.data(), order_.data(), count);
-  const std::int64_t cells = static_cast<std::int64_t>(cells_.x) * cells_.y * cells_.z;
+  const std::int64_t cells = static_cast<std::int64_t>(grid_.cells.x) * grid_.cells.y * grid_.cells.z;
   cellStart_.resize(static_cast<std::size_t>(cells) + 1);
   base::forEach(exec_, "mark cell starts", n + 1, MarkStarts{key_.data(), n, cells, cellStart_.data()});
 }
@@ -310,9 +316,9 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   for (;;) {
     allocate(now_, count_);
     base::forEach(exec_, "collect neighbours", n,
-                  Collect{Grid{low_, cells_, edge_}, position, id, cellStart_.data(),
-                          (diameter_ + skin_) * (diameter_ + skin_), capacity_, now_.count.data(), now_.slot.data(),
-                          now_.grainStride, now_.slotStride, origins ? origins->ghost : nullptr, radii, skin_});
+                  Collect{grid_, position, id, cellStart_.data(), (diameter_ + skin_) * (diameter_ + skin_), capacity_,
+                          now_.count.data(), now_.slot.data(), now_.grainStride, now_.slotStride,
+                          origins ? origins->ghost : nullptr, radii, skin_});
     const std::uint32_t most = base::maximum(exec_, now_.count.data(), count_);
     if (most <= capacity_) break;
     const std::uint32_t limit = radii.sphere ? kMostOthers : kMostEqual;

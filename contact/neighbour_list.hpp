@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "base/position.hpp"
+#include "base/period.hpp"
 
 #include <cstdint>
 
@@ -46,6 +46,38 @@ struct RowOrigins {
   TravellingRows arrived;
 };
 
+/// Dense grid over the cells in use; z runs fastest, so the three cells of a column are neighbours in memory. Along
+/// joined sides it is a ring of cells that fills the period, none narrower than `edge` asks.
+struct CellGrid {
+  using Cell = base::Vec3<std::uint32_t>;
+  base::Period period;
+  base::Vec3l edge{}; ///< [units]
+  Cell low{}, cells{};
+
+  /// Sets the edges, at least `least`, and the rings; bounds of the other axes are the caller's to find.
+  void setEdge(std::int64_t least);
+  GROUSER_HD std::uint64_t key(const Cell& c) const {
+    return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
+  }
+  /// Counted from the lowest representable position, or from the lower of two joined sides.
+  GROUSER_HD Cell cellOf(const base::Position& p) const {
+    constexpr std::int64_t kBias = std::int64_t{1} << 41;
+    const base::Vec3l u = base::toUnits(p);
+    Cell c;
+    for (int a = 0; a < 3; ++a) {
+      if (period.along(a)) {
+        const std::int64_t inside = u[a] + period.periodsBack(a, u[a]) * period.length[a] - period.low[a];
+        const auto k = static_cast<std::uint32_t>(inside / edge[a]);
+        c[a] = k < cells[a] ? k : cells[a] - 1; // the last cell holds what the division leaves over
+      } else {
+        c[a] = static_cast<std::uint32_t>((u[a] + kBias) / edge[a]);
+      }
+    }
+    return c;
+  }
+  GROUSER_HD Cell local(const base::Position& p) const { return cellOf(p) - low; }
+};
+
 /// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history.
 ///
 /// Valid while no grain has moved more than half the skin. Lists grow when they are full and never drop a neighbour.
@@ -54,8 +86,9 @@ struct RowOrigins {
 class NeighbourList {
 public:
   /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: numbers of history
-  /// that each contact has, 0 for none.
-  NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width);
+  /// that each contact has, 0 for none. `period`: joined sides, at least three diameters and skins apart.
+  NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
+                const base::Period& period = {});
 
   /// Sorts `count` grains in space. Afterwards `order()[i]` is the old slot of the grain that belongs in slot i.
   void sort(const base::Position* position, std::size_t count);
@@ -110,6 +143,7 @@ private:
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
+  base::Period period_;
   int width_;
   std::uint32_t capacity_{16};
   std::size_t count_{0};
@@ -118,8 +152,7 @@ private:
   base::Array<std::uint32_t> order_;
   base::Array<std::uint64_t> key_;
   base::Array<std::uint32_t> cellStart_, bounds_;
-  base::Vec3<std::uint32_t> low_{}, cells_{};
-  std::int64_t edge_{};
+  CellGrid grid_;
 };
 
 } // namespace grouser::contact

@@ -51,6 +51,7 @@ template <class Each> void Grains::forOwnArrays(const Each& each) {
   each(position_[0], 1), each(velocity_[0], 1), each(spin_[0], 1);
   each(remainders_, 1), each(id_, 1);
   if (!dissipated_.empty() || model_.ledger) each(dissipated_, 1);
+  if (period_.any()) each(crossings_, 1);
   if (boundaryCount_ > 0) each(wallTouching_, 1);
   if (boundaryCount_ > 0 && historyWidth_ > 0)
     each(wallHistory_, static_cast<std::uint32_t>(boundaryCount_ * historyWidth_));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/for_each.cuh"
+#include "base/period.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/neighbour_list.hpp"
 #include "contact/rolling_resistance.hpp"
@@ -25,6 +26,7 @@ struct GrainKernelData {
   int wallCount, boundaryCount; ///< planes; planes and floor together
   bool hasFloor;
   HeightFieldView floor;
+  base::Period period;
   int materials;               ///< at least 1
   const double* massPerCube;   ///< [materials] mass over radius^3 [kg/m3], where masses differ
   std::int64_t count;          ///< slots
@@ -37,7 +39,8 @@ struct GrainKernelData {
   Vec4f *nextVelocity, *nextSpin;
   Remainders* remainders;
   const std::uint32_t* id;
-  const base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
+  base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
+  Crossings* crossings;                 ///< of joined sides; null without them
   contact::NeighbourView neighbours;
   const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
   const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
@@ -78,6 +81,10 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
 
   GROUSER_HD bool has(unsigned feature) const {
     return kFeatures & contact::kGeneral ? (d.features & feature) != 0 : (kFeatures & feature) != 0;
+  }
+  /// From grain i to the nearest image of grain j, exactly.
+  GROUSER_HD base::Vec3i apart(const base::Position& i, const base::Position& j) const {
+    return has(kPeriodic) ? d.period.apart(i, j).template as<std::int32_t>() : base::difference(i, j);
   }
   GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction); }
   GROUSER_HD int historyWidth() const { return has(contact::kRollingFriction) ? 6 : 3; }

@@ -23,7 +23,7 @@ using StepKernels =
     KernelList<kBed, kBed | kLoads, kFriction | kBoundaries, kFriction | kBoundaries | kLoads, kFriction | kLedger,
                kFriction, kLedger, kBoundaries | kLedger, kBed | kRollingFriction, kBed | kLoads | kRollingFriction,
                kBed | kManyRadii, kBed | kManyRadii | kRollingFriction, kHertz | kBed, kHertz | kBed | kLoads,
-               kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction>;
+               kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic>;
 using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction>;
 /// In double all scenes take the general kernels.
 using NoKernels = KernelList<>;
@@ -77,7 +77,8 @@ std::string featureText(unsigned features) {
   };
   add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
   add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
-  add(kBoundaries, "planes or floor"), add(kLoads, "rigid parts"), add(kLedger, "ledger");
+  add(kPeriodic, "joined sides"), add(kBoundaries, "planes or floor"), add(kLoads, "rigid parts"),
+      add(kLedger, "ledger");
   return text;
 }
 

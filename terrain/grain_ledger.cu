@@ -43,7 +43,13 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
     add(0, energy.quantise(0.5 * m * dot(v, v)));
     add(1, energy.quantise(0.5 * inertia * dot(w, w)));
-    add(2, energy.quantise(-m * dot(gravity, x)));
+    // Along joined sides the way counts, not the place: a grain that has crossed has fallen on.
+    Vec3d way = x;
+    if (has(kPeriodic)) {
+      way.x += d.crossings[i].x * (static_cast<double>(d.period.length.x) * d.unitLength);
+      way.y += d.crossings[i].y * (static_cast<double>(d.period.length.y) * d.unitLength);
+    }
+    add(2, energy.quantise(-m * dot(gravity, way)));
     add(3, energy.quantise(held.elastic));
     add(4, energy.quantise(d.dissipated ? d.dissipated[i] : 0.0));
     for (int a = 0; a < 3; ++a) add(5 + a, momentum.quantise(m * v[a]));
@@ -58,7 +64,7 @@ private:
     for (std::uint32_t k = 0; k < d.neighbours.count[i]; ++k) {
       const std::int64_t at = d.neighbours.at(i, k);
       const auto j = static_cast<int>(d.neighbours.slot[at]);
-      const std::int64_t distance2 = base::squaredNorm(base::difference(d.position[i], d.position[j]));
+      const std::int64_t distance2 = base::squaredNorm(Kernel::apart(d.position[i], d.position[j]));
       const GrainSize<Real> other = Kernel::sizeOf(j);
       const std::int64_t reach = has(kManyRadii) ? own.units + other.units : d.diameterUnits;
       if (distance2 >= reach * reach) continue;

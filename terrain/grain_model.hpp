@@ -18,6 +18,7 @@ inline constexpr unsigned kManyMaterials = 1u << 8; ///< each grain its own mate
 inline constexpr unsigned kBoundaries = 1u << 9;    ///< walls or floor
 inline constexpr unsigned kLoads = 1u << 10;        ///< loads from rigid parts
 inline constexpr unsigned kLedger = 1u << 11;       ///< dissipation is summed
+inline constexpr unsigned kPeriodic = 1u << 12;     ///< sides that are joined to each other
 
 /// A rigid plane that fills the half-space behind its normal.
 struct Wall {

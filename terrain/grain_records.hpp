@@ -15,6 +15,12 @@ template <class Real> struct BoundaryLoad {
   Real dissipated, deepest;       ///< [J]; deepest overlap [m]
 };
 
+/// How often a grain has left through the upper side along x and y and entered through the lower one, less the reverse:
+/// its way is that many periods longer than its place tells.
+struct Crossings {
+  std::int32_t x, y;
+};
+
 /// What stops a run; the smallest key (code, then grain id) is kept.
 enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, range = 4, none = 255 };
 

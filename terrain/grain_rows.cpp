@@ -56,6 +56,7 @@ GrainState inOrder(const GrainState& s) {
     if (!s.radius.empty()) out.radius.push_back(s.radius[k]);
     if (!s.material.empty()) out.material.push_back(s.material[k]);
     if (!s.dissipated.empty()) out.dissipated.push_back(s.dissipated[k]);
+    if (!s.crossings.empty()) out.crossings.push_back(s.crossings[k]);
     if (!s.wallBits.empty()) out.wallBits.push_back(s.wallBits[k]);
     if (!s.wallShear.empty())
       for (std::size_t b = 0; b < walls; ++b) out.wallShear.push_back(s.wallShear[k * walls + b]);
@@ -84,6 +85,7 @@ GrainState redistribute(const base::Comm& comm, const GrainState& s, const std::
     if (s.layout.radii) put(s.radius[k]);
     if (s.layout.materials) put(s.material[k]);
     if (s.layout.ledger) put(s.dissipated[k]);
+    if (s.layout.periodic) put(s.crossings[k]);
     if (walls > 0) put(s.wallBits[k]);
     for (std::size_t b = 0; s.layout.friction && b < walls; ++b) put(s.wallShear[k * walls + b]);
     for (std::size_t b = 0; s.layout.rolling && b < walls; ++b) put(s.wallRolling[k * walls + b]);
@@ -111,6 +113,7 @@ GrainState redistribute(const base::Comm& comm, const GrainState& s, const std::
       if (s.layout.radii) out.radius.push_back(row.take<float>());
       if (s.layout.materials) out.material.push_back(row.take<std::uint32_t>());
       if (s.layout.ledger) out.dissipated.push_back(row.take<double>());
+      if (s.layout.periodic) out.crossings.push_back(row.take<Crossings>());
       if (walls > 0) out.wallBits.push_back(row.take<std::uint32_t>());
       for (std::size_t b = 0; s.layout.friction && b < walls; ++b) out.wallShear.push_back(row.take<base::Vec3f>());
       for (std::size_t b = 0; s.layout.rolling && b < walls; ++b) out.wallRolling.push_back(row.take<base::Vec3f>());

@@ -4,7 +4,7 @@
 #include "base/comm.hpp"
 #include "base/hash.hpp"
 #include "base/position.hpp"
-#include "terrain/kept_remainder.hpp"
+#include "terrain/grain_records.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -19,6 +19,7 @@ struct GrainLayout {
   std::int64_t rolling{};    ///< 1: contacts have rolling angles too
   std::int64_t radii{};      ///< 1: each grain has its own
   std::int64_t materials{};  ///< of the grains; 0: one
+  std::int64_t periodic{};   ///< 1: some sides are joined
   bool operator==(const GrainLayout&) const = default;
 };
 
@@ -36,6 +37,7 @@ struct GrainState {
   std::vector<float> radius;               ///< [rows] [m]; empty where all are alike
   std::vector<std::uint32_t> material;     ///< [rows]; empty where there is one
   std::vector<double> dissipated;          ///< [rows] since the start [J]; empty without a ledger
+  std::vector<Crossings> crossings;        ///< [rows] of joined sides; empty without them
   std::vector<std::uint32_t> wallBits;     ///< [rows] bit a wall or floor in touch; empty without them
   std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], zero out of touch; empty without friction
   std::vector<std::uint32_t> contacts;     ///< [rows] neighbours in touch

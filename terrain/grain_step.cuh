@@ -46,7 +46,7 @@ private:
       }
       const std::int64_t at = d.neighbours.at(i, k);
       const std::uint32_t j = d.neighbours.slot[at];
-      const base::Vec3i apart = base::difference(p, d.position[j]);
+      const base::Vec3i apart = Kernel::apart(p, d.position[j]);
       const std::int64_t distance2 = base::squaredNorm(apart);
       GrainSize<Real> other{};
       std::int64_t reach2 = d.diameterUnits2;
@@ -141,6 +141,19 @@ private:
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
+  /// A grain that has left through a joined side enters through the opposite one. What the lists hold of it moves
+  /// along, so that they stay valid.
+  GROUSER_HD void crossSides(int i, base::Vec3l& place) const {
+    for (int a = 0; a < 2; ++a) {
+      const int periods = d.period.periodsBack(a, place[a]);
+      if (periods == 0) continue;
+      const std::int64_t shift = periods * d.period.length[a];
+      place[a] += shift;
+      d.reference[i][a] += static_cast<std::uint32_t>(shift);
+      (a == 0 ? d.crossings[i].x : d.crossings[i].y) -= periods;
+    }
+  }
+
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
   GROUSER_HD void advance(int i, const base::Position& p, Vec4f v4, Vec4f w4, const GrainSize<Real>& size,
                           const base::Vec3d& force, const base::Vec3d& torque, float deepest) const {
@@ -164,6 +177,7 @@ private:
       // A speed that is no number must not reach the integer conversion.
       if (displacement > -1e9 && displacement < 1e9) moved[a] += advanceKeeping(displacement, kept.position, a);
     }
+    if (has(kPeriodic)) crossSides(i, moved);
     const base::Position q = base::fromUnits(moved);
     d.nextPosition[i] = q;
     d.nextVelocity[i] = {v.x, v.y, v.z, has(kManyRadii) ? v4.w : 0.0f};

@@ -42,6 +42,7 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   if (manyRadii) features |= kManyRadii;
   if (model.materials.count() > 0) features |= kManyMaterials;
   if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
+  if (boundaries.joined[0] || boundaries.joined[1]) features |= kPeriodic;
   if (model.ledger) features |= kLedger;
   return features;
 }
@@ -66,6 +67,28 @@ std::int64_t wholeUnits(double length, const base::PositionScale& scale) {
   return static_cast<std::int64_t>(std::floor(length * scale.perMetre + 0.5));
 }
 
+/// Joined sides in whole units. A grain must not touch two images of another: three cells of the search fit in between.
+base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& scale, std::int64_t reach) {
+  base::Period period;
+  for (int a = 0; a < 2; ++a) {
+    const auto& sides = boundaries.joined[static_cast<std::size_t>(a)];
+    if (!sides) continue;
+    const auto [from, to] = *sides;
+    if (!(std::fabs(from) < scale.limit() && std::fabs(to) < scale.limit()))
+      throw base::InputError(
+          fmt::format("joined sides {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a], from,
+                      to, scale.limit()));
+    period.low[a] = wholeUnits(from, scale), period.length[a] = wholeUnits(to, scale) - period.low[a];
+    if (period.length[a] < 3 * reach)
+      throw base::InputError(
+          fmt::format("joined sides {} = {:g} m and {:g} m are too near: a grain could touch another "
+                      "from both sides; they must be at least {:.6g} m apart, three diameters and "
+                      "skins",
+                      "xy"[a], from, to, static_cast<double>(3 * reach) * scale.unit));
+  }
+  return period;
+}
+
 /// Throws InputError when two grains have the same place: no direction would push them apart.
 void checkDistinct(const std::vector<Position>& position, const std::vector<std::uint32_t>& id) {
   std::vector<std::size_t> order(position.size());
@@ -84,7 +107,7 @@ void checkDistinct(const std::vector<Position>& position, const std::vector<std:
 
 /// Where the grains start; the first of them has the id `first`.
 std::vector<Position> placesOf(const std::vector<GrainStart>& start, std::size_t first,
-                               const base::PositionScale& scale, double radius) {
+                               const base::PositionScale& scale, double radius, const base::Period& period) {
   std::vector<Position> places(start.size());
   const double limit = scale.limit();
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -95,6 +118,12 @@ std::vector<Position> placesOf(const std::vector<GrainStart>& start, std::size_t
                       "positions for grains of radius {} m; move the scene nearer to the origin",
                       first + i, x.x, x.y, x.z, limit, radius));
     places[i] = scale.fromMetres(x);
+    for (int a = 0; a < 2; ++a)
+      if (period.periodsBack(a, base::toUnits(places[i])[a]) != 0)
+        throw base::InputError(fmt::format(
+            "grain {} at ({}, {}, {}) m lies outside the joined sides {} = {:.9g} m and {:.9g} m; move it between them",
+            first + i, x.x, x.y, x.z, "xy"[a], static_cast<double>(period.low[a]) * scale.unit,
+            static_cast<double>(period.low[a] + period.length[a]) * scale.unit));
   }
   return places;
 }
@@ -147,16 +176,17 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
       features_(featuresOf(model, boundaries, smallestRadius_ != model.radius || model.materials.count() > 0)),
       historyWidth_(historyWidthOf(features_)),
       boundaryCount_(static_cast<int>(boundaries.walls.size()) + (boundaries.floor ? 1 : 0)),
-      neighbours_(exec, diameterUnits_, skinUnits_, historyWidth_) {
+      period_(periodOf(boundaries, scale_, diameterUnits_ + skinUnits_)),
+      neighbours_(exec, diameterUnits_, skinUnits_, historyWidth_, period_) {
   // Overlaps are whole units: a grain a thousand times smaller would see its own in steps of 1e-5 of its size.
   if (smallestRadius_ < 1e-3 * model.radius)
     throw base::InputError(fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be 1000 times the "
                                        "smallest",
                                        smallestRadius_, model.radius));
   if (boundaryCount_ > 31) throw base::InputError(fmt::format("{} planes; at most 31 are possible", boundaryCount_));
-  const std::vector<Position> all = placesOf(start, 0, scale_, model.radius);
+  const std::vector<Position> all = placesOf(start, 0, scale_, model.radius, period_);
   if (!comm_.alone()) {
-    subdomain_ = std::make_unique<Subdomain>(exec, partition, diameterUnits_ + skinUnits_);
+    subdomain_ = std::make_unique<Subdomain>(exec, partition, diameterUnits_ + skinUnits_, period_);
     subdomain_->setPartition(startingPartition(all, partition, scale_));
   }
   std::vector<Position> position;
@@ -188,6 +218,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   nearBoundary_ = base::Array<std::uint32_t>(exec);
   boundaryOf_ = base::Array<std::uint32_t>(exec, perBoundary);
   dissipated_ = base::Array<double>(exec, model.ledger ? slots_ : 0);
+  crossings_ = base::Array<Crossings>(exec, period_.any() ? slots_ : 0);
   origin_ = base::Array<std::uint32_t>(exec), arrivedRows_ = base::Array<std::uint32_t>(exec);
   flags_ = base::Mirrored<StepFlags>(exec, 1);
   *flags_.host() = kNoFlags;
@@ -211,7 +242,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
 
 void Grains::add(const std::vector<GrainStart>& more) {
   completeGhosts();
-  const std::vector<Position> all = placesOf(more, count_, scale_, model_.radius);
+  const std::vector<Position> all = placesOf(more, count_, scale_, model_.radius, period_);
   std::vector<Position> position;
   std::vector<Vec4f> velocity, spin;
   std::vector<std::uint32_t> id;
@@ -234,6 +265,7 @@ void Grains::add(const std::vector<GrainStart>& more) {
   append(position_[0], position), append(velocity_[0], velocity), append(spin_[0], spin), append(id_, id);
   append(remainders_, std::vector<Remainders>(fresh));
   if (model_.ledger) append(dissipated_, std::vector<double>(fresh));
+  if (period_.any()) append(crossings_, std::vector<Crossings>(fresh));
   const auto boundaries = static_cast<std::size_t>(boundaryCount_);
   if (boundaries > 0) append(wallTouching_, std::vector<std::uint32_t>(fresh));
   append(wallHistory_, std::vector<float>(fresh * boundaries * static_cast<std::size_t>(historyWidth_)));
@@ -347,9 +379,10 @@ GrainSnapshot Grains::snapshot() const {
 
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
-                      wallHistory_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + nearBoundary_.bytes() +
-                      boundaryOf_.bytes() + single_.boundaryLoads.bytes() + double_.boundaryLoads.bytes() +
-                      origin_.bytes() + arrivedRows_.bytes() + (subdomain_ ? subdomain_->bytes() : 0);
+                      wallHistory_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + crossings_.bytes() +
+                      nearBoundary_.bytes() + boundaryOf_.bytes() + single_.boundaryLoads.bytes() +
+                      double_.boundaryLoads.bytes() + origin_.bytes() + arrivedRows_.bytes() +
+                      (subdomain_ ? subdomain_->bytes() : 0);
   for (int k = 0; k < 2; ++k) total += position_[k].bytes() + velocity_[k].bytes() + spin_[k].bytes();
   return total;
 }

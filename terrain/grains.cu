@@ -86,6 +86,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.gravityStep = model_.gravity * dt;
   d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = boundaryCount_;
   d.hasFloor = hasFloor_, d.floor = floorView_;
+  d.period = period_, d.crossings = crossings_.data();
   d.materials = static_cast<int>(massPerCube_.size()), d.massPerCube = massPerCube_.data();
   d.count = static_cast<std::int64_t>(slots_);
   d.position = position_[0].data(), d.nextPosition = position_[1].data();
@@ -176,6 +177,7 @@ void Grains::permute() {
   gatherOwn(wallHistory_, boundaryCount_ * historyWidth_);
   gatherOwn(wallTouching_);
   gatherOwn(dissipated_);
+  gatherOwn(crossings_);
   gatherOwn(origin_);
 }
 

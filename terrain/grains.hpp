@@ -9,6 +9,7 @@
 #include "terrain/grain_state.hpp"
 #include "terrain/subdomain.hpp"
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -42,6 +43,9 @@ struct GrainSnapshot {
 struct Boundaries {
   std::vector<Wall> walls; ///< at most 31
   std::optional<HeightField> floor;
+  /// Along x and y: the places [m] of two sides that are joined, where they are. What leaves through one enters through
+  /// the other, and grains touch across them. Walls and floor do not know of it: they must look alike at both sides.
+  std::array<std::optional<std::array<double, 2>>, 2> joined{};
 };
 
 /// Spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
@@ -66,6 +70,7 @@ public:
   /// Sum of features of laws and grains, without loads; local.
   unsigned features() const { return features_; }
   bool manyRadii() const;
+  const base::Period& period() const { return period_; }    ///< of joined sides; local
   double smallestRadius() const { return smallestRadius_; } ///< of the scene [m]; local
 
   /// Makes the neighbour list valid for the next step. True when slots have changed since it was last asked.
@@ -173,6 +178,7 @@ private:
   unsigned features_;
   int historyWidth_; ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
   int boundaryCount_;
+  base::Period period_;
 
   base::Array<base::Position> position_[2];
   base::Array<Vec4f> velocity_[2], spin_[2];
@@ -182,6 +188,7 @@ private:
   base::Array<float> wallHistory_; ///< [slot][wall or floor][historyWidth_]
   base::Array<std::uint32_t> wallTouching_;
   base::Array<double> dissipated_;
+  base::Array<Crossings> crossings_;
   base::Array<std::uint32_t> nearBoundary_, boundaryOf_;
   base::Array<double> massPerCube_;
   Forces<float> single_;

@@ -80,7 +80,8 @@ GrainState Grains::state() const {
 
 GrainLayout Grains::layout() const {
   return {model_.ledger,     boundaryCount_,      historyWidth_ > 0,
-          historyWidth_ > 3, manyRadii() ? 1 : 0, static_cast<std::int64_t>(model_.materials.count())};
+          historyWidth_ > 3, manyRadii() ? 1 : 0, static_cast<std::int64_t>(model_.materials.count()),
+          period_.any()};
 }
 
 /// The rows of the grains that this rank integrates.
@@ -91,6 +92,7 @@ GrainState Grains::ownRows() const {
   const auto id = id_.toHost(), wallBits = wallTouching_.toHost();
   const auto wallHistory = wallHistory_.toHost();
   const auto dissipated = dissipated_.toHost();
+  const auto crossings = crossings_.toHost();
   const auto reference = reference_.toHost();
   const bool listed = rebuilds_ > 0;
   const auto lists = listed ? neighbours_.toHost() : contact::NeighbourList::HostCopy{};
@@ -113,6 +115,7 @@ GrainState Grains::ownRows() const {
     if (s.layout.radii) s.radius.push_back(velocity[i].w);
     if (s.layout.materials) s.material.push_back(static_cast<std::uint32_t>(spin[i].w));
     if (model_.ledger) s.dissipated.push_back(dissipated[i]);
+    if (s.layout.periodic) s.crossings.push_back(crossings[i]);
     s.travelled.push_back(listed ? base::Vec3<std::uint32_t>{position[i].x - reference[i].x,
                                                              position[i].y - reference[i].y,
                                                              position[i].z - reference[i].z}
@@ -155,7 +158,7 @@ void Grains::restore(const GrainState& saved, bool grows) {
   std::vector<int> owner;
   if (subdomain_)
     for (std::size_t k = 0; k < saved.rows(); ++k)
-      owner.push_back(subdomain_->partition().view().ownerOf(base::toUnits(placed(saved, k))));
+      owner.push_back(subdomain_->partition().view().ownerOf(period_.wrapped(base::toUnits(placed(saved, k)))));
   const GrainState s = redistribute(comm_, saved, owner);
 
   slots_ = s.rows(), count_ = static_cast<std::size_t>(saved.total);
@@ -170,6 +173,7 @@ void Grains::restore(const GrainState& saved, bool grows) {
   position_[0].assign(position), velocity_[0].assign(velocity), spin_[0].assign(spin);
   position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
   remainders_.assign(s.remainders), id_.assign(s.id), dissipated_.assign(s.dissipated);
+  crossings_.assign(s.crossings);
   wallTouching_.assign(s.wallBits), wallHistory_.assign(historyOf(s.wallShear, s.wallRolling));
   if (subdomain_) subdomain_->forgetRoles();
   neighbours_.forget();

@@ -21,13 +21,14 @@ GROUSER_HD bool isSlave(const std::uint32_t* role, int i) {
 /// Who owns each grain now.
 struct FindOwner {
   PartitionView partition;
+  base::Period period;
   const Position* position;
   const std::uint32_t* role; ///< null before the first roles
   int me;
   std::uint32_t *destination, *leaves, *stays;
   GROUSER_HD void operator()(int i) const {
     const bool slave = isSlave(role, i);
-    const int owner = slave ? -1 : partition.ownerOf(base::toUnits(position[i]));
+    const int owner = slave ? -1 : partition.ownerOf(period.wrapped(base::toUnits(position[i])));
     destination[i] = slave ? Subdomain::kNobody : static_cast<std::uint32_t>(owner);
     leaves[i] = !slave && owner != me;
     stays[i] = !slave && owner == me;
@@ -43,6 +44,7 @@ struct ReadRanks {
 /// The other subdomains within range of one grain: counted, or listed where `ranks` is not null.
 struct FindNeedy {
   PartitionView partition;
+  base::Period period;
   const Position* position;
   std::int64_t range;
   int me;
@@ -51,22 +53,44 @@ struct FindNeedy {
   std::uint64_t* ranks;
   std::uint32_t* slots;
   GROUSER_HD void operator()(int i) const {
-    const Vec3l u = base::toUnits(position[i]);
-    int low[3], high[3];
-    for (int a = 0; a < 3; ++a) low[a] = partition.along(a, u[a] - range), high[a] = partition.along(a, u[a] + range);
+    const Vec3l u = period.wrapped(base::toUnits(position[i]));
+    const std::uint64_t near[3] = {slabsNear(0, u.x), slabsNear(1, u.y), slabsNear(2, u.z)};
     std::uint32_t found = 0;
-    for (int x = low[0]; x <= high[0]; ++x)
-      for (int y = low[1]; y <= high[1]; ++y)
-        for (int z = low[2]; z <= high[2]; ++z) {
+    for (int x = 0; x < partition.shape[0]; ++x) {
+      if (!(near[0] >> x & 1)) continue;
+      for (int y = 0; y < partition.shape[1]; ++y) {
+        if (!(near[1] >> y & 1)) continue;
+        for (int z = 0; z < partition.shape[2]; ++z) {
           const int rank = partition.rankAt(x, y, z);
-          if (rank == me) continue;
+          if (rank == me || !(near[2] >> z & 1)) continue;
           if (ranks) {
             ranks[first[i] + found] = static_cast<std::uint64_t>(rank);
             slots[first[i] + found] = static_cast<std::uint32_t>(i);
           }
           ++found;
         }
+      }
+    }
     if (!ranks) count[i] = found;
+  }
+
+private:
+  /// Bit k: slab k of this axis, or an image of it across joined sides, is within range of `u`.
+  GROUSER_HD std::uint64_t slabsNear(int axis, std::int64_t u) const {
+    const std::int64_t low = u - range, high = u + range;
+    if (!period.along(axis)) return slabs(axis, low, high);
+    const std::int64_t start = period.low[axis], last = start + period.length[axis] - 1;
+    std::uint64_t bits = slabs(axis, low < start ? start : low, high > last ? last : high);
+    if (low < start) bits |= slabs(axis, low + period.length[axis], last);
+    if (high > last) bits |= slabs(axis, start, high - period.length[axis]);
+    return bits;
+  }
+  GROUSER_HD std::uint64_t slabs(int axis, std::int64_t low, std::int64_t high) const {
+    static_assert(kMostSubdomainsAnAxis <= 64);
+    std::uint64_t bits = 0;
+    for (int k = partition.along(axis, low), end = partition.along(axis, high); k <= end; ++k)
+      bits |= std::uint64_t{1} << k;
+    return bits;
   }
 };
 
@@ -129,16 +153,17 @@ struct FindExtent {
 
 } // namespace
 
-Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range)
-    : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), handOver_(exec, options.comm),
-      ghostUpdate_(exec, options.comm), role_(exec), ghostMark_(exec), destination_(exec), kept_(exec), uniques_(exec),
-      masters_(exec) {}
+Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
+                     const base::Period& period)
+    : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), period_(period),
+      handOver_(exec, options.comm), ghostUpdate_(exec, options.comm), role_(exec), ghostMark_(exec),
+      destination_(exec), kept_(exec), uniques_(exec), masters_(exec) {}
 
 void Subdomain::findLeaving(const Position* position, std::size_t slots) {
   base::Array<std::uint32_t> leaves(exec_, slots), stays(exec_, slots), leaving(exec_);
   destination_.resize(slots);
   base::forEach(exec_, "find owners", static_cast<std::int64_t>(slots),
-                FindOwner{partition_.view(), position, haveRoles_ ? role_.data() : nullptr, comm_.rank(),
+                FindOwner{partition_.view(), period_, position, haveRoles_ ? role_.data() : nullptr, comm_.rank(),
                           destination_.data(), leaves.data(), stays.data()});
   base::listMarked(exec_, leaves.data(), slots, leaving);
   base::listMarked(exec_, stays.data(), slots, kept_);
@@ -161,7 +186,7 @@ void Subdomain::findMasters(const Position* position, std::size_t owned) {
   owned_ = owned;
   const auto n = static_cast<std::int64_t>(owned);
   base::Array<std::uint32_t> count(exec_, owned), first(exec_, owned);
-  FindNeedy find{partition_.view(), position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};
+  FindNeedy find{partition_.view(), period_, position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};
   base::forEach(exec_, "count who needs a grain", n, find);
   const std::uint32_t total = base::exclusiveScan(exec_, count.data(), first.data(), owned);
   base::Array<std::uint64_t> ranks(exec_, total);

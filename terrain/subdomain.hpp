@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "base/period.hpp"
 #include "contact/exchange.hpp"
 #include "terrain/partition.hpp"
 
@@ -31,7 +32,8 @@ struct PartitionOptions {
 class Subdomain {
 public:
   /// `range` [units]: two grains farther apart than this never touch before the next rebuild.
-  Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range);
+  Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
+            const base::Period& period = {});
 
   const base::Comm& comm() const { return comm_; }
   const Partition& partition() const { return partition_; }
@@ -73,6 +75,7 @@ private:
   base::Comm comm_;
   bool rebalance_;
   std::int64_t range_;
+  base::Period period_;
   Partition partition_;
   contact::Exchange handOver_, ghostUpdate_;
   std::size_t owned_{0};

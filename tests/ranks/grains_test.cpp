@@ -80,6 +80,38 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
     }
 }
 
+TEST(GrainsOnRanks, EqualBitsAcrossJoinedSides) {
+  const int n = test::comm().size();
+  const GrainModel m = gravel();
+  const auto ring = [&](bool x, bool y) {
+    Boundaries b{{{{0, 0, 1}, 0, m.law}}, {}};
+    if (!x) b.walls.insert(b.walls.end(), {{{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}});
+    if (!y) b.walls.push_back({{0, -1, 0}, -0.5, m.law});
+    if (x) b.joined[0] = {-0.05, 0.75};
+    if (y) b.joined[1] = {-0.05, 0.36};
+    return b;
+  };
+  for (int which = 1; which <= 3; ++which) {
+    const Boundaries boundaries = ring(which & 1, which & 2);
+    Grains alone(base::cpuExec(1), m, boundaries, thrownBlock());
+    advance(alone, 2000);
+    std::int64_t crossed = 0;
+    for (const Crossings& c : alone.state().crossings) crossed += std::abs(c.x) + std::abs(c.y);
+    EXPECT_GT(crossed, 30);
+    for (int x = 1; x <= n; ++x) {
+      if (n % x != 0) continue;
+      Grains grains(base::cpuExec(1), m, boundaries, thrownBlock(), shared({x, n / x, 1}, x == 1));
+      advance(grains, 1100);
+      Grains resumed(base::cpuExec(1), m, boundaries, thrownBlock(), shared({n / x, x, 1}));
+      resumed.restore(grains.state());
+      advance(grains, 900), advance(resumed, 900);
+      EXPECT_EQ(allWords(grains), alone.stateWords()) << x << " x " << n / x << ", joined " << which;
+      EXPECT_EQ(allWords(resumed), alone.stateWords()) << "resumed, " << x << " x " << n / x << ", joined " << which;
+      EXPECT_EQ(grains.ledger().potential, alone.ledger().potential);
+    }
+  }
+}
+
 TEST(GrainsOnRanks, EqualBitsForManyRadiiAndMaterialsThatRollAndStick) {
   for (const Precision precision : {Precision::single, Precision::double_}) {
     GrainModel m = gravel();
