@@ -79,12 +79,15 @@ void Comm::maximum(double* values, std::size_t count) const {
 std::int64_t Comm::sumBelow(std::int64_t value) const {
   if (alone()) return 0;
   std::int64_t below = 0;
+  const Waiting waiting(waited_);
   MPI_Exscan(&value, &below, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
   return first() ? 0 : below;
 }
 
 void Comm::wait() const {
-  if (!alone()) MPI_Barrier(MPI_COMM_WORLD);
+  if (alone()) return;
+  const Waiting waiting(waited_);
+  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 std::vector<Bytes> Comm::gather(const Bytes& mine) const {
@@ -96,7 +99,10 @@ std::vector<Bytes> Comm::allToAll(const std::vector<Bytes>& to) const {
   const auto n = static_cast<std::size_t>(size_);
   std::vector<std::uint64_t> sent(n), coming(n);
   for (std::size_t r = 0; r < n; ++r) sent[r] = to[r].size();
-  MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+  {
+    const Waiting waiting(waited_);
+    MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+  }
   std::vector<Bytes> from(n);
   Messages messages(*this);
   for (std::size_t r = 0; r < n; ++r) {
@@ -110,6 +116,7 @@ std::vector<Bytes> Comm::allToAll(const std::vector<Bytes>& to) const {
 
 Bytes Comm::broadcast(const Bytes& bytes, int root) const {
   if (alone()) return bytes;
+  const Waiting waiting(waited_);
   std::uint64_t size = bytes.size();
   MPI_Bcast(&size, 1, MPI_UINT64_T, root, MPI_COMM_WORLD);
   Bytes all = rank_ == root ? bytes : Bytes(size);

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <thread>
+
 namespace grouser::base {
 namespace {
 
@@ -35,6 +40,35 @@ TEST(Comm, BroadcastGivesEveryRankWhatOneHas) {
   const Comm& comm = test::comm();
   const int root = comm.size() - 1;
   EXPECT_EQ(comm.broadcast(std::string("from ") + std::to_string(comm.rank()), root), "from " + std::to_string(root));
+}
+
+TEST(Comm, WaitingForALateRankIsCountedInEveryCall) {
+  const Comm& comm = test::comm();
+  if (comm.alone()) GTEST_SKIP() << "one rank waits for nobody";
+  const struct {
+    const char* name;
+    std::function<void()> call;
+  } calls[] = {{"sum", [&] { comm.sumOf(1); }},
+               {"sumBelow", [&] { comm.sumBelow(1); }},
+               {"wait", [&] { comm.wait(); }},
+               {"gather", [&] { comm.gather(Bytes(3)); }},
+               {"broadcast", [&] { comm.broadcast(Bytes(3), 0); }}};
+  constexpr double kLate = 0.05; // [s]
+  for (const auto& [name, call] : calls) {
+    // Once in a few tries all ranks but the late one must have come on time, however busy the machine is.
+    double longest = 0;
+    for (int attempt = 0; attempt < 20 && longest < kLate / 2; ++attempt) {
+      comm.sumOf(1);
+      const double before = comm.waited();
+      if (comm.first()) std::this_thread::sleep_for(std::chrono::duration<double>(kLate));
+      call();
+      double waited = comm.first() ? 1e300 : comm.waited() - before; // the least of all others
+      waited = -waited;
+      comm.maximum(&waited, 1);
+      longest = std::max(longest, -waited);
+    }
+    EXPECT_GE(longest, kLate / 2) << name;
+  }
 }
 
 TEST(Comm, MessagesLargerThanOnePartArriveWhole) {
