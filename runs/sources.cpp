@@ -22,16 +22,16 @@ constexpr double kRoom = 2.002; // [radii] between centres that enter together
 
 Sources::Sources(const Scene& scene, double timeStep) {
   const GrainKinds kinds = grainKinds(scene);
-  std::uint64_t index = 0;
-  for (const Source& s : scene.sources) {
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    const Source& s = scene.sources[k];
     Stream stream;
-    stream.source = s;
+    stream.source = s, stream.index = k;
     stream.material = kinds.indexOf(s.material);
     stream.every = std::max<std::int64_t>(1, std::llround(s.every / timeStep));
     stream.first = std::llround(s.start / timeStep);
     const std::int64_t batches = (s.total + s.number - 1) / s.number;
     stream.last = stream.first + (batches - 1) * stream.every;
-    stream.seed = base::hash(static_cast<std::uint64_t>(scene.run.seed), kPurpose, index++);
+    stream.seed = base::hash(static_cast<std::uint64_t>(scene.run.seed), kPurpose, static_cast<std::uint64_t>(k));
     sources_.push_back(stream);
   }
 }
@@ -55,9 +55,10 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
     const auto id = static_cast<std::uint64_t>(number * s.number + k);
     for (int attempt = 0;; ++attempt) {
       if (attempt == kTries)
-        throw base::InputError(fmt::format("source: {} grains of radius {:g} m do not find room beside each other in "
-                                           "its box; enlarge it (low, high) or lower number",
-                                           s.number, s.radius));
+        throw base::InputError(
+            fmt::format("source.{}: {} grains of radius {:g} m do not find room beside each other in "
+                        "its box; enlarge it (low, high) or lower number",
+                        stream.index, s.number, s.radius));
       base::Vec3d place;
       for (int a = 0; a < 3; ++a) {
         const double u = base::uniform(stream.seed, kPurpose, id, static_cast<std::uint64_t>(3 * attempt + a));
@@ -75,14 +76,11 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
 }
 
 void checkSources(const Scene& scene) {
-  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
-    Scene alone = scene;
-    alone.sources = {scene.sources[k]};
-    try {
-      Sources(alone, 1e300).enteringAt(0);
-    } catch (const base::InputError& error) {
-      throw base::InputError(fmt::format("{}: source.{}: {}", scene.file.string(), k, error.what()));
-    }
+  constexpr double kAllAtOnce = 1e300; // a time step [s] in which all begin
+  try {
+    Sources(scene, kAllAtOnce).enteringAt(0);
+  } catch (const base::InputError& error) {
+    throw base::InputError(fmt::format("{}: {}", scene.file.string(), error.what()));
   }
 }
 

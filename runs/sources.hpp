@@ -22,6 +22,7 @@ public:
 private:
   struct Stream {
     Source source;
+    std::size_t index{};                   ///< among the scene's sources
     int material{};                        ///< among those of the scene's grains
     std::int64_t every{}, first{}, last{}; ///< [steps]
     std::uint64_t seed{};

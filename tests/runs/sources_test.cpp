@@ -89,10 +89,47 @@ TEST(Sources, ABoxWithoutRoomIsRefused) {
     Simulation simulation(drip({"source.0.number=200", "source.0.total=200"}), base::cpuExec(1), [](double, double) {});
     FAIL();
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("source.0: source: 200 grains of radius 0.02 m do not find room"),
+    EXPECT_NE(std::string(error.what()).find("source.0: 200 grains of radius 0.02 m do not find room"),
               std::string::npos)
         << error.what();
   }
+}
+
+TEST(Sources, ARunFindsTheRoomThatItsSceneWasFoundToHave) {
+  // The second source throws its grains on a line that holds them about every second time.
+  constexpr const char* kLine = R"(
+[[source]]
+low = [-0.2, 0, 2.0]
+high = [0.2, 1e-6, 2.000001]
+radius = 0.02
+material = "glass"
+number = 8
+every = 0.1
+start = 0.0
+total = 8
+)";
+  int found = 0;
+  constexpr int kSeeds = 40;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    bool checked = true, thrown = true;
+    Scene scene;
+    try {
+      scene = parseScene(kDrip + std::string(kLine), "drip.toml", {"run.seed=" + std::to_string(seed)});
+      checkSources(scene);
+    } catch (const base::InputError& error) {
+      checked = false;
+      EXPECT_NE(std::string(error.what()).find("drip.toml: source.1: 8 grains"), std::string::npos) << error.what();
+    }
+    try {
+      Sources(scene, 1e-4).enteringAt(0);
+    } catch (const base::InputError&) {
+      thrown = false;
+    }
+    EXPECT_EQ(checked, thrown) << "seed " << seed;
+    found += checked;
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_LT(found, kSeeds);
 }
 
 } // namespace
