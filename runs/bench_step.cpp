@@ -46,6 +46,7 @@ void StepBench::step() {
   if (grains) grains->beginStep(vehicle ? vehicle->grainLoads() : nullptr);
   mark(kGrains);
   if (vehicle) vehicle->advance();
+  if (s.mechanism_) s.mechanism_->advance();
   mark(kMultibody);
   if (grains) grains->endStep();
   mark(kFlags);

@@ -53,6 +53,18 @@ TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
   EXPECT_GT(parts[StepBench::kGrains].microseconds, parts[StepBench::kFlags].microseconds);
 }
 
+TEST(StepBench, ComputesTheSameBitsForAMechanism) {
+  const Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
+  const auto quiet = [](double, double) {};
+  Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  const std::string atRest = plain.stateHash();
+  StepBench bench(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  EXPECT_NE(plain.stateHash(), atRest);
+  EXPECT_EQ(timed.stateHash(), plain.stateHash());
+  EXPECT_GT(bench.parts()[StepBench::kMultibody].microseconds, 0);
+}
+
 TEST(BenchBed, SettlesAndCountsWhatItSays) {
   const BedBench b = tinyBed();
   const BedFigures f = benchBed(b, base::cpuExec(1));
