@@ -33,7 +33,7 @@ Json jsonOf(const BatchTimes& times) {
 
 /// Steps of the simulation, with progress.
 void advance(Simulation& simulation, std::int64_t steps, const char* what) {
-  Progress progress(what);
+  Progress progress(what, simulation.comm().first());
   for (std::int64_t i = 0; i < steps; ++i) {
     simulation.step();
     if (progress.due())
@@ -51,7 +51,7 @@ struct Contacts {
     grainGrain += static_cast<double>(l.grainContacts), grainBoundary += static_cast<double>(l.boundaryContacts);
     grainPart += static_cast<double>(l.partContacts), partPart += static_cast<double>(l.patches);
     if (const VehicleRig* rig = simulation.vehicle()) {
-      pairsListed += static_cast<double>(rig->grainPairsListed());
+      pairsListed += static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->grainPairsListed())));
       probesListed += static_cast<double>(rig->probesListed());
     }
     ++counts;
@@ -145,7 +145,7 @@ void benchBedCommand(const BenchCommand& command) {
   json["bytes_a_step"] = f.bytesAStep;
   json["waiting_share"] = {{"least", f.leastWait}, {"most", f.mostWait}};
   if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
-  writeBench(json, command.json);
+  writeBench(json, command.json, command.comm());
 }
 
 void benchStepCommand(const BenchCommand& command) {
@@ -153,14 +153,16 @@ void benchStepCommand(const BenchCommand& command) {
   const std::string device = command.device.empty() ? scene.run.device : command.device;
   const base::Exec exec = chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
   const StepBenchOptions& o = command.step;
+  const base::Comm comm = command.comm();
   Json json = benchOrigin("step", exec);
 
   std::unique_ptr<Progress> settling;
   const Clock::time_point start = Clock::now();
-  Simulation simulation(scene, exec, [&](double time, double) {
-    if (!settling) settling = std::make_unique<Progress>("settling");
+  const auto settle = [&](double time, double) {
+    if (!settling) settling = std::make_unique<Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
-  });
+  };
+  Simulation simulation(scene, exec, settle, comm);
   if (settling) settling->finish("at rest");
   const double prepared = std::chrono::duration<double>(Clock::now() - start).count();
   const std::size_t grains = simulation.ground().grains ? simulation.ground().grains->count() : 0;
@@ -195,6 +197,9 @@ void benchStepCommand(const BenchCommand& command) {
              times.median(), o.batches, o.steps, times.least(), times.most(), from);
   const double bytes = static_cast<double>(base::memoryTaken(exec));
   const double host = static_cast<double>(base::memoryTaken(base::cpuExec()));
+  if (comm.size() > 1)
+    fmt::print("ranks     {}: the times are the first one's, with its waiting for the others\n", comm.size());
+  json["ranks"] = simulation.comm().size();
   json["scene"] = scene.file.string();
   json["overrides"] = scene.overrides;
   json["grains"] = grains;
@@ -227,7 +232,7 @@ void benchStepCommand(const BenchCommand& command) {
   fmt::print("\n");
   json["host_peak_bytes"] = host;
   if (!exec.onCpu()) json["device_bytes_taken"] = bytes;
-  writeBench(json, command.json);
+  writeBench(json, command.json, comm);
 }
 
 } // namespace grouser::runs

@@ -196,9 +196,9 @@ void benchContactsCommand(const ContactsBench& bench) {
                contacts.back());
     json["growth_exponent"] = exponent;
   }
-  if (bench.ranks && !bench.ranks->comm().first()) return;
-  writeBench(json, bench.json);
-  if (bench.plot.empty()) return;
+  const base::Comm comm = bench.ranks ? bench.ranks->comm() : base::Comm();
+  writeBench(json, bench.json, comm);
+  if (bench.plot.empty() || !comm.first()) return;
   std::string warning;
   if (drawContacts(bench.json, bench.plot, warning))
     fmt::print("plot      {}\n", bench.plot);

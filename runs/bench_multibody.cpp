@@ -214,7 +214,7 @@ void benchMultibodyCommand(const MultibodyBench& bench) {
     if (ratio > 0) json["growth"].back()["times_the_one_before"] = ratio;
     before = f.step.least();
   }
-  writeBench(json, bench.json);
+  writeBench(json, bench.json, bench.comm);
 }
 
 } // namespace grouser::runs

@@ -18,6 +18,7 @@ struct MultibodyBench {
   std::int64_t steps = 50; ///< of one batch: short, so that some are not interrupted
   int batches = 101;
   std::string json; ///< file; empty: none
+  base::Comm comm;  ///< the ranks that were started: each does it all, the first one writes
 };
 
 /// The vehicle's graph, driven on level ground with its tracks under tension.

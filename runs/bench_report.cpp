@@ -29,8 +29,8 @@ Json benchOrigin(const char* bench, const base::Exec& exec) {
   return json;
 }
 
-void writeBench(const Json& json, const std::string& path) {
-  if (path.empty()) return;
+void writeBench(const Json& json, const std::string& path, const base::Comm& comm) {
+  if (path.empty() || !comm.first()) return;
   std::ofstream file(path, std::ios::binary);
   file << json.dump(2) << '\n';
   file.close();

@@ -320,7 +320,7 @@ int main(int argc, char** argv) {
   runs::RenderCommand render;
   runs::ContactsBench contacts;
   runs::MultibodyBench multibody;
-  render.comm = ranks.comm(), contacts.ranks = &ranks, bench.ranks = &ranks;
+  render.comm = ranks.comm(), contacts.ranks = &ranks, bench.ranks = &ranks, multibody.comm = ranks.comm();
   runs::SinkageCommand sinkage;
   runs::PlanCommand plan;
   runs::SpheresCommand spheres;

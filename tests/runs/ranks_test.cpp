@@ -112,7 +112,8 @@ TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
                 one = shell(kept + "\"$grouser\" " + words + "--out one");
   for (const Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
   for (const Outcome& o : {three, one}) EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
-  std::ofstream(folder_ / "damage.sh") << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
+  std::ofstream(folder_ / "damage.sh")
+      << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
   const Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
   EXPECT_EQ(damaged.hash(), anew.hash());
   EXPECT_NE(damaged.err.find("damaged"), std::string::npos) << damaged.err;
@@ -158,6 +159,16 @@ TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
   EXPECT_EQ(planned[1], found[1]);
   // The plan spreads the grains evenly: a layer more or less within range of two cuts through 25 of them.
   EXPECT_NEAR(std::stod(planned[2]), std::stod(found[2]), 2 * 100.0 * 2 / 25);
+}
+
+TEST_F(OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
+  const Outcome o = run(2, "bench step bed.toml --steps 10 --batches 1 --threads 1 --device cpu --json /dev/stderr");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const std::string title = "\"bench\": \"step\"";
+  const std::size_t at = o.err.find(title);
+  ASSERT_NE(at, std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find(title, at + 1), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("\"ranks\": 2"), std::string::npos) << "each rank has made the whole scene:\n" << o.err;
 }
 
 TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
