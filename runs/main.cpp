@@ -11,6 +11,7 @@
 #include "runs/scene.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/study_multibody.hpp"
+#include "runs/study_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -211,8 +212,8 @@ void addRender(CLI::App& app, runs::RenderCommand& c) {
   render->callback([&c] { runs::renderCommand(c); });
 }
 
-void addStudy(CLI::App& app, runs::StudyCommand& c) {
-  CLI::App* study = app.add_subcommand("study", "Error against run time: tables and plots");
+void addStudy(CLI::App& app, runs::StudyCommand& c, runs::GrainStudies& grains) {
+  CLI::App* study = app.add_subcommand("study", "Error against run time, stable steps, precision: tables and plots");
   study->require_subcommand(1);
   CLI::App* multibody = study->add_subcommand(
       "multibody", "Mechanisms whose motion is known: error, order, drift and CPU time of each integrator and step");
@@ -228,6 +229,7 @@ void addStudy(CLI::App& app, runs::StudyCommand& c) {
   multibody->add_option("--out", c.folder, "folder of the tables and the plot; default: out/study_multibody");
   multibody->add_flag("--force", c.force, "overwrite what is in that folder");
   multibody->callback([&c] { runs::studyMultibodyCommand(c); });
+  runs::addGrainStudies(*study, grains);
 }
 
 void addHash(CLI::App& app, runs::HashCommand& c) {
@@ -317,6 +319,7 @@ int main(int argc, char** argv) {
   runs::BenchCommand bench;
   runs::HashCommand hash;
   runs::StudyCommand study;
+  runs::GrainStudies grainStudies;
   runs::RenderCommand render;
   runs::ContactsBench contacts;
   runs::MultibodyBench multibody;
@@ -331,7 +334,7 @@ int main(int argc, char** argv) {
   addContactsBench(app, contacts);
   addMultibodyBench(app, multibody);
   addHash(app, hash);
-  addStudy(app, study);
+  addStudy(app, study, grainStudies);
   addRender(app, render);
   addOthers(app, sinkage, plan, spheres);
   if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())

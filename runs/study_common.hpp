@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What the studies of grains have in common.
+namespace grouser::runs {
+
+/// Where a study writes, and how much it does.
+struct StudyPlace {
+  std::string folder; ///< empty: out/study_NAME
+  bool force = false; ///< overwrite what is in it
+  bool quick = false; ///< a coarse pass in seconds
+};
+
+/// Makes the folder and prints the line of machine and commit. Throws InputError where it may not be written.
+std::filesystem::path beginStudy(const std::string& name, const StudyPlace& place);
+
+/// Writes study.json: study, machine, commit, compiler, seconds taken and `more`.
+void writeStudyOrigin(const std::filesystem::path& folder, const std::string& name, double seconds,
+                      const nlohmann::ordered_json& more);
+
+/// Draws by runs/plots/`script` what `words` name; a warning on stderr where it cannot be drawn.
+void drawStudyPlot(const std::string& script, const std::vector<std::string>& words, const std::filesystem::path& file);
+
+/// Slope of log y over log x by least squares, with the half width of its 95 % confidence interval (Student).
+struct Slope {
+  double value = 0, halfWidth = 0;
+  int points = 0; ///< fewer than three: no slope
+  bool exists() const { return points >= 3; }
+  /// "1.02 +- 0.03", or "-".
+  std::string text() const;
+};
+Slope logSlope(const std::vector<double>& x, const std::vector<double>& y);
+/// The same of y over x as they are.
+Slope linearSlope(const std::vector<double>& x, const std::vector<double>& y);
+
+/// Mean of values, and its standard error from their scatter.
+struct MeanError {
+  double mean = 0, error = 0;
+};
+MeanError meanOf(const std::vector<double>& values);
+double medianOf(std::vector<double> values);
+
+/// Throws Stopped after SIGINT or SIGTERM.
+void stopStudyIfAsked();
+
+} // namespace grouser::runs

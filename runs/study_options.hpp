@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/study_impact.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace grouser::runs {
+
+/// What `grouser study` was asked for, beside `multibody`.
+struct GrainStudies {
+  ImpactCommand impact;
+};
+
+/// Adds the studies of grains to the command `study`.
+void addGrainStudies(CLI::App& study, GrainStudies& studies);
+
+} // namespace grouser::runs
