@@ -90,7 +90,7 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
       laws[at(a)].softness = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
     }
   }
-  if (!positionsFactored(part)) linearise(part, frames);
+  int lost = positionsFactored(part) ? 0 : linearise(part, frames); // rows that have no pivot
   factored[at(part.index)] = -1;
   relinearised[at(part.index)] = 0;
   // Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of
@@ -118,7 +118,6 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
     phase = next, since = 0, best = before = std::numeric_limits<double>::infinity();
   };
   const int limit = options.maxIterations;
-  const int lost = last.singularRows;
   for (int iteration = 1;; ++iteration) {
     system.solve(part, x);
     if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
@@ -144,7 +143,7 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
       } else if (since >= limit) {
         enter(Phase::kEachIterate);
       } else if (follow) {
-        linearise(part, frames);
+        lost = std::max(lost, linearise(part, frames));
         mixing.forget();
       } else if (slow && !mixing.on()) {
         mixing.switchOn();
@@ -167,15 +166,13 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
       if (done) break;
       if (since >= 2 * limit) {
         // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
-        if (!(gap <= (last.singularRows > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
+        if (!(gap <= (lost > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
         break;
       }
     }
     if (phase != Phase::kEachIterate) continue;
-    if (since == 0)
-      closeWeakRows(part, state, h);
-    else
-      linearise(part, trial);
+    const int lostHere = since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial);
+    lost = std::max(lost, lostHere);
   }
   // Also of rows that had no pivot.
   if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
@@ -295,16 +292,17 @@ bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, cons
   return true;
 }
 
-/// Closes what is left with the matrix of each iterate.
-void RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
+/// Closes what is left with the matrix of each iterate. Returns the rows without a pivot in the first.
+int RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
   relinearised[at(part.index)] = 1;
   mixing.takeBest(part, mean);
   mixing.reset();
   moveTrial(part, state, h);
   updateAxes(part, h);
-  linearise(part, trial);
+  const int lost = linearise(part, trial);
   setResiduals(part, h);
   for (const int node : part.bodies) x[at(node)] = {};
+  return lost;
 }
 
 void RattleStep::applyCorrection(const Part& part, double h) {

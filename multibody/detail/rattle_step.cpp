@@ -116,8 +116,10 @@ void RattleStep::stage(State& state, const Loads& loads, double h) {
   }
 }
 
-void RattleStep::linearise(const Part& part, const std::vector<Frame>& where) {
-  last.singularRows = std::max(last.singularRows, system.linearise(part, where, laws));
+int RattleStep::linearise(const Part& part, const std::vector<Frame>& where) {
+  const int lost = system.linearise(part, where, laws);
+  last.singularRows = std::max(last.singularRows, lost);
+  return lost;
 }
 
 /// Whether the system still holds the matrix of the end of the stage before, and it is the one this stage needs.

@@ -22,7 +22,8 @@ private:
   enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
 
   void stage(State& state, const Loads& loads, double h);
-  void linearise(const Part& part, const std::vector<Frame>& at);
+  /// Returns the rows without a pivot.
+  int linearise(const Part& part, const std::vector<Frame>& at);
   bool positionsFactored(const Part& part) const;
 
   // Position stage (rattle_position.cpp).
@@ -31,7 +32,7 @@ private:
   bool updateAxes(const Part& part, double h);
   void applyCorrection(const Part& part, double h);
   bool startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h);
-  void closeWeakRows(const Part& part, const State& state, double h);
+  int closeWeakRows(const Part& part, const State& state, double h);
   void moveTrial(const Part& part, const State& state, double h);
   /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.
   double setResiduals(const Part& part, double h);

@@ -28,9 +28,10 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
     }
   // A row that a singular position leaves hardly a pivot would take speed out of the motion through it.
   system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
-  linearise(part, trial);
+  const int lost = linearise(part, trial);
   system.scalePivotThreshold(1);
-  factored[at(part.index)] = system.linearisation(part);
+  // The next stage's positions need every row that has a pivot at all.
+  factored[at(part.index)] = lost == 0 ? system.linearisation(part) : -1;
 
   for (const int node : part.bodies) {
     const int b = system.bodyOf(node);
