@@ -315,6 +315,10 @@ GROUSER_LANES void EulerStep::finishLinks(State& state, const Loads& loads, doub
           driven[l] = law.driven ? 1 : 0;
         }
         // Force, known, driveForce, softness; dampingPart and what follows it.
+        constexpr std::size_t kDouble = sizeof(double);
+        static_assert(offsetof(AxisLaw, force) == 0 && offsetof(AxisLaw, known) == kDouble &&
+                      offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, softness) == 3 * kDouble &&
+                      offsetof(AxisLaw, dampingPart) == 4 * kDouble && sizeof(AxisLaw) >= 7 * kDouble);
         gather4(row, 0, known);
         gather4(row, 3, damping);
         total[r] += h * known[0];
