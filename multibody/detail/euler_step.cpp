@@ -88,18 +88,18 @@ JointFrames EulerStep::trialFramesOf(int k) const {
   return framesOf(c, trial[at(c.bodyA)], trial[at(c.bodyB)]);
 }
 
-/// The one with the widest gap at the end of the step as the current iterate has it; -1 if there are only couplings.
-int EulerStep::worstConstraint() const {
-  int worst = -1;
-  double largest = 0;
+/// The row with the widest gap at the end of the step as the current iterate has it; no constraint if there are only
+/// couplings.
+EulerStep::OpenRow EulerStep::widestGap() const {
+  OpenRow widest;
   for (std::size_t k = 0; k < system.constraints().size(); ++k) {
     double error[6];
     positionError(system.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
     for (int r = 0; r < 6; ++r)
-      if ((system.hardRowsOf(static_cast<int>(k)) >> r & 1u) && !(std::fabs(error[r]) <= largest))
-        largest = std::fabs(error[r]), worst = static_cast<int>(k);
+      if ((system.hardRowsOf(static_cast<int>(k)) >> r & 1u) && !(std::fabs(error[r]) <= widest.gap))
+        widest = {static_cast<int>(k), r, std::fabs(error[r])};
   }
-  return worst;
+  return widest;
 }
 
 /// Position of an axis at the end of the step as the current iterate has it.
@@ -223,12 +223,14 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
 }
 
 void EulerStep::fail(const State& state, double gap, int iterations, double dt) const {
-  const int worst = worstConstraint();
+  const OpenRow widest = widestGap();
   std::ostringstream message;
   message << "multibody step from t = " << state.time << " s";
-  if (worst >= 0) message << ": " << system.describe(worst, 0) << " stays open by " << gap << " [m or rad]";
-  message << " after " << iterations << " iterations; the motion is too fast for dt = " << dt
-          << " s: reduce the step, or check the loads";
+  if (widest.constraint >= 0)
+    message << ": " << system.describe(widest.constraint, widest.row) << " stays open by " << widest.gap
+            << " [m or rad]";
+  message << " (largest residual " << gap << ") after " << iterations
+          << " iterations; the motion is too fast for dt = " << dt << " s: reduce the step, or check the loads";
   throw base::SimulationError(message.str());
 }
 

@@ -24,7 +24,11 @@ private:
   double setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first);
   bool startWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt);
   [[noreturn]] void fail(const State& state, double gap, int iterations, double dt) const;
-  int worstConstraint() const;
+  struct OpenRow {
+    int constraint = -1, row = 0;
+    double gap = 0; ///< [m, rad]
+  };
+  OpenRow widestGap() const;
   double openGap() const;
   void finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
   void addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
