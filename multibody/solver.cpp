@@ -24,7 +24,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 SolverOptions resolved(const SolverOptions& given) {
   SolverOptions o = given;
   const bool rattle = o.integrator == Integrator::kRattle;
-  if (o.positionTolerance == 0) o.positionTolerance = rattle ? 1e-15 : 1e-10;
+  if (o.positionTolerance == 0) o.positionTolerance = rattle ? kRattleTolerance : kEulerTolerance;
   if (o.maxIterations == 0) o.maxIterations = rattle ? 40 : 12;
   if (!(o.positionTolerance > 0 && std::isfinite(o.positionTolerance)))
     throw base::InputError("multibody: positionTolerance must be > 0 [m, rad]");

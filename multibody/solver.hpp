@@ -37,8 +37,13 @@ enum class StartVelocities {
   kAccept, ///< leaves them: the first step, or Solver::projectVelocities(), makes them fit
 };
 
+/// What SolverOptions::positionTolerance is where it is not given [m, rad]. RATTLE closes to round-off: the order of
+/// its energy error counts on it.
+inline constexpr double kEulerTolerance = 1e-10, kRattleTolerance = 1e-15;
+
 struct SolverOptions {
-  /// On every hard constraint after a step [m, rad]; 0: 1e-10 for kSymplecticEuler, 1e-13 for kRattle. What is left of
+  /// On every hard constraint after a step [m, rad]; 0: kEulerTolerance or kRattleTolerance. kRattle goes no further
+  /// than round-off, 5e-16 of the coordinates. What is left of
   /// a gap comes back in the next step's constraint force as up to mass x gap / dt^2: 0.3 N for a shoe of 8.5 kg at 50
   /// us and 1e-10 m.
   double positionTolerance = 0;

@@ -2,6 +2,10 @@
 // The one table of fields of a scene file: it drives parsing, checks, `grouser fields` and the resolved copy.
 #include "runs/detail/scene_tables.hpp"
 
+#include "multibody/solver.hpp"
+
+#include <fmt/format.h>
+
 namespace grouser::runs::detail {
 
 using base::Table;
@@ -42,8 +46,11 @@ Table<RunSettings> runTable() {
   t.add("springs", &S::springs, "", "of rattle: explicit needs a step below 2 / omega, implicit takes any")
       .oneOf({"explicit", "implicit"});
   t.add("constraint_tolerance", &S::constraintTolerance, "m or rad",
-        "to which joints of a mechanism are closed; \"auto\": 1e-10 for symplectic_euler, 1e-13 for rattle")
-      .atLeast(1e-15)
+        fmt::format(
+            "to which joints of a mechanism are closed; \"auto\": {:g} for symplectic_euler, {:g} (round-off) for "
+            "rattle",
+            multibody::kEulerTolerance, multibody::kRattleTolerance))
+      .atLeast(multibody::kRattleTolerance)
       .atMost(1e-3)
       .orWord("auto");
   t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);

@@ -180,6 +180,25 @@ TEST(MultibodyErrors, AStepTooLongForTheMotionIsRefusedWithTheBodysName) {
   }
 }
 
+TEST(MultibodyState, TolerancesThatAreNotGivenAreTheDocumentedOnes) {
+  for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
+    const auto stateWith = [&](double tolerance) {
+      Mechanism m;
+      m.model.addBody(makeBody("rod", 1, kInertia, {{1, 0, 0}, {}}));
+      m.model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
+      m.start();
+      SolverOptions options;
+      options.integrator = integrator, options.positionTolerance = tolerance;
+      Solver solver(m.model, options);
+      for (int i = 0; i < 100; ++i) solver.step(m.state, m.loads, 1e-2);
+      return m.state.save();
+    };
+    const double documented = integrator == Integrator::kRattle ? kRattleTolerance : kEulerTolerance;
+    EXPECT_EQ(stateWith(0), stateWith(documented));
+    EXPECT_NE(stateWith(0), stateWith(100 * documented));
+  }
+}
+
 TEST(MultibodyErrors, NotANumberIsReportedWithItsPlace) {
   Mechanism m;
   m.model.addBody(makeBody("free", 1, kInertia, {}));
@@ -187,6 +206,37 @@ TEST(MultibodyErrors, NotANumberIsReportedWithItsPlace) {
   m.loads.external[0].force = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
   Solver solver(m.model);
   EXPECT_THROW(solver.step(m.state, m.loads, 1e-3), base::SimulationError);
+}
+
+// Two rods in the y-z plane whose end a drive pulls out of reach, on ball joints in the world's axes: nothing opens
+// along x.
+TEST(MultibodyErrors, ADriveOutOfReachNamesARowThatStaysOpen) {
+  for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
+    Mechanism m;
+    const Pose elbow{{0, 0.6, 0.8}, {}}, end{{0, 1.2, 0}, {}};
+    m.model.addBody(makeBody("upper", 1, kInertia, {{0, 0.3, 0.4}, {}}));
+    m.model.addBody(makeBody("lower", 1, kInertia, {{0, 0.9, 0.4}, {}}));
+    m.model.addBody(makeBody("slide", 1, kInertia, end));
+    m.model.addJointAt("shoulder", JointType::kSpherical, kWorld, 0, {});
+    m.model.addJointAt("elbow", JointType::kSpherical, 0, 1, elbow);
+    m.model.addJointAt("wrist", JointType::kSpherical, 1, 2, end);
+    const int rail = m.model.addJointAt("rail", JointType::kPrismatic, kWorld, 2, frameWithZ(end.position, kY));
+    m.model.addDrive({.name = "winch", .joint = rail, .speed = 1});
+    m.start();
+    m.loads.gravity = {};
+    SolverOptions options;
+    options.integrator = integrator, options.startVelocities = StartVelocities::kAccept;
+    Solver solver(m.model, options);
+    try {
+      while (m.state.time < 1) solver.step(m.state, m.loads, 1e-2);
+      FAIL() << "the rods are 2 m long";
+    } catch (const base::SimulationError& e) {
+      const std::string what = e.what();
+      EXPECT_GT(m.state.time, 0.7) << what;
+      EXPECT_NE(what.find(": translation along "), std::string::npos) << what;
+      EXPECT_EQ(what.find("along x"), std::string::npos) << what;
+    }
+  }
 }
 
 } // namespace
