@@ -36,14 +36,18 @@ struct OfSeeds {
   const Seed* seeds;
   GROUSER_HD Vec3d centre(int g) const { return seeds[g].centre; }
   GROUSER_HD double radius(int g) const { return seeds[g].radius; }
+  GROUSER_HD bool counts(int) const { return true; }
 };
 struct OfGrains {
   const base::Position* position;
   base::PositionScale scale;
   double grainRadius;
-  const Vec4f* radiusInW; ///< null where all have grainRadius
+  const Vec4f* radiusInW;     ///< null where all have grainRadius
+  const std::uint32_t* ghost; ///< null where there are none
   GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
   GROUSER_HD double radius(int g) const { return radiusInW ? static_cast<double>(radiusInW[g].w) : grainRadius; }
+  /// Slaves may be one step behind.
+  GROUSER_HD bool counts(int g) const { return !(ghost && ghost[g]); }
 };
 
 template <class Source> struct RaiseTops {
@@ -52,6 +56,7 @@ template <class Source> struct RaiseTops {
   double reach;
   std::uint64_t* words;
   GROUSER_HD void operator()(int g) const {
+    if (!grains.counts(g)) return;
     const Vec3d c = grains.centre(g);
     const std::uint64_t top = wordOf(c.z + grains.radius(g));
     std::uint64_t* const target = words;
@@ -77,9 +82,8 @@ std::vector<double> heights(const std::vector<std::uint64_t>& words) {
 } // namespace
 
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach) {
-  // Slaves are true copies: they change no maximum.
   const OfGrains source{grains.positions(), grains.scale(), grains.model().radius,
-                        grains.manyRadii() ? grains.velocities() : nullptr};
+                        grains.manyRadii() ? grains.velocities() : nullptr, grains.ghosts()};
   std::vector<std::uint64_t> words = raise(exec, source, grains.slots(), grid, reach);
   grains.comm().minimum(words.data(), words.size());
   return heights(words);

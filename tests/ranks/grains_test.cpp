@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One answer on any number of ranks: grains that slide, spin, touch walls and cross borders.
 #include "base/error.hpp"
+#include "terrain/bed_tops.hpp"
 #include "terrain/grains.hpp"
 #include "tests/ranks/ranks.hpp"
 #include "tests/terrain/grain_fixture.hpp"
@@ -197,6 +198,19 @@ TEST(GrainsOnRanks, LedgerIsThatOfOneRank) {
   EXPECT_EQ(a.boundaryContacts, b.boundaryContacts);
   EXPECT_EQ(a.deepestOverlap, b.deepestOverlap);
   EXPECT_EQ(a.fastest, b.fastest);
+}
+
+TEST(GrainsOnRanks, TopsOfTheBedAreThoseOfOneRankAfterAnyStep) {
+  const GrainModel m = gravel();
+  const NodeGrid grid{40, 30, 0.02, 0.02, 0, 0};
+  Grains alone(base::cpuExec(1), m, box(m), thrownBlock()),
+      grains(base::cpuExec(1), m, box(m), thrownBlock(), shared());
+  for (int k = 0; k < 40; ++k) {
+    advance(alone, 10), advance(grains, 10);
+    ASSERT_EQ(highestTops(base::cpuExec(1), grains, grid, m.radius),
+              highestTops(base::cpuExec(1), alone, grid, m.radius))
+        << "step " << alone.steps();
+  }
 }
 
 TEST(GrainsOnRanks, RolesAreAsDefined) {
