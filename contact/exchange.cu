@@ -4,6 +4,7 @@
 #include "base/algorithms.hpp"
 #include "base/for_each.cuh"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace grouser::contact {
@@ -27,21 +28,34 @@ Fields collect(std::span<const ExchangeField> fields) {
 /// One word of one element between its field and the buffer, in which elements lie one after the other.
 template <bool kPack> struct MoveWord {
   Fields fields;
+  std::uint32_t first; ///< place of the first element of this launch
   const std::uint32_t* slots;
   std::uint32_t* buffer;
   GROUSER_HD void operator()(int i) const {
-    const std::uint32_t place = static_cast<std::uint32_t>(i) / fields.words;
+    const std::uint32_t place = first + static_cast<std::uint32_t>(i) / fields.words;
+    const std::uint64_t inBuffer = static_cast<std::uint64_t>(first) * fields.words + static_cast<std::uint32_t>(i);
     std::uint32_t word = static_cast<std::uint32_t>(i) % fields.words, f = 0;
     while (word >= fields.field[f].words) word -= fields.field[f++].words;
     const ExchangeField& field = fields.field[f];
     const std::uint64_t element = field.byPlace ? place : slots[place];
     std::uint32_t* at = static_cast<std::uint32_t*>(field.data) + element * field.words + word;
     if (kPack)
-      buffer[i] = *at;
+      buffer[inBuffer] = *at;
     else
-      *at = buffer[i];
+      *at = buffer[inBuffer];
   }
 };
+
+/// Launches count in int: elements go in groups of at most `wordsAtATime` words.
+template <bool kPack> void moveWords(const base::Exec& exec, const Fields& fields, const std::uint32_t* slots,
+                                     std::size_t elements, std::uint32_t* buffer, std::size_t wordsAtATime) {
+  if (fields.words == 0) return;
+  const std::size_t atATime = std::max<std::size_t>(1, wordsAtATime / fields.words);
+  for (std::size_t first = 0; first < elements; first += atATime)
+    base::forEach(exec, kPack ? "pack" : "unpack",
+                  static_cast<std::int64_t>(std::min(atATime, elements - first) * fields.words),
+                  MoveWord<kPack>{fields, static_cast<std::uint32_t>(first), slots, buffer});
+}
 
 /// start[r] = first place whose rank is >= r, in sorted ranks.
 struct FindStarts {
@@ -75,8 +89,9 @@ struct Renumber {
 
 } // namespace
 
-Exchange::Exchange(const base::Exec& exec, const base::Comm& comm)
-    : exec_(exec), comm_(comm), direct_(exec.onCpu() || base::Messages::deviceMemoryTravels()),
+Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, std::size_t wordsAtATime)
+    : exec_(exec), comm_(comm), wordsAtATime_(wordsAtATime),
+      direct_(exec.onCpu() || base::Messages::deviceMemoryTravels()),
       sendStart_(static_cast<std::size_t>(comm.size()) + 1), receiveStart_(sendStart_), sendSlots_(exec),
       receiveSlots_(exec), messages_(comm) {}
 
@@ -126,8 +141,7 @@ void Exchange::start(std::span<const ExchangeField> fields) {
   const Fields all = collect(fields);
   reserve(all.words);
   const std::size_t words = bufferWords_, sent = leaving() * words;
-  base::forEach(exec_, "pack", static_cast<std::int64_t>(sent),
-                MoveWord<true>{all, sendSlots_.data(), sendBuffer_.device().data()});
+  moveWords<true>(exec_, all, sendSlots_.data(), leaving(), sendBuffer_.device().data(), wordsAtATime_);
   if (!direct_) base::copyToHostLater(exec_, sendBuffer_.host(), sendBuffer_.device().data(), sent * 4);
   base::synchronize(exec_);
   std::uint32_t* out = direct_ ? sendBuffer_.device().data() : sendBuffer_.host();
@@ -152,8 +166,7 @@ void Exchange::finish(std::span<const ExchangeField> fields) {
   underWay_ = false;
   const std::size_t received = coming_ * bufferWords_;
   if (!direct_) base::copyToDeviceLater(exec_, receiveBuffer_.device().data(), receiveBuffer_.host(), received * 4);
-  base::forEach(exec_, "unpack", static_cast<std::int64_t>(received),
-                MoveWord<false>{all, receiveSlots_.data(), receiveBuffer_.device().data()});
+  moveWords<false>(exec_, all, receiveSlots_.data(), coming_, receiveBuffer_.device().data(), wordsAtATime_);
 }
 
 } // namespace grouser::contact

@@ -34,7 +34,8 @@ class Exchange {
 public:
   static constexpr std::size_t kMaxFields = 12;
 
-  Exchange(const base::Exec& exec, const base::Comm& comm);
+  /// `wordsAtATime`: how many are packed by one launch, at most.
+  Exchange(const base::Exec& exec, const base::Comm& comm, std::size_t wordsAtATime = std::size_t{1} << 30);
 
   /// Sends `slots[k]` to rank `ranks[k]`, for k < count. Both are device arrays and are sorted by rank, stable, here.
   void route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count);
@@ -67,6 +68,7 @@ private:
 
   base::Exec exec_;
   base::Comm comm_;
+  std::size_t wordsAtATime_;
   bool direct_;                                         ///< MPI takes pointers to the buffers of the device
   std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] places on the route
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;

@@ -98,6 +98,29 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   EXPECT_EQ(ghosts.bytesSent(), 2 * 8);
 }
 
+TEST(Exchange, PackedInManyLaunchesTheSameArrives) {
+  const base::Comm& comm = test::comm();
+  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
+  // Elements of six words: 1, 2 and 3 of the 7 at a time.
+  for (const std::size_t words : {1u, 12u, 19u}) {
+    Tracers t = startingTracers();
+    Exchange handOver(t.exec, comm, words);
+    std::vector<std::pair<std::uint32_t, int>> leaving;
+    for (std::uint32_t i = 0; i < 7; ++i) leaving.emplace_back(i, right);
+    route(handOver, t, leaving);
+    t.resize(t.owned + 7);
+    handOver.putFrom(t.owned);
+    handOver.run(t.everything());
+    for (std::uint32_t i = 0; i < 7; ++i) {
+      const std::uint32_t p = static_cast<std::uint32_t>(left) * Tracers::kEach + i;
+      EXPECT_EQ(t.place.data()[t.owned + i], p);
+      EXPECT_EQ(t.concentration.data()[t.owned + i], concentrationAt(p));
+      EXPECT_EQ(t.colour.data()[t.owned + i], (Colour{p, p * p, p + 7}));
+    }
+  }
+}
+
 TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
   const base::Comm& comm = test::comm();
   if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
