@@ -114,6 +114,7 @@ struct Collect {
       }
     }
     count[i] = found;
+    for (; found < capacity; ++found) slot[at(i, found)] = static_cast<std::uint32_t>(i);
   }
 
   /// Whether there is such a cell beside one in use along x or y; across joined sides it is at the other end.
@@ -328,7 +329,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
                                   (radii.sphere ? ", or its radii are too unlike; use stiffer grains, a smaller time "
                                                   "step, a smaller skin or larger small grains"
                                                 : "; use a smaller time step or stiffer grains"));
-    capacity_ = std::min(limit, (most + 3) / 4 * 4);
+    capacity_ = std::min(limit, (most + 7) / 8 * 8);
   }
   base::copyOnDevice(exec_, now_.id.data(), id, count_ * sizeof(std::uint32_t));
   if (haveOld_) {

@@ -10,7 +10,7 @@ namespace grouser::contact {
 
 /// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
 /// ids, each with the history of that contact: `width` numbers. Bit k of the mask at touching[i * maskWords] says that
-/// slot k touched in the last step.
+/// slot k touched in the last step. A CPU may read slots by eights: what lies behind a row's last is some grain's slot.
 struct NeighbourView {
   const std::uint32_t* count;
   const std::uint32_t* slot;

@@ -41,7 +41,7 @@ terrain::GrainModel modelOf(const BedBench& b) {
   model.mass = sphereMass(b.density, b.radius);
   model.timeStep = b.timeStep;
   model.gravity = {0, 0, -kGravity};
-  model.skin = b.skin;
+  model.skin = b.skin, model.mostLanes = b.lanes;
   model.ledger = b.ledger;
   // A pair of grains weighs half a grain; 2/7 and 1/2 are the scene's defaults of the tangential ratios.
   const double damping =

@@ -94,6 +94,9 @@ void addBench(CLI::App& app, runs::BenchCommand& c) {
   bed->add_option("--stiffness", b.stiffness, "[N/m]")
       ->check(runs::positive("a stiffness in N/m"))
       ->capture_default_str();
+  bed->add_option("--lanes", b.lanes, "contacts that a CPU works on side by side, at most: 16, 8, 4 or 1")
+      ->check(CLI::IsMember({16, 8, 4, 1}))
+      ->capture_default_str();
   bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
       ->check(CLI::Range(1e-3, 4.0))
       ->capture_default_str();

@@ -15,6 +15,7 @@ namespace grouser::terrain {
 struct GrainKernelData {
   // Constants.
   unsigned features;
+  int mostLanes; ///< GrainModel::mostLanes
   std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
   double timeStep, stepPerMass, stepPerInertia, unitsPerSpeed; // dt, dt/m, dt/I, dt/unit
   double unitLength;

@@ -3,6 +3,7 @@
 #include "terrain/grain_kernels.cuh"
 
 #include "terrain/boundary_contacts.cuh"
+#include "terrain/grain_lanes.hpp"
 #include "terrain/grain_step.cuh"
 
 namespace grouser::terrain {
@@ -49,6 +50,8 @@ void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, c
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                               std::int64_t count, bool specialised) {
   const unsigned features = specialised ? d.features : kGeneral;
+  if (const int width = exec.onCpu() ? laneWidth(features, f.law, d.mostLanes) : 1; width > 1)
+    return runGrainLanes(exec, d, f, count, width);
   runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,

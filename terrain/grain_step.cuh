@@ -32,7 +32,6 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     advance(i, p, v, w, size, force, torque, sum.deepest);
   }
 
-private:
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Vec& v, const Vec& w, const GrainSize<Real>& own,
                                Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];

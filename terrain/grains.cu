@@ -71,6 +71,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   GrainKernelData d{};
   const double dt = model_.timeStep, r = model_.radius;
   d.features = features_ | (loads ? kLoads : 0u);
+  d.mostLanes = model_.mostLanes;
   d.timeStep = dt;
   d.diameter = static_cast<float>(2 * r);
   d.unitLength = scale_.unit, d.unitsPerLength = static_cast<float>(scale_.perMetre);

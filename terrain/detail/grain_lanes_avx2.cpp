@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/detail/grain_lanes.hpp"
+
+namespace grouser::terrain::detail {
+
+__attribute__((flatten)) void stepAvx2(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
+  runLanes<8>(d, f, first, last);
+}
+
+} // namespace grouser::terrain::detail

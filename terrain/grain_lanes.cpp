@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_lanes.hpp"
+
+#include "terrain/grain_step.cuh"
+
+namespace grouser::terrain {
+
+namespace {
+
+constexpr int kGrainsATime = 256; // that one thread takes at once
+
+struct StepSome {
+  detail::LaneStep* step;
+  const GrainKernelData& d;
+  const ForceData<float>& f;
+  std::int64_t count;
+  void operator()(int k) const {
+    const int first = k * kGrainsATime;
+    step(d, f, first, static_cast<int>(std::min<std::int64_t>(first + kGrainsATime, count)));
+  }
+};
+
+} // namespace
+
+int laneWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
+  constexpr unsigned kKnown = contact::kFriction | kBoundaries | kLoads | kLedger;
+  if (features & ~kKnown) return 1;
+  if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
+#if defined(__x86_64__)
+  if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+    return 16;
+  if (most >= 8 && __builtin_cpu_supports("avx2")) return 8;
+  if (most >= 4) return 4;
+#endif
+  return 1;
+}
+
+void runGrainLanes(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
+                   int width) {
+  detail::LaneStep* const step = width == 16 ? detail::stepAvx512 : width == 8 ? detail::stepAvx2 : detail::stepSse;
+  base::forEach(exec, "grain step in lanes", (count + kGrainsATime - 1) / kGrainsATime, StepSome{step, d, f, count});
+}
+
+namespace detail {
+
+void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
+                  const base::Vec3d& torque, float deepest) {
+  const GrainStep<contact::kGeneral, float> step{{d, f}};
+  const Vec4f v = d.velocity[i], w = d.spin[i];
+  step.advance(i, d.position[i], v, w, step.sizeOf(v.w, w.w), force, torque, deepest);
+}
+
+void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
+                float& dissipated, float& deepest) {
+  const GrainStep<contact::kGeneral, float> step{{d, f}};
+  GrainStep<contact::kGeneral, float>::Sum sum;
+  sum.dissipated = dissipated, sum.deepest = deepest;
+  step.addLoads(i, step.sizeOf(0, 0), force, torque, sum);
+  dissipated = sum.dissipated, deepest = sum.deepest;
+}
+
+} // namespace detail
+} // namespace grouser::terrain

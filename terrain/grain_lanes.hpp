@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_kernel_data.cuh"
+
+namespace grouser::terrain {
+
+/// How many contacts the CPU works on side by side for beds of these features: at most `most`, as many as the processor
+/// has lanes for; 1: only the scalar kernel will do.
+int laneWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
+
+/// One step of `count` grains on the CPU, `width` > 1 contacts at a time; the bits are those of GrainStep.
+void runGrainLanes(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
+                   int width);
+
+namespace detail {
+
+using LaneStep = void(const GrainKernelData& d, const ForceData<float>& f, int first, int last);
+/// Grains [first, last) of a launch. One file each, compiled for what its name says.
+LaneStep stepSse, stepAvx2, stepAvx512;
+
+/// GrainStep's own, of one grain, for what is rare.
+void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
+                  const base::Vec3d& torque, float deepest);
+void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
+                float& dissipated, float& deepest);
+
+} // namespace detail
+} // namespace grouser::terrain

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Fails where an object of detail/grain_lanes_*.cpp holds symbols that other objects may hold too (weak ones).
+foreach(object ${OBJECTS})
+  if(NOT object MATCHES "grain_lanes_(sse|avx2|avx512)")
+    continue()
+  endif()
+  execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  if(symbols MATCHES " [uvwVW] [^\n]*")
+    message(FATAL_ERROR "${object} holds${CMAKE_MATCH_0}, which the whole program might get")
+  endif()
+  math(EXPR found "${found} + 1")
+endforeach()
+if(NOT found EQUAL 3)
+  message(FATAL_ERROR "three objects were to be looked at, ${found} were found")
+endif()

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The CPU's step in lanes against the scalar kernels: the same bits for every width that this processor has.
+#include "grain_fixture.hpp"
+
+#include "base/random.hpp"
+#include "terrain/grain_lanes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+using base::Vec3d;
+
+struct Kind {
+  bool friction = true, ledger = true, walls = true, loads = false, attraction = false;
+  int grains = 391; ///< neither a multiple of a width nor of a block
+  double wallFriction = 0.5;
+};
+
+constexpr int kSteps = 400;
+
+double die(int grain, int use) {
+  return base::uniform(3, base::purpose("grain lanes test"), static_cast<std::uint64_t>(grain),
+                       static_cast<std::uint64_t>(use));
+}
+
+GrainModel modelOf(const Kind& kind) {
+  GrainModel m = ball(4e-5);
+  m.gravity = {0.5, -0.2, -9.81};
+  m.law.damping = 800, m.law.attraction = kind.attraction;
+  m.law.friction = kind.friction ? 0.4 : 0;
+  m.law.tangentialStiffness = 3e4, m.law.tangentialDamping = 300;
+  m.ledger = kind.ledger;
+  return m;
+}
+
+/// A heap that falls, splashes against the walls and comes to lie in part: contacts begin, stick, slide and end.
+std::vector<GrainStart> heap(int grains) {
+  std::vector<GrainStart> start;
+  for (int i = 0; i < grains; ++i) {
+    GrainStart g;
+    g.position = Vec3d{i % 7 + 0.09 * die(i, 0), i / 7 % 7 + 0.09 * die(i, 1), i / 49 + 0.55} * 0.0105;
+    g.velocity = {die(i, 2) - 0.5, die(i, 3) - 0.5, -die(i, 4)};
+    g.spin = {100 * die(i, 5), -50 * die(i, 6), 80 * die(i, 7)};
+    start.push_back(g);
+  }
+  return start;
+}
+
+/// Pushes every fifth grain, another fifth each step, by what depends on its id alone.
+struct Pushes {
+  std::vector<std::uint32_t> range;
+  std::vector<contact::GrainLoad> load;
+  std::int64_t received[3]{};
+  contact::GrainLoadsView view(const Grains& grains, std::int64_t step) {
+    const base::FixedPoint quantum = base::fixedPointFor(1e3);
+    range.assign(grains.slots(), 0), load.clear();
+    for (std::size_t i = 0; i < grains.slots(); ++i) {
+      const auto id = static_cast<int>(grains.ids()[i]);
+      if ((id + step) % 5 != 0) continue;
+      range[i] = static_cast<std::uint32_t>(load.size()) << 8 | 2u;
+      for (int k = 0; k < 2; ++k)
+        load.push_back({quantum.quantise(Vec3d{die(id, 8) - 0.5, die(id, 9) - 0.5, die(id, 10)} * (0.01 * (k + 1))),
+                        {1e-5f, 0, -2e-5f},
+                        1e-6f,
+                        1e-5f});
+    }
+    return {range.data(), load.data(), quantum, received};
+  }
+};
+
+std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, int steps, double skin = 0.5) {
+  GrainModel m = modelOf(kind);
+  m.mostLanes = lanes, m.skin = skin;
+  contact::ContactLaw wall = m.law;
+  wall.friction = kind.wallFriction;
+  std::vector<Wall> walls;
+  if (kind.walls) walls = {{{0, 0, 1}, 0, wall}, {{1, 0, 0}, -0.01, wall}, {{0, -1, 0}, -0.085, wall}};
+  Grains grains(base::cpuExec(threads), m, {walls, {}}, heap(kind.grains));
+  Pushes pushes;
+  for (int s = 0; s < steps; ++s) {
+    grains.refreshNeighbours();
+    const contact::GrainLoadsView loads = kind.loads ? pushes.view(grains, s) : contact::GrainLoadsView{};
+    grains.step(kind.loads ? &loads : nullptr);
+  }
+  EXPECT_TRUE(skin > 0.2 || grains.rebuilds() > 5) << "the list is rebuilt on the way";
+  return grains.stateWords();
+}
+
+TEST(GrainLanes, EveryWidthGivesTheBitsOfTheScalarKernel) {
+  const Kind kinds[] = {{},
+                        {.ledger = false},
+                        {.friction = false, .wallFriction = 0},
+                        {.friction = false, .ledger = false, .wallFriction = 0},
+                        {.friction = false}, // only walls rub: the scalar kernel must take it
+                        {.walls = false},
+                        {.loads = true},
+                        {.friction = false, .loads = true, .wallFriction = 0},
+                        {.attraction = true},
+                        {.grains = 1},
+                        {.grains = 63},
+                        {.grains = 257}};
+  for (const Kind& kind : kinds) {
+    const auto expected = wordsAfter(kind, 1, 1, kSteps);
+    for (const int lanes : {4, 8, 16})
+      EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, " << kind.grains << " grains";
+    EXPECT_TRUE(wordsAfter(kind, 16, 2, kSteps, 0.15) == expected) << "two threads, more rebuilds";
+  }
+}
+
+TEST(GrainLanes, TakeTheCommonBedsAndLeaveTheRest) {
+  contact::BasicLaw<float> law;
+  law.friction = 0.5f;
+  const unsigned bed = contact::kFriction | kBoundaries | kLedger | kLoads;
+  EXPECT_GE(laneWidth(bed, law, 16), 4);
+  EXPECT_EQ(laneWidth(bed, law, 4), 4);
+  EXPECT_EQ(laneWidth(bed, law, 1), 1);
+  for (const unsigned feature : {contact::kHertz, contact::kRollingFriction, contact::kCohesion, contact::kGeneral,
+                                 kManyRadii, kManyMaterials, kPeriodic})
+    EXPECT_EQ(laneWidth(bed | feature, law, 16), 1);
+}
+
+/// Two grains that touch by less than a float of the squares can tell, and two that just do not.
+TEST(GrainLanes, TouchOfOneUnitIsFound) {
+  GrainModel m = ball(1e-6);
+  const double unit = base::positionScale(2 * m.radius).unit;
+  for (const int units : {-2, -1, 0, 1, 2})
+    for (const int lanes : {1, 4, 8, 16}) {
+      m.mostLanes = lanes;
+      Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, {{2 * m.radius + units * unit, 0, 0}, {}, {}}});
+      advance(grains, 1);
+      std::uint64_t touching = 0;
+      for (const std::uint64_t word : grains.neighbours().toHost().touching) touching += word != 0;
+      EXPECT_EQ(touching, units < 0 ? 2u : 0u) << units << " units apart, " << lanes << " lanes";
+    }
+}
+
+TEST(GrainLanes, FaultsAreThoseOfTheScalarKernel) {
+  const auto messageOf = [](int lanes, const GrainStart& second) -> std::string {
+    GrainModel m = ball(1e-5);
+    m.mostLanes = lanes;
+    Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, second});
+    try {
+      advance(grains, 2000);
+    } catch (const base::SimulationError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const GrainStart deep{{0.007, 0, 0}, {}, {}}, fast{{0.5, 0, 0}, {200, 0, 0}, {}}, far{{127.9, 0, 0}, {100, 0, 0}, {}};
+  for (const GrainStart& second : {deep, fast, far}) {
+    const std::string expected = messageOf(1, second);
+    EXPECT_EQ(messageOf(16, second), expected);
+    EXPECT_EQ(messageOf(4, second), expected);
+  }
+  EXPECT_NE(messageOf(16, deep).find("overlaps"), std::string::npos);
+  EXPECT_NE(messageOf(16, fast).find("moves at"), std::string::npos);
+}
+
+/// Coordinates whose low words wrap on the way.
+TEST(GrainLanes, GrainsCrossTheEndsOfTheirLowWords) {
+  GrainModel m = ball(1e-5);
+  const double wrap = 4294967296.0 * base::positionScale(2 * m.radius).unit;
+  const auto words = [&](int lanes) {
+    m.mostLanes = lanes;
+    std::vector<GrainStart> start;
+    for (int k = -3; k <= 3; ++k) start.push_back({{k * wrap + 1e-4, -k * wrap - 1e-4, 1e-5}, {-1, 1, -0.5}, {}});
+    Grains grains(base::cpuExec(1), m, {}, start);
+    advance(grains, 100);
+    return grains.stateWords();
+  };
+  EXPECT_EQ(words(16), words(1));
+  EXPECT_EQ(words(8), words(1));
+  EXPECT_EQ(words(4), words(1));
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
