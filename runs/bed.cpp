@@ -5,10 +5,12 @@
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
 #include "runs/grain_kinds.hpp"
+#include "runs/joined_sides.hpp"
 #include "runs/laws.hpp"
 #include "runs/mechanism.hpp"
 #include "runs/plan.hpp"
 #include "runs/sources.hpp"
+#include "runs/tiled_bed.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
@@ -78,49 +80,78 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
   ground.layers = plan.layers;
   Surroundings around;
   around.floor = plan.floor, around.floorMaterial = groundMaterial;
-  if (t.walls)
-    around.walls = {{{1, 0, 0}, plan.walls.xMin, groundMaterial},
-                    {{-1, 0, 0}, -plan.walls.xMax, groundMaterial},
-                    {{0, 1, 0}, plan.walls.yMin, groundMaterial},
-                    {{0, -1, 0}, -plan.walls.yMax, groundMaterial}};
+  checkLevelAcross(scene, *ground.surface);
+  if (t.walls && !scene.run.periodic[0])
+    around.walls = {{{1, 0, 0}, plan.walls.xMin, groundMaterial}, {{-1, 0, 0}, -plan.walls.xMax, groundMaterial}};
+  if (t.walls && !scene.run.periodic[1])
+    around.walls.insert(around.walls.end(),
+                        {{{0, 1, 0}, plan.walls.yMin, groundMaterial}, {{0, -1, 0}, -plan.walls.yMax, groundMaterial}});
   addPlanes(scene, around);
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
+  std::optional<TiledBed> tiles;
   std::vector<terrain::GrainStart> start;
-  for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
-    start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
+  if (t.tile) {
+    tiles.emplace(scene, *ground.surface, plan, exec, timeStep);
+    start = tiles->start(options.radius, kinds.indexOf(t.material));
+    ground.layers = 0; // nothing falls
+  } else {
+    for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
+      start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
+  }
   ground.grains =
       std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
+  if (tiles) tiles->bringToRest(*ground.grains);
 }
+
+/// Cells of one largest diameter along one axis, in a ring between joined sides.
+struct CellsAlong {
+  double from = 0, width;
+  std::int64_t ring = 0; ///< cells between joined sides; 0: walls or nothing
+  double period = 0;
+
+  CellsAlong(double diameter, const std::optional<std::array<double, 2>>& joined) : width(diameter) {
+    if (!joined) return;
+    from = (*joined)[0], period = (*joined)[1] - from;
+    ring = std::max<std::int64_t>(1, static_cast<std::int64_t>(period / diameter));
+    width = period / static_cast<double>(ring);
+  }
+  std::int64_t of(double x) const { return wrapped(static_cast<std::int64_t>(std::floor((x - from) / width))); }
+  std::int64_t wrapped(std::int64_t k) const { return ring > 0 ? (k % ring + ring) % ring : k; }
+  double nearest(double d) const { return ring > 0 ? d - period * std::floor(d / period + 0.5) : d; }
+};
 
 /// Throws when grains start deeper in each other or in a plane than a run allows.
 void checkStartingOverlaps(const Scene& scene, const std::vector<Grain>& grains, double largest) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
-  std::map<Cell, std::vector<std::size_t>> cells; // of one largest diameter
-  const auto along = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (2 * largest))); };
+  const terrain::JoinedSides joined = joinedSides(scene);
+  const CellsAlong alongX(2 * largest, joined[0]), alongY(2 * largest, joined[1]), alongZ(2 * largest, {});
+  std::map<Cell, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Grain& g = grains[i];
-    const auto refuse = [&](double overlap, double radius, const std::string& what) {
+    const auto refuseAbove = [&](double overlap, double radius, const char* what, std::size_t which) {
       if (overlap <= scene.run.maxOverlap * radius) return;
-      const std::string which = i < scene.grains.size() ? fmt::format("grain.{}.position: the grain", i)
+      const std::string grain = i < scene.grains.size() ? fmt::format("grain.{}.position: the grain", i)
                                                         : fmt::format("grains: grain {} at ({:g}, {:g}, {:g}) m", i,
                                                                       g.position.x, g.position.y, g.position.z);
-      throw base::InputError(fmt::format("{}: {} overlaps {} by {:.3g} m, more than run.max_overlap = {:g} "
+      throw base::InputError(fmt::format("{}: {} overlaps {} {} by {:.3g} m, more than run.max_overlap = {:g} "
                                          "of its radius; move it",
-                                         scene.file.string(), which, what, overlap, scene.run.maxOverlap));
+                                         scene.file.string(), grain, what, which, overlap, scene.run.maxOverlap));
     };
-    const std::int64_t x = along(g.position.x), y = along(g.position.y), z = along(g.position.z);
+    const std::int64_t x = alongX.of(g.position.x), y = alongY.of(g.position.y), z = alongZ.of(g.position.z);
     for (std::int64_t k = 0; k < 27; ++k) {
-      const auto found = cells.find({x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1});
+      const auto found = cells.find({alongX.wrapped(x + k / 9 - 1), alongY.wrapped(y + k / 3 % 3 - 1), z + k % 3 - 1});
       if (found == cells.end()) continue;
-      for (const std::size_t j : found->second)
-        refuse(g.radius + grains[j].radius - norm(g.position - grains[j].position),
-               std::min(g.radius, grains[j].radius), fmt::format("grain {}", j));
+      for (const std::size_t j : found->second) {
+        Vec3d apart = g.position - grains[j].position;
+        apart.x = alongX.nearest(apart.x), apart.y = alongY.nearest(apart.y);
+        refuseAbove(g.radius + grains[j].radius - norm(apart), std::min(g.radius, grains[j].radius), "grain", j);
+      }
     }
     cells[{x, y, z}].push_back(i);
     for (std::size_t k = 0; k < scene.planes.size(); ++k)
-      refuse(g.radius - dot(base::normalized(scene.planes[k].normal), g.position - scene.planes[k].point), g.radius,
-             fmt::format("plane {}", k));
+      refuseAbove(g.radius - dot(base::normalized(scene.planes[k].normal), g.position - scene.planes[k].point),
+                  g.radius, "plane", k);
   }
 }
 
@@ -128,6 +159,7 @@ void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeSt
                        Ground& ground) {
   const GrainKinds kinds = grainKinds(scene);
   const std::vector<Grain> grains = placedGrains(scene);
+  checkBetweenSides(scene, grains);
   checkStartingOverlaps(scene, grains, kinds.largest);
   std::vector<terrain::GrainStart> start;
   for (const Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
@@ -149,6 +181,7 @@ terrain::LayerOptions layerOptions(const Scene& scene) {
   options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
   options.floor = t.floor == "flat" ? terrain::FloorShape::flat : terrain::FloorShape::follow;
   options.seed = static_cast<std::uint64_t>(scene.run.seed);
+  options.joined = scene.run.periodic;
   return options;
 }
 

@@ -20,7 +20,7 @@ struct Ground {
   std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
   std::unique_ptr<terrain::Grains> grains;     ///< null without grains
   std::optional<terrain::Rectangle> walls;     ///< around a bed
-  int layers{1};                               ///< of a bed
+  int layers{1};                               ///< of a bed that has to fall into place; 0: it does not
   std::shared_ptr<const terrain::BedSurface> undisturbed; ///< of a settled bed, before the vehicle touched it
 };
 

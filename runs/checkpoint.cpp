@@ -22,12 +22,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 3; // of the layout below
+constexpr int kVersion = 4; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
 template <> struct Layout<base::Position> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::Remainders> { using Number = std::uint32_t; };
+template <> struct Layout<terrain::Crossings> { using Number = std::int32_t; };
 template <class T> struct Layout<base::Vec3<T>> { using Number = T; };
 template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
@@ -58,6 +59,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive.perGrain("/grains/radius", g.radius, g.total);
     archive.perGrain("/grains/material", g.material, g.total);
     archive.perGrain("/grains/dissipated", g.dissipated, g.total);
+    archive.perGrain("/grains/crossings", g.crossings, g.total);
     archive.perGrain("/grains/wall_bits", g.wallBits, g.total);
     archive.perGrain("/grains/wall_shear", g.wallShear, g.total);
     archive.perGrain("/grains/wall_rolling", g.wallRolling, g.total);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/grain_kinds.hpp"
 
+#include "runs/joined_sides.hpp"
 #include "runs/laws.hpp"
 
 #include <algorithm>
@@ -59,6 +60,7 @@ terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, doub
   for (const Surroundings::Wall& w : surroundings.walls)
     boundaries.walls.push_back({w.normal, w.offset, pairLaw(scene, first, w.material, mass(1))});
   boundaries.floor = surroundings.floor;
+  boundaries.joined = joinedSides(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
   if (!kinds.manyMaterials()) return model;
 

@@ -42,6 +42,8 @@ hid_t fileType(NumberType type) {
     return H5T_IEEE_F64LE;
   case NumberType::Int64:
     return H5T_STD_I64LE;
+  case NumberType::Int32:
+    return H5T_STD_I32LE;
   case NumberType::UInt32:
     return H5T_STD_U32LE;
   }
@@ -56,6 +58,8 @@ hid_t memoryType(NumberType type) {
     return H5T_NATIVE_DOUBLE;
   case NumberType::Int64:
     return H5T_NATIVE_INT64;
+  case NumberType::Int32:
+    return H5T_NATIVE_INT32;
   case NumberType::UInt32:
     return H5T_NATIVE_UINT32;
   }

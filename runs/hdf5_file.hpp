@@ -14,11 +14,12 @@
 namespace grouser::runs {
 
 /// Number types that go into a file; always stored little-endian.
-enum class NumberType { Float32, Float64, Int64, UInt32 };
+enum class NumberType { Float32, Float64, Int64, Int32, UInt32 };
 template <class T> struct NumberTypeOf;
 template <> struct NumberTypeOf<float> { static constexpr NumberType value = NumberType::Float32; };
 template <> struct NumberTypeOf<double> { static constexpr NumberType value = NumberType::Float64; };
 template <> struct NumberTypeOf<std::int64_t> { static constexpr NumberType value = NumberType::Int64; };
+template <> struct NumberTypeOf<std::int32_t> { static constexpr NumberType value = NumberType::Int32; };
 template <> struct NumberTypeOf<std::uint32_t> { static constexpr NumberType value = NumberType::UInt32; };
 
 /// A dataset that grows by rows of `width` numbers: shape [rows, width], or [rows] where width is 0.

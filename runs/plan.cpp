@@ -49,6 +49,7 @@ unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
     if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
   }
   if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
+  if (scene.run.periodic[0] || scene.run.periodic[1]) features |= terrain::kPeriodic;
   if (kinds.many()) features |= terrain::kManyRadii;
   if (kinds.manyMaterials()) features |= terrain::kManyMaterials;
   return scene.vehicle ? features | terrain::kLoads : features;
@@ -104,6 +105,12 @@ std::string switches(const Scene& scene) {
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
+  const auto [alongX, alongY] = scene.run.periodic;
+  text += onOff(alongX || alongY, "joined sides",
+                alongX && alongY ? "x and y"
+                : alongX         ? "x"
+                : alongY         ? "y"
+                                 : "run.periodic is false");
   text += onOff(!scene.sources.empty(), "sources", fmt::format("{}", scene.sources.size()));
   text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
   text += onOff(scene.vehicle.has_value(), "vehicle",

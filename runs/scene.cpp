@@ -164,6 +164,8 @@ void readGrainsAndPlanes(const Section& root, Scene& scene) {
   }
 }
 
+constexpr double kLeastPeriod = 12; // of a tile, in radii [-]
+
 void readTerrain(const Section& section, Scene& scene) {
   Terrain t = section.read(detail::terrainTable());
   checkMaterial(scene, section, "material", t.material);
@@ -180,10 +182,14 @@ void readTerrain(const Section& section, Scene& scene) {
     if (t.depth && *t.depth < 2 * *t.grainRadius)
       section.fail("depth", fmt::format("[m] is less than one grain of radius {} m; give at least {}", *t.grainRadius,
                                         2 * *t.grainRadius));
+    if (t.tile && std::min((*t.tile)[0], (*t.tile)[1]) < kLeastPeriod * *t.grainRadius)
+      section.fail("tile", fmt::format("[m] is less than {} grain radii: grains would touch their own images; give at "
+                                       "least {:g}",
+                                       kLeastPeriod, kLeastPeriod * *t.grainRadius));
     if (std::min(t.size[0], t.size[1]) < 4 * *t.grainRadius)
       section.fail("size", fmt::format("[m] holds less than two grains of radius {} m; enlarge it", *t.grainRadius));
   } else {
-    for (const char* key : {"grain_radius", "layers", "depth"})
+    for (const char* key : {"grain_radius", "layers", "depth", "tile"})
       if (section.has(key)) section.fail(key, "has no meaning on rigid ground; remove it, or set kind = \"granular\"");
   }
   resolveFile(scene, section, "heightmap", t.heightmap);
@@ -247,6 +253,31 @@ void readParallel(const Section& section, Scene& scene) {
         section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
 }
 
+/// Joined sides: where they stand must be known, and what stands between them must be able to do without sides.
+void checkPeriodic(const Section& section, const Scene& scene) {
+  const RunSettings& run = scene.run;
+  const std::optional<std::array<double, 2>>* domains[] = {&run.domainX, &run.domainY};
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto& domain = *domains[a];
+    const std::string key = std::string("domain_") + "xy"[a];
+    if (domain && !run.periodic[a])
+      section.fail(key,
+                   fmt::format("[m] has no meaning where run.periodic does not join the sides along {}; remove it, "
+                               "or join them",
+                               "xy"[a]));
+    if (domain && scene.terrain) section.fail(key, "[m] stands beside [terrain], whose borders are joined; remove it");
+    if (domain && !((*domain)[1] > (*domain)[0])) section.fail(key, "[m] does not increase; give the lower side first");
+    if (run.periodic[a] && !domain && !scene.terrain)
+      section.fail("periodic",
+                   fmt::format("joins sides along {} that stand nowhere; give run.{} = [from, to] [m]", "xy"[a], key));
+  }
+  if (!run.periodic[0] && !run.periodic[1]) return;
+  if (scene.vehicle) section.fail("periodic", "is not possible beside a [vehicle]; set it to [false, false]");
+  if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() &&
+      !(scene.terrain && scene.terrain->granular()))
+    section.fail("periodic", "joins sides for grains, of which this scene has none; remove it");
+}
+
 void checkIntervals(const Section& section, const RunSettings& run) {
   if (!run.timeStep) return;
   if (*run.timeStep > run.duration)
@@ -276,6 +307,7 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
+  checkPeriodic(root.section("run"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
   if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
       scene.mechanism.empty())

@@ -25,16 +25,18 @@ struct RunSettings {
   double frameInterval = 0.1;
   double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
-  std::string device = "auto";               ///< auto | cpu | cuda
-  std::string precision = "single";          ///< of the grains' forces: single | double
-  double impactSpeed = 1.0;                  ///< [m/s] that the step of hertz materials is chosen for
-  int threads = 0;                           ///< 0: all
-  std::string integrator = "rattle";         ///< of mechanisms: rattle | symplectic_euler
-  int integratorOrder = 2;                   ///< of rattle: 2, 4, 6, 8
-  std::string springs = "implicit";          ///< of rattle: explicit | implicit
-  std::optional<double> constraintTolerance; ///< [m], [rad] to which joints are closed; empty: the solver's own
-  double skin = 0.3;                         ///< [-] of a grain's radius
-  double maxOverlap = 0.2;                   ///< [-] of a grain's radius; beyond it the run stops
+  std::string device = "auto";                ///< auto | cpu | cuda
+  std::string precision = "single";           ///< of the grains' forces: single | double
+  double impactSpeed = 1.0;                   ///< [m/s] that the step of hertz materials is chosen for
+  int threads = 0;                            ///< 0: all
+  std::string integrator = "rattle";          ///< of mechanisms: rattle | symplectic_euler
+  int integratorOrder = 2;                    ///< of rattle: 2, 4, 6, 8
+  std::string springs = "implicit";           ///< of rattle: explicit | implicit
+  std::optional<double> constraintTolerance;  ///< [m], [rad] to which joints are closed; empty: the solver's own
+  double skin = 0.3;                          ///< [-] of a grain's radius
+  double maxOverlap = 0.2;                    ///< [-] of a grain's radius; beyond it the run stops
+  std::array<bool, 2> periodic{false, false}; ///< x, y: opposite sides are joined
+  std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
   bool operator==(const RunSettings&) const = default;
 };
 
@@ -128,10 +130,11 @@ struct Terrain {
   double packing = 0.6; ///< [-] solid fraction expected once settled
   std::string floor = "follow";
   bool walls = true;
+  std::optional<std::array<double, 2>> tile; ///< [m] x, y; settle a piece of this size, then fill the terrain with it
   double settleTimeLimit = 3.0;
-  double settleKineticEnergy = 1e-4; ///< [-] mean kinetic energy a grain over m g radius
+  double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy a grain over m g radius
   std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
-  bool cache = true;                 ///< keep the settled bed for later runs, and take it from one
+  bool cache = true;                      ///< keep the settled bed for later runs, and take it from one
   bool granular() const { return kind == "granular"; }
   bool operator==(const Terrain&) const = default;
 };

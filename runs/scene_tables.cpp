@@ -57,6 +57,10 @@ Table<RunSettings> runTable() {
   t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
       .above(0)
       .atMost(1);
+  t.add("periodic", &S::periodic, "",
+        "whether opposite sides along x, y are joined: grains that leave through one enter through the other");
+  t.add("domain_x", &S::domainX, "m", "where joined sides stand along x; without it at the borders of the terrain");
+  t.add("domain_y", &S::domainY, "m", "the same along y");
   return t;
 }
 
@@ -192,6 +196,9 @@ Table<Terrain> terrainTable() {
       .atLeast(0)
       .atMost(1);
   t.add("packing", &S::packing, "-", "solid fraction expected once settled").atLeast(0.3).atMost(0.74);
+  t.add("tile", &S::tile, "m",
+        "x, y of a piece that is settled alone, with joined sides, and copied over the terrain; needs a level floor")
+      .above(0);
   t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat").oneOf({"follow", "flat"});
   t.add("walls", &S::walls, "", "upright walls along the edges of the map, that hold the bed");
   t.add("settle_time_limit", &S::settleTimeLimit, "s", "the bed must be at rest by then; 0 leaves settling out")

@@ -39,13 +39,15 @@ struct GrainSnapshot {
   std::vector<float> radius;         ///< [m]; empty where all are the model's
 };
 
+/// Along x and y: the places [m] of two sides that are joined, where they are. What leaves through one enters through
+/// the other, and grains touch across them.
+using JoinedSides = std::array<std::optional<std::array<double, 2>>, 2>;
+
 /// Rigid surroundings of the grains: plane walls and a height-field floor.
 struct Boundaries {
   std::vector<Wall> walls; ///< at most 31
   std::optional<HeightField> floor;
-  /// Along x and y: the places [m] of two sides that are joined, where they are. What leaves through one enters through
-  /// the other, and grains touch across them. Walls and floor do not know of it: they must look alike at both sides.
-  std::array<std::optional<std::array<double, 2>>, 2> joined{};
+  JoinedSides joined{}; ///< walls and floor do not know of it: they must look alike at both sides
 };
 
 /// Spheres under gravity, in contact with each other, with walls, a floor and rigid parts.

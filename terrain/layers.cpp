@@ -39,8 +39,13 @@ void check(const LayerOptions& o) {
 struct Axis {
   double start{}, spacing{}, offset{};
   int count[2]{};
+  double period{0}; ///< of joined sides; 0: walls
 
   double at(int i, int layer) const { return start + (layer & 1) * offset + i * spacing; }
+  /// From `a` to `b`, or to the nearest image of it.
+  double apart(double a, double b) const {
+    return period > 0 ? b - a - period * std::floor((b - a) / period + 0.5) : b - a;
+  }
 };
 
 /// As many points as fit between walls that leave `length` for grains' centres, centred; odd layers sit in between.
@@ -50,6 +55,13 @@ Axis fit(double from, double length, double spacing) {
   if (left >= spacing / 2) return {from + (left - spacing / 2) / 2, spacing, spacing / 2, {n, n}};
   if (n == 1) return {from + left / 2, spacing, 0, {1, 1}};
   return {from + left / 2, spacing, spacing / 2, {n, n - 1}};
+}
+
+/// A ring of points, as many as fit between joined sides; odd layers sit in between.
+Axis ring(double from, double length, double spacing) {
+  const int n = static_cast<int>(std::floor(length / spacing * (1 + 1e-12)));
+  const double pitch = length / std::max(1, n);
+  return {from + pitch / 4, pitch, pitch / 2, {n, n}, length};
 }
 
 /// The sites of a bed: which lattice points bear a grain.
@@ -62,14 +74,16 @@ public:
     const Rectangle& a = surface.area();
     walls_ = {a.xMin + o.wallMargin, a.xMax - o.wallMargin, a.yMin + o.wallMargin, a.yMax - o.wallMargin};
     const double inset = o.radius * (1 + kFloorGap) + jitter_;
-    const double roomX = walls_.width() - 2 * inset, roomY = walls_.length() - 2 * inset;
-    if (!(roomX >= 0 && roomY >= 0))
+    const auto axis = [&](std::size_t which, double from, double to) {
+      if (o.joined[which]) return ring(from, to - from, spacing_);
+      return to - from < 2 * inset ? Axis{} : fit(from + inset, to - from - 2 * inset, spacing_);
+    };
+    x_ = axis(0, walls_.xMin, walls_.xMax), y_ = axis(1, walls_.yMin, walls_.yMax);
+    if (x_.count[0] < 1 || y_.count[0] < 1)
       throw InputError(
           fmt::format("bed of grains: no grain of radius {} m fits between walls {} x {} m apart; take smaller "
                       "grains, a larger terrain or a smaller wall margin",
                       o.radius, walls_.width(), walls_.length()));
-    x_ = fit(walls_.xMin + inset, roomX, spacing_);
-    y_ = fit(walls_.yMin + inset, roomY, spacing_);
 
     const double volume = 4.0 / 3.0 * base::kPi * o.radius * o.radius * o.radius;
     const double mean = 0.5 * (double(x_.count[0]) * y_.count[0] + double(x_.count[1]) * y_.count[1]);
@@ -109,10 +123,16 @@ public:
     const auto [j0, j1] = supports(y_, j, layer);
     for (int b = j0; b <= j1; ++b)
       for (int a = i0; a <= i1; ++a)
-        if (a >= 0 && b >= 0 && a < x_.count[below & 1] && b < y_.count[below & 1]) f(a, b);
+        if (site(x_, a, below) >= 0 && site(y_, b, below) >= 0) f(site(x_, a, below), site(y_, b, below));
   }
 
 private:
+  /// The lattice point i of a layer, or the one at the other end of a ring; -1: there is none.
+  static int site(const Axis& axis, int i, int layer) {
+    const int n = axis.count[layer & 1];
+    if (axis.period > 0) return (i + n) % n;
+    return i >= 0 && i < n ? i : -1;
+  }
   static std::pair<int, int> supports(const Axis& axis, int i, int layer) {
     if (axis.offset == 0) return {i, i};
     return (layer & 1) ? std::pair{i, i + 1} : std::pair{i - 1, i};
@@ -218,7 +238,8 @@ std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& opti
         if (layer > 0)
           lattice.forEachSupport(i, j, layer, [&](int a, int b) {
             const Vec3d& s = below[lattice.index(a, b, layer - 1)];
-            const double flat2 = (c.x - s.x) * (c.x - s.x) + (c.y - s.y) * (c.y - s.y);
+            const double dx = lattice.x().apart(s.x, c.x), dy = lattice.y().apart(s.y, c.y);
+            const double flat2 = dx * dx + dy * dy;
             c.z = std::max(c.z, s.z + std::sqrt(apart2 - flat2));
           });
         c.z = clearHeight(floor, c.x, c.y, c.z, clear);

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/joined_sides.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+terrain::JoinedSides joinedSides(const Scene& scene) {
+  terrain::JoinedSides sides;
+  const RunSettings& run = scene.run;
+  if (run.periodic[0]) {
+    if (scene.terrain) sides[0] = {0.0, scene.terrain->size[0]};
+    if (run.domainX) sides[0] = *run.domainX;
+  }
+  if (run.periodic[1]) {
+    if (scene.terrain) sides[1] = {-0.5 * scene.terrain->size[1], 0.5 * scene.terrain->size[1]};
+    if (run.domainY) sides[1] = *run.domainY;
+  }
+  return sides;
+}
+
+void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
+  const terrain::JoinedSides sides = joinedSides(scene);
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (!sides[a]) continue;
+    const auto [from, to] = *sides[a];
+    const int axis = static_cast<int>(a);
+    const auto check = [&](double low, double high, const std::string& what) {
+      if (low >= from && high < to) return;
+      throw base::InputError(fmt::format("{}: {} reaches from {} = {:g} to {:g} m, outside the joined sides {:g} and "
+                                         "{:g} m; move it between them, or move run.domain_{}",
+                                         scene.file.string(), what, "xy"[a], low, high, from, to, "xy"[a]));
+    };
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      const double at = grains[i].position[axis];
+      if (!(at >= from && at < to))
+        check(at, at, (i < scene.grains.size() ? "the centre of grain." : "the centre of grain ") + std::to_string(i));
+    }
+    for (std::size_t k = 0; k < scene.sources.size(); ++k)
+      check(scene.sources[k].low[axis], scene.sources[k].high[axis], fmt::format("source.{}", k));
+  }
+}
+
+void checkLevelAcross(const Scene& scene, const terrain::HeightField& surface) {
+  const terrain::HeightFieldBounds all = surface.boundsOver(surface.area());
+  const double tolerance = 1e-9 * std::max(1.0, std::fabs(all.highest));
+  const terrain::Rectangle& area = surface.area();
+  constexpr int kSamples = 64;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!scene.run.periodic[static_cast<std::size_t>(axis)]) continue;
+    for (int along = 0; along <= kSamples; ++along)
+      for (int across = 1; across <= kSamples; ++across) {
+        const auto height = [&](int k) {
+          const double s = static_cast<double>(k) / kSamples, t = static_cast<double>(along) / kSamples;
+          return surface.height(area.xMin + (axis == 0 ? s : t) * area.width(),
+                                area.yMin + (axis == 0 ? t : s) * area.length());
+        };
+        if (std::fabs(height(across) - height(0)) <= tolerance) continue;
+        throw base::InputError(fmt::format(
+            "{}: run.periodic joins the sides along {}, but terrain.heightmap = {} is not level in that direction; use "
+            "a level height-map, or set run.periodic = [{}]",
+            scene.file.string(), "xy"[axis], scene.terrain->heightmap, axis == 0 ? "false, ..." : "..., false"));
+      }
+  }
+}
+
+} // namespace grouser::runs
