@@ -42,6 +42,7 @@ struct Solver::Impl {
         x(at(system.nodes())) {
     checkClosed(system, m);
     redundancy = findRedundantRows(system, m);
+    checkCouplings(system, m);
     checkDrives(system, m);
     const bool rattle = options.integrator == Integrator::kRattle;
     // Twists of kSymplecticEuler are means over steps, and an imposed rate belongs to the first step.

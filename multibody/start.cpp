@@ -23,6 +23,9 @@ constexpr double kStartGap = 1e-6;
 /// A drive whose axis can move by less than this part of what it could alone is taken as fixed by the others.
 constexpr double kFixedAxis = 1e-9;
 
+/// An axis that couplings leave less than this part of its mobility is locked: round-off, and beyond any reduction.
+constexpr double kLockedAxis = 1e-13;
+
 template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) {
   std::ostringstream message;
   (message << ... << parts);
@@ -84,6 +87,43 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
     if (!(std::fabs(gap) <= kStartGap))
       refuse("coupling '", model.couplings()[c].name, "' is open by ", gap, " [m or rad] at the start; allowed are ",
              kStartGap, "; place the bodies so that it closes, or leave its offset out");
+  }
+}
+
+/// An axis that could move but for the couplings, and cannot with them, is one that two of them want to move by
+/// different amounts. Mobility: row . y with y = K^-1 row.
+void checkCouplings(ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<AxisLaw> laws = hardOnly(system);
+  for (const ConstraintSystem::Part& part : system.parts()) {
+    if (part.couplings.empty()) continue;
+    const auto mobilities = [&](bool coupled) {
+      system.setCouplingsOn(coupled);
+      system.linearise(part, frames, laws);
+      std::vector<std::pair<double, double>> of; // both axes of each coupling
+      for (const int c : part.couplings) {
+        const auto mobility = [&](int axis) {
+          const Axis& a = system.axes()[at(axis)];
+          std::vector<Vector6> y(at(system.nodes()));
+          system.addImpulse(a.constraint, a.row, 1, y);
+          system.solve(part, y);
+          return system.rowTimes(a.constraint, a.row, y);
+        };
+        of.emplace_back(mobility(system.couplings()[at(c)].axis1), mobility(system.couplings()[at(c)].axis2));
+      }
+      return of;
+    };
+    const auto alone = mobilities(false), together = mobilities(true);
+    const auto locked = [](double before, double after) { return before > 0 && after <= kLockedAxis * before; };
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      if (!locked(alone[i].first, together[i].first) || !locked(alone[i].second, together[i].second)) continue;
+      std::string all;
+      for (const int c : part.couplings) all += (all.empty() ? "'" : ", '") + model.couplings()[at(c)].name + "'";
+      const Coupling& coupling = model.couplings()[at(part.couplings[i])];
+      refuse("coupling '", coupling.name, "': joints '", model.joints()[at(coupling.joint1)].name, "' and '",
+             model.joints()[at(coupling.joint2)].name, "' cannot move, since the couplings contradict each other (",
+             all, "); leave one of them out, or correct a ratio");
+    }
   }
 }
 

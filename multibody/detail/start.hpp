@@ -14,6 +14,9 @@ namespace grouser::multibody::detail {
 /// Joints and couplings are closed, and their frames do not stand opposite to one another.
 void checkClosed(const ConstraintSystem& system, const Model& model);
 
+/// No two couplings lock the axes that they tie. After the redundant rows are dropped.
+void checkCouplings(ConstraintSystem& system, const Model& model);
+
 /// No drive's axis is already determined by joints, couplings and the drives before it; position laws begin where the
 /// axes are. After the redundant rows are dropped.
 void checkDrives(ConstraintSystem& system, const Model& model);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.hpp"
 #include "benchmarks.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace grouser::multibody::test {
 namespace {
@@ -37,6 +39,52 @@ TEST_P(Couplings, GearedWheelsTurnInTheirRatioAndShareTheTorque) {
   EXPECT_NEAR(m.state.twist[1].w.z, -2 * alpha, 1e-10);
   EXPECT_NEAR(m.state.joint[1].position + 2 * m.state.joint[0].position, 0, 1e-10);
   EXPECT_NEAR(m.state.coupling[0].force, -2 * alpha * 0.1, 1e-8);
+}
+
+/// Three wheels on axles of their own, coupled as told: {first, second, ratio}.
+struct Mesh {
+  int first, second;
+  double ratio;
+};
+Model wheels(const std::vector<Mesh>& meshes) {
+  Model model;
+  for (int i = 0; i < 3; ++i) {
+    const Pose place{{1.0 * i, 0, 0}, {}};
+    model.addBody(makeBody("wheel " + std::to_string(i), 1, kInertia, place));
+    model.addJointAt("hub " + std::to_string(i), JointType::kRevolute, kWorld, i, place);
+  }
+  for (const Mesh& m : meshes) {
+    Coupling c;
+    c.name = "mesh " + std::to_string(model.couplings().size());
+    c.joint1 = m.first, c.joint2 = m.second, c.ratio = m.ratio;
+    model.addCoupling(c);
+  }
+  return model;
+}
+
+TEST(CouplingCheck, ATrainThatLocksItselfIsRefusedByName) {
+  // Two ratios for two wheels; and a loop of three whose last ratio is not the product of the others.
+  for (const auto& meshes : {std::vector<Mesh>{{0, 1, -2}, {0, 1, 3}}, {{0, 1, -2}, {1, 2, -3}, {0, 2, 5}}}) {
+    const Model model = wheels(meshes);
+    try {
+      const Solver solver(model);
+      FAIL() << "nothing can move";
+    } catch (const base::InputError& e) {
+      const std::string what = e.what();
+      EXPECT_NE(what.find("coupling 'mesh 0': joints 'hub 0' and 'hub 1' cannot move"), std::string::npos) << what;
+      EXPECT_NE(what.find("'mesh 1'"), std::string::npos) << what;
+    }
+  }
+}
+
+TEST(CouplingCheck, ATrainThatAgreesWithItselfIsTaken) {
+  const auto freedom = [](const std::vector<Mesh>& meshes) {
+    const Model model = wheels(meshes);
+    return Solver(model).degreesOfFreedom();
+  };
+  EXPECT_EQ(freedom({{0, 1, -2}, {0, 1, -2}}), 2);
+  EXPECT_EQ(freedom({{0, 1, -2}, {1, 2, -3}, {0, 2, 6}}), 1);
+  EXPECT_EQ(freedom({{0, 1, 1e-3}, {1, 2, 1e-3}}), 1) << "a reduction by a million is no lock";
 }
 
 TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
