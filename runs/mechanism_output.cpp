@@ -181,6 +181,7 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
 void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vector<std::string>& record) {
   const multibody::Model& model = mechanism.model();
   const multibody::State& state = mechanism.state();
+  const bool stepped = state.time > 0; // what acts on the bodies is found in a step: nothing is known before the first
   for (std::size_t i = 0; i < model.bodies().size(); ++i) {
     if (!isKept(record, model.bodies()[i].name)) continue;
     const std::string path = "bodies/" + model.bodies()[i].name + "/";
@@ -195,19 +196,19 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
     if (!isKept(record, j.name)) continue;
     const std::string path = "joints/" + j.name + "/";
     const multibody::JointReading& r = state.joint[i];
-    row.set(path + "force", r.force);
-    row.set(path + "torque", r.torque);
+    if (stepped) row.set(path + "force", r.force);
+    if (stepped) row.set(path + "torque", r.torque);
     for (const NamedAxis& a : axesOf(j)) {
       const multibody::AxisReading axis = multibody::axisReading(model, state, static_cast<int>(i), a.axis);
       row.set(path + a.prefix + "position", axis.position);
       row.set(path + a.prefix + "rate", axis.rate);
-      row.set(path + a.prefix + "force_along", axis.axisForce);
+      if (stepped) row.set(path + a.prefix + "force_along", axis.axisForce);
     }
   }
   for (std::size_t i = 0; i < model.pointSprings().size(); ++i) {
     const std::string& name = model.pointSprings()[i].name;
     if (!isKept(record, name)) continue;
-    row.set("springs/" + name + "/force", state.spring[i].force);
+    if (stepped) row.set("springs/" + name + "/force", state.spring[i].force);
     row.set("springs/" + name + "/length", state.spring[i].length);
   }
   for (std::size_t i = 0; i < model.axisSprings().size(); ++i) {
@@ -219,8 +220,8 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
     if (!isKept(record, model.bushings()[i].name)) continue;
     const std::string path = "bushings/" + model.bushings()[i].name + "/";
     const multibody::BushingReading& r = state.bushing[i];
-    row.set(path + "force", r.force);
-    row.set(path + "torque", r.torque);
+    if (stepped) row.set(path + "force", r.force);
+    if (stepped) row.set(path + "torque", r.torque);
     row.set(path + "translation", r.translation);
     row.set(path + "rotation", r.rotation);
   }
@@ -229,11 +230,11 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
     if (!isKept(record, name)) continue;
     const Mechanism::DriveReading r = mechanism.drive(static_cast<int>(i));
     row.set("drives/" + name + "/value", r.value);
-    row.set("drives/" + name + "/torque", r.torque);
-    row.set("drives/" + name + "/power", r.power);
+    if (stepped) row.set("drives/" + name + "/torque", r.torque);
+    if (stepped) row.set("drives/" + name + "/power", r.power);
   }
   for (std::size_t i = 0; i < model.couplings().size(); ++i)
-    if (isKept(record, model.couplings()[i].name))
+    if (stepped && isKept(record, model.couplings()[i].name))
       row.set("couplings/" + model.couplings()[i].name + "/force", state.coupling[i].force);
   const Mechanism::Ledger ledger = mechanism.ledger();
   row.set("momentum/linear", ledger.linearMomentum);

@@ -107,30 +107,33 @@ struct Figure {
 };
 
 /// The figures of one run, all NaN where `file` is null: one list for header and rows.
-std::vector<Figure> figuresOf(const Hdf5File* file, double from) {
+std::vector<Figure> figuresOf(const Hdf5File* file, double from, bool vehicle) {
   const Steady steady(file, from);
+  std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
+                              {"energy residual [J]", steady.last("ledger/residual")}};
+  if (!vehicle) return figures;
   // Both tracks together: what the hull did against what the sprockets asked for.
   const double speed = steady.ofTracks("speed").mean();
   const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
   const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
-  return {{"steady from [s]", file ? from : kNone},
-          {"teeth passed [-]",
-           0.5 * (steady.change("vehicle/left/teeth_passed") + steady.change("vehicle/right/teeth_passed"))},
-          {"speed [m/s]", speed},
-          {"slip [-]", asked != 0 ? 1 - speed / asked : kNone},
-          {"sinkage mean [m]", sinkage.mean()},
-          {"sinkage max [m]", sinkage.most},
-          {"drive torque [N m]",
-           steady.of("vehicle/left/drive_torque").mean() + steady.of("vehicle/right/drive_torque").mean()},
-          {"drive power [W]", steady.meanProduct("drive_torque", "sprocket_speed")},
-          {"tension mean [N]", tension.mean()},
-          {"tension peak [N]", tension.most},
-          {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
-          {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
-          {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()},
-          {"drive work [J]", steady.last("ledger/drive_work")},
-          {"energy residual [J]", steady.last("ledger/residual")},
-          {"impulse residual [N s]", steady.lastNorm("ledger/impulse_residual")}};
+  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : kNone},
+                                      {"teeth passed [-]", 0.5 * (steady.change("vehicle/left/teeth_passed") +
+                                                                  steady.change("vehicle/right/teeth_passed"))},
+                                      {"speed [m/s]", speed},
+                                      {"slip [-]", asked != 0 ? 1 - speed / asked : kNone},
+                                      {"sinkage mean [m]", sinkage.mean()},
+                                      {"sinkage max [m]", sinkage.most},
+                                      {"drive torque [N m]", steady.of("vehicle/left/drive_torque").mean() +
+                                                                 steady.of("vehicle/right/drive_torque").mean()},
+                                      {"drive power [W]", steady.meanProduct("drive_torque", "sprocket_speed")},
+                                      {"tension mean [N]", tension.mean()},
+                                      {"tension peak [N]", tension.most},
+                                      {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
+                                      {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
+                                      {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()}};
+  figures.insert(figures.begin(), ofVehicle.begin(), ofVehicle.end());
+  figures.push_back({"impulse residual [N s]", steady.lastNorm("ledger/impulse_residual")});
+  return figures;
 }
 
 /// A cell that any reader of CSV takes whole.
@@ -156,7 +159,7 @@ nlohmann::json readManifest(const fs::path& folder) {
 }
 
 /// The cells of one run, in the order of the header.
-std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder) {
+std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder, bool vehicle) {
   std::vector<std::string> cells = {quoted(run.name)};
   for (const std::string& value : run.values) cells.push_back(quoted(value));
   cells.push_back(outcome.status);
@@ -167,7 +170,8 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
   std::optional<Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
     file.emplace(Hdf5File::open(results));
-  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene))) cells.push_back(cell(f.value));
+  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene), vehicle))
+    cells.push_back(cell(f.value));
   cells.push_back(manifest.value("state_hash", ""));
   cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
   return cells;
@@ -183,15 +187,17 @@ double steadyFrom(const Scene& scene) {
 }
 
 fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
+  const bool vehicle = std::any_of(plan.runs.begin(), plan.runs.end(),
+                                   [](const SweepRun& run) { return run.scene.vehicle.has_value(); });
   std::vector<std::string> header = {"run"};
   for (const std::string& key : plan.keys) header.push_back(quoted(key));
   for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
     header.push_back(column);
-  for (const Figure& f : figuresOf(nullptr, kNone)) header.push_back(f.column);
+  for (const Figure& f : figuresOf(nullptr, kNone, vehicle)) header.push_back(f.column);
   header.insert(header.end(), {"state hash", "commit"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder), ","));
+    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, vehicle), ","));
 
   const fs::path path = folder / "summary.csv", part = folder / "summary.csv.part";
   std::ofstream file(part, std::ios::binary);

@@ -80,6 +80,18 @@ TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
   EXPECT_TRUE(fs::exists(folder_ / "r" / "frames.xdmf"));
 }
 
+TEST_F(MechanismRun, ForcesBeforeTheFirstStepAreMissingNotZero) {
+  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.02" + kBare);
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* path : {"joints/crank pin/force", "joints/crank pin/torque", "joints/cylinder/slide_force_along",
+                           "drives/motor/torque", "drives/motor/power"}) {
+    const std::vector<double> values = series("r", path);
+    EXPECT_TRUE(std::isnan(values.front())) << path;
+    EXPECT_TRUE(std::isfinite(values.back())) << path;
+  }
+  EXPECT_TRUE(std::isfinite(series("r", "joints/main bearing/position").front()));
+}
+
 TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
   // A checkpoint between two rows: 0.0125 s, rows each 0.005 s.
   const std::string scene = kMechanisms + "slider_crank.toml" + kBare +
@@ -124,7 +136,10 @@ TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
   const Outcome o = call("sweep " + kMechanisms + "pendulum.toml --set body.0.mass=1,2 --out s" +
                          " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
   EXPECT_EQ(o.code, 0) << o.errors;
-  EXPECT_TRUE(fs::exists(folder_ / "s" / "summary.csv"));
+  const std::string summary = contents(folder_ / "s" / "summary.csv"), header = summary.substr(0, summary.find('\n'));
+  EXPECT_NE(header.find("energy residual [J]"), std::string::npos) << header;
+  for (const char* ofVehicles : {"teeth", "slip", "sinkage", "impulse"})
+    EXPECT_EQ(header.find(ofVehicles), std::string::npos) << header;
 }
 
 TEST_F(MechanismRun, RecordKeepsOnlyWhatItNames) {
