@@ -2,6 +2,7 @@
 #include "runs/bed.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
 #include "runs/grain_kinds.hpp"
@@ -36,8 +37,10 @@ terrain::HeightField readSurface(const Terrain& t) {
   return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
 }
 
-void addPlanes(const Scene& scene, Surroundings& around) {
+void addPlanesAndSurfaces(const Scene& scene, Surroundings& around) {
+  around.surfaces = surfacesOf(scene);
   for (const Plane& plane : scene.planes) {
+    if (!plane.isWall()) continue;
     const Vec3d normal = base::normalized(plane.normal);
     around.walls.push_back({normal, dot(normal, plane.point), plane.material});
   }
@@ -86,18 +89,27 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
   if (t.walls && !scene.run.periodic[1])
     around.walls.insert(around.walls.end(),
                         {{{0, 1, 0}, plan.walls.yMin, groundMaterial}, {{0, -1, 0}, -plan.walls.yMax, groundMaterial}});
-  addPlanes(scene, around);
+  addPlanesAndSurfaces(scene, around);
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   std::optional<TiledBed> tiles;
   std::vector<terrain::GrainStart> start;
+  // The bed is laid around what stands in it.
+  const auto taken = [&](const Vec3d& centre) {
+    return std::any_of(around.surfaces.begin(), around.surfaces.end(),
+                       [&](const SceneSurface& s) { return startingOverlap(s, centre, options.radius) > 0; });
+  };
   if (t.tile) {
     tiles.emplace(scene, *ground.surface, plan, exec, timeStep);
     start = tiles->start(options.radius, kinds.indexOf(t.material));
     ground.layers = 0; // nothing falls
+    if (std::any_of(start.begin(), start.end(), [&](const auto& g) { return taken(g.position); }))
+      throw base::InputError(fmt::format("{}: terrain.tile copies a settled bed, which a box, cylinder or plane of the "
+                                         "scene reaches into; move that, or remove terrain.tile",
+                                         scene.file.string()));
   } else {
     for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
-      start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
+      if (!taken(seed.centre)) start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
   }
   ground.grains =
       std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
@@ -121,12 +133,13 @@ struct CellsAlong {
   double nearest(double d) const { return ring > 0 ? d - period * std::floor(d / period + 0.5) : d; }
 };
 
-/// Throws when grains start deeper in each other or in a plane than a run allows.
+/// Throws when grains start deeper in each other, in a plane or in another surface than a run allows.
 void checkStartingOverlaps(const Scene& scene, const std::vector<Grain>& grains, double largest) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
   const terrain::JoinedSides joined = joinedSides(scene);
   const CellsAlong alongX(2 * largest, joined[0]), alongY(2 * largest, joined[1]), alongZ(2 * largest, {});
   std::map<Cell, std::vector<std::size_t>> cells;
+  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Grain& g = grains[i];
     const auto refuseAbove = [&](double overlap, double radius, const char* what, std::size_t which) {
@@ -149,9 +162,12 @@ void checkStartingOverlaps(const Scene& scene, const std::vector<Grain>& grains,
       }
     }
     cells[{x, y, z}].push_back(i);
+    for (const SceneSurface& s : surfaces)
+      refuseAbove(startingOverlap(s, g.position, g.radius), g.radius, s.kind, s.number);
     for (std::size_t k = 0; k < scene.planes.size(); ++k)
-      refuseAbove(g.radius - dot(base::normalized(scene.planes[k].normal), g.position - scene.planes[k].point),
-                  g.radius, "plane", k);
+      if (scene.planes[k].isWall())
+        refuseAbove(g.radius - dot(base::normalized(scene.planes[k].normal), g.position - scene.planes[k].point),
+                    g.radius, "plane", k);
   }
 }
 
@@ -164,7 +180,7 @@ void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeSt
   std::vector<terrain::GrainStart> start;
   for (const Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
   Surroundings around;
-  addPlanes(scene, around);
+  addPlanesAndSurfaces(scene, around);
   if (ground.rigid) around.floor = ground.rigid, around.floorMaterial = scene.terrain->material;
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
@@ -212,6 +228,32 @@ struct StepLimit {
   }
 };
 
+/// How many grains may lie on a surface at once: a dense layer on its largest face. A plane has as many as lie in one
+/// layer of a cube of all.
+double mostTouching(const Scene& scene, const SceneSurface& surface, double radius) {
+  const Vec3d& h = surface.geometry.half;
+  double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
+  if (surface.geometry.shape == terrain::SurfaceShape::plane)
+    return std::max(1.0, base::pow(static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene))), 2.0 / 3));
+  if (surface.geometry.shape != terrain::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
+  return std::max(1.0, area / (2 * std::sqrt(3.0) * radius * radius));
+}
+
+/// A surface that forces move, on springs of all grains that it may touch.
+void considerFreeSurfaces(const Scene& scene, const GrainKinds& kinds, StepLimit& limit) {
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    if (!s.section.free) continue;
+    for (const auto& [material, radius, largest] : kinds.kinds) {
+      const double mass = sphereMass(scene.material(material).density, radius);
+      const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
+      const double springs = mostTouching(scene, s, radius) / *s.section.mass;
+      const double omega2 = c.normalStiffness * (1 / mass + springs);
+      limit.consider(std::sqrt(omega2), 0.5 * c.damping * (1 / mass + springs) / std::sqrt(omega2),
+                     s.name + " on its grains");
+    }
+  }
+}
+
 StepLimit grainStepLimit(const Scene& scene) {
   StepLimit limit;
   const GrainKinds kinds = grainKinds(scene);
@@ -228,9 +270,11 @@ StepLimit grainStepLimit(const Scene& scene) {
                           name);
     };
     for (const Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
+    for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
     if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
     if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
   }
+  considerFreeSurfaces(scene, kinds, limit);
   return limit;
 }
 

@@ -6,6 +6,7 @@
 #include "runs/checkpoint.hpp"
 #include "runs/file_lock.hpp"
 #include "runs/grain_kinds.hpp"
+#include "runs/surfaces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -63,10 +64,13 @@ std::string hashOfProgram() {
 /// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
 bool isOfBed(const Scene& scene, const std::string& material) {
   const std::vector<std::string> grains = grainKinds(scene).material;
+  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   return material == scene.terrain->groundMaterial ||
          std::find(grains.begin(), grains.end(), material) != grains.end() ||
          std::any_of(scene.planes.begin(), scene.planes.end(),
-                     [&](const Plane& plane) { return plane.material == material; });
+                     [&](const Plane& plane) { return plane.material == material; }) ||
+         std::any_of(surfaces.begin(), surfaces.end(),
+                     [&](const SceneSurface& s) { return s.section.material == material; });
 }
 
 /// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make

@@ -22,9 +22,19 @@ std::vector<Channel> terrainChannels() {
   };
 }
 
+std::vector<Channel> surfaceChannels(const std::string& name) {
+  const std::string group = "surfaces/" + name + "/";
+  return {
+      {group + "force", "N", "of the grains on it, mean since the last row", 3, kAxes},
+      {group + "torque", "N m", "of the grains on it about its centre, mean since the last row", 3, kAxes},
+      {group + "power", "W", "of what moves it, mean since the last row", 1, {}},
+      {group + "position", "m", "of its centre", 3, kAxes},
+  };
+}
+
 std::vector<Channel> ledgerChannels() {
   return {
-      {"ledger/drive_work", "J", "done by drives", 1, {}},
+      {"ledger/drive_work", "J", "done by drives and moving surfaces", 1, {}},
       {"ledger/kinetic", "J", "of grains, vehicle and bodies", 1, {}},
       {"ledger/potential", "J", "in the field of gravity", 1, {}},
       {"ledger/elastic", "J", "in contacts and springs", 1, {}},

@@ -31,6 +31,7 @@ template <> struct Layout<terrain::Remainders> { using Number = std::uint32_t; }
 template <> struct Layout<terrain::Crossings> { using Number = std::int32_t; };
 template <class T> struct Layout<base::Vec3<T>> { using Number = T; };
 template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
+template <> struct Layout<SurfaceState> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
@@ -70,6 +71,10 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive.perContact("/grains/contact_rolling", g.contactRolling, g.contacts);
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
+  }
+  if (archive.present("/surfaces", s.surfaces)) {
+    archive("/surfaces/states", s.surfaces->surfaces);
+    archive("/surfaces/mean_steps", s.surfaces->meanSteps);
   }
   if (archive.present("/vehicle", s.vehicle)) {
     auto& v = *s.vehicle;

@@ -108,7 +108,7 @@ Image FramePainter::paint(std::size_t index) const {
   for (std::size_t i = 0; i < colours.size(); ++i)
     scene.spheres.push_back({frame.positions[i], frame.radii[i], colours[i]});
   for (const StoredPart& part : reader_.parts()) {
-    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind)};
+    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), isSurface(part.kind)};
     for (std::uint32_t v = 0; v < part.count; ++v)
       mesh.mesh.vertices.push_back(frame.partVertices[part.first + v].as<double>());
     scene.meshes.push_back(std::move(mesh));

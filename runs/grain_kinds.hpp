@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/scene.hpp"
+#include "runs/surfaces.hpp"
 #include "terrain/grains.hpp"
 
 #include <optional>
@@ -44,9 +45,10 @@ struct Surroundings {
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;
   std::string floorMaterial;
+  std::vector<SceneSurface> surfaces{};
 };
 
-/// The grains' constants, and their walls and floor with their laws.
+/// The grains' constants, and their walls, floor and surfaces with their laws.
 terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, double timeStep,
                                const Surroundings& surroundings, terrain::Boundaries& boundaries);
 

@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "base/table.hpp"
 #include "runs/mechanism_frames.hpp"
+#include "runs/orientation.hpp"
 
 #include <fmt/format.h>
 
@@ -21,32 +22,6 @@ using multibody::JointAxis;
 using multibody::JointType;
 
 namespace {
-
-/// Quaternions are typed with a few digits: their length may be off 1 by this.
-constexpr double kQuaternionLength = 1e-3;
-
-Quat orientationOf(const BodySection& b) {
-  if (!b.orientation.empty()) {
-    if (b.axis || b.angle)
-      throw SectionFault("orientation", "stands beside axis and angle, which say the same; remove one of the two");
-    if (b.orientation.size() != 4) throw SectionFault("orientation", "must have the four entries w, x, y, z");
-    const Quat q{b.orientation[0], b.orientation[1], b.orientation[2], b.orientation[3]};
-    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(std::fabs(length - 1) <= kQuaternionLength))
-      throw SectionFault("orientation",
-                         fmt::format("[-] has the length {:.6g}; give a unit quaternion w, x, y, z", length));
-    return q.normalized();
-  }
-  if (!b.angle) {
-    if (b.axis) throw SectionFault("axis", "[-] stands without angle; give both, or neither");
-    return {};
-  }
-  if (!b.axis) throw SectionFault("angle", "[deg] stands without axis; give the axis of the turn, e.g. [0, 1, 0]");
-  if (norm2(*b.axis) == 0) throw SectionFault("axis", "[-] is zero; give the axis of the turn, e.g. [0, 1, 0]");
-  const double half = *b.angle * (base::kPi / 360);
-  const Vec3d v = base::sin(half) * normalized(*b.axis);
-  return Quat{base::cos(half), v.x, v.y, v.z}.normalized();
-}
 
 Mat3d inertiaOf(const BodySection& b) {
   const std::vector<double>& i = b.inertia;
@@ -189,7 +164,7 @@ void MechanismBuilder::add(const BodySection& b) {
   checkName("body", b.name);
   multibody::Body body;
   body.name = b.name, body.fixed = b.fixed, body.point = b.point;
-  body.pose = {b.position, orientationOf(b)};
+  body.pose = {b.position, orientationOf(b.axis, b.angle, b.orientation)};
   body.v_WB = b.velocity, body.w_WB = b.spin;
   if (!b.fixed) {
     if (!b.mass) throw SectionFault("mass", "[kg] is missing; add it, or set fixed = true");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/error.hpp"
 #include "multibody/model.hpp"
 #include "runs/mechanism_sections.hpp"
+#include "runs/section_fault.hpp"
 
 #include <map>
 #include <set>
@@ -13,16 +13,6 @@
 
 /// From the sections of a scene file to the model that multibody/ solves.
 namespace grouser::runs {
-
-/// What is wrong with one key of a section; who reads the file adds its place and the key's value.
-class SectionFault : public base::InputError {
-public:
-  SectionFault(std::string key, const std::string& message) : InputError(message), key_(std::move(key)) {}
-  const std::string& key() const { return key_; }
-
-private:
-  std::string key_;
-};
 
 /// Adds section after section and checks each against what has been added so far. Throws SectionFault.
 class MechanismBuilder {

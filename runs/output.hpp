@@ -40,8 +40,8 @@ struct Row {
 
 /// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
 struct FramePart {
-  std::string name;        ///< "left shoe 12"
-  std::string kind;        ///< "chassis", "shoe", "sprocket", "road_wheel", "roller", "idler": decides the colour
+  std::string name; ///< "left shoe 12"
+  std::string kind; ///< "chassis", "shoe", "sprocket", "road_wheel", "roller", "idler", "surface": decides the colour
   base::TriangleMesh mesh; ///< body frame
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/picture.hpp"
 
+#include "runs/surface_mesh.hpp"
+
 #include <algorithm>
 
 namespace grouser::runs {
@@ -25,6 +27,8 @@ struct Box {
 
 Colour groundColour() { return srgb(168, 152, 128); }
 
+bool isSurface(const std::string& kind) { return kind == kSurfaceKind; }
+
 Colour partColour(const std::string& kind) {
   if (kind == "chassis") return srgb(112, 122, 92);
   if (kind == "shoe") return srgb(66, 68, 72);
@@ -35,6 +39,7 @@ Colour partColour(const std::string& kind) {
   // Bodies of a mechanism, in turn.
   const Colour bodies[] = {srgb(78, 121, 167), srgb(214, 138, 48),  srgb(89, 161, 79),
                            srgb(178, 96, 84),  srgb(140, 110, 160), srgb(118, 183, 178)};
+  if (isSurface(kind)) return groundColour();
   if (kind.rfind("body ", 0) == 0) return bodies[static_cast<std::size_t>(kind.back() - '0') % std::size(bodies)];
   return srgb(150, 150, 150);
 }
@@ -86,7 +91,7 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 
 Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width) {
   RenderScene scene;
-  std::vector<base::Vec3f> vehicle;
+  std::vector<base::Vec3f> vehicle, surfaces;
   if (!frame.positions.empty()) {
     const auto [low, high] = heightRange(frame);
     const float range = std::max(high - low, frame.radii.front());
@@ -96,8 +101,10 @@ Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const b
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind)});
-    for (const Vec3d& v : parts[i].mesh.vertices) vehicle.push_back(frame.partPoses[i].toWorld(v).as<float>());
+    const bool surface = isSurface(parts[i].kind);
+    scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface});
+    for (const Vec3d& v : parts[i].mesh.vertices)
+      (surface ? surfaces : vehicle).push_back(frame.partPoses[i].toWorld(v).as<float>());
   }
   if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
   const int height = std::max(1, width * 9 / 16);
@@ -108,6 +115,7 @@ Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const b
   std::vector<Ball> seen;
   if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
   for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
+  for (const base::Vec3f& v : surfaces) seen.push_back({v.as<double>(), 0});
   if (seen.empty()) return render(scene, {}, width, height);
   return render(scene, cameraAround(seen, kAzimuth, kBedElevation, kAspect), width, height);
 }

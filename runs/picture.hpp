@@ -12,6 +12,8 @@ inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevati
 
 Colour partColour(const std::string& kind);
 Colour groundColour();
+/// A rigid surface of a scene of grains: drawn from the side of the grains alone.
+bool isSurface(const std::string& kind);
 
 /// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
 /// grains, axis by axis, than these are wide; of less than 100 grains none.

@@ -10,6 +10,7 @@
 #include "runs/mechanism_output.hpp"
 #include "runs/placement.hpp"
 #include "runs/progress.hpp"
+#include "runs/surfaces.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
@@ -46,9 +47,11 @@ unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
   for (const std::string& a : kinds.material) {
     for (const std::string& b : kinds.material) add(a, b);
     for (const Plane& p : scene.planes) add(a, p.material);
+    for (const SceneSurface& s : surfacesOf(scene)) add(a, s.section.material);
     if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
   }
   if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
+  if (!surfacesOf(scene).empty()) features |= terrain::kBoundaries | terrain::kSurfaces;
   if (scene.run.periodic[0] || scene.run.periodic[1]) features |= terrain::kPeriodic;
   if (kinds.many()) features |= terrain::kManyRadii;
   if (kinds.manyMaterials()) features |= terrain::kManyMaterials;
@@ -60,7 +63,8 @@ std::string memoryText(const Scene& scene, double grains) {
   const unsigned features = grainFeatures(scene, grainKinds(scene));
   const int width = features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
   const bool bed = scene.terrain && scene.terrain->granular();
-  const std::size_t boundaries = scene.planes.size() + (scene.terrain ? 1 : 0) + (bed && scene.terrain->walls ? 4 : 0);
+  const std::size_t boundaries = scene.planes.size() + scene.boxes.size() + scene.cylinders.size() +
+                                 (scene.terrain ? 1 : 0) + (bed && scene.terrain->walls ? 4 : 0);
   const GrainMemory m = grainMemory(width, static_cast<int>(boundaries));
   std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes a grain:\n", "memory for grains",
                                  grains * m.total() / 1048576.0, m.total());
@@ -78,6 +82,18 @@ std::string costText(double grainSteps) {
                         text.empty() ? "expected time" : "", Progress::duration(grainSteps / s.grainSteps), s.name,
                         s.grainSteps);
   return text;
+}
+
+/// "3: drum, lifter, lid; 2 move, 1 free".
+std::string surfacesLine(const Scene& scene) {
+  std::string names;
+  int moved = 0, freed = 0;
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    names += (names.empty() ? "" : ", ") + s.name;
+    s.section.free ? ++freed : moved += s.section.moves() ? 1 : 0;
+  }
+  if (names.empty()) return onOff(false, "surfaces", "no [[box]], no [[cylinder]], no plane that moves or has a name");
+  return onOff(true, "surfaces", fmt::format("{}; {} moved, {} free", names, moved, freed));
 }
 
 std::string switches(const Scene& scene) {
@@ -113,6 +129,7 @@ std::string switches(const Scene& scene) {
                                  : "run.periodic is false");
   text += onOff(!scene.sources.empty(), "sources", fmt::format("{}", scene.sources.size()));
   text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
+  text += surfacesLine(scene);
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
   const MechanismSections& m = scene.mechanism;
@@ -142,6 +159,7 @@ double shortestContact(const Scene& scene) {
     // Against what does not give way the whole grain swings.
     if (scene.terrain) shortest = std::min(shortest, duration(scene.terrain->groundMaterial, 1));
     for (const Plane& p : scene.planes) shortest = std::min(shortest, duration(p.material, 1));
+    for (const SceneSurface& s : surfacesOf(scene)) shortest = std::min(shortest, duration(s.section.material, 1));
     if (scene.vehicle && !scene.vehicle->material.empty())
       shortest = std::min(shortest, duration(scene.vehicle->material, 1));
   }

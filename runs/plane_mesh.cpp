@@ -27,7 +27,7 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h
   return kept;
 }
 
-/// Corners of a box that holds where grains start, the planes' points, and some room.
+/// Corners of a box that holds where grains start, the planes' points, cylinders, and some room.
 std::pair<Vec3d, Vec3d> room(const Scene& scene) {
   std::vector<Vec3d> points;
   double margin = 0;
@@ -40,6 +40,9 @@ std::pair<Vec3d, Vec3d> room(const Scene& scene) {
   for (const Source& s : scene.sources)
     points.push_back(s.low), points.push_back(s.high), margin = std::max(margin, 4 * s.radius);
   for (const Plane& p : scene.planes) points.push_back(p.point);
+  for (const CylinderSection& c : scene.cylinders)
+    for (const double side : {-c.radius, c.radius}) points.push_back(c.position + Vec3d{side, side, side});
+  if (points.empty()) points.push_back({});
   Vec3d low = points.front(), high = low;
   for (const Vec3d& p : points) low = base::min(low, p), high = base::max(high, p);
   const Vec3d size = high - low;
@@ -49,9 +52,11 @@ std::pair<Vec3d, Vec3d> room(const Scene& scene) {
 
 } // namespace
 
-base::TriangleMesh planeMesh(const Scene& scene) {
+namespace {
+
+base::TriangleMesh meshOf(const Scene& scene, const std::vector<std::size_t>& planes) {
   base::TriangleMesh mesh;
-  if (scene.planes.empty()) return mesh;
+  if (planes.empty()) return mesh;
   const auto [low, high] = room(scene);
   std::vector<HalfSpace> spaces;
   for (const Plane& p : scene.planes) {
@@ -64,7 +69,7 @@ base::TriangleMesh planeMesh(const Scene& scene) {
     spaces.push_back({n, low[a]});
     spaces.push_back({-n, -high[a]});
   }
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+  for (const std::size_t k : planes) {
     const Vec3d n = spaces[k].normal,
                 along = base::normalized(cross(n, std::abs(n.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
     const Vec3d across = cross(n, along), middle = n * spaces[k].offset;
@@ -81,5 +86,16 @@ base::TriangleMesh planeMesh(const Scene& scene) {
   }
   return mesh;
 }
+
+} // namespace
+
+base::TriangleMesh planeMesh(const Scene& scene) {
+  std::vector<std::size_t> walls;
+  for (std::size_t k = 0; k < scene.planes.size(); ++k)
+    if (scene.planes[k].isWall()) walls.push_back(k);
+  return meshOf(scene, walls);
+}
+
+base::TriangleMesh planeMesh(const Scene& scene, std::size_t plane) { return meshOf(scene, {plane}); }
 
 } // namespace grouser::runs

@@ -7,6 +7,7 @@
 #include "runs/mechanism_output.hpp"
 #include "runs/picture.hpp"
 #include "runs/plane_mesh.hpp"
+#include "runs/surface_mesh.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <fmt/format.h>
@@ -70,6 +71,9 @@ std::vector<Channel> channelsOf(const Simulation& simulation, const Scene& scene
       channels.push_back(channelOf(q));
   if (simulation.ground().grains)
     for (const Channel& c : terrainChannels()) channels.push_back(c);
+  if (const Surfaces* surfaces = simulation.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      for (const Channel& c : surfaceChannels(surfaces->surface(i).name)) channels.push_back(c);
   for (const Channel& c : ledgerChannels()) channels.push_back(c);
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
@@ -151,6 +155,9 @@ void Recorder::begin(const Scene& scene, const RunOptions& options, const Checkp
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
   }
   if (const Mechanism* mechanism = simulation_.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
+  if (const Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      parts_.push_back({surfaces->surface(i).name, kSurfaceKind, surfaceMesh(scene, surfaces->surface(i))});
   ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : planeMesh(scene);
   writer_.setParts(parts_, ground_);
   if (const auto& grains = simulation_.ground().grains;
@@ -171,6 +178,13 @@ void Recorder::row() {
     row_.set("terrain/max_speed", l.fastestGrain);
     row_.set("terrain/rebuilds", static_cast<double>(grains->rebuilds()));
   }
+  if (const Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i) {
+      const Surfaces::Observation o = surfaces->observe(i, simulation_.steps());
+      const std::string group = "surfaces/" + surfaces->surface(i).name + "/";
+      row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
+      row_.set(group + "power", o.power), row_.set(group + "position", o.position);
+    }
   if (const Mechanism* mechanism = simulation_.mechanism()) setMechanismRow(row_, *mechanism, record_);
   row_.set("ledger/drive_work", l.driveWork);
   row_.set("ledger/kinetic", l.kinetic);
@@ -204,6 +218,8 @@ Frame Recorder::currentFrame() const {
   }
   if (const VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
+  if (const Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
   if (const Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
   return frame;
 }

@@ -5,6 +5,7 @@
 #include "runs/detail/scene_tables.hpp"
 #include "runs/locations.hpp"
 #include "runs/mechanism_scene.hpp"
+#include "runs/surface_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -18,9 +19,9 @@ using base::Section;
 
 namespace {
 
-const std::vector<std::string> kSections = {
-    "version", "run",    "material", "contact", "grain",    "grains",  "source", "plane",  "terrain", "body",
-    "joint",   "spring", "bushing",  "drive",   "coupling", "vehicle", "driver", "output", "parallel"};
+const std::vector<std::string> kSections = {"version", "run",   "material", "contact", "grain",  "grains", "source",
+                                            "plane",   "box",   "cylinder", "terrain", "body",   "joint",  "spring",
+                                            "bushing", "drive", "coupling", "vehicle", "driver", "output", "parallel"};
 
 /// One of the two ways to say how lossy a contact is.
 template <class S> void checkOneLoss(const Section& section, const S& s) {
@@ -143,7 +144,7 @@ void readBlock(const Section& section, Scene& scene) {
   scene.blocks.push_back(std::move(b));
 }
 
-void readGrainsAndPlanes(const Section& root, Scene& scene) {
+void readGrainsAndSurfaces(const Section& root, Scene& scene) {
   for (const Section& section : root.list("grain")) {
     scene.grains.push_back(section.read(detail::grainTable()));
     checkMaterial(scene, section, "material", scene.grains.back().material);
@@ -156,12 +157,23 @@ void readGrainsAndPlanes(const Section& root, Scene& scene) {
       if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
     scene.sources.push_back(s);
   }
-  for (const Section& section : root.list("plane")) {
-    scene.planes.push_back(section.read(detail::planeTable()));
-    checkMaterial(scene, section, "material", scene.planes.back().material);
-    if (base::norm2(scene.planes.back().normal) == 0)
-      section.fail("normal", "is zero; give the direction out of the solid, e.g. [0, 0, 1]");
-  }
+  readSurfaces(root, scene);
+  const auto checkEach = [&](const char* kind, const auto& surfaces) {
+    const std::vector<Section> sections = root.list(kind);
+    for (std::size_t k = 0; k < sections.size(); ++k)
+      checkMaterial(scene, sections[k], "material", surfaces[k].material);
+  };
+  checkEach("plane", scene.planes), checkEach("box", scene.boxes), checkEach("cylinder", scene.cylinders);
+}
+
+/// Boxes and cylinders are for grains alone.
+void checkSurfacesMeetGrains(const Section& root, const Scene& scene) {
+  const bool grains = !scene.grains.empty() || !scene.blocks.empty() || !scene.sources.empty() ||
+                      (scene.terrain && scene.terrain->granular());
+  if (grains) return;
+  for (const char* kind : {"box", "cylinder"})
+    for (const Section& section : root.list(kind))
+      section.fail("", "stands in a scene without grains, and nothing else touches it; remove it");
 }
 
 constexpr double kLeastPeriod = 12; // of a tile, in radii [-]
@@ -300,8 +312,9 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   checkIntervals(root.section("run"), scene.run);
   scene.materials = readMaterials(root);
   readContacts(root, scene);
-  readGrainsAndPlanes(root, scene);
+  readGrainsAndSurfaces(root, scene);
   if (root.has("terrain")) readTerrain(root.section("terrain"), scene);
+  checkSurfacesMeetGrains(root, scene);
   readMechanism(root, scene);
   if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
@@ -372,7 +385,7 @@ std::string resolvedToml(const Scene& scene) {
   for (const Grain& g : scene.grains) text += block("[[grain]]", detail::grainTable(), g);
   for (const GrainBlock& b : scene.blocks) text += block("[[grains]]", detail::blockTable(), b);
   for (const Source& s : scene.sources) text += block("[[source]]", detail::sourceTable(), s);
-  for (const Plane& p : scene.planes) text += block("[[plane]]", detail::planeTable(), p);
+  text += surfacesToml(scene);
   if (scene.terrain) text += block("[terrain]", detail::terrainTable(), *scene.terrain);
   text += mechanismToml(scene.mechanism);
   if (scene.vehicle) {
@@ -390,8 +403,8 @@ std::string fieldHelp() {
       "that is absent is not built.\n";
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
-  add(detail::grainTable()), add(detail::blockTable()), add(detail::sourceTable()), add(detail::planeTable()),
-      add(detail::terrainTable());
+  add(detail::grainTable()), add(detail::blockTable()), add(detail::sourceTable()), add(detail::planeTable());
+  add(detail::boxTable()), add(detail::cylinderTable()), add(detail::terrainTable());
   add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable());
   add(detail::bushingTable()), add(detail::driveTable()), add(detail::couplingTable());
   add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());

@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 #include "runs/mechanism_sections.hpp"
+#include "runs/surface_sections.hpp"
 
 #include <array>
 #include <cstdint>
@@ -107,13 +108,6 @@ struct Source {
   bool operator==(const Source&) const = default;
 };
 
-/// [[plane]]: fills the half-space behind its normal.
-struct Plane {
-  base::Vec3d point, normal{0, 0, 1};
-  std::string material;
-  bool operator==(const Plane&) const = default;
-};
-
 /// [terrain]: x in [0, size x], y in [-size y / 2, size y / 2].
 struct Terrain {
   std::string heightmap;               ///< absolute path after loading
@@ -203,6 +197,8 @@ struct Scene {
   std::vector<GrainBlock> blocks;
   std::vector<Source> sources;
   std::vector<Plane> planes;
+  std::vector<BoxSection> boxes;
+  std::vector<CylinderSection> cylinders;
   std::optional<Terrain> terrain;
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;

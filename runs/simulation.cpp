@@ -29,6 +29,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleP
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
   if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
   if (ground_.grains) ground_.grains->setSteps(0);
+  makeSurfaces(nullptr);
   start_ = ledger();
   addGrains();
 }
@@ -48,9 +49,18 @@ void Simulation::step() {
   if (vehicle_) vehicle_->advance();
   if (mechanism_) mechanism_->advance();
   if (grains) grains->endStep();
+  if (surfaces_) surfaces_->advance(*grains, steps_);
   ++steps_;
   addGrains();
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+}
+
+/// Where they are at this step; until now the grains had them at rest.
+void Simulation::makeSurfaces(const SurfaceStates* former) {
+  if (!ground_.grains || surfacesOf(scene_).empty()) return;
+  surfaces_ = std::make_unique<Surfaces>(scene_, timeStep_);
+  if (former) surfaces_->restore(*former);
+  surfaces_->place(*ground_.grains, steps_);
 }
 
 /// Grains of the sources that enter now, before the next step. What they bring with them is no change of energy.
@@ -92,6 +102,10 @@ Simulation::Ledger Simulation::ledger() {
     ledger.dissipated += v.dissipated;
     ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
     ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
+  }
+  if (surfaces_) {
+    const Surfaces::Ledger s = surfaces_->ledger();
+    ledger.driveWork += s.work, ledger.kinetic += s.kinetic, ledger.potential += s.potential;
   }
   if (mechanism_) {
     const Mechanism::Ledger m = mechanism_->ledger();

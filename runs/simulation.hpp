@@ -8,6 +8,7 @@
 #include "runs/scene.hpp"
 #include "runs/simulation_state.hpp"
 #include "runs/sources.hpp"
+#include "runs/surfaces.hpp"
 #include "runs/vehicle_rig.hpp"
 
 #include <memory>
@@ -38,8 +39,10 @@ public:
   const Ground& ground() const { return ground_; }
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
+  const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
   /// Means of the observers begin anew: after every row.
   void restartMeans() {
+    if (surfaces_) surfaces_->restartMeans();
     if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
   }
@@ -67,6 +70,7 @@ private:
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();
+  void makeSurfaces(const SurfaceStates* former);
 
   const Scene scene_;
   base::Exec exec_;
@@ -76,6 +80,7 @@ private:
   SettleReport settled_;
   std::function<double(double, double)> surface_;
   Sources sources_;
+  std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
   std::int64_t steps_{0};

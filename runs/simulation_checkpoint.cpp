@@ -9,6 +9,7 @@ namespace grouser::runs {
 std::string SimulationState::hash(const base::Comm& comm) const {
   base::StateHash hash;
   if (grains) hash = terrain::hashOf(*grains, comm);
+  if (surfaces) hash.add(surfaces->words());
   if (vehicle) hash.add(vehicle->words());
   if (mechanism) hash.add(mechanism->words());
   return hash.hex();
@@ -24,6 +25,7 @@ SimulationState Simulation::save() const {
   state.mostPutIn = mostPutIn_;
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
+  if (surfaces_) state.surfaces = surfaces_->save();
   if (vehicle_) state.vehicle = vehicle_->save();
   if (mechanism_) state.mechanism = mechanism_->save();
   return state;
@@ -36,10 +38,12 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
   const bool bed = ground_.grains && ground_.walls;
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
       state.vehicle.has_value() != scene.vehicle.has_value() ||
-      state.mechanism.has_value() == scene.mechanism.empty() || state.energyAtStart.size() != 4)
+      state.mechanism.has_value() == scene.mechanism.empty() || state.energyAtStart.size() != 4 ||
+      state.surfaces.has_value() != (ground_.grains && !surfacesOf(scene).empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (bed) keepSurface(ground_, state.surface);
   surface_ = surfaceHeight(ground_);
+  makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {
     ground_.grains->restore(*state.grains, !sources_.empty());
     ground_.grains->setSteps(steps_);

@@ -3,6 +3,7 @@
 
 #include "runs/bed.hpp"
 #include "runs/mechanism_state.hpp"
+#include "runs/surface_state.hpp"
 #include "runs/vehicle_state.hpp"
 #include "terrain/grain_state.hpp"
 
@@ -20,6 +21,7 @@ struct SimulationState {
   std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
   double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
   std::optional<terrain::GrainState> grains;
+  std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
 

@@ -1,74 +1,144 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/for_each.cuh"
 #include "terrain/grain_kernel_data.cuh"
 
 namespace grouser::terrain {
 
-/// Walls and floor on the grains near them. A kernel of its own: the search on the floor needs many registers, and only
-/// one layer of grains needs the search.
+/// Walls, floor and surfaces on the grains near them. A kernel of its own: the search on the floor needs many
+/// registers, and only one layer of grains needs the search.
 template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<kFeatures, Real> {
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
 
+  /// One grain of the list.
+  struct Grain {
+    int slot;
+    base::Vec3d x;
+    Vec v, w;
+    GrainSize<Real> size;
+    std::uint32_t before; ///< boundaries that it touched in the last step
+  };
+  struct Reaction {
+    Vec force, rolling; ///< on the grain [N], torque of rolling resistance [N m]
+  };
+
   GROUSER_HD void operator()(int k) const {
     const int i = static_cast<int>(d.nearBoundary[k]);
     const Vec v = d.velocity[i].xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
-    const GrainSize<Real> size = Kernel::sizeOf(i);
-    const double radius = static_cast<double>(size.radius);
+    const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.wallTouching[i]};
+    const double radius = static_cast<double>(grain.size.radius);
     BoundaryLoad<Real> sum{};
-    const std::uint32_t before = d.wallTouching[i];
     std::uint32_t now = 0;
     for (int b = 0; b < d.wallCount; ++b) {
       const double distance = dot(d.walls[b].normal, x) - d.walls[b].offset;
       const Real overlap = static_cast<Real>(radius - distance);
       if (overlap <= 0) continue;
       now |= 1u << b;
-      touch(i, b, size, before, d.walls[b].normal.template as<Real>(), overlap, v, w, sum);
+      touchFixed(grain, b, d.walls[b].normal.template as<Real>(), overlap, sum);
     }
     if (d.hasFloor && !d.floor.clearOf(x, radius)) {
       const FootPoint foot = d.floor.closestPoint(x);
       const Real overlap = static_cast<Real>(radius - foot.distance);
       if (overlap > 0) {
         now |= 1u << d.wallCount;
-        touch(i, d.wallCount, size, before, foot.normal.template as<Real>(), overlap, v, w, sum);
+        touchFixed(grain, d.wallCount, foot.normal.template as<Real>(), overlap, sum);
       }
     }
-    if (now != before) d.wallTouching[i] = now;
+    if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum);
+    if (now != grain.before) d.wallTouching[i] = now;
     f.boundaryLoads[k] = sum;
   }
 
 private:
-  GROUSER_HD void touch(int i, int boundary, const GrainSize<Real>& size, std::uint32_t before, const Vec& outward,
-                        Real overlap, const Vec& v, const Vec& w, BoundaryLoad<Real>& sum) const {
-    const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + size.material];
+  GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
+                             BoundaryLoad<Real>& sum) const {
     const Vec normal = -outward; // from the grain to the wall
-    const Vec arm = normal * (size.radius - overlap);
-    const contact::BasicTouch<Real> touch{normal, overlap, v + cross(w, arm), size.mass, size.radius};
-    const bool held = Kernel::hasHistory() && (before >> boundary & 1);
-    float* history =
-        Kernel::hasHistory()
-            ? d.wallHistory + (static_cast<std::int64_t>(i) * d.boundaryCount + boundary) * Kernel::historyWidth()
-            : nullptr;
-    Vec shear{};
-    if (held) shear = loadVector(history).template as<Real>();
-    const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
-    if (Kernel::hasHistory()) storeVector(history, shear.template as<float>());
+    const Vec arm = normal * (grain.size.radius - overlap);
+    const contact::BasicTouch<Real> touch{normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass,
+                                          grain.size.radius};
+    const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum);
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(arm, reaction.force);
+    if (has(contact::kRollingFriction)) sum.torque += reaction.rolling;
+  }
+
+  /// Surfaces that may move. The grain gets the force in whole quanta, the surface exactly the opposite.
+  GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, BoundaryLoad<Real>& sum) const {
+    std::uint32_t now = 0;
+    base::Vec3d force;
+    const int first = d.boundaryCount - d.surfaceCount;
+    for (int s = 0; s < d.surfaceCount; ++s) {
+      const contact::PartMotion& motion = d.placements[s].motion;
+      const SurfaceGap gap = gapTo(d.surfaces[s], motion.toPart(grain.x));
+      const Real overlap = static_cast<Real>(static_cast<double>(grain.size.radius) - gap.distance);
+      if (overlap <= 0) continue;
+      const int boundary = first + s;
+      now |= 1u << boundary;
+      const Vec normal = (motion.rotation * -gap.normal).template as<Real>();
+      const Vec arm = normal * (grain.size.radius - overlap);
+      const base::Vec3d point = grain.x + arm.template as<double>();
+      const Vec velocity = grain.v + cross(grain.w, arm) - motion.velocityAt(point).template as<Real>();
+      const contact::BasicTouch<Real> touch{normal, overlap, velocity, grain.size.mass, grain.size.radius};
+      const Reaction reaction =
+          react(grain, boundary, touch, grain.w - motion.spin.template as<Real>(), &d.placements[s].turned, sum);
+      const base::Vec3l quanta = d.surfaceForce.quantise(reaction.force.template as<double>());
+      const base::Vec3d exact = d.surfaceForce.value(quanta);
+      force += exact;
+      if (has(contact::kFriction)) sum.torque += cross(arm, exact.template as<Real>());
+      base::Vec3d torque = cross(point - motion.centre, -exact);
+      if (has(contact::kRollingFriction)) {
+        sum.torque += reaction.rolling;
+        torque -= reaction.rolling.template as<double>();
+      }
+      contact::PartLoad& load = d.surfaceLoads[s];
+      for (int a = 0; a < 3; ++a) {
+        base::atomicAdd64(&load.force[a], -quanta[a]);
+        base::atomicAdd64(&load.torque[a], d.surfaceTorque.quantise(torque[a]));
+      }
+    }
+    d.fromSurfaces[k] = force;
+    return now;
+  }
+
+  /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
+  GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicTouch<Real>& touch, const Vec& spin,
+                            const base::Mat3d* turned, BoundaryLoad<Real>& sum) const {
+    const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + grain.size.material];
+    const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
+    float* history = Kernel::hasHistory()
+                         ? d.wallHistory + (static_cast<std::int64_t>(grain.slot) * d.boundaryCount + boundary) *
+                                               Kernel::historyWidth()
+                         : nullptr;
+    Vec shear{};
+    if (held) shear = loaded(history, turned);
+    const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
+    if (Kernel::hasHistory()) store(history, turned, shear);
     sum.dissipated += reaction.dissipated;
+    Reaction result{reaction.force, {}};
     if (has(contact::kRollingFriction)) {
       Vec angle{};
-      if (held) angle = loadVector(history + 3).template as<Real>();
-      const contact::RollingMotion<Real> motion{normal, w, size.radius,
-                                                Real(1.4) * size.mass * size.radius * size.radius};
-      sum.torque += contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle,
-                                           sum.dissipated);
-      storeVector(history + 3, angle.template as<float>());
+      if (held) angle = loaded(history + 3, turned);
+      const contact::RollingMotion<Real> motion{touch.normal, spin, grain.size.radius,
+                                                Real(1.4) * grain.size.mass * grain.size.radius * grain.size.radius};
+      result.rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
+                                              angle, sum.dissipated);
+      store(history + 3, turned, angle);
     }
-    if (overlap > sum.deepest) sum.deepest = overlap;
+    if (touch.overlap > sum.deepest) sum.deepest = touch.overlap;
+    return result;
+  }
+
+  GROUSER_HD static Vec loaded(const float* history, const base::Mat3d* turned) {
+    const base::Vec3f kept = loadVector(history);
+    return turned ? (*turned * kept.as<double>()).template as<Real>() : kept.template as<Real>();
+  }
+  GROUSER_HD static void store(float* history, const base::Mat3d* turned, const Vec& spring) {
+    storeVector(history, turned ? transposedTimes(*turned, spring.template as<double>()).template as<float>()
+                                : spring.template as<float>());
   }
 };
 

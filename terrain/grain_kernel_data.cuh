@@ -8,6 +8,7 @@
 #include "contact/rolling_resistance.hpp"
 #include "terrain/grain_model.hpp"
 #include "terrain/grain_records.hpp"
+#include "terrain/rigid_surface.hpp"
 
 namespace grouser::terrain {
 
@@ -24,14 +25,18 @@ struct GrainKernelData {
   float maxOverlapShare;   ///< of a grain's own radius, where they differ [-]
   base::Vec3d gravityStep; // g dt
   const Wall* walls;
-  int wallCount, boundaryCount; ///< planes; planes and floor together
+  int wallCount, boundaryCount; ///< planes; planes, floor and surfaces together, in this order
   bool hasFloor;
   HeightFieldView floor;
   base::Period period;
-  int materials;               ///< at least 1
-  const double* massPerCube;   ///< [materials] mass over radius^3 [kg/m3], where masses differ
-  std::int64_t count;          ///< slots
-  const std::uint32_t* active; ///< slots that this launch is for; null: all
+  const SurfaceGeometry* surfaces;
+  const SurfacePlacement* placements; ///< of the surfaces in this step
+  int surfaceCount;
+  base::FixedPoint surfaceForce, surfaceTorque; ///< quanta of the surfaces' loads
+  int materials;                                ///< at least 1
+  const double* massPerCube;                    ///< [materials] mass over radius^3 [kg/m3], where masses differ
+  std::int64_t count;                           ///< slots
+  const std::uint32_t* active;                  ///< slots that this launch is for; null: all
 
   // State. Positions, velocities and spins are read from `now` and written to `next`: neighbours still read `now`.
   const base::Position* position;
@@ -45,8 +50,10 @@ struct GrainKernelData {
   contact::NeighbourView neighbours;
   const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
   const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
-  float* wallHistory;                ///< [slot][wall or floor][width of the neighbours' history]
-  std::uint32_t* wallTouching;       ///< bit a wall, bit `wallCount` the floor
+  float* wallHistory;                ///< [slot][boundary][width of the neighbours' history]
+  std::uint32_t* wallTouching;       ///< a bit for each boundary
+  base::Vec3d* fromSurfaces;         ///< [N] forces of the surfaces, by place in the list of grains near boundaries
+  contact::PartLoad* surfaceLoads;   ///< sums of this step
   double* dissipated;
   contact::GrainLoadsView loads;
   StepFlags* flags;
@@ -57,7 +64,7 @@ template <class Real> struct ForceData {
   Real radius, unit, timeStep, halfMass, mass, diameterUnits;
   contact::BasicLaw<Real> law;                 ///< grain on grain, of one material
   const contact::BasicLaw<Real>* pairLaws;     ///< [materials][materials], where there are several
-  const contact::BasicLaw<Real>* boundaryLaws; ///< [walls and floor][materials]
+  const contact::BasicLaw<Real>* boundaryLaws; ///< [walls, floor, surfaces][materials]
   BoundaryLoad<Real>* boundaryLoads;           ///< by place in the list of grains near boundaries
 };
 

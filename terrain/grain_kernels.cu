@@ -24,14 +24,16 @@ using StepKernels =
     KernelList<kBed, kBed | kLoads, kFriction | kBoundaries, kFriction | kBoundaries | kLoads, kFriction | kLedger,
                kFriction, kLedger, kBoundaries | kLedger, kBed | kRollingFriction, kBed | kLoads | kRollingFriction,
                kBed | kManyRadii, kBed | kManyRadii | kRollingFriction, kHertz | kBed, kHertz | kBed | kLoads,
-               kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic>;
-using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction>;
+               kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic,
+               kBed | kSurfaces, kBed | kSurfaces | kRollingFriction>;
+using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction,
+                                   kFriction | kSurfaces, kFriction | kRollingFriction | kSurfaces>;
 /// In double all scenes take the general kernels.
 using NoKernels = KernelList<>;
 
 /// Features that the kernel of walls and floor asks for.
 constexpr unsigned kAtBoundaries =
-    kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kGeneral;
+    kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kSurfaces | kGeneral;
 
 template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features) {
   return ((features == kSets) || ...);
@@ -80,7 +82,8 @@ std::string featureText(unsigned features) {
   };
   add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
   add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
-  add(kPeriodic, "joined sides"), add(kBoundaries, "planes or floor"), add(kLoads, "rigid parts"),
+  add(kPeriodic, "joined sides"), add(kBoundaries, "planes or floor"), add(kSurfaces, "moving surfaces");
+  add(kLoads, "rigid parts"),
       add(kLedger, "ledger");
   return text;
 }

@@ -85,10 +85,7 @@ private:
   GROUSER_HD void measureBoundaries(int i, const Vec3d& x, const GrainSize<Real>& size, Held& held) const {
     const double radius = static_cast<double>(size.radius);
     for (int b = 0; b < d.boundaryCount; ++b) {
-      if (b == d.wallCount && d.floor.clearOf(x, radius)) continue;
-      const double distance =
-          b < d.wallCount ? dot(d.walls[b].normal, x) - d.walls[b].offset : d.floor.closestPoint(x).distance;
-      const double overlap = radius - distance;
+      const double overlap = radius - distanceTo(b, x, radius);
       if (overlap <= 0) continue;
       const bool touched = d.wallTouching[i] >> b & 1;
       const float* history =
@@ -100,6 +97,14 @@ private:
       held.deepest = overlap > held.deepest ? overlap : held.deepest;
       ++held.boundary;
     }
+  }
+
+  /// Of the floor only where it may be less than the radius.
+  GROUSER_HD double distanceTo(int boundary, const Vec3d& x, double radius) const {
+    if (boundary < d.wallCount) return dot(d.walls[boundary].normal, x) - d.walls[boundary].offset;
+    const int surface = boundary - (d.boundaryCount - d.surfaceCount);
+    if (surface >= 0) return gapTo(d.surfaces[surface], d.placements[surface].motion.toPart(x)).distance;
+    return d.floor.clearOf(x, radius) ? 2 * radius : d.floor.closestPoint(x).distance;
   }
 
   /// `history`: null where the contact has none yet.

@@ -19,6 +19,7 @@ inline constexpr unsigned kBoundaries = 1u << 9;    ///< walls or floor
 inline constexpr unsigned kLoads = 1u << 10;        ///< loads from rigid parts
 inline constexpr unsigned kLedger = 1u << 11;       ///< dissipation is summed
 inline constexpr unsigned kPeriodic = 1u << 12;     ///< sides that are joined to each other
+inline constexpr unsigned kSurfaces = 1u << 13;     ///< rigid surfaces that may move; implies kBoundaries
 
 /// A rigid plane that fills the half-space behind its normal.
 struct Wall {
@@ -31,7 +32,7 @@ struct Wall {
 struct GrainMaterials {
   std::vector<double> density;                 ///< [materials] [kg/m3]
   std::vector<contact::ContactLaw> grains;     ///< [materials][materials], symmetric
-  std::vector<contact::ContactLaw> boundaries; ///< [walls and floor][materials], the floor last
+  std::vector<contact::ContactLaw> boundaries; ///< [walls, floor, surfaces][materials]
 
   std::size_t count() const { return density.size(); }
 };
@@ -70,7 +71,7 @@ struct GrainLedger {
   double kinetic{}, rotational{}, potential{}, elastic{}, dissipated{};
   base::Vec3d momentum;            ///< [kg m/s]
   std::int64_t contacts{};         ///< pairs of grains in touch
-  std::int64_t boundaryContacts{}; ///< grains in touch with walls and floor
+  std::int64_t boundaryContacts{}; ///< grains in touch with walls, floor and surfaces
   double deepestOverlap{};         ///< [m]
   double fastest{};                ///< [m/s]
 };

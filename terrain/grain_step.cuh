@@ -27,6 +27,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     gatherGrains(i, p, v.xyz().template as<Real>(), w.xyz().template as<Real>(), size, sum);
     if (has(kBoundaries)) addBoundaries(i, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
+    if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque, sum);
     if (has(kLedger)) d.dissipated[i] += static_cast<double>(sum.dissipated);
     advance(i, p, v, w, size, force, torque, sum.deepest);
@@ -118,6 +119,11 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     sum.torque += load.torque;
     sum.dissipated += load.dissipated;
     if (static_cast<float>(load.deepest) > sum.deepest) sum.deepest = static_cast<float>(load.deepest);
+  }
+
+  /// Moving surfaces receive exactly the opposite.
+  GROUSER_HD void addSurfaces(int i, base::Vec3d& force) const {
+    if (const std::uint32_t place = d.boundaryOf[i]) force += d.fromSurfaces[place - 1];
   }
 
   /// Forces from rigid parts come as integers and are added as such: the parts receive exactly their opposite.

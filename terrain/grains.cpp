@@ -20,12 +20,13 @@ namespace {
 
 constexpr StepFlags kNoFlags{~std::uint64_t{0}, 0, 0};
 
-/// Laws against walls and floor, [walls and floor][materials].
+/// Laws against walls, floor and surfaces, [walls, floor, surfaces][materials].
 std::vector<contact::ContactLaw> boundaryLaws(const GrainModel& model, const Boundaries& boundaries) {
   if (model.materials.count() > 0) return model.materials.boundaries;
   std::vector<contact::ContactLaw> laws;
   for (const Wall& wall : boundaries.walls) laws.push_back(wall.law);
   if (boundaries.floor) laws.push_back(model.floorLaw);
+  for (const RigidSurface& surface : boundaries.surfaces) laws.push_back(surface.law);
   return laws;
 }
 
@@ -43,6 +44,7 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   if (model.materials.count() > 0) features |= kManyMaterials;
   if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
   if (boundaries.joined[0] || boundaries.joined[1]) features |= kPeriodic;
+  if (!boundaries.surfaces.empty()) features |= kBoundaries | kSurfaces;
   if (model.ledger) features |= kLedger;
   return features;
 }
@@ -175,7 +177,8 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
       skinUnits_(wholeUnits(model.skin * smallestRadius_, scale_)),
       features_(featuresOf(model, boundaries, smallestRadius_ != model.radius || model.materials.count() > 0)),
       historyWidth_(historyWidthOf(features_)),
-      boundaryCount_(static_cast<int>(boundaries.walls.size()) + (boundaries.floor ? 1 : 0)),
+      boundaryCount_(static_cast<int>(boundaries.walls.size() + boundaries.surfaces.size()) +
+                     (boundaries.floor ? 1 : 0)),
       period_(periodOf(boundaries, scale_, diameterUnits_ + skinUnits_)),
       neighbours_(exec, diameterUnits_, skinUnits_, historyWidth_, period_) {
   // Overlaps are whole units: a grain a thousand times smaller would see its own in steps of 1e-5 of its size.
@@ -183,7 +186,9 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
     throw base::InputError(fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be 1000 times the "
                                        "smallest",
                                        smallestRadius_, model.radius));
-  if (boundaryCount_ > 31) throw base::InputError(fmt::format("{} planes; at most 31 are possible", boundaryCount_));
+  if (boundaryCount_ > 32)
+    throw base::InputError(
+        fmt::format("{} planes and other surfaces, the floor among them; at most 32 are possible", boundaryCount_));
   const std::vector<Position> all = placesOf(start, 0, scale_, model.radius, period_);
   if (!comm_.alone()) {
     subdomain_ = std::make_unique<Subdomain>(exec, partition, diameterUnits_ + skinUnits_, period_);
@@ -238,6 +243,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
     floorView_ = boundaries.floor->view();
     floorView_.heights = floorHeights_.data();
   }
+  makeSurfaces(boundaries);
 }
 
 void Grains::add(const std::vector<GrainStart>& more) {
@@ -308,6 +314,7 @@ void Grains::setPartition(const Partition& partition) {
 void Grains::endStep() {
   ++steps_;
   checkFlags();
+  if (!geometries_.empty()) collectSurfaceLoads();
   if (subdomain_ && !stale_) sendGhosts(); // a rebuild would fetch them anew
 }
 
@@ -381,7 +388,7 @@ std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
                       wallHistory_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + crossings_.bytes() +
                       nearBoundary_.bytes() + boundaryOf_.bytes() + single_.boundaryLoads.bytes() +
-                      double_.boundaryLoads.bytes() + origin_.bytes() + arrivedRows_.bytes() +
+                      double_.boundaryLoads.bytes() + fromSurfaces_.bytes() + origin_.bytes() + arrivedRows_.bytes() +
                       (subdomain_ ? subdomain_->bytes() : 0);
   for (int k = 0; k < 2; ++k) total += position_[k].bytes() + velocity_[k].bytes() + spin_[k].bytes();
   return total;

@@ -32,11 +32,13 @@ struct KeepReference {
   GROUSER_HD void operator()(int i) const { reference[i] = {position[i].x, position[i].y, position[i].z}; }
 };
 
-/// Marks the grains that may touch a wall or the floor before any grain has moved half the skin.
+/// Marks the grains that may touch a wall, the floor or a surface before any grain has moved half the skin and any
+/// surface has left its room.
 struct MarkNearBoundary {
   GrainKernelData d;
-  double reach; ///< half the skin, and the radius where all have one [m]
+  double reach; ///< what grains may move, and the radius where all have one [m]
   bool manyRadii;
+  double way;                 ///< that surfaces may move before the next list [m]
   const std::uint32_t* ghost; ///< null where there are none
   std::uint32_t* mark;
   GROUSER_HD void operator()(int i) const {
@@ -48,7 +50,17 @@ struct MarkNearBoundary {
     const double within = reach + (manyRadii ? static_cast<double>(d.velocity[i].w) : 0.0);
     bool near = d.hasFloor && !d.floor.clearOf(x, within);
     for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
+    for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
     mark[i] = near ? 1u : 0u;
+    // A surface that jumps away leaves nothing to go on with.
+    if (d.surfaceCount > 0 && !near) d.wallTouching[i] = 0;
+  }
+
+private:
+  GROUSER_HD bool nearSurface(int s, const Vec3d& x, double within) const {
+    const contact::PartMotion& motion = d.placements[s].motion;
+    const SurfaceTravel room = roomOf(d.surfaces[s], way);
+    return gapTo(d.surfaces[s], motion.toPart(x)).distance < within + room.way + room.turn * norm(x - motion.centre);
   }
 };
 
@@ -88,6 +100,9 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = boundaryCount_;
   d.hasFloor = hasFloor_, d.floor = floorView_;
   d.period = period_, d.crossings = crossings_.data();
+  d.surfaces = surfaces_.data(), d.surfaceCount = static_cast<int>(geometries_.size());
+  d.placements = placements_.device().data(), d.surfaceLoads = surfaceSums_.device().data();
+  d.surfaceForce = surfaceForce_, d.surfaceTorque = surfaceTorque_, d.fromSurfaces = fromSurfaces_.data();
   d.materials = static_cast<int>(massPerCube_.size()), d.massPerCube = massPerCube_.data();
   d.count = static_cast<std::int64_t>(slots_);
   d.position = position_[0].data(), d.nextPosition = position_[1].data();
@@ -116,7 +131,10 @@ template ForceData<float> Grains::forceData(Forces<float>&);
 template ForceData<double> Grains::forceData(Forces<double>&);
 
 bool Grains::refreshNeighbours() {
-  if (stale_) rebuild();
+  if (stale_)
+    rebuild();
+  else if (surfacesHaveLeft())
+    listNearBoundaries();
   return std::exchange(slotsChanged_, false);
 }
 
@@ -142,15 +160,22 @@ void Grains::listNearBoundaries() {
   const auto n = static_cast<std::int64_t>(slots_);
   base::Array<std::uint32_t> mark(exec_, slots_), before(exec_, slots_);
   boundaryOf_.resize(slots_);
-  const double reach = (manyRadii() ? 0 : model_.radius) + 0.5 * model_.skin * smallestRadius_ + scale_.unit;
+  // Between rebuilds, when surfaces ask for a list, a grain may have moved half the skin already and come back.
+  const double skin = (geometries_.empty() ? 0.5 : 1.0) * model_.skin * smallestRadius_;
+  const double reach = (manyRadii() ? 0 : model_.radius) + skin + scale_.unit;
   base::forEach(exec_, "mark grains near boundaries", n,
-                MarkNearBoundary{kernelData(nullptr), reach, manyRadii(), ghosts(), mark.data()});
+                MarkNearBoundary{kernelData(nullptr), reach, manyRadii(), surfaceWay(), ghosts(), mark.data()});
   const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), slots_);
   nearBoundary_.resize(total);
   if (model_.precision == Precision::single)
     single_.boundaryLoads.resize(total);
   else
     double_.boundaryLoads.resize(total);
+  if (!geometries_.empty()) {
+    fromSurfaces_.resize(total);
+    listedAt_.assign(placements_.host(), placements_.host() + placements_.size());
+    ++surfaceListings_;
+  }
   base::forEach(exec_, "list grains near boundaries", n,
                 ListNearBoundary{before.data(), n, total, nearBoundary_.data(), boundaryOf_.data()});
   base::synchronize(exec_);
@@ -191,6 +216,7 @@ template <class Real> void Grains::advanceGrains(Forces<Real>& forces, const con
 }
 
 template <class Real> void Grains::stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads) {
+  if (!geometries_.empty()) surfaceSums_.device().zero();
   if (boundaryCount_ > 0)
     runBoundaryContacts(exec_, kernelData(loads), forceData(forces), static_cast<std::int64_t>(nearBoundary_.size()),
                         model_.specialised);
@@ -210,6 +236,7 @@ void Grains::beginStep(const contact::GrainLoadsView* loads) {
   else
     stepWith(double_, loads);
   flags_.download();
+  if (!geometries_.empty()) surfaceSums_.download();
   position_[0].swap(position_[1]);
   velocity_[0].swap(velocity_[1]);
   spin_[0].swap(spin_[1]);

@@ -7,6 +7,7 @@
 #include "terrain/grain_model.hpp"
 #include "terrain/grain_records.hpp"
 #include "terrain/grain_state.hpp"
+#include "terrain/rigid_surface.hpp"
 #include "terrain/subdomain.hpp"
 
 #include <array>
@@ -43,11 +44,13 @@ struct GrainSnapshot {
 /// the other, and grains touch across them.
 using JoinedSides = std::array<std::optional<std::array<double, 2>>, 2>;
 
-/// Rigid surroundings of the grains: plane walls and a height-field floor.
+/// Rigid surroundings of the grains: plane walls, a height-field floor, and surfaces that may move; at most 32
+/// together.
 struct Boundaries {
-  std::vector<Wall> walls; ///< at most 31
+  std::vector<Wall> walls;
   std::optional<HeightField> floor;
-  JoinedSides joined{}; ///< walls and floor do not know of it: they must look alike at both sides
+  JoinedSides joined{}; ///< walls, floor and surfaces do not know of it: they must look alike at both sides
+  std::vector<RigidSurface> surfaces{};
 };
 
 /// Spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
@@ -74,6 +77,12 @@ public:
   bool manyRadii() const;
   const base::Period& period() const { return period_; }    ///< of joined sides; local
   double smallestRadius() const { return smallestRadius_; } ///< of the scene [m]; local
+
+  /// Where the surfaces are in the next step, one a surface of the boundaries; on all ranks the same.
+  void placeSurfaces(const std::vector<SurfacePlacement>& placements);
+  /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
+  const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
+  std::int64_t surfaceListings() const { return surfaceListings_; } ///< lists of grains near boundaries made so far
 
   /// Makes the neighbour list valid for the next step. True when slots have changed since it was last asked.
   bool refreshNeighbours();
@@ -121,7 +130,7 @@ public:
   /// same bits as one that was not stopped, on any device, any number of ranks and with any skin. Throws InputError
   /// when the state is of other grains.
   GrainState state() const;
-  /// `grows`: the state may hold more grains than the scene began with.
+  /// `grows`: the state may hold more grains than the scene began with. Surfaces are placed beforehand.
   void restore(const GrainState& state, bool grows = false);
   GrainLedger ledger();
   /// Mean over the grains of the resultant of all forces on a grain over its weight [-], in the step that was taken
@@ -156,6 +165,11 @@ private:
   void rebuild();
   void permute();
   void listNearBoundaries();
+  // Of surfaces: grain_surfaces.cpp.
+  void makeSurfaces(const Boundaries& boundaries);
+  bool surfacesHaveLeft() const;
+  double surfaceWay() const { return 0.5 * smallestRadius_; } ///< that they may move between two lists [m]
+  void collectSurfaceLoads();
   void checkFlags();
   [[noreturn]] void stopFor(std::uint64_t fault) const;
   GrainLayout layout() const;
@@ -187,7 +201,7 @@ private:
   base::Array<Remainders> remainders_;
   base::Array<std::uint32_t> id_;
   base::Array<base::Vec3<std::uint32_t>> reference_;
-  base::Array<float> wallHistory_; ///< [slot][wall or floor][historyWidth_]
+  base::Array<float> wallHistory_; ///< [slot][wall, floor or surface][historyWidth_]
   base::Array<std::uint32_t> wallTouching_;
   base::Array<double> dissipated_;
   base::Array<Crossings> crossings_;
@@ -200,6 +214,16 @@ private:
   base::Array<double> floorHeights_;
   HeightFieldView floorView_{};
   bool hasFloor_{false};
+
+  base::Array<SurfaceGeometry> surfaces_;
+  std::vector<SurfaceGeometry> geometries_;
+  base::Mirrored<SurfacePlacement> placements_;
+  std::vector<SurfacePlacement> listedAt_; ///< the surfaces when the grains near them were listed
+  base::Mirrored<contact::PartLoad> surfaceSums_;
+  base::Array<base::Vec3d> fromSurfaces_;
+  base::FixedPoint surfaceForce_, surfaceTorque_;
+  std::vector<SurfaceLoad> surfaceLoads_;
+  std::int64_t surfaceListings_{0};
 
   contact::NeighbourList neighbours_;
   std::unique_ptr<Subdomain> subdomain_; ///< null on one rank

@@ -13,6 +13,8 @@ base::Table<Grain> grainTable();
 base::Table<GrainBlock> blockTable();
 base::Table<Source> sourceTable();
 base::Table<Plane> planeTable();
+base::Table<BoxSection> boxTable();
+base::Table<CylinderSection> cylinderTable();
 base::Table<Terrain> terrainTable();
 base::Table<BodySection> bodyTable();
 base::Table<JointSection> jointTable();

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/surface_scene.hpp"
+
+#include "runs/detail/scene_tables.hpp"
+#include "runs/orientation.hpp"
+#include "runs/section_fault.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+using base::Section;
+
+namespace {
+
+void checkOscillation(const Section& section, const SurfaceSection& s) {
+  if (s.amplitude && !s.frequency) section.fail("frequency", "[Hz] is missing beside amplitude; add it");
+  for (const char* key : {"frequency", "phase"})
+    if (!s.amplitude && section.has(key)) section.fail(key, "has no meaning without amplitude; add that, or remove it");
+}
+
+void checkFree(const Section& section, const SurfaceSection& s) {
+  if (!s.free) {
+    for (const char* key : {"mass", "load", "load_ramp"})
+      if (section.has(key))
+        section.fail(key, "belongs to a surface that forces move; add free = \"z\" (or x, y), or remove it");
+    return;
+  }
+  if (!s.mass) section.fail("mass", "[kg] is missing, which a free surface needs; add it");
+  if (s.loadRamp && !s.load) section.fail("load_ramp", "[s] has no meaning without load; add that, or remove it");
+  const int axis = (*s.free)[0] - 'x';
+  const auto prescribed = [&](const char* key, const std::optional<base::Vec3d>& v) {
+    if (v && (*v)[axis] != 0)
+      section.fail(key, fmt::format("moves the surface along {}, where free leaves it to the forces; set that entry to "
+                                    "0, or remove free",
+                                    *s.free));
+  };
+  prescribed("velocity", s.velocity), prescribed("amplitude", s.amplitude);
+  for (int a = 0; s.spin && a < 3; ++a)
+    if (a != axis && (*s.spin)[a] != 0)
+      section.fail("spin", fmt::format("turns the surface about another axis than {}, along which it is free; give "
+                                       "that one, or remove free",
+                                       *s.free));
+}
+
+/// What all surfaces have alike. `names`: those that are taken.
+void checkSurface(const Section& section, const SurfaceSection& s, std::vector<std::string>& names) {
+  checkOscillation(section, s);
+  checkFree(section, s);
+  if (s.pivot && !s.spin) section.fail("pivot", "[m] has no meaning without spin; add that, or remove it");
+  const bool driven = s.velocity || s.spin || s.amplitude;
+  for (const char* key : {"start", "until"})
+    if (section.has(key) && !driven)
+      section.fail(key, "[s] has no meaning for a surface that is not moved; add velocity, spin or amplitude");
+  if (s.until && *s.until <= s.start.value_or(0)) section.fail("until", "[s] is not after start; raise it");
+  if (!s.name) return;
+  if (s.name->empty() || s.name->find_first_of("/. \t\n,\"") != std::string::npos)
+    section.fail("name", "must be a word without blanks, dots, commas and slashes, since it names columns of the "
+                         "results; choose another");
+  if (std::find(names.begin(), names.end(), *s.name) != names.end())
+    section.fail("name", "is that of another surface; choose another");
+  names.push_back(*s.name);
+}
+
+} // namespace
+
+void readSurfaces(const Section& root, Scene& scene) {
+  std::vector<std::string> names;
+  for (const Section& section : root.list("plane")) {
+    scene.planes.push_back(section.read(detail::planeTable()));
+    checkSurface(section, scene.planes.back(), names);
+    if (base::norm2(scene.planes.back().normal) == 0)
+      section.fail("normal", "is zero; give the direction out of the solid, e.g. [0, 0, 1]");
+  }
+  for (const Section& section : root.list("box")) {
+    scene.boxes.push_back(section.read(detail::boxTable()));
+    const BoxSection& b = scene.boxes.back();
+    checkSurface(section, b, names);
+    try {
+      orientationOf(b.axis, b.angle, b.orientation.value_or(std::vector<double>{}));
+    } catch (const SectionFault& fault) {
+      section.fail(fault.key(), fault.what());
+    }
+  }
+  for (const Section& section : root.list("cylinder")) {
+    scene.cylinders.push_back(section.read(detail::cylinderTable()));
+    checkSurface(section, scene.cylinders.back(), names);
+    if (base::norm2(scene.cylinders.back().axis) == 0)
+      section.fail("axis", "[-] is zero; give the direction of the cylinder, e.g. [0, 0, 1]");
+  }
+}
+
+std::string surfacesToml(const Scene& scene) {
+  std::string text;
+  for (const Plane& p : scene.planes) text += "\n[[plane]]\n" + detail::planeTable().write(p);
+  for (const BoxSection& b : scene.boxes) text += "\n[[box]]\n" + detail::boxTable().write(b);
+  for (const CylinderSection& c : scene.cylinders) text += "\n[[cylinder]]\n" + detail::cylinderTable().write(c);
+  return text;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a scene file says of rigid surfaces: plain structs, one a section. Keys, units, ranges and meanings stand in
+/// runs/scene_tables.cpp.
+namespace grouser::runs {
+
+/// What every rigid surface may have: a name, and a motion.
+struct SurfaceSection {
+  std::optional<std::string> name; ///< in results; empty: kind and number
+  std::string material;
+  std::optional<base::Vec3d> velocity;    ///< [m/s]
+  std::optional<base::Vec3d> spin;        ///< [rad/s]
+  std::optional<base::Vec3d> pivot;       ///< [m] that it turns about; empty: its own centre
+  std::optional<base::Vec3d> amplitude;   ///< [m] of an oscillation along this vector
+  std::optional<double> frequency, phase; ///< [Hz], [deg] of that oscillation
+  std::optional<double> start, until;     ///< [s] between which all this takes place
+  std::optional<std::string> free;        ///< x, y or z: the axis that forces move it along
+  std::optional<double> loadRamp;         ///< [s] over which the load comes on
+  std::optional<double> mass, load;       ///< [kg], [N] of a free surface
+  bool operator==(const SurfaceSection&) const = default;
+
+  bool moves() const { return velocity || spin || amplitude || free; }
+};
+
+/// [[plane]]: fills the half-space behind its normal.
+struct Plane : SurfaceSection {
+  base::Vec3d point, normal{0, 0, 1};
+  bool operator==(const Plane&) const = default;
+  /// Neither moved nor asked for by name: then it is a wall like those of a bed.
+  bool isWall() const { return !moves() && !name; }
+};
+
+/// [[box]]
+struct BoxSection : SurfaceSection {
+  base::Vec3d position, size; ///< [m] of its centre; edges
+  std::optional<base::Vec3d> axis;
+  std::optional<double> angle;                    ///< [deg] with axis: how its edges are turned from the world's axes
+  std::optional<std::vector<double>> orientation; ///< w, x, y, z instead
+  bool operator==(const BoxSection&) const = default;
+};
+
+/// [[cylinder]]
+struct CylinderSection : SurfaceSection {
+  base::Vec3d position, axis{0, 0, 1}; ///< [m] of its centre; direction
+  double radius = 0, length = 0;       ///< [m]
+  bool hollow = false;                 ///< a pipe without thickness, open at both ends
+  bool operator==(const CylinderSection&) const = default;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace grouser::runs {
+
+/// What a rigid surface must remember beyond its law of motion.
+struct SurfaceState {
+  double offset{}, speed{};  ///< of one that forces move, along its axis [m], [m/s]
+  double work{};             ///< since the start, by what moves it [J]
+  base::Vec3d force, torque; ///< sums over the steps since the last row [N], [N m]
+  double power{};            ///< the same [W]
+};
+
+/// All surfaces of a scene.
+struct SurfaceStates {
+  std::vector<SurfaceState> surfaces;
+  std::int64_t meanSteps{}; ///< that those sums are over
+
+  /// For the hash: what the next step depends on.
+  std::vector<std::uint32_t> words() const {
+    std::vector<std::uint32_t> words;
+    for (const SurfaceState& s : surfaces)
+      for (const double number : {s.offset, s.speed}) {
+        std::uint32_t raw[2];
+        std::memcpy(raw, &number, sizeof raw);
+        words.insert(words.end(), raw, raw + 2);
+      }
+    return words;
+  }
+};
+
+} // namespace grouser::runs
