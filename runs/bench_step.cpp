@@ -43,12 +43,14 @@ void StepBench::step() {
     vehicle->collectLoads();
     mark(kCollect);
   }
-  if (grains) grains->beginStep(vehicle ? vehicle->grainLoads() : nullptr);
+  if (s.surfaces_) s.surfaces_->touch(*grains, s.steps_, slotsChanged);
+  if (grains) grains->beginStep(s.partLoads());
   mark(kGrains);
   if (vehicle) vehicle->advance();
   if (s.mechanism_) s.mechanism_->advance();
   mark(kMultibody);
   if (grains) grains->endStep();
+  if (s.surfaces_) s.surfaces_->advance(*grains, s.steps_);
   mark(kFlags);
   ++s.steps_;
   s.addGrains();

@@ -75,6 +75,9 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   if (archive.present("/surfaces", s.surfaces)) {
     archive("/surfaces/states", s.surfaces->surfaces);
     archive("/surfaces/mean_steps", s.surfaces->meanSteps);
+    archive("/surfaces/patches/memories", s.surfaces->patches.memories);
+    archive("/surfaces/patches/angles", s.surfaces->patches.angles);
+    archive("/surfaces/patches/sums", s.surfaces->patches.sums);
   }
   if (archive.present("/vehicle", s.vehicle)) {
     auto& v = *s.vehicle;
@@ -272,6 +275,8 @@ std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& re
 std::string inputsOf(const Scene& scene) {
   std::string text;
   if (scene.terrain) text += fmt::format("terrain.heightmap {}\n", hashOfFile(scene.terrain->heightmap));
+  for (const MeshSection& mesh : scene.meshes)
+    text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
   if (!scene.vehicle) return text;
   text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);

@@ -63,7 +63,8 @@ terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, doub
   boundaries.joined = joinedSides(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
   for (const SceneSurface& s : surroundings.surfaces)
-    boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), startingPlace(s)});
+    if (!s.mesh)
+      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), startingPlace(s)});
   if (!kinds.manyMaterials()) return model;
 
   terrain::GrainMaterials& many = model.materials;
@@ -78,8 +79,9 @@ terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, doub
     for (const std::string& a : kinds.material)
       many.boundaries.push_back(pairLaw(scene, a, surroundings.floorMaterial, std::nullopt));
   for (const SceneSurface& s : surroundings.surfaces)
-    for (const std::string& a : kinds.material)
-      many.boundaries.push_back(pairLaw(scene, a, s.section.material, std::nullopt));
+    if (!s.mesh)
+      for (const std::string& a : kinds.material)
+        many.boundaries.push_back(pairLaw(scene, a, s.section.material, std::nullopt));
   return model;
 }
 

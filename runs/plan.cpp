@@ -51,7 +51,8 @@ unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
     if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
   }
   if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
-  if (!surfacesOf(scene).empty()) features |= terrain::kBoundaries | terrain::kSurfaces;
+  if (surfacesOf(scene).size() > scene.meshes.size()) features |= terrain::kBoundaries | terrain::kSurfaces;
+  if (!scene.meshes.empty()) features |= terrain::kLoads;
   if (scene.run.periodic[0] || scene.run.periodic[1]) features |= terrain::kPeriodic;
   if (kinds.many()) features |= terrain::kManyRadii;
   if (kinds.manyMaterials()) features |= terrain::kManyMaterials;
@@ -92,7 +93,8 @@ std::string surfacesLine(const Scene& scene) {
     names += (names.empty() ? "" : ", ") + s.name;
     s.section.free ? ++freed : moved += s.section.moves() ? 1 : 0;
   }
-  if (names.empty()) return onOff(false, "surfaces", "no [[box]], no [[cylinder]], no plane that moves or has a name");
+  if (names.empty())
+    return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no plane that moves or has a name");
   return onOff(true, "surfaces", fmt::format("{}; {} moved, {} free", names, moved, freed));
 }
 

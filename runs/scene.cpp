@@ -19,9 +19,10 @@ using base::Section;
 
 namespace {
 
-const std::vector<std::string> kSections = {"version", "run",   "material", "contact", "grain",  "grains", "source",
-                                            "plane",   "box",   "cylinder", "terrain", "body",   "joint",  "spring",
-                                            "bushing", "drive", "coupling", "vehicle", "driver", "output", "parallel"};
+const std::vector<std::string> kSections = {"version", "run",    "material", "contact",  "grain", "grains",
+                                            "source",  "plane",  "box",      "cylinder", "mesh",  "terrain",
+                                            "body",    "joint",  "spring",   "bushing",  "drive", "coupling",
+                                            "vehicle", "driver", "output",   "parallel"};
 
 /// One of the two ways to say how lossy a contact is.
 template <class S> void checkOneLoss(const Section& section, const S& s) {
@@ -164,14 +165,20 @@ void readGrainsAndSurfaces(const Section& root, Scene& scene) {
       checkMaterial(scene, sections[k], "material", surfaces[k].material);
   };
   checkEach("plane", scene.planes), checkEach("box", scene.boxes), checkEach("cylinder", scene.cylinders);
+  checkEach("mesh", scene.meshes);
+  const std::vector<Section> meshes = root.list("mesh");
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    resolveFile(scene, meshes[k], "file", scene.meshes[k].file);
+    loadMesh(meshes[k], scene.meshes[k]);
+  }
 }
 
-/// Boxes and cylinders are for grains alone.
+/// Boxes, cylinders and meshes are for grains alone.
 void checkSurfacesMeetGrains(const Section& root, const Scene& scene) {
   const bool grains = !scene.grains.empty() || !scene.blocks.empty() || !scene.sources.empty() ||
                       (scene.terrain && scene.terrain->granular());
   if (grains) return;
-  for (const char* kind : {"box", "cylinder"})
+  for (const char* kind : {"box", "cylinder", "mesh"})
     for (const Section& section : root.list(kind))
       section.fail("", "stands in a scene without grains, and nothing else touches it; remove it");
 }
@@ -317,6 +324,7 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   checkSurfacesMeetGrains(root, scene);
   readMechanism(root, scene);
   if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
+  checkMeshes(root, scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
@@ -404,7 +412,8 @@ std::string fieldHelp() {
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
   add(detail::grainTable()), add(detail::blockTable()), add(detail::sourceTable()), add(detail::planeTable());
-  add(detail::boxTable()), add(detail::cylinderTable()), add(detail::terrainTable());
+  add(detail::boxTable()), add(detail::cylinderTable()), add(detail::meshTable());
+  add(detail::terrainTable());
   add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable());
   add(detail::bushingTable()), add(detail::driveTable()), add(detail::couplingTable());
   add(detail::vehicleTable()), add(detail::driverTable()), add(detail::speedTable()), add(detail::outputTable());

@@ -199,6 +199,7 @@ struct Scene {
   std::vector<Plane> planes;
   std::vector<BoxSection> boxes;
   std::vector<CylinderSection> cylinders;
+  std::vector<MeshSection> meshes;
   std::optional<Terrain> terrain;
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;

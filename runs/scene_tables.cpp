@@ -239,6 +239,24 @@ Table<CylinderSection> cylinderTable() {
   return t;
 }
 
+Table<MeshSection> meshTable() {
+  using S = MeshSection;
+  Table<S> t("[mesh]", "A rigid body from a file that grains touch, fixed or moved, cut into spheres");
+  t.add("file", &S::file, "", "OBJ, STL, PLY...: closed, outward; relative to the scene or to the assets folder")
+      .required();
+  t.add("scale", &S::scale, "m", "of one unit of the file").above(0).atMost(1e6);
+  t.add("position", &S::position, "m", "of the file's origin, about which loads are taken");
+  t.add("axis", &S::axis, "-", "about which it is turned from the file's axes, with angle");
+  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
+  t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
+  t.add("sphere_radius", &S::sphereRadius, "m",
+        "of the spheres it is cut into, which round its edges; a fortieth of its diagonal where not given")
+      .above(0)
+      .atMost(1e4);
+  addSurface(t);
+  return t;
+}
+
 Table<Terrain> terrainTable() {
   using S = Terrain;
   Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");

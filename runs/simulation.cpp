@@ -30,6 +30,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleP
   if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
   if (ground_.grains) ground_.grains->setSteps(0);
   makeSurfaces(nullptr);
+  if (surfaces_) surfaces_->makeMeshContacts(scene_, exec_, *ground_.grains);
   start_ = ledger();
   addGrains();
 }
@@ -44,8 +45,9 @@ void Simulation::step() {
     vehicle_->touchGround(grains);
     vehicle_->collectLoads();
   }
+  if (surfaces_) surfaces_->touch(*grains, steps_, slotsChanged);
   // The device works on the grains while the host solves the vehicle.
-  if (grains) grains->beginStep(vehicle_ ? vehicle_->grainLoads() : nullptr);
+  if (grains) grains->beginStep(partLoads());
   if (vehicle_) vehicle_->advance();
   if (mechanism_) mechanism_->advance();
   if (grains) grains->endStep();
@@ -53,6 +55,12 @@ void Simulation::step() {
   ++steps_;
   addGrains();
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+}
+
+/// Of the rigid parts that touch the grains in this step; null without.
+const contact::GrainLoadsView* Simulation::partLoads() const {
+  if (vehicle_) return vehicle_->grainLoads();
+  return surfaces_ ? surfaces_->grainLoads() : nullptr;
 }
 
 /// Where they are at this step; until now the grains had them at rest.
@@ -106,6 +114,7 @@ Simulation::Ledger Simulation::ledger() {
   if (surfaces_) {
     const Surfaces::Ledger s = surfaces_->ledger();
     ledger.driveWork += s.work, ledger.kinetic += s.kinetic, ledger.potential += s.potential;
+    ledger.elastic += s.elastic;
   }
   if (mechanism_) {
     const Mechanism::Ledger m = mechanism_->ledger();

@@ -71,6 +71,7 @@ private:
   void checkAlarm();
   void addGrains();
   void makeSurfaces(const SurfaceStates* former);
+  const contact::GrainLoadsView* partLoads() const;
 
   const Scene scene_;
   base::Exec exec_;

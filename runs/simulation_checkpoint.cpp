@@ -47,6 +47,7 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
   if (ground_.grains) {
     ground_.grains->restore(*state.grains, !sources_.empty());
     ground_.grains->setSteps(steps_);
+    if (surfaces_) surfaces_->makeMeshContacts(scene_, exec_, *ground_.grains);
   }
   if (scene.vehicle) {
     // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.

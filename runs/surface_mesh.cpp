@@ -56,6 +56,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 } // namespace
 
 TriangleMesh surfaceMesh(const Scene& scene, const SceneSurface& surface) {
+  if (surface.mesh) return surface.mesh->mesh();
   const Vec3d& half = surface.geometry.half;
   switch (surface.geometry.shape) {
   case SurfaceShape::box:

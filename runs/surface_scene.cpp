@@ -64,6 +64,14 @@ void checkSurface(const Section& section, const SurfaceSection& s, std::vector<s
   names.push_back(*s.name);
 }
 
+template <class S> void checkOrientation(const Section& section, const S& s) {
+  try {
+    orientationOf(s.axis, s.angle, s.orientation.value_or(std::vector<double>{}));
+  } catch (const SectionFault& fault) {
+    section.fail(fault.key(), fault.what());
+  }
+}
+
 } // namespace
 
 void readSurfaces(const Section& root, Scene& scene) {
@@ -76,19 +84,51 @@ void readSurfaces(const Section& root, Scene& scene) {
   }
   for (const Section& section : root.list("box")) {
     scene.boxes.push_back(section.read(detail::boxTable()));
-    const BoxSection& b = scene.boxes.back();
-    checkSurface(section, b, names);
-    try {
-      orientationOf(b.axis, b.angle, b.orientation.value_or(std::vector<double>{}));
-    } catch (const SectionFault& fault) {
-      section.fail(fault.key(), fault.what());
-    }
+    checkSurface(section, scene.boxes.back(), names);
+    checkOrientation(section, scene.boxes.back());
   }
   for (const Section& section : root.list("cylinder")) {
     scene.cylinders.push_back(section.read(detail::cylinderTable()));
     checkSurface(section, scene.cylinders.back(), names);
     if (base::norm2(scene.cylinders.back().axis) == 0)
       section.fail("axis", "[-] is zero; give the direction of the cylinder, e.g. [0, 0, 1]");
+  }
+  for (const Section& section : root.list("mesh")) {
+    scene.meshes.push_back(section.read(detail::meshTable()));
+    checkSurface(section, scene.meshes.back(), names);
+    checkOrientation(section, scene.meshes.back());
+  }
+}
+
+void loadMesh(const Section& section, MeshSection& mesh) {
+  base::TriangleMesh triangles;
+  try {
+    triangles = spheredecomp::importMesh(mesh.file);
+  } catch (const base::InputError& error) {
+    section.fail("file", fmt::format("is of no use: {}", error.what()));
+  }
+  for (base::Vec3d& v : triangles.vertices) v *= mesh.scale;
+  const auto [low, high] = spheredecomp::bounds(triangles);
+  if (!mesh.sphereRadius) mesh.sphereRadius = norm(high - low) / 40;
+  const base::Vec3d size = high - low;
+  if (*mesh.sphereRadius > 0.5 * std::max({size.x, size.y, size.z}))
+    section.fail("sphere_radius", fmt::format("[m] is above half of the mesh's longest side of {:.4g} m; lower it, or "
+                                              "correct scale",
+                                              std::max({size.x, size.y, size.z})));
+  mesh.loaded.query = std::make_shared<const spheredecomp::MeshQuery>(std::move(triangles));
+}
+
+void checkMeshes(const Section& root, const Scene& scene) {
+  const std::vector<Section> sections = root.list("mesh");
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (scene.vehicle)
+      sections[k].fail("", "stands beside [vehicle]; a scene has the one or the other: use boxes and cylinders");
+    if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0)
+      sections[k].fail("", "stands in a bed that settles first, which meshes have no part in; use boxes and cylinders, "
+                           "or set terrain.settle_time_limit = 0");
+    if (scene.meshes[k].material != scene.meshes.front().material)
+      sections[k].fail("material", fmt::format("differs from that of the first mesh, \"{}\"; all meshes have one",
+                                               scene.meshes.front().material));
   }
 }
 
@@ -97,6 +137,7 @@ std::string surfacesToml(const Scene& scene) {
   for (const Plane& p : scene.planes) text += "\n[[plane]]\n" + detail::planeTable().write(p);
   for (const BoxSection& b : scene.boxes) text += "\n[[box]]\n" + detail::boxTable().write(b);
   for (const CylinderSection& c : scene.cylinders) text += "\n[[cylinder]]\n" + detail::cylinderTable().write(c);
+  for (const MeshSection& m : scene.meshes) text += "\n[[mesh]]\n" + detail::meshTable().write(m);
   return text;
 }
 

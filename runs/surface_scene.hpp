@@ -8,8 +8,13 @@
 
 namespace grouser::runs {
 
-/// Reads and checks [[plane]], [[box]] and [[cylinder]]; their materials are the caller's affair. Throws InputError.
+/// Reads and checks [[plane]], [[box]], [[cylinder]] and [[mesh]]; their materials are the caller's affair. Throws
+/// InputError.
 void readSurfaces(const base::Section& root, Scene& scene);
+/// Reads the file of a [[mesh]], whose name is absolute now. Throws InputError.
+void loadMesh(const base::Section& section, MeshSection& mesh);
+/// What meshes do not go together with. Throws InputError.
+void checkMeshes(const base::Section& root, const Scene& scene);
 /// The same sections as TOML.
 std::string surfacesToml(const Scene& scene);
 

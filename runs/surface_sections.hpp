@@ -2,7 +2,9 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "spheredecomp/mesh_query.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +54,25 @@ struct CylinderSection : SurfaceSection {
   double radius = 0, length = 0;       ///< [m]
   bool hollow = false;                 ///< a pipe without thickness, open at both ends
   bool operator==(const CylinderSection&) const = default;
+};
+
+/// What a file held when the scene was loaded, in metres.
+struct LoadedMesh {
+  std::shared_ptr<const spheredecomp::MeshQuery> query;
+  bool operator==(const LoadedMesh&) const { return true; } // the file's name says it
+};
+
+/// [[mesh]]
+struct MeshSection : SurfaceSection {
+  std::string file;     ///< absolute path after loading
+  double scale = 1;     ///< metres a unit of the file
+  base::Vec3d position; ///< [m] of the file's origin
+  std::optional<base::Vec3d> axis;
+  std::optional<double> angle;                    ///< [deg]
+  std::optional<std::vector<double>> orientation; ///< w, x, y, z
+  std::optional<double> sphereRadius;             ///< [m]; has a value after loading
+  LoadedMesh loaded;
+  bool operator==(const MeshSection&) const = default;
 };
 
 } // namespace grouser::runs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "contact/saved_contacts.hpp"
 
 #include <cstdint>
 #include <cstring>
@@ -20,7 +21,8 @@ struct SurfaceState {
 /// All surfaces of a scene.
 struct SurfaceStates {
   std::vector<SurfaceState> surfaces;
-  std::int64_t meanSteps{}; ///< that those sums are over
+  std::int64_t meanSteps{};           ///< that those sums are over
+  contact::SavedGrainPatches patches; ///< of grains on meshes
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const {
@@ -31,6 +33,7 @@ struct SurfaceStates {
         std::memcpy(raw, &number, sizeof raw);
         words.insert(words.end(), raw, raw + 2);
       }
+    words.insert(words.end(), patches.memories.begin(), patches.memories.end());
     return words;
   }
 };

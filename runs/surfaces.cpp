@@ -48,6 +48,13 @@ std::vector<SceneSurface> surfacesOf(const Scene& scene) {
     add("cylinder", k, c, c.hollow ? SurfaceShape::tube : SurfaceShape::cylinder, {c.radius, 0, 0.5 * c.length},
         {c.position, turnFromZ(c.axis)});
   }
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    const MeshSection& m = scene.meshes[k];
+    const auto [low, high] = spheredecomp::bounds(m.loaded.query->mesh());
+    add("mesh", k, m, SurfaceShape::box, 0.5 * (high - low),
+        {m.position, orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
+    all.back().mesh = m.loaded.query;
+  }
   return all;
 }
 
@@ -57,7 +64,9 @@ terrain::SurfacePlacement startingPlace(const SceneSurface& surface) {
 }
 
 double startingOverlap(const SceneSurface& surface, const Vec3d& position, double radius) {
-  return radius - terrain::gapTo(surface.geometry, surface.start.toBody(position)).distance;
+  const Vec3d p = surface.start.toBody(position);
+  if (surface.mesh) return radius - surface.mesh->signedDistance(p);
+  return radius - terrain::gapTo(surface.geometry, p).distance;
 }
 
 Surfaces::Surfaces(const Scene& scene, double timeStep)
@@ -65,6 +74,7 @@ Surfaces::Surfaces(const Scene& scene, double timeStep)
   for (const SceneSurface& s : surfaces_) {
     motions_.emplace_back(s.section, s.start.position);
     freeAxes_.push_back(freeAxisOf(s.section));
+    if (!s.mesh) ++shapes_;
   }
   states_.surfaces.resize(surfaces_.size());
 }
@@ -82,16 +92,35 @@ base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {
   return {law.centre + freeAxes_[i] * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
 }
 
+void Surfaces::makeMeshContacts(const Scene& scene, const base::Exec& exec, terrain::Grains& grains) {
+  if (shapes_ == surfaces_.size()) return;
+  meshes_ = std::make_unique<MeshContacts>(scene, exec, timeStep_, grains);
+  if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
+}
+
+void Surfaces::touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
+  if (!meshes_) return;
+  std::vector<contact::PartMotion> motions;
+  for (std::size_t i = shapes_; i < surfaces_.size(); ++i) motions.push_back(placement(i, step).motion);
+  meshes_->touch(grains, motions, slotsChanged);
+}
+
+SurfaceStates Surfaces::save() const {
+  SurfaceStates states = states_;
+  if (meshes_) states.patches = meshes_->save();
+  return states;
+}
+
 void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
   std::vector<terrain::SurfacePlacement> placements;
-  for (std::size_t i = 0; i < surfaces_.size(); ++i) placements.push_back(placement(i, step));
+  for (std::size_t i = 0; i < shapes_; ++i) placements.push_back(placement(i, step));
   grains.placeSurfaces(placements);
 }
 
 void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const terrain::SurfaceLoad& load = grains.surfaceLoads()[i];
+    const terrain::SurfaceLoad& load = i < shapes_ ? grains.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
     const SurfaceMotion::State law = motions_[i].at(time);
     SurfaceState& s = states_.surfaces[i];
     double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
@@ -122,6 +151,7 @@ void Surfaces::restartMeans() {
 
 Surfaces::Ledger Surfaces::ledger() const {
   Ledger ledger;
+  if (meshes_) ledger.elastic = meshes_->elastic();
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const SurfaceState& s = states_.surfaces[i];
     ledger.work += s.work;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/mesh_contacts.hpp"
 #include "runs/scene.hpp"
 #include "runs/surface_motion.hpp"
 #include "runs/surface_state.hpp"
 #include "terrain/grains.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,10 +19,11 @@ struct SceneSurface {
   const char* kind{};   ///< "box"
   std::size_t number{}; ///< among those of its kind
   SurfaceSection section;
-  terrain::SurfaceGeometry geometry;
+  terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
   base::Pose start;
+  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
 };
-/// Planes that move or have a name, boxes, cylinders: in this order, and in that of the file.
+/// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
 std::vector<SceneSurface> surfacesOf(const Scene& scene);
 /// At rest where it stands at the start.
 terrain::SurfacePlacement startingPlace(const SceneSurface& surface);
@@ -33,6 +36,13 @@ class Surfaces {
 public:
   Surfaces(const Scene& scene, double timeStep);
 
+  /// The meshes' contacts; after grains have been restored, before the first touch().
+  void makeMeshContacts(const Scene& scene, const base::Exec& exec, terrain::Grains& grains);
+
+  /// Contacts of grains with meshes in step `step`.
+  void touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
+  /// For the grains' step; null without meshes.
+  const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
   /// Where they are at step `step`, to the grains.
   void place(terrain::Grains& grains, std::int64_t step) const;
   /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step.
@@ -55,10 +65,11 @@ public:
   struct Ledger {
     double work{}; ///< since the start, by what moves the surfaces and by loads
     double kinetic{}, potential{};
+    double elastic{}; ///< in contacts with meshes
   };
   Ledger ledger() const;
 
-  SurfaceStates save() const { return states_; }
+  SurfaceStates save() const;
   /// Throws InputError when they are of other surfaces.
   void restore(const SurfaceStates& states);
 
@@ -71,6 +82,8 @@ private:
   base::Vec3d gravity_;
   double timeStep_;
   SurfaceStates states_;
+  std::size_t shapes_{0}; ///< surfaces that are no meshes
+  std::unique_ptr<MeshContacts> meshes_;
 };
 
 } // namespace grouser::runs

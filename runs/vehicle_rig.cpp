@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/grain_kinds.hpp"
+#include "runs/grain_part_model.hpp"
 #include "runs/laws.hpp"
 #include "runs/placement.hpp"
 #include "spheredecomp/decompose.hpp"
@@ -58,10 +58,6 @@ base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
   set.surfaceCount = all.surfaceCount, set.spacing = all.spacing, set.radius = all.radius;
   set.meshVolume = all.meshVolume, set.meshArea = all.meshArea;
   return set;
-}
-
-contact::GrainPartContacts::GrainsView viewOf(const terrain::Grains& grains) {
-  return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
 }
 
 } // namespace
@@ -143,34 +139,14 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
       exec_, contact::PartPartContacts::Model{inside, quanta_, timeStep_, trackMargin_}, sets, setOfPart, pairs);
 
   if (ground.grains) {
-    const terrain::GrainModel& grains = ground.grains->model();
-    contact::GrainPartModel model;
-    model.radius = grains.radius, model.mass = grains.mass, model.timeStep = timeStep_;
     groundMargin_ = kBedMargin;
-    // A grain listed at one end of its half skin may touch at the other.
-    model.margin = grains.skin * grains.radius + groundMargin_;
-    const GrainKinds kinds = grainKinds(scene);
-    const auto lawOf = [&](const std::string& soil) {
-      const std::string& part = scene.vehicle->material.empty() ? soil : scene.vehicle->material;
-      contact::ContactLaw law = pairLaw(scene, soil, part, kinds.many() ? std::nullopt : std::optional(grains.mass));
-      if (scene.vehicle->material.empty()) law.friction = spec.frictionGround;
-      return law;
-    };
-    model.law = lawOf(kinds.material.front());
-    model.manyRadii = kinds.many();
-    contact::GrainPartMaterials materials;
-    for (const std::string& soil : kinds.material) {
-      materials.laws.push_back(lawOf(soil));
-      materials.massPerCube.push_back(sphereMass(scene.material(soil).density, 1));
-    }
-    model.scale = ground.grains->scale();
-    // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
-    double pressed = 0;
-    for (const contact::ContactLaw& law : materials.laws)
-      pressed = std::max(pressed, law.stiffness * grains.radius * (law.hertz ? 0.1 * grains.radius : 1.0));
-    model.force = base::fixedPointFor(pressed, 36);
-    model.torque = base::fixedPointFor(pressed, 36);
-    model.energy = base::fixedPointFor(pressed * grains.radius, 36);
+    const auto [model, materials] = grainPartModel(
+        scene, *ground.grains, timeStep_, groundMargin_, [&](const std::string& soil, std::optional<double> mass) {
+          const std::string& part = scene.vehicle->material.empty() ? soil : scene.vehicle->material;
+          contact::ContactLaw law = pairLaw(scene, soil, part, mass);
+          if (scene.vehicle->material.empty()) law.friction = spec.frictionGround;
+          return law;
+        });
     groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
     std::vector<contact::GrainPart> parts;
     for (const int set : setOfPart) parts.push_back({set, {}, {}});

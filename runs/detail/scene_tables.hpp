@@ -15,6 +15,7 @@ base::Table<Source> sourceTable();
 base::Table<Plane> planeTable();
 base::Table<BoxSection> boxTable();
 base::Table<CylinderSection> cylinderTable();
+base::Table<MeshSection> meshTable();
 base::Table<Terrain> terrainTable();
 base::Table<BodySection> bodyTable();
 base::Table<JointSection> jointTable();

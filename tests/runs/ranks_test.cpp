@@ -123,6 +123,60 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   EXPECT_NE(lastOf(series, "vehicle.drawbar_pull [N]"), 0) << "the vehicle does not touch the bed";
 }
 
+TEST_F(OnRanks, SurfacesAndMeshesMoveAndMeasureAsOnOneRank) {
+  std::ofstream(folder_ / "wedge.obj") << "v 0 -0.2 0\nv 0.3 -0.2 0\nv 0.3 -0.2 0.1\nv 0 0.2 0\nv 0.3 0.2 0\n"
+                                          "v 0.3 0.2 0.1\nf 1 2 3\nf 4 6 5\nf 1 4 5\nf 1 5 2\nf 2 5 6\nf 2 6 3\n"
+                                          "f 1 3 6\nf 1 6 4\n";
+  std::ofstream(folder_ / "moved.toml") << R"(version = 1
+[run]
+duration = 0.12
+time_step = 1e-4
+output_interval = 0.01
+checkpoint_interval = 0.1
+[material.soil]
+stiffness = 1e5
+[[grains]]
+low = [-0.3, -0.2, 0.105]
+high = [0.3, 0.2, 0.23]
+radius = 0.02
+jitter = 0.9
+velocity = [0.3, 0, 0]
+material = "soil"
+[[plane]]
+name = "belt"
+velocity = [-0.5, 0, 0]
+material = "soil"
+[[box]]
+position = [-0.35, 0, 0.1]
+size = [0.02, 0.4, 0.2]
+spin = [0, 1.5, 0]
+material = "soil"
+[[box]]
+name = "lid"
+position = [0, 0, 0.25]
+size = [0.6, 0.4, 0.02]
+free = "z"
+mass = 3
+load = -20
+material = "soil"
+[[mesh]]
+file = "wedge.obj"
+velocity = [-0.3, 0, 0]
+sphere_radius = 0.01
+material = "soil"
+[output]
+picture = false
+plots = false
+)";
+  const Outcome one = run(1, "run moved.toml --hash --out one");
+  EXPECT_EQ(one.hash().substr(0, 11), "state-hash ") << one.err;
+  EXPECT_EQ(run(2, "run moved.toml --hash --out two").hash(), one.hash());
+  EXPECT_EQ(run(3, "run moved.toml --hash --steps 650 --out three").code, 0);
+  EXPECT_EQ(run(2, "run moved.toml --hash --resume --out three").hash(), one.hash());
+  EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "two/timeseries.csv"));
+  EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "three/timeseries.csv"));
+}
+
 TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
   const std::string words = "run bed.toml --steps 200 --hash --set terrain.settle_time_limit=5 "
                             "--set terrain.settle_kinetic_energy=0.05 ",

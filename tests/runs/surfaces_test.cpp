@@ -12,6 +12,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 namespace grouser::runs {
 namespace {
 
@@ -251,6 +254,72 @@ TEST(Surfaces, OfThePairsMaterialFollowOverrides) {
   EXPECT_EQ(
       made(sceneOf(belt + "[contact.\"belt|glass\"]\nfriction = 0\n"), 2000)->ground().grains->snapshot().velocity[0].x,
       0);
+}
+
+/// A cube with edges of 2, of the file's units, about its origin.
+std::string cubeFile() {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "grouser_surfaces_cube.obj";
+  std::ofstream(path) << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\n"
+                         "f 4 1 5\nf 4 5 8\n";
+  return path.string();
+}
+
+/// A block of 0.1 m with edges turned about z, that moves and turns below two balls that slide and bounce on it.
+std::string movingBlock(const std::string& head) {
+  return head +
+         "position = [0, 0, -0.05]\naxis = [0, 0, 1]\nangle = 20\nmaterial = \"glass\"\nname = \"block\"\n"
+         "velocity = [0.05, 0, 0.02]\nspin = [0, 0, 2]\n" +
+         grainAt("[0.01, 0, 0.0101]") + grainAt("[-0.02, 0.01, 0.03]");
+}
+std::string meshHead(double scale = 0.05) {
+  return fmt::format("[[mesh]]\nfile = \"{}\"\nscale = {}\nsphere_radius = 0.004\n", cubeFile(), scale);
+}
+
+TEST(Mesh, CubeActsAsTheBoxDoes) {
+  const auto mesh = made(sceneOf(movingBlock(meshHead())), 10000),
+             box = made(sceneOf(movingBlock("[[box]]\nsize = [0.1, 0.1, 0.1]\n")), 10000);
+  const auto a = mesh->ground().grains->snapshot(), b = box->ground().grains->snapshot();
+  for (std::size_t i = 0; i < 2; ++i) {
+    // Its discs are floats: 4e-9 m of 0.05 m, of overlaps of 1e-6 m; bounces carry that on.
+    EXPECT_LT(norm(a.position[i] - b.position[i]), 2e-6) << "of a way of 0.01 m";
+    EXPECT_LT(norm(a.velocity[i].as<double>() - b.velocity[i].as<double>()), 1e-3 * norm(b.velocity[i].as<double>()));
+  }
+  EXPECT_NEAR(mesh->surfaces()->observe(0, 0).force.z, box->surfaces()->observe(0, 0).force.z, 1e-4);
+  EXPECT_NEAR(mesh->ledger().driveWork, box->ledger().driveWork, 0.01 * std::fabs(box->ledger().driveWork));
+}
+
+TEST(Mesh, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
+  const Scene scene = sceneOf(movingBlock(meshHead()));
+  const auto straight = made(scene, 5000, 1);
+  EXPECT_EQ(made(scene, 5000, 2)->stateHash(), straight->stateHash());
+  for (const std::int64_t stop : {0, 2500}) {
+    const auto first = made(scene, stop);
+    Simulation second(scene, base::cpuExec(1), first->save());
+    while (second.steps() < 5000) second.step();
+    EXPECT_EQ(second.stateHash(), straight->stateHash()) << "stopped at " << stop;
+    EXPECT_EQ(second.surfaces()->observe(0, 5000).force, straight->surfaces()->observe(0, 5000).force);
+  }
+}
+
+TEST(Mesh, WhatItDoesNotGoTogetherWithIsRefused) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      made(sceneOf(text));
+    } catch (const base::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string block = movingBlock(meshHead());
+  EXPECT_NE(refusal(meshHead() + "material = \"glass\"\n" + grainAt("[0, 0, 0.02]")).find("overlaps mesh 0"),
+            std::string::npos);
+  EXPECT_NE(refusal(block + meshHead() + "material = \"wood\"\n[material.wood]\n").find("all meshes have one"),
+            std::string::npos);
+  EXPECT_NE(refusal(movingBlock("[[mesh]]\nfile = \"nosuch.obj\"\n")).find("does not exist"), std::string::npos);
+  EXPECT_NE(refusal(movingBlock("[[mesh]]\nfile = \"heightmaps/hills.png\"\n")).find("is of no use"),
+            std::string::npos);
+  EXPECT_NE(refusal(movingBlock(meshHead(1e-3))).find("sphere_radius"), std::string::npos);
 }
 
 struct Fault {
