@@ -8,18 +8,22 @@
 
 namespace grouser::contact {
 
+/// Where rows lie, one for each grain slot: place k of row i is start[i] + k stride. On a CPU row stands behind row, in
+/// few cache lines each; on a GPU the rows of 32 slots lie side by side, so that a warp reads its k-th places at once.
+struct NeighbourRows {
+  const std::uint32_t* start;
+  std::int64_t stride;
+  GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return start[i] + k * stride; }
+};
+
 /// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
 /// ids, each with the history of that contact: `width` numbers. Bit k of the mask at touching[i * maskWords] says that
 /// slot k touched in the last step. A CPU may read slots by eights: what lies behind a row's last is some grain's slot.
-struct NeighbourView {
-  const std::uint32_t* count;
-  const std::uint32_t* slot;
+struct NeighbourView : NeighbourRows {
+  const std::uint32_t *count, *slot;
   float* history; ///< null where contacts have none
   std::uint64_t* touching;
-  std::int64_t grainStride, slotStride;
   std::int64_t maskWords; ///< 1 among equal spheres
-
-  GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return i * grainStride + k * slotStride; }
 };
 
 /// Rows that came from other ranks with grains that were handed over: for each row `words(capacity)` words, namely the
@@ -78,11 +82,13 @@ struct CellGrid {
   GROUSER_HD Cell local(const base::Position& p) const { return cellOf(p) - low; }
 };
 
+struct TouchingRows;
+
 /// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history.
 ///
-/// Valid while no grain has moved more than half the skin. Lists grow when they are full and never drop a neighbour.
-/// Grains are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not depend on when
-/// the list is rebuilt: candidates that do not touch add nothing, and the order is that of the ids.
+/// Valid while no grain has moved more than half the skin. Rows are as long as they need to be: no neighbour is ever
+/// dropped. Grains are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not
+/// depend on when the list is rebuilt: candidates that do not touch add nothing, and the order is that of the ids.
 class NeighbourList {
 public:
   /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: numbers of history
@@ -105,53 +111,48 @@ public:
   /// Writes the rows of these slots for other ranks.
   void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const;
   /// Grains that have a row; those that were added since the last build have none.
-  std::uint32_t rows() const { return haveOld_ ? static_cast<std::uint32_t>(now_.count.size()) : 0; }
+  std::uint32_t rows() const { return haveRows_ ? static_cast<std::uint32_t>(count_.size()) : 0; }
 
   /// The next list begins without history: other grains have taken the slots.
-  void forget() { haveOld_ = false; }
+  void forget() { haveRows_ = false; }
 
   NeighbourView view();
-  std::uint32_t capacity() const { return capacity_; }
+  /// Between builds; a build needs more, for the contacts that it sets aside and for its grid of cells [B].
   std::size_t bytes() const;
 
   /// Contacts with history, for checkpoints and the state hash: arrays by slot, host side.
   struct HostCopy {
-    std::vector<std::uint32_t> count, slot;
+    std::vector<std::uint32_t> count, start, slot;
     std::vector<float> history; ///< [slot][width]; empty where contacts have none
     std::vector<std::uint64_t> touching;
-    std::int64_t grainStride{}, slotStride{}, maskWords{};
+    std::int64_t stride{}, maskWords{};
     bool touched(std::size_t i, std::uint32_t k) const {
       return touching[i * static_cast<std::size_t>(maskWords) + k / 64] >> (k & 63u) & 1;
     }
-    std::int64_t at(std::size_t i, std::uint32_t k) const {
-      return static_cast<std::int64_t>(i) * grainStride + k * slotStride;
-    }
+    std::int64_t at(std::size_t i, std::uint32_t k) const { return start[i] + k * stride; }
   };
   HostCopy toHost() const;
   /// Takes over touching bits and history of a host copy of the present list.
   void setHistory(const HostCopy& copy);
 
 private:
-  struct Lists {
-    base::Array<std::uint32_t> count, slot;
-    base::Array<float> history;
-    base::Array<std::uint64_t> touching;
-    base::Array<std::uint32_t> id; ///< by slot, as at the build
-    std::int64_t grainStride{}, slotStride{}, maskWords{};
-  };
-  void allocate(Lists& lists, std::size_t count) const;
+  TouchingRows contacts() const;
+  /// Gives the rows of `count_` neighbours their starts. Returns the places of all of them.
+  std::uint32_t layRows();
+  void checkLengths(std::uint32_t most, bool equal) const;
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
   base::Period period_;
   int width_;
-  std::uint32_t capacity_{16};
-  std::size_t count_{0};
-  bool haveOld_{false};
-  Lists now_, old_;
-  base::Array<std::uint32_t> order_;
-  base::Array<std::uint64_t> key_;
-  base::Array<std::uint32_t> cellStart_, bounds_;
+  std::size_t sorted_{0}; ///< grains of the next list
+  bool haveRows_{false};
+  base::Array<std::uint32_t> count_, start_, slot_;
+  base::Array<float> history_;
+  base::Array<std::uint64_t> touching_;
+  base::Array<std::uint32_t> id_; ///< by slot, as at the build
+  std::int64_t stride_{1}, maskWords_{1};
+  base::Array<std::uint32_t> order_, cellStart_, bounds_;
   CellGrid grid_;
 };
 

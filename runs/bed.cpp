@@ -5,7 +5,7 @@
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
-#include "runs/grain_kinds.hpp"
+#include "runs/grain_memory.hpp"
 #include "runs/joined_sides.hpp"
 #include "runs/laws.hpp"
 #include "runs/mechanism.hpp"
@@ -48,17 +48,17 @@ void addPlanesAndSurfaces(const Scene& scene, Surroundings& around) {
 
 /// Throws before any memory is taken when the bed cannot fit into this machine.
 void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
-  constexpr double kBytes = 900;
+  const double bytes = grainMemory(scene).most();
   const Terrain& t = *scene.terrain;
   const double spacing = options.spacingInRadii * options.radius;
   const double layers = options.layers > 0 ? options.layers : std::max(1.0, options.depth / spacing);
   const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (grains * kBytes > memory || grains > 4e9)
+  if (grains * bytes > memory || grains > 4e9)
     throw base::InputError(fmt::format(
         "{}: terrain.grain_radius = {:g} [m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} "
         "GiB: use larger grains, fewer layers or a smaller terrain.size",
-        scene.file.string(), options.radius, grains, grains * kBytes / 1073741824.0, memory / 1073741824.0));
+        scene.file.string(), options.radius, grains, grains * bytes / 1073741824.0, memory / 1073741824.0));
 }
 
 terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {

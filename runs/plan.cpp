@@ -40,38 +40,15 @@ std::string onOff(bool on, const std::string& what, const std::string& why) {
   return why.empty() ? line + "\n" : fmt::format("{:<33} {}\n", line, why);
 }
 
-/// Features of the grains' step, as the model of the scene will have them.
-unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
-  unsigned features = terrain::kLedger;
-  const auto add = [&](const std::string& a, const std::string& b) { features |= pairLaw(scene, a, b, 1).features(); };
-  for (const std::string& a : kinds.material) {
-    for (const std::string& b : kinds.material) add(a, b);
-    for (const Plane& p : scene.planes) add(a, p.material);
-    for (const SceneSurface& s : surfacesOf(scene)) add(a, s.section.material);
-    if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
-  }
-  if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
-  if (surfacesOf(scene).size() > scene.meshes.size()) features |= terrain::kBoundaries | terrain::kSurfaces;
-  if (!scene.meshes.empty()) features |= terrain::kLoads;
-  if (scene.run.periodic[0] || scene.run.periodic[1]) features |= terrain::kPeriodic;
-  if (kinds.many()) features |= terrain::kManyRadii;
-  if (kinds.manyMaterials()) features |= terrain::kManyMaterials;
-  return scene.vehicle ? features | terrain::kLoads : features;
-}
-
 /// Memory of the grains, by what it is for.
 std::string memoryText(const Scene& scene, double grains) {
-  const unsigned features = grainFeatures(scene, grainKinds(scene));
-  const int width = features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
-  const bool bed = scene.terrain && scene.terrain->granular();
-  const std::size_t boundaries = scene.planes.size() + scene.boxes.size() + scene.cylinders.size() +
-                                 (scene.terrain ? 1 : 0) + (bed && scene.terrain->walls ? 4 : 0);
-  const GrainMemory m = grainMemory(width, static_cast<int>(boundaries));
+  const GrainMemory m = grainMemory(scene);
   std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes a grain:\n", "memory for grains",
                                  grains * m.total() / 1048576.0, m.total());
   const auto part = [&](const char* what, double bytes) { text += fmt::format("    {:<22} {:.0f}\n", what, bytes); };
   part("state", m.state), part("neighbour lists", m.lists), part("contact history", m.history);
   part("planes and floor", m.boundaries), part("ledger", m.ledger);
+  part("more while lists are made", m.rebuild);
   return text;
 }
 

@@ -27,8 +27,6 @@ struct RankSpeed {
 };
 inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 8e6, 20e-6, 2e9}, {"an H200", 2.9e9, 40e-6, 5e10}};
 
-/// Device memory of a grain and of its share of the neighbour list and contact history, rounded up [B].
-inline constexpr double kBytesPerGrain = 800;
 /// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
 std::int64_t plannedGrains(const Scene& scene);
 

@@ -3,7 +3,7 @@
 #include "runs/plan.hpp"
 
 #include "runs/bed.hpp"
-#include "runs/grain_kinds.hpp"
+#include "runs/grain_memory.hpp"
 #include "runs/placement.hpp"
 #include "terrain/partition.hpp"
 
@@ -60,7 +60,7 @@ std::string sharePlan(const Scene& scene, int ranks) {
   text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains a rank", each, ghosts);
   text += fmt::format("  {:<24} {:.2f} % of the grains\n", "ghosts in all", 100 * (all - 1));
   text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
-                      (each + ghosts) * kBytesPerGrain / 1048576.0);
+                      (each + ghosts) * grainMemory(scene).most() / 1048576.0);
   text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
   for (const RankSpeed& s : kRankSpeeds) {
     // Messages travel beside the work on grains that need none.

@@ -36,6 +36,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Vec& v, const Vec& w, const GrainSize<Real>& own,
                                Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
+    const std::int64_t row = d.neighbours.start[i];
     // 64 neighbours a word; of equal spheres no more can be near.
     std::uint64_t* touching = d.neighbours.touching + (has(kManyRadii) ? i * d.neighbours.maskWords : i);
     std::uint64_t before = *touching, now = 0;
@@ -44,7 +45,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         *touching++ = now;
         before = *touching, now = 0;
       }
-      const std::int64_t at = d.neighbours.at(i, k);
+      const std::int64_t at = row + k * d.neighbours.stride;
       const std::uint32_t j = d.neighbours.slot[at];
       const base::Vec3i apart = Kernel::apart(p, d.position[j]);
       const std::int64_t distance2 = base::squaredNorm(apart);

@@ -53,7 +53,7 @@ private:
   /// Appends the contacts of the k-th grain to the block.
   GROUSER_LANE_FUNCTION void find(int k) {
     const int i = slotOf(k), n = candidatesOf(k);
-    const std::int64_t row = d.neighbours.at(i, 0); // on a CPU a row's slots lie one behind the other
+    const std::uint32_t row = d.neighbours.start[i]; // its places follow each other
     const std::uint32_t* const slot = d.neighbours.slot + row;
     const Int4 p = load<Int4>(d.position + i);
     // Squares of distances in float are right to 5 roundings, 3e-7: beyond this margin they decide.

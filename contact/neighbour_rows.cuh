@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/for_each.cuh"
+#include "contact/neighbour_list.hpp"
+
+#include <cstring>
+
+/// Where the rows of a neighbour list lie, and how the history of contacts gets from one list into the next.
+namespace grouser::contact {
+
+/// Rows that are read by one warp of the GPU lie side by side, as long as the longest of them.
+constexpr int kSlice = 32;
+
+struct LongestOfSlice {
+  const std::uint32_t* count;
+  std::int64_t rows;
+  std::uint32_t* longest;
+  GROUSER_HD void operator()(int s) const {
+    std::uint32_t most = 0;
+    for (std::int64_t i = std::int64_t{kSlice} * s; i < rows && i < std::int64_t{kSlice} * (s + 1); ++i)
+      most = count[i] > most ? count[i] : most;
+    longest[s] = most;
+  }
+};
+
+struct StartInSlice {
+  const std::uint32_t* sliceStart; ///< in places of a row
+  std::uint32_t* start;
+  GROUSER_HD void operator()(int i) const { start[i] = sliceStart[i / kSlice] * kSlice + i % kSlice; }
+};
+
+GROUSER_HD std::uint32_t bitsSet(std::uint64_t mask) {
+  std::uint32_t bits = 0;
+  for (; mask; mask &= mask - 1) ++bits;
+  return bits;
+}
+
+/// A list's rows as those need them who read contacts only.
+struct TouchingRows {
+  NeighbourRows rows;
+  const std::uint32_t *count, *slot, *id; ///< id by slot, as at the build
+  const float* history;
+  const std::uint64_t* touching;
+  std::int64_t maskWords;
+  std::uint32_t rowCount; ///< slots from here on have no row yet
+  int width;
+
+  GROUSER_HD std::uint32_t contactsOf(std::uint32_t i) const {
+    std::uint32_t bits = 0;
+    for (std::int64_t w = 0; i < rowCount && w < maskWords; ++w) bits += bitsSet(touching[i * maskWords + w]);
+    return bits;
+  }
+  /// Ids of the neighbours in touch, ascending, and their histories. Returns how many.
+  GROUSER_HD std::uint32_t copy(std::uint32_t i, std::uint32_t* ids, void* histories) const {
+    std::uint32_t n = 0;
+    const std::size_t size = static_cast<std::size_t>(width) * sizeof(float);
+    for (std::uint32_t k = 0; i < rowCount && k < count[i]; ++k) {
+      if (!(touching[i * maskWords + k / 64] >> (k & 63u) & 1)) continue;
+      const std::int64_t at = rows.at(static_cast<int>(i), k);
+      ids[n] = id[slot[at]];
+      if (size) memcpy(static_cast<char*>(histories) + n * size, history + at * width, size);
+      ++n;
+    }
+    return n;
+  }
+};
+
+struct CountTouching {
+  TouchingRows from;
+  const std::uint32_t* slots; ///< null: all
+  std::uint32_t* out;
+  GROUSER_HD void operator()(int k) const {
+    out[k] = from.contactsOf(slots ? slots[k] : static_cast<std::uint32_t>(k));
+  }
+};
+
+struct ExportRow {
+  TouchingRows from;
+  const std::uint32_t* slots;
+  TravellingRows to;
+  GROUSER_HD void operator()(int k) const {
+    std::uint32_t* out = to.data + static_cast<std::uint64_t>(k) * to.words();
+    out[0] = from.copy(slots[k], out + 1, out + 1 + to.capacity);
+  }
+};
+
+/// What is kept of a list while the next takes its place: contacts alone, row behind row.
+struct KeptContacts {
+  std::uint32_t* start; ///< [rows + 1]
+  std::uint32_t* id;
+  float* history; ///< [contact][width]
+};
+
+struct KeepRow {
+  TouchingRows from;
+  KeptContacts to;
+  GROUSER_HD void operator()(int i) const {
+    from.copy(static_cast<std::uint32_t>(i), to.id + to.start[i],
+              to.history + static_cast<std::int64_t>(to.start[i]) * from.width);
+  }
+};
+
+/// Takes the history of pairs that touched in the former list.
+struct CarryHistory {
+  const std::uint32_t* origin; ///< former row of each new slot, or as in RowOrigins
+  const std::uint32_t *id, *count, *slot;
+  NeighbourRows rows;
+  std::int64_t maskWords;
+  int width; ///< numbers of history of a contact
+  float* history;
+  std::uint64_t* touching;
+  KeptContacts kept;
+  std::uint32_t former; ///< rows in the former list; later ones are in `arrived`
+  TravellingRows arrived;
+
+  GROUSER_HD void operator()(int i) const {
+    for (std::int64_t w = 0; w < maskWords; ++w) touching[i * maskWords + w] = 0;
+    const std::uint32_t o = origin[i];
+    if (o < former) {
+      const std::uint32_t first = kept.start[o];
+      merge(i, kept.start[o + 1] - first, kept.id + first, kept.history + static_cast<std::int64_t>(first) * width);
+    } else if (o != RowOrigins::kNone && arrived.data) {
+      const std::uint32_t* data = arrived.data + static_cast<std::uint64_t>(o - former) * arrived.words();
+      merge(i, data[0], data + 1, data + 1 + arrived.capacity);
+    }
+  }
+
+private:
+  /// Both ascend in the neighbours' ids.
+  GROUSER_HD void merge(int i, std::uint32_t contacts, const std::uint32_t* ids, const void* histories) const {
+    const std::size_t size = static_cast<std::size_t>(width) * sizeof(float);
+    const std::uint32_t n = count[i];
+    std::uint32_t m = 0;
+    for (std::uint32_t k = 0; k < n && m < contacts; ++k) {
+      const std::int64_t at = rows.at(i, k);
+      const std::uint32_t wanted = id[slot[at]];
+      while (m < contacts && ids[m] < wanted) ++m;
+      if (m == contacts || ids[m] != wanted) continue;
+      touching[i * maskWords + k / 64] |= std::uint64_t{1} << (k & 63u);
+      if (size) memcpy(history + at * width, static_cast<const char*>(histories) + m * size, size);
+    }
+  }
+};
+
+} // namespace grouser::contact
