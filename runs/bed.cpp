@@ -208,23 +208,29 @@ struct StepLimit {
   double step = std::numeric_limits<double>::infinity();
   std::string what;
 
-  void consider(double omega, double zeta, const std::string& name) {
-    const double limit = contact::stableStep(omega, zeta);
+  /// A mode x'' + damping x' + stiffness x = 0, both per unit of mass: the step takes stiffness dt^2 + 2 damping dt <
+  /// 4, which is omega dt < 2 (sqrt(1 + zeta^2) - zeta) for the mode's own zeta, not that of one of its contacts.
+  void consider(double stiffness, double damping, const std::string& name) {
+    if (stiffness <= 0 && damping <= 0) return;
+    const double limit = 4 / (damping + std::sqrt(damping * damping + 4 * stiffness));
     if (limit < step) step = limit, what = name;
   }
-  /// A grain of `mass` and `radius` in `count` contacts of one law at once; tangential springs act on 7/2 of the
-  /// inverse mass, rolling springs on its inertia. A Hertz contact is as stiff as an impact at `speed` makes it.
-  void considerGrain(const contact::ContactLaw& law, double mass, double radius, double count, double speed,
+  /// A grain of `mass` and `radius` among twelve neighbours alike, or between two heavy bodies, all of them in contact
+  /// and none sliding. A Hertz contact is as stiff as an impact at `speed` makes it.
+  void considerGrain(const contact::ContactLaw& law, double mass, double radius, bool among, double speed,
                      const std::string& name) {
-    // Eight contacts stand for twelve neighbours alike, two for two heavy bodies.
-    const double effectiveMass = count > 2 ? 0.5 * mass : mass, effectiveRadius = count > 2 ? 0.5 * radius : radius;
+    const double effectiveMass = among ? 0.5 * mass : mass, effectiveRadius = among ? 0.5 * radius : radius;
     const auto c = stiffest(law, effectiveMass, effectiveRadius, speed);
-    const double normal = count * c.normalStiffness / mass;
-    const double tangential = law.friction > 0 ? 3.5 * 0.5 * count * c.tangentialStiffness / mass : 0;
-    const double rolling =
-        count * contact::rollingStiffness(law, c.normalStiffness, effectiveRadius) / (0.4 * mass * radius * radius);
-    const double omega2 = std::max({normal, tangential, rolling});
-    consider(std::sqrt(omega2), 0.5 * c.damping / effectiveMass / std::sqrt(omega2 * 2 / count), name);
+    // Among twelve, 8 k / m (Gershgorin). Springs that stick let spheres turn alike at 10/3 k_t / m for each contact:
+    // eight of those, for a bed with friction has four or five. Hertz contacts are not all as deep at once as the one
+    // of that impact: four. Between two bodies: 2 k / m and 5 k_t / m.
+    const double normal = (among ? 8 : 2) / mass, turning = (!among ? 5 : 10.0 / 3 * (law.hertz ? 4 : 8)) / mass;
+    consider(normal * c.normalStiffness, normal * c.damping, name);
+    if (law.friction > 0) consider(turning * c.tangentialStiffness, turning * c.tangentialDamping, name);
+    const double rolling = contact::rollingStiffness(law, c.normalStiffness, effectiveRadius);
+    const double rollingInertia = 1.4 * effectiveMass * radius * radius, inertia = 0.4 * mass * radius * radius;
+    const double rollingDamping = 2 * law.rollingDamping * std::sqrt(rollingInertia * rolling);
+    consider(normal * mass / inertia * rolling, normal * mass / inertia * rollingDamping, name);
   }
 };
 
@@ -247,8 +253,7 @@ void considerFreeSurfaces(const Scene& scene, const GrainKinds& kinds, StepLimit
       const double mass = sphereMass(scene.material(material).density, radius);
       const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
       const double springs = mostTouching(scene, s, radius) / *s.section.mass;
-      const double omega2 = c.normalStiffness * (1 / mass + springs);
-      limit.consider(std::sqrt(omega2), 0.5 * c.damping * (1 / mass + springs) / std::sqrt(omega2),
+      limit.consider(c.normalStiffness * (1 / mass + springs), c.damping * (1 / mass + springs),
                      s.name + " on its grains");
     }
   }
@@ -260,13 +265,12 @@ StepLimit grainStepLimit(const Scene& scene) {
   // The smallest grains are the quickest.
   for (const auto& [material, radius, largest] : kinds.kinds) {
     const double mass = sphereMass(scene.material(material).density, radius), speed = scene.run.impactSpeed;
-    // Twelve neighbours: omega^2 <= 8 k / m (Gershgorin). Between two heavy bodies: 2 k / m.
     for (const std::string& other : kinds.material)
-      limit.considerGrain(pairLaw(scene, material, other, 0.5 * mass), mass, radius, 8, speed,
+      limit.considerGrain(pairLaw(scene, material, other, 0.5 * mass), mass, radius, true, speed,
                           other == material ? "grain on grain of '" + material + "'"
                                             : "grain of '" + material + "' among those of '" + other + "'");
     const auto against = [&](const std::string& other, const std::string& name) {
-      limit.considerGrain(pairLaw(scene, material, other.empty() ? material : other, mass), mass, radius, 2, speed,
+      limit.considerGrain(pairLaw(scene, material, other.empty() ? material : other, mass), mass, radius, false, speed,
                           name);
     };
     for (const Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
@@ -286,8 +290,8 @@ double stableTimeStep(const Scene& scene) {
     // A shoe that lies on its whole pad: the stiffest that the foundation can be.
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
     const double area = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
-    const double omega = std::sqrt(spec.contact.foundationModulus * area / spec.shoe.mass);
-    limit.consider(omega, 0.5 * omega * spec.contact.relaxationTime, "shoe on rigid ground or wheel");
+    const double stiffness = spec.contact.foundationModulus * area / spec.shoe.mass;
+    limit.consider(stiffness, stiffness * spec.contact.relaxationTime, "shoe on rigid ground or wheel");
   }
   return limit.step;
 }

@@ -15,7 +15,7 @@ void addPlace(CLI::App& app, StudyPlace& place, const std::string& name, const s
 
 void addImpact(CLI::App& study, ImpactCommand& c) {
   CLI::App* impact = study.add_subcommand(
-      "impact", "One collision against its closed form: errors, orders and wall time over the step (4 min, one core)");
+      "impact", "One collision against its closed form: errors, orders and wall time over the step (3 min, one core)");
   impact->add_option("--phases", c.phases.touching, "of first touch within a step, side by side")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();
@@ -32,8 +32,58 @@ void addImpact(CLI::App& study, ImpactCommand& c) {
   impact->callback([&c] { studyImpactCommand(c); });
 }
 
+void addStability(CLI::App& study, GrainStabilityCommand& c) {
+  CLI::App* stability = study.add_subcommand(
+      "stability", "Maps of stable steps of grains over stiffness and damping: one contact, a column, random beds, "
+                   "beside predicted limits (half a minute, one core); of mechanisms: multibody --stability");
+  stability->add_option("--grains", c.bedGrains, "of the random beds; with --quick at most 60")
+      ->check(wholeNumber(8, 100'000))
+      ->capture_default_str();
+  stability->add_option("--column", c.columnGrains, "grains of the column")
+      ->check(wholeNumber(1, 1000))
+      ->capture_default_str();
+  addPlace(*stability, c.place, "stability", "one stiffness and three damping ratios only, in seconds");
+  stability->callback([&c] { studyGrainStabilityCommand(c); });
+}
+
+void addPrecision(CLI::App& study, PrecisionCommand& c) {
+  CLI::App* precision = study.add_subcommand(
+      "precision", "Single against double precision: who touches whom, how far runs drift apart, and what is measured "
+                   "after (8 min, one core)");
+  precision
+      ->add_option("--grains", c.touch.grains, "of the bed whose touch decisions are judged; with --quick at most 2000")
+      ->check(wholeNumber(10, 100'000'000))
+      ->capture_default_str();
+  precision->add_option("--configurations", c.touch.configurations, "of that bed along its run; with --quick at most 5")
+      ->check(wholeNumber(1, 1'000'000))
+      ->capture_default_str();
+  precision->add_option("--every", c.touch.every, "steps from one configuration to the next")
+      ->check(wholeNumber(1, 1'000'000'000))
+      ->capture_default_str();
+  precision->add_option("--drift-grains", c.drift.grains, "of the runs that drift apart; with --quick at most 200")
+      ->check(wholeNumber(10, 100'000'000))
+      ->capture_default_str();
+  precision->add_option("--gas-time", c.drift.gasTime, "of the gas [s]")
+      ->check(positive("a time in seconds"))
+      ->capture_default_str();
+  precision->add_option("--bed-time", c.drift.bedTime, "of the dropped bed [s]")
+      ->check(positive("a time in seconds"))
+      ->capture_default_str();
+  precision->add_option("--runs", c.drift.runs, "of the dropped bed in each precision; with --quick at most 3")
+      ->check(wholeNumber(2, 10'000))
+      ->capture_default_str();
+  precision->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
+      ->check(wholeNumber(0, 1024));
+  addPlace(*precision, c.place, "precision", "few grains, configurations and runs, in seconds");
+  precision->callback([&c] { studyPrecisionCommand(c); });
+}
+
 } // namespace
 
-void addGrainStudies(CLI::App& study, GrainStudies& studies) { addImpact(study, studies.impact); }
+void addGrainStudies(CLI::App& study, GrainStudies& studies) {
+  addImpact(study, studies.impact);
+  addStability(study, studies.stability);
+  addPrecision(study, studies.precision);
+}
 
 } // namespace grouser::runs

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/study_grain_stability.hpp"
 #include "runs/study_impact.hpp"
+#include "runs/study_precision_command.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +12,8 @@ namespace grouser::runs {
 /// What `grouser study` was asked for, beside `multibody`.
 struct GrainStudies {
   ImpactCommand impact;
+  GrainStabilityCommand stability;
+  PrecisionCommand precision;
 };
 
 /// Adds the studies of grains to the command `study`.

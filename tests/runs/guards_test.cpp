@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a vehicle is put, which steps are refused, and that created energy stops a run.
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "runs/bed.hpp"
 #include "runs/placement.hpp"
 #include "runs/simulation.hpp"
@@ -67,6 +68,17 @@ TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
   // squared.
   EXPECT_NEAR(soft / stableTimeStep(parseScene(stiff, "ball.toml")), std::sqrt(2e9 / 8e6), 1e-3);
   EXPECT_THROW(chooseTimeStep(parseScene(stiff, "ball.toml")), base::InputError);
+}
+
+TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
+  // Restitution 0.1, clamped: zeta 1.24318785 of a pair. Each of a grain's contacts has c = zeta sqrt(2 k m); the mode
+  // of 8 k / m has 8 c / m: dt = 4 / (C + sqrt(C^2 + 4 K)).
+  Scene s = parseScene(kBall, "ball.toml", {"material.soil.restitution=0.1", "material.soil.friction=0"});
+  s.planes.clear();
+  const double mass = 2500 * 4.0 / 3 * base::kPi * 0.027 * 0.027 * 0.027, k = 1e6;
+  const double damping = 8 * 1.24318785 * std::sqrt(2 * k * mass) / mass, stiffness = 8 * k / mass;
+  const double limit = 4 / (damping + std::sqrt(damping * damping + 4 * stiffness));
+  EXPECT_NEAR(stableTimeStep(s) / limit, 1, 1e-6);
 }
 
 TEST(Energy, FromNowhereStopsTheRun) {

@@ -72,12 +72,21 @@ TEST_P(StudyCommand, WritesItsTablesAndKeepsThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
-                         testing::Values(StudyCall{
-                             "impact",
-                             "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
-                             {"impact.csv", "orders.csv", "cheapest.csv", "convergence.csv", "speeds.csv",
-                              "impact.png"},
-                             {"order of the worst error", "cheapest step", "published", "closed forms"}}),
+                         testing::Values(StudyCall{"impact",
+                                                   "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
+                                                   {"impact.csv", "orders.csv", "cheapest.csv", "convergence.csv",
+                                                    "speeds.csv", "impact.png"},
+                                                   {"order of the worst error", "cheapest step", "published",
+                                                    "closed forms"}},
+                                         StudyCall{"stability",
+                                                   "--quick --grains 20 --column 3",
+                                                   {"stability.csv", "limits.csv", "stability.png"},
+                                                   {"predicted limit", "at 0.95 of the limit", "a run refuses"}},
+                                         StudyCall{"precision",
+                                                   "--quick --grains 200 --configurations 2 --drift-grains 50 "
+                                                   "--gas-time 0.05 --bed-time 0.05 --runs 2 --threads 1",
+                                                   {"touch.csv", "drift.csv", "macroscopic.csv", "precision.png"},
+                                                   {"float from the origin", "growth", "std. error"}}),
                          [](const auto& study) { return study.param.name; });
 
 } // namespace
