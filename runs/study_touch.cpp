@@ -51,17 +51,15 @@ terrain::GrainState listsOf(terrain::Grains& grains, const terrain::GrainState& 
   return grains.state();
 }
 
-std::int64_t grainsThatDiffer(const terrain::GrainState& a, const terrain::GrainState& b) {
-  std::int64_t differ = 0;
+void countDifferences(const terrain::GrainState& a, const terrain::GrainState& b, TouchConfiguration& now) {
   std::size_t atA = 0, atB = 0;
   for (std::size_t i = 0; i < a.rows(); ++i) {
     const auto firstA = a.neighbour.begin() + static_cast<std::ptrdiff_t>(atA),
                firstB = b.neighbour.begin() + static_cast<std::ptrdiff_t>(atB);
-    differ += a.contacts[i] != b.contacts[i] || a.wallBits[i] != b.wallBits[i] ||
-              !std::equal(firstA, firstA + a.contacts[i], firstB);
+    now.grainListsDiffer += a.contacts[i] != b.contacts[i] || !std::equal(firstA, firstA + a.contacts[i], firstB);
+    now.wallListsDiffer += a.wallBits[i] != b.wallBits[i];
     atA += a.contacts[i], atB += b.contacts[i];
   }
-  return differ;
 }
 
 } // namespace
@@ -156,7 +154,7 @@ std::vector<TouchConfiguration> studyTouch(const TouchStudy& study,
     now.kineticPerGrain = run.ledger().kinetic / static_cast<double>(study.grains);
     const terrain::GrainState state = run.state();
     const terrain::GrainState inSingle = listsOf(single, state), inDouble = listsOf(double_, state);
-    now.listsDiffer = grainsThatDiffer(inSingle, inDouble);
+    countDifferences(inSingle, inDouble, now);
     std::vector<std::uint64_t> keys = contactKeys(inSingle), change;
     std::set_symmetric_difference(keys.begin(), keys.end(), former.begin(), former.end(), std::back_inserter(change));
     now.changed = keys.empty() ? 0 : static_cast<double>(change.size()) / static_cast<double>(keys.size());
@@ -169,10 +167,10 @@ std::vector<TouchConfiguration> studyTouch(const TouchStudy& study,
 
 std::string touchTable(const std::vector<TouchConfiguration>& all, const TouchStudy& study) {
   TouchCounts sum;
-  std::int64_t differ = 0;
+  std::int64_t grains = 0, walls = 0;
   std::vector<double> changed;
   for (const TouchConfiguration& c : all) {
-    sum.add(c.counts), differ += c.listsDiffer;
+    sum.add(c.counts), grains += c.grainListsDiffer, walls += c.wallListsDiffer;
     if (&c != &all.front()) changed.push_back(c.changed);
   }
   std::string text = fmt::format(
@@ -180,11 +178,12 @@ std::string touchTable(const std::vector<TouchConfiguration>& all, const TouchSt
       "two "
       "of them: {:.3g} of all in the median, {:.3g} at the least\n  {} candidate pairs, {} of them touching; nearest "
       "to "
-      "touching: {:.2g} m\n  grains whose contact lists differ between a step in single and one in double precision: "
-      "{}\n  {:<28} {:>14} {:>14} {:>14} {:>22}\n",
+      "touching: {:.2g} m\n  grains whose contacts differ between a step in single and one in double precision: {} "
+      "with grains, {} with "
+      "walls\n  {:<28} {:>14} {:>14} {:>14} {:>22}\n",
       all.size(), study.grains, study.every, static_cast<double>(study.every) * StudyBox::kTimeStep, medianOf(changed),
       changed.empty() ? 0 : *std::min_element(changed.begin(), changed.end()), sum.pairs, sum.touching, sum.nearest,
-      differ, "against exact integers", "disagreements", "missed", "invented", "widest |gap| [m]");
+      grains, walls, "against exact integers", "disagreements", "missed", "invented", "widest |gap| [m]");
   for (int k = 0; k < kTouchArithmetics; ++k) {
     const TouchCounts::Disagreements& d = sum.wrong[static_cast<std::size_t>(k)];
     text += fmt::format("  {:<28} {:>14} {:>14} {:>14} {:>22}\n", touchArithmeticName(k), d.count(), d.missed,
@@ -195,13 +194,13 @@ std::string touchTable(const std::vector<TouchConfiguration>& all, const TouchSt
 
 std::string touchCsv(const std::vector<TouchConfiguration>& all) {
   std::string text = "step,candidate pairs,touching,nearest |gap| [m],kinetic energy a grain [J],contacts changed [-],"
-                     "grains whose lists differ single to double";
+                     "grains whose contacts with grains differ single to double,with walls";
   for (int k = 0; k < kTouchArithmetics; ++k)
     text += fmt::format(",{0}: missed,{0}: invented,{0}: widest |gap| [m]", touchArithmeticName(k));
   text += "\n";
   for (const TouchConfiguration& c : all) {
-    text += fmt::format("{},{},{},{},{},{},{}", c.step, c.counts.pairs, c.counts.touching, c.counts.nearest,
-                        c.kineticPerGrain, c.changed, c.listsDiffer);
+    text += fmt::format("{},{},{},{},{},{},{},{}", c.step, c.counts.pairs, c.counts.touching, c.counts.nearest,
+                        c.kineticPerGrain, c.changed, c.grainListsDiffer, c.wallListsDiffer);
     for (const TouchCounts::Disagreements& d : c.counts.wrong)
       text += fmt::format(",{},{},{}", d.missed, d.invented, d.widest);
     text += "\n";

@@ -49,9 +49,10 @@ TouchCounts judgePairs(const terrain::Grains& grains, std::int64_t diameterUnits
 struct TouchConfiguration {
   std::int64_t step = 0;
   TouchCounts counts;
-  double kineticPerGrain = 0;   ///< [J]
-  double changed = 0;           ///< contacts that came or went since the configuration before, over contacts [-]
-  std::int64_t listsDiffer = 0; ///< grains whose contact list differs between a step in single and one in double
+  double kineticPerGrain = 0; ///< [J]
+  double changed = 0;         ///< contacts that came or went since the configuration before, over contacts [-]
+  /// Grains whose contacts with grains, and with walls, differ between a step in single and one in double precision.
+  std::int64_t grainListsDiffer = 0, wallListsDiffer = 0;
 };
 
 struct TouchStudy {

@@ -48,7 +48,7 @@ def main(arguments):
                 if error and error != "-" and float(error) > 0:
                     key = (surface, quantity, law, kind, row["precision"])
                     lines.setdefault(key, []).append((float(row["wall time of a collision [us]"]), float(error)))
-    figure = Figure(figsize=(10.5, 6.2))
+    figure = Figure(figsize=(9.8, 5.8))
     panels = figure.subplots(2, 3, sharey="col")
     for (surface, quantity, law, kind, precision), points in lines.items():
         axis = panels[0 if surface == "plane" else 1][QUANTITIES.index(quantity)]
@@ -60,12 +60,14 @@ def main(arguments):
         for axis, quantity in zip(row, QUANTITIES):
             axis.set_title(f"{surface}, {TITLES[quantity]}", fontsize=9)
             axis.tick_params(labelsize=7)
+            axis.minorticks_off()
+            axis.grid(False)
             for level in (1e-1, 1e-2, 1e-3):
                 axis.axhline(level, color="black", linewidth=0.5, linestyle="--")
     panels[0][0].legend(fontsize=6)
     figure.supxlabel("wall time of a collision [us], one core; circles: single, crosses: double precision", fontsize=9)
     figure.supylabel("worst error over the phase of first touch [-]", fontsize=9)
-    figure.savefig(arguments[1], dpi=80)
+    figure.savefig(arguments[1], dpi=64)
     return 0
 
 

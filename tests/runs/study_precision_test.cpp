@@ -77,7 +77,8 @@ TEST(StudyTouch, StepsOfBothPrecisionsFindTheSameContacts) {
   ASSERT_EQ(done, 6);
   std::int64_t touching = 0;
   for (const TouchConfiguration& c : all) {
-    EXPECT_EQ(c.listsDiffer, 0) << "the step decides with integers";
+    EXPECT_EQ(c.grainListsDiffer, 0) << "the step decides with integers";
+    EXPECT_EQ(c.wallListsDiffer, 0) << "walls are decided in double, from a radius that is a float in single";
     EXPECT_GT(c.counts.pairs, c.counts.touching);
     EXPECT_EQ(c.counts.wrong[kDoubleMetres].count(), 0);
     touching += c.counts.touching;
