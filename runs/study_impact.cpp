@@ -113,28 +113,47 @@ private:
 };
 
 /// What is seen of one collision from outside, step by step.
-struct Observed {
-  double began = -1, ended = -1;     ///< [steps]
-  double deepest = 0, rebound = 0;   ///< [m], [m/s]
-  double force = 0, forceBefore = 0; ///< accelerations of the last two steps that had any [m/s2]
-  double lastForce = -1;             ///< the step of the last of them
-  bool over() const { return ended >= 0; }
+class Observed {
+public:
+  bool over() const { return ended_ >= 0; }
+  double steps() const { return ended_ - began_; } ///< duration [steps]
+  double deepest() const { return deepest_; }      ///< [m]
+  double rebound() const { return rebound_; }      ///< [m/s]
 
   /// Step s led from (gap0, speed0) to (gap1, speed1).
-  void see(std::int64_t s, double gap0, double speed0, double gap1, double speed1, double timeStep, bool clamped) {
+  void see(std::int64_t s, double gap0, double speed0, double gap1, double speed1, bool clamped) {
     if (over()) return;
     const double at = static_cast<double>(s);
-    if (gap0 > 0 && gap1 <= 0) began = at + gap0 / (gap0 - gap1);
-    deepest = std::max(deepest, -gap1);
-    rebound = -speed1;
-    if (began < 0) return;
-    if (speed1 != speed0) forceBefore = force, force = (speed0 - speed1) / timeStep, lastForce = at;
-    if (gap0 <= 0 && gap1 > 0) {
-      ended = at + gap0 / (gap0 - gap1);
-      if (clamped && lastForce >= 0)
-        ended = lastForce + (forceBefore > force ? std::min(1.0, force / (forceBefore - force)) : 1.0);
+    if (gap0 > 0 && gap1 <= 0) began_ = at + gap0 / (gap0 - gap1);
+    deepest_ = std::max(deepest_, -gap1);
+    rebound_ = -speed1;
+    if (began_ < 0) return;
+    if (speed1 != speed0) {
+      if (pull_.empty()) firstForce_ = at;
+      pull_.push_back(speed0 - speed1);
     }
+    if (gap0 <= 0 && gap1 > 0)
+      ended_ = clamped && !pull_.empty() ? firstForce_ + static_cast<double>(pull_.size() - 1) + untilNoForce()
+                                         : at + gap0 / (gap0 - gap1);
   }
+
+private:
+  /// From the last step that had a force to where a parabola through it and two earlier ones reaches zero [steps], at
+  /// most one. They lie sqrt(steps) apart: velocities are floats, and differences of neighbours would be noise.
+  double untilNoForce() const {
+    const std::size_t n = pull_.size();
+    const auto k = std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(static_cast<double>(n))));
+    if (n < 2 * k + 1) return 1;
+    const double apart = static_cast<double>(k), f0 = pull_[n - 1], f1 = pull_[n - 1 - k], f2 = pull_[n - 1 - 2 * k];
+    const double c = (f0 - 2 * f1 + f2) / (2 * apart * apart), b = (f0 - f1) / apart + c * apart;
+    const double root = b * b - 4 * c * f0;
+    return root > 0 && b < 0 ? std::min(1.0, 2 * f0 / (std::sqrt(root) - b)) : 1;
+  }
+
+  double began_ = -1, ended_ = -1; ///< [steps]
+  double deepest_ = 0, rebound_ = 0;
+  std::vector<double> pull_; ///< change of speed in each step that had a force [m/s]
+  double firstForce_ = 0;    ///< the step of the first
 };
 
 } // namespace
@@ -194,7 +213,7 @@ void addCollisions(const ImpactCase& c, terrain::Precision precision, const Impa
     collisions.read(gap1, speed1);
     bool allOver = true;
     for (std::size_t i = 0; i < observed.size(); ++i) {
-      observed[i].see(s, gap0[i], speed0[i], gap1[i], speed1[i], timeStep, c.isClamped());
+      observed[i].see(s, gap0[i], speed0[i], gap1[i], speed1[i], c.isClamped());
       allOver = allOver && observed[i].over();
     }
     if (allOver) break;
@@ -206,7 +225,7 @@ void addCollisions(const ImpactCase& c, terrain::Precision precision, const Impa
     const double exact = *reference.value[k], unit = q == kRestitution ? 1 : exact;
     ImpactError& error = point.error[k];
     for (const Observed& o : observed) {
-      const double measured[] = {o.rebound / c.speed, (o.ended - o.began) * timeStep, o.deepest};
+      const double measured[] = {o.rebound() / c.speed, o.steps() * timeStep, o.deepest()};
       // What has not ended within eight contact times has stuck: no speed, and no duration.
       const double value = q == kDuration && !o.over() ? kNever : q == kRestitution && !o.over() ? 0 : measured[q];
       error.worst = std::max(error.worst, std::fabs(value - exact) / unit);

@@ -66,8 +66,8 @@ struct ImpactPoint {
 };
 
 /// Restitution: speeds before and after. Duration: from the moment where the straight path of the step crosses first
-/// touch, to that where it crosses overlap zero (free), or to the zero of the force that the last two accelerations of
-/// the grain point to, at most one step after the last (clamped). Overlap: the greatest at the end of a step.
+/// touch, to that where it crosses overlap zero (free), or to the zero of the force that the last accelerations of the
+/// grain point to, at most one step after the last (clamped). Overlap: the greatest at the end of a step.
 /// Collisions run side by side in one terrain::Grains.
 ImpactPoint measureImpact(const ImpactCase& c, terrain::Precision precision, double stepsPerContact,
                           const ImpactPhases& phases);
