@@ -62,7 +62,7 @@ struct ImpactPoint {
   bool stable = true;  ///< false: beyond the stable step, nothing measured
   std::array<ImpactError, kImpactQuantities> error;
   std::array<double, kImpactQuantities> measured{}; ///< mean over the phases [-], [s], [m]
-  double microseconds = 0, least = 0;               ///< wall time of one collision, median and least; 0: not timed
+  double microseconds = 0, least = 0;               ///< CPU time of one collision, median and least; 0: not timed
 };
 
 /// Restitution: speeds before and after. Duration: from the moment where the straight path of the step crosses first
@@ -72,7 +72,7 @@ struct ImpactPoint {
 ImpactPoint measureImpact(const ImpactCase& c, terrain::Precision precision, double stepsPerContact,
                           const ImpactPhases& phases);
 
-/// Adds the wall time: `collisions` at once from first touch to the end, one thread, median and least of `repeats`.
+/// Adds the CPU time: `collisions` at once from first touch to the end, one thread, median and least of `repeats`.
 void timeImpact(const ImpactCase& c, terrain::Precision precision, int collisions, int repeats, ImpactPoint& point);
 
 struct ImpactSeries {

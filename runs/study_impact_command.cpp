@@ -69,7 +69,7 @@ void studyImpactCommand(const ImpactCommand& command) {
   const std::vector<ImpactCase> cases = impactCases(quick);
   fmt::print(
       "          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps a contact "
-      "are of the undamped contact; {} phases of first touch, {} of leaving\n          wall time: {} collisions side "
+      "are of the undamped contact; {} phases of first touch, {} of leaving\n          CPU time: {} collisions side "
       "by side, median of {}\n",
       command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
   Progress progress("studying");

@@ -71,7 +71,7 @@ std::string orderTable(const std::vector<ImpactSeries>& all) {
 
 std::string cheapestImpactTable(const std::vector<ImpactSeries>& all) {
   std::string text =
-      fmt::format("\ncheapest step for an error (worst over the phases) of 10, 1 and 0.1 %: steps a contact, and wall "
+      fmt::format("\ncheapest step for an error (worst over the phases) of 10, 1 and 0.1 %: steps a contact, and CPU "
                   "time of a collision [us]\n  {:<36} {:<7}",
                   "", "");
   for (const char* what : {"restitution", "all that is known"})
@@ -95,7 +95,7 @@ std::string impactCsv(const std::vector<ImpactSeries>& all) {
   std::string text = "case,precision,speed [m/s],steps a contact,step [s],stable";
   for (int q = 0; q < kImpactQuantities; ++q)
     text += fmt::format(",{0} worst error [-],{0} mean error [-],{0} measured,{0} exact", impactQuantityName(q));
-  text += ",wall time of a collision [us],least [us]\n";
+  text += ",CPU time of a collision [us],least [us]\n";
   for (const ImpactSeries& s : all) {
     const ImpactReference reference = impactReference(s.study);
     for (const ImpactPoint& p : s.points) {
@@ -126,7 +126,7 @@ std::string orderCsv(const std::vector<ImpactSeries>& all) {
 }
 
 std::string cheapestImpactCsv(const std::vector<ImpactSeries>& all) {
-  std::string text = "case,precision,quantity,tolerance [-],steps a contact,step [s],wall time of a collision [us]\n";
+  std::string text = "case,precision,quantity,tolerance [-],steps a contact,step [s],CPU time of a collision [us]\n";
   for (const ImpactSeries& s : all)
     for (int q = 0; q <= kImpactQuantities; ++q)
       for (const double tolerance : kTolerances) {

@@ -10,7 +10,7 @@ namespace grouser::runs {
 std::string impactTable(const ImpactSeries& single, const ImpactSeries& double_);
 /// Measured orders beside the expected ones, a line a collision.
 std::string orderTable(const std::vector<ImpactSeries>& all);
-/// Cheapest step for 10, 1 and 0.1 %: steps a contact and wall time of a collision.
+/// Cheapest step for 10, 1 and 0.1 %: steps a contact and CPU time of a collision.
 std::string cheapestImpactTable(const std::vector<ImpactSeries>& all);
 std::string impactCsv(const std::vector<ImpactSeries>& all);
 std::string orderCsv(const std::vector<ImpactSeries>& all);

@@ -15,7 +15,7 @@ void addPlace(CLI::App& app, StudyPlace& place, const std::string& name, const s
 
 void addImpact(CLI::App& study, ImpactCommand& c) {
   CLI::App* impact = study.add_subcommand(
-      "impact", "One collision against its closed form: errors, orders and wall time over the step (3 min, one core)");
+      "impact", "One collision against its closed form: errors, orders and CPU time over the step (3 min, one core)");
   impact->add_option("--phases", c.phases.touching, "of first touch within a step, side by side")
       ->check(wholeNumber(1, 1000))
       ->capture_default_str();

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the study of impacts: study_impact.py IMPACT.csv FILE.png
 
-Worst error against wall time of a collision: a row for the plane and for two grains, a column a quantity, a line a law and
+Worst error against CPU time of a collision: a row for the plane and for two grains, a column a quantity, a line a law and
 precision; 10, 1 and 0.1 % as dashed lines.
 Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
@@ -41,13 +41,13 @@ def main(arguments):
     with open(arguments[0], newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             surface, law, kind = row["case"].split(", ")
-            if not wanted(law, kind.split()[1]) or not float(row["wall time of a collision [us]"]):
+            if not wanted(law, kind.split()[1]) or not float(row["CPU time of a collision [us]"]):
                 continue
             for quantity in QUANTITIES:
                 error = row[f"{quantity} worst error [-]"]
                 if error and error != "-" and float(error) > 0:
                     key = (surface, quantity, law, kind, row["precision"])
-                    lines.setdefault(key, []).append((float(row["wall time of a collision [us]"]), float(error)))
+                    lines.setdefault(key, []).append((float(row["CPU time of a collision [us]"]), float(error)))
     figure = Figure(figsize=(9.8, 5.8))
     panels = figure.subplots(2, 3, sharey="col")
     for (surface, quantity, law, kind, precision), points in lines.items():
@@ -65,7 +65,7 @@ def main(arguments):
             for level in (1e-1, 1e-2, 1e-3):
                 axis.axhline(level, color="black", linewidth=0.5, linestyle="--")
     panels[0][0].legend(fontsize=6)
-    figure.supxlabel("wall time of a collision [us], one core; circles: single, crosses: double precision", fontsize=9)
+    figure.supxlabel("CPU time of a collision [us], one core; circles: single, crosses: double precision", fontsize=9)
     figure.supylabel("worst error over the phase of first touch [-]", fontsize=9)
     figure.savefig(arguments[1], dpi=64)
     return 0
