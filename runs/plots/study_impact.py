@@ -67,7 +67,7 @@ def main(arguments):
     panels[0][0].legend(fontsize=6)
     figure.supxlabel("CPU time of a collision [us], one core; circles: single, crosses: double precision", fontsize=9)
     figure.supylabel("worst error over the phase of first touch [-]", fontsize=9)
-    figure.savefig(arguments[1], dpi=64)
+    figure.savefig(arguments[1], dpi=58)
     return 0
 
 
