@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/frames_file.hpp"
 
+#include "runs/text_file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <stdexcept>
 
 namespace grouser::runs {
 
@@ -217,18 +217,10 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
 }
 
 void FramesFile::writeXdmf() const {
-  const std::filesystem::path target = folder_ / "frames.xdmf", part = folder_ / "frames.xdmf.part";
-  std::ofstream file(part, std::ios::binary);
-  file << "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n  <Grid Name=\"run\" GridType=\"Collection\" "
-          "CollectionType=\"Temporal\">\n"
-       << steps_ << "  </Grid>\n</Domain>\n</Xdmf>\n";
-  file.close();
-  if (!file) {
-    std::error_code error;
-    std::filesystem::remove(part, error);
-    throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", target.string()));
-  }
-  std::filesystem::rename(part, target);
+  constexpr const char* kHead =
+      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n  <Grid Name=\"run\" GridType=\"Collection\" "
+      "CollectionType=\"Temporal\">\n";
+  replaceTextFile(folder_ / "frames.xdmf", kHead + steps_ + "  </Grid>\n</Domain>\n</Xdmf>\n");
 }
 
 } // namespace grouser::runs

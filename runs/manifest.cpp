@@ -2,13 +2,13 @@
 #include "runs/manifest.hpp"
 
 #include "runs/build_info.hpp"
+#include "runs/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <fmt/chrono.h>
 #include <fstream>
-#include <stdexcept>
 
 namespace grouser::runs {
 
@@ -31,19 +31,6 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   for (const auto& [name, bytes] : sizes) files[name] = {{"bytes", bytes}};
   return files;
-}
-
-void replace(const fs::path& path, const nlohmann::ordered_json& json) {
-  const fs::path part = path.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << json.dump(2) << '\n';
-  file.close();
-  if (!file) {
-    std::error_code error;
-    fs::remove(part, error);
-    throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
-  }
-  fs::rename(part, path);
 }
 
 } // namespace
@@ -72,11 +59,10 @@ void Manifest::write(const std::string& status) const {
     json["simulated_time_s"] = summary_.simulatedTime;
     json["wall_time_s"] = summary_.wallTime;
     if (!summary_.stateHash.empty()) json["state_hash"] = summary_.stateHash;
-    for (const auto& [key, text] : summary_.notes) json[key] = text;
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
   }
   json["files"] = filesIn(path_.parent_path());
-  replace(path_, json);
+  replaceTextFile(path_, json.dump(2) + "\n");
 }
 
 void listFiles(const fs::path& folder) {
@@ -84,7 +70,7 @@ void listFiles(const fs::path& folder) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
   if (json.is_discarded()) return;
   json["files"] = filesIn(folder);
-  replace(folder / kName, json);
+  replaceTextFile(folder / kName, json.dump(2) + "\n");
 }
 
 } // namespace grouser::runs

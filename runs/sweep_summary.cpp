@@ -3,6 +3,7 @@
 
 #include "runs/channels.hpp"
 #include "runs/hdf5_file.hpp"
+#include "runs/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +14,6 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 namespace grouser::runs {
 
@@ -199,12 +199,8 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, vehicle), ","));
 
-  const fs::path path = folder / "summary.csv", part = folder / "summary.csv.part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(part.string() + ": could not be written; is the disk full?");
-  fs::rename(part, path);
+  const fs::path path = folder / "summary.csv";
+  replaceTextFile(path, text);
   return path;
 }
 

@@ -28,4 +28,17 @@ void writeTextFile(const fs::path& path, const std::string& text, const std::str
   throw std::runtime_error(fmt::format("{}: could not be written whole; is the disk full?", path.string()));
 }
 
+void replaceTextFile(const fs::path& path, const std::string& text) {
+  const fs::path part = path.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) {
+    std::error_code error;
+    fs::remove(part, error);
+    throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+  }
+  fs::rename(part, path);
+}
+
 } // namespace grouser::runs

@@ -10,4 +10,9 @@ namespace grouser::runs {
 /// place, and std::runtime_error where it cannot be ended, as on a full disk: no part of it is left then.
 void writeTextFile(const std::filesystem::path& path, const std::string& text, const std::string& option);
 
+/// Writes a text file of a run under another name (path + ".part") and puts it in place by renaming: whoever reads
+/// `path` finds the former file or the new one, whole. Throws std::runtime_error, with `path` as it was, where that
+/// fails.
+void replaceTextFile(const std::filesystem::path& path, const std::string& text);
+
 } // namespace grouser::runs

@@ -31,11 +31,9 @@ public:
 
   Articulation build() {
     std::vector<int> level = reach({}, worldJoints_, 0);
-    if (!level.empty()) ++result_.trees;
     grow(level);
     for (int root = pickRoot(); root >= 0; root = pickRoot()) {
       reached_[at(root)] = 1;
-      ++result_.trees;
       grow({root});
     }
     findClosings();

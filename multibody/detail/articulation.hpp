@@ -31,7 +31,6 @@ struct Articulation {
   };
   std::vector<Link> links;       ///< one a body
   std::vector<Closing> closings; ///< in the order of elimination: those with the deepest tops first
-  int trees = 0;                 ///< independent parts, if no closing constraint joins them
   int independent = 0;           ///< parts of the mechanism that nothing joins
 };
 

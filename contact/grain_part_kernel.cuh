@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/for_each_group.cuh"
+#include "contact/grain_part_contacts.hpp"
+#include "contact/rolling_resistance.hpp"
+
+/// Contacts of one grain with one part: its patches, their springs, and the loads on both.
+namespace grouser::contact {
+
+inline constexpr float kSameNormal = 0.9f; // cosine: touches within 26 degrees are one patch
+inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face are one patch
+inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is the one it was in the step before
+
+/// One patch while it is being made out.
+struct TouchedPatch {
+  base::Vec3f normal; ///< outward from the part, in its frame
+  base::Vec3f face;   ///< plane normal of the disc that is deepest
+  float overlap;
+};
+
+/// Loads of one listed pair, by one thread or by the lanes of a group that share its discs.
+template <unsigned kFeatures> struct GrainPartForces {
+  GrainPartModel model;
+  const BasicLaw<float>* laws;
+  const double* massPerCube;
+  GrainPartContacts::GrainsView grains;
+  const PartMotion* motion;
+  const GrainPart* parts;
+  const SurfaceGridView* grids;
+  const std::uint64_t* key;
+  const std::uint32_t* slot;
+  PatchMemory* memory;
+  base::Vec3f* angle; ///< null without rolling friction
+  GrainLoad* load;
+  PartLoad* partLoad;
+  std::int64_t* sums;
+
+  template <class Lanes> GROUSER_HD void operator()(int e, const Lanes& lanes) const {
+    const int i = static_cast<int>(slot[e]);
+    const int p = static_cast<int>(key[e] & 0xFFFFu);
+    const PartMotion part = motion[p];
+    const base::Vec3d x = model.scale.toMetres(grains.position[i]);
+    const base::Vec3d c = part.toPart(x);
+    const Ball ball = ballOf(i);
+    TouchedPatch patches[kPatches];
+    const int found = findPatches(grids[parts[p].surface], c, ball.radius, lanes, patches);
+    if (lanes.lane != 0) return; // the rest is for one thread
+    GrainLoad result{};
+    PatchMemory fresh[kPatches] = {};
+    base::Vec3f freshAngle[kPatches] = {};
+    PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
+    base::Vec3f* heldAngle = angle ? angle + static_cast<std::int64_t>(e) * kPatches : nullptr;
+    unsigned used = 0;
+    base::Vec3l torqueOnPart{};
+    double elastic = 0;
+    for (int k = 0; k < found; ++k) {
+      const int former = recall(held, patches[k].normal, used);
+      fresh[k] = {patches[k].normal, former < 0 ? base::Vec3f{} : held[former].shear};
+      if (angle && former >= 0) freshAngle[k] = heldAngle[former];
+      apply(part, i, ball, x, patches[k], fresh[k].shear, freshAngle[k], result, torqueOnPart, elastic);
+    }
+    for (int k = 0; k < kPatches; ++k) {
+      held[k] = fresh[k];
+      if (angle) heldAngle[k] = freshAngle[k];
+    }
+    load[e] = result;
+    if (found == 0) return;
+    addTo(partLoad[p].force, -result.force);
+    addTo(partLoad[p].torque, torqueOnPart);
+    base::atomicAdd64(sums + 0, found);
+    base::atomicAdd64(sums + 1, model.energy.quantise(elastic));
+    base::atomicAdd64(sums + 2, model.energy.quantise(static_cast<double>(result.dissipated)));
+  }
+
+private:
+  struct Ball {
+    double radius, mass;
+    int material;
+  };
+  GROUSER_HD Ball ballOf(int i) const {
+    if (!model.manyRadii) return {model.radius, model.mass, 0};
+    const int m = static_cast<int>(grains.spin[i].w);
+    const double r = static_cast<double>(grains.velocity[i].w);
+    return {r, massPerCube[m] * r * r * r, m};
+  }
+
+  GROUSER_HD static void addTo(base::Vec3l& target, const base::Vec3l& value) {
+    base::atomicAdd64(&target.x, value.x);
+    base::atomicAdd64(&target.y, value.y);
+    base::atomicAdd64(&target.z, value.z);
+  }
+
+  /// The deepest touch first, then the deepest that belongs to none of the patches so far.
+  template <class Lanes> GROUSER_HD int findPatches(const SurfaceGridView& grid, const base::Vec3d& c,
+                                                    double ballRadius, const Lanes& lanes,
+                                                    TouchedPatch* patches) const {
+    const std::int64_t cell = grid.cellAt(c);
+    if (cell < 0) return 0;
+    const float radius = static_cast<float>(ballRadius);
+    const std::uint32_t first = grid.start[cell], last = grid.start[cell + 1];
+    int found = 0;
+    for (; found < kPatches; ++found) {
+      float deepest = 0;
+      std::uint32_t at = last;
+      for (std::uint32_t k = first + static_cast<std::uint32_t>(lanes.lane); k < last; k += Lanes::width) {
+        const Disc& disc = grid.disc[grid.entry[k]];
+        if (outOfReach(disc, c, ballRadius)) continue;
+        const DiscDistance d = distanceTo(disc, c);
+        const float overlap = radius + disc.radius - d.distance;
+        if (overlap <= deepest) continue;
+        bool taken = false;
+        for (int q = 0; q < found; ++q)
+          taken =
+              taken || dot(d.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
+        if (!taken) deepest = overlap, at = k;
+      }
+      lanes.agreeOnGreatest(deepest, at);
+      if (deepest <= 0) break;
+      const Disc& disc = grid.disc[grid.entry[at]];
+      patches[found] = {distanceTo(disc, c).normal, disc.normal, deepest};
+    }
+    return found;
+  }
+
+  /// The patch whose normal lay closest in the last step; -1 where there is none.
+  GROUSER_HD static int recall(const PatchMemory* held, const base::Vec3f& normal, unsigned& used) {
+    int best = -1;
+    float alignment = kSamePatch;
+    for (int k = 0; k < kPatches; ++k) {
+      const float cosine = dot(held[k].normal, normal);
+      if (!(used >> k & 1) && cosine > alignment) best = k, alignment = cosine;
+    }
+    if (best >= 0) used |= 1u << best;
+    return best;
+  }
+
+  /// Force of one patch, in the part's frame as the history is, then quantised in the world.
+  GROUSER_HD void apply(const PartMotion& part, int i, const Ball& ball, const base::Vec3d& x,
+                        const TouchedPatch& patch, base::Vec3f& shear, base::Vec3f& rolled, GrainLoad& result,
+                        base::Vec3l& torqueOnPart, double& elastic) const {
+    const BasicLaw<float>& law = laws[ball.material];
+    const base::Vec3d outward = part.rotation * patch.normal.template as<double>();
+    const base::Vec3d arm = outward * -(ball.radius - static_cast<double>(patch.overlap));
+    const base::Vec3d point = x + arm;
+    const base::Vec3d spin = grains.spin[i].xyz().template as<double>();
+    const base::Vec3d relative =
+        grains.velocity[i].xyz().template as<double>() + cross(spin, arm) - part.velocityAt(point);
+    const float mass = static_cast<float>(ball.mass), radius = static_cast<float>(ball.radius);
+    const float dt = static_cast<float>(model.timeStep);
+    const Touch touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(), mass,
+                      radius};
+    const Reaction reaction = contactForce<kFeatures>(law, touch, dt, shear);
+    const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.template as<double>());
+    const base::Vec3d force = model.force.value(quanta);
+    result.force += quanta;
+    result.torque += cross(arm, force).template as<float>();
+    result.dissipated += reaction.dissipated;
+    elastic += storedEnergy(law, static_cast<double>(patch.overlap), ball.radius, shear);
+    if (patch.overlap > result.deepest) result.deepest = patch.overlap;
+    torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
+    if ((kFeatures & kGeneral) && law.rollingFriction > 0) {
+      const base::Vec3f rolling = transposedTimes(part.rotation, spin - part.spin).template as<float>();
+      const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
+      const base::Vec3f torque =
+          rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt, rolled, result.dissipated);
+      const float k = rollingStiffness(law, reaction.normalStiffness, radius);
+      elastic += 0.5 * static_cast<double>(k * dot(rolled, rolled));
+      // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.
+      const base::Vec3l turned = model.torque.quantise(part.rotation * torque.template as<double>());
+      result.torque += model.torque.value(turned).template as<float>();
+      torqueOnPart -= turned;
+    }
+  }
+};
+
+} // namespace grouser::contact
