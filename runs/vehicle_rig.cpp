@@ -229,8 +229,10 @@ void VehicleRig::collectLoads() {
   for (std::size_t c = 0; c < n; ++c) {
     const vehicle::Part& part = assembly_.parts[static_cast<std::size_t>(contactParts_[c])];
     multibody::Wrench& wrench = loads_.external[static_cast<std::size_t>(part.body)];
-    wrench.force += quanta_.force.value(track[c].force) + groundForceQuantum_.value(ground[c].force);
-    wrench.torque += quanta_.torque.value(track[c].torque) + groundTorqueQuantum_.value(ground[c].torque);
+    wrench.force += quanta_.force.checked(track[c].force, "forces on a part") +
+                    groundForceQuantum_.checked(ground[c].force, "forces on a part");
+    wrench.torque += quanta_.torque.checked(track[c].torque, "torques on a part") +
+                     groundTorqueQuantum_.checked(ground[c].torque, "torques on a part");
     impulseOnParts_ += ground[c].force;
     groundForceSums_[c] += ground[c].force;
     alarmForceSums_[c] += ground[c].force;

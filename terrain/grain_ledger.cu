@@ -157,12 +157,12 @@ GrainLedger Grains::ledger() {
     subdomain_->comm().minimum(most.data(), most.size());
   }
   GrainLedger ledger;
-  ledger.kinetic = energy.value(q[0]);
-  ledger.rotational = energy.value(q[1]);
-  ledger.potential = energy.value(q[2]);
-  ledger.elastic = energy.value(q[3]);
-  ledger.dissipated = energy.value(q[4]);
-  ledger.momentum = momentum.value({q[5], q[6], q[7]});
+  ledger.kinetic = energy.checked(q[0], "kinetic energies of the grains");
+  ledger.rotational = energy.checked(q[1], "energies of rotation of the grains");
+  ledger.potential = energy.checked(q[2], "potential energies of the grains");
+  ledger.elastic = energy.checked(q[3], "elastic energies of the contacts");
+  ledger.dissipated = energy.checked(q[4], "dissipated energies");
+  ledger.momentum = momentum.checked({q[5], q[6], q[7]}, "momenta of the grains");
   ledger.contacts = q[8] / 2;
   ledger.boundaryContacts = q[9];
   ledger.deepestOverlap = static_cast<double>(~most[0]) * scale_.unit;

@@ -50,7 +50,8 @@ void Grains::collectSurfaceLoads() {
   static_assert(sizeof(contact::PartLoad) == 6 * sizeof(std::int64_t));
   if (subdomain_) subdomain_->comm().sum(&sums->force.x, 6 * surfaceSums_.size());
   for (std::size_t s = 0; s < surfaceLoads_.size(); ++s)
-    surfaceLoads_[s] = {surfaceForce_.value(sums[s].force), surfaceTorque_.value(sums[s].torque)};
+    surfaceLoads_[s] = {surfaceForce_.checked(sums[s].force, "forces on a surface"),
+                        surfaceTorque_.checked(sums[s].torque, "torques on a surface")};
 }
 
 } // namespace grouser::terrain

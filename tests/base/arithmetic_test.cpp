@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What equal bits on all machines rest on: no fused multiply-add, and functions that are the project's own.
+#include "base/array.hpp"
+#include "base/for_each.cuh"
+#include "base/hash.hpp"
+#include "base/math.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace grouser::base {
+namespace {
+
+/// out = a b - c, which is 0 where the product is rounded before the difference, and its rounding error where it is
+/// not.
+template <class Real> struct ProductLess {
+  const Real *a, *b, *c;
+  Real* out;
+  GROUSER_HD void operator()(int i) const { out[i] = a[i] * b[i] - c[i]; }
+};
+
+template <class Real> void expectNoFusedMultiplyAdd(const Exec& exec) {
+  std::vector<Real> a, b, c;
+  int inexact = 0;
+  for (int i = 0; i < 64; ++i) {
+    a.push_back(Real(1) + Real(i + 1) / Real(97)), b.push_back(Real(1) - Real(i + 1) / Real(89));
+    volatile Real product = a.back() * b.back(); // rounded, whatever the compiler
+    c.push_back(Real(product));
+    inexact += std::fma(a.back(), b.back(), -c.back()) != 0;
+  }
+  ASSERT_GT(inexact, 32) << "these products show a fused multiply-add";
+  const Array<Real> x(exec, a), y(exec, b), z(exec, c);
+  Array<Real> out(exec, a.size());
+  forEach(exec, "multiply and subtract", static_cast<std::int64_t>(a.size()),
+          ProductLess<Real>{x.data(), y.data(), z.data(), out.data()});
+  for (const Real difference : out.toHost()) EXPECT_EQ(difference, Real(0));
+}
+
+TEST(Arithmetic, ProductsAreRoundedBeforeTheyAreAdded) {
+  expectNoFusedMultiplyAdd<float>(testExec(1));
+  expectNoFusedMultiplyAdd<double>(testExec(2));
+}
+
+/// All functions of base/math.hpp at one place.
+struct Functions {
+  static constexpr int kEach = 9;
+  double* out;
+  GROUSER_HD void operator()(int i) const {
+    const double x = -20 + 0.0397 * i, positive = 1e-3 + 0.03 * i, share = -1 + i / 512.0;
+    double* o = out + kEach * static_cast<std::int64_t>(i);
+    o[0] = base::sin(x), o[1] = base::cos(x), o[2] = base::tan(x), o[3] = base::atan(x),
+    o[4] = base::atan2(x, positive);
+    o[5] = base::acos(share), o[6] = base::exp(x), o[7] = base::log(positive), o[8] = base::pow(positive, 0.3);
+  }
+};
+
+TEST(Arithmetic, FunctionsGiveTheSameBitsOnEveryMachine) {
+  constexpr int kPlaces = 1024;
+  const Exec exec = testExec(2);
+  Array<double> out(exec, std::size_t{kPlaces} * Functions::kEach);
+  forEach(exec, "functions", kPlaces, Functions{out.data()});
+  StateHash hash;
+  for (const double value : out.toHost()) {
+    ASSERT_TRUE(std::isfinite(value));
+    hash.add(std::bit_cast<std::uint64_t>(value));
+  }
+  EXPECT_EQ(hash.hex(), "563866200355d10c") << "a libm function, a fused multiply-add or another formula";
+}
+
+TEST(Arithmetic, FunctionsAreNearThoseOfTheLibrary) {
+  const auto near = [](double own, double library) {
+    EXPECT_NEAR(own, library, 9e-16 * std::max(1.0, std::fabs(library)));
+  };
+  for (int i = 0; i < 1024; ++i) {
+    const double x = -20 + 0.0397 * i, positive = 1e-3 + 0.03 * i, share = -1 + i / 512.0;
+    near(base::sin(x), std::sin(x)), near(base::cos(x), std::cos(x)), near(base::atan(x), std::atan(x));
+    near(base::atan2(x, positive), std::atan2(x, positive)), near(base::acos(share), std::acos(share));
+    EXPECT_NEAR(base::exp(x) / std::exp(x), 1, 4e-16 * 20);
+    near(base::log(positive), std::log(positive));
+  }
+}
+
+} // namespace
+} // namespace grouser::base
