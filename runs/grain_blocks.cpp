@@ -33,12 +33,15 @@ Grain grainAt(const GrainBlock& b, const Vec3d& position, double radius) {
   return {position, b.velocity, b.spin, radius, b.material};
 }
 
-/// Places of a lattice along each axis: centres stay a largest radius inside the box.
+/// How far a grain of a lattice may stand from its place along each axis [m]: two never touch at the start.
+double latticeShift(const GrainBlock& b) { return 0.5 * b.jitter * (b.spacing - 2) * b.largestRadius(); }
+
+/// Places of a lattice along each axis: shifted grains too stay whole inside the box.
 base::Vec3<std::int64_t> latticeCount(const GrainBlock& b) {
   const double pitch = b.spacing * b.largestRadius();
   base::Vec3<std::int64_t> count;
   for (int a = 0; a < 3; ++a) {
-    const double room = (*b.high)[a] - (*b.low)[a] - 2 * b.largestRadius();
+    const double room = (*b.high)[a] - (*b.low)[a] - 2 * (b.largestRadius() + latticeShift(b));
     count[a] = room < -1e-9 * pitch ? 0 : static_cast<std::int64_t>(std::floor(room / pitch + 1e-9)) + 1;
   }
   return count;
@@ -47,7 +50,7 @@ base::Vec3<std::int64_t> latticeCount(const GrainBlock& b) {
 void addLattice(const GrainBlock& b, std::uint64_t seed, std::uint64_t block, std::vector<Grain>& out) {
   const auto count = latticeCount(b);
   const double r = b.largestRadius(), pitch = b.spacing * r;
-  const double shift = 0.5 * b.jitter * (b.spacing - 2) * r; // grains never touch at the start
+  const double shift = latticeShift(b);
   std::uint64_t id = 0;
   for (std::int64_t z = 0; z < count.z; ++z)
     for (std::int64_t y = 0; y < count.y; ++y)
@@ -55,7 +58,7 @@ void addLattice(const GrainBlock& b, std::uint64_t seed, std::uint64_t block, st
         Dice dice{seed, block, id++};
         const double radius = drawRadius(b, dice);
         Vec3d place{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-        for (int a = 0; a < 3; ++a) place[a] = (*b.low)[a] + r + place[a] * pitch + (2 * dice() - 1) * shift;
+        for (int a = 0; a < 3; ++a) place[a] = (*b.low)[a] + r + shift + place[a] * pitch + (2 * dice() - 1) * shift;
         out.push_back(grainAt(b, place, radius));
       }
 }

@@ -103,6 +103,18 @@ plots = false
   fs::path program_, folder_;
 };
 
+TEST_F(OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
+  for (const char* scene : {"chute", "moving", "rain"}) {
+    const std::string words = "run '" GROUSER_SOURCE_DIR "/tests/scenes/" + std::string(scene) +
+                              ".toml' --steps 2500 --hash --force --set output.frames=false --set output.picture=false "
+                              "--set output.plots=false --out " +
+                              scene;
+    const std::string one = run(1, words).hash();
+    EXPECT_EQ(one.find("state-hash"), 0u) << one;
+    for (const int ranks : {2, 3}) EXPECT_EQ(run(ranks, words).hash(), one) << scene << " on " << ranks;
+  }
+}
+
 TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   // Settled once, by one rank; the vehicle is down on the bed from 0.07 s on.
   const auto drive = [this](int ranks, const std::string& words) {
