@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/study_collapse.hpp"
 #include "runs/study_grain_stability.hpp"
 #include "runs/study_impact.hpp"
+#include "runs/study_packing.hpp"
 #include "runs/study_precision_command.hpp"
+#include "runs/study_shear.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -14,6 +17,9 @@ struct GrainStudies {
   ImpactCommand impact;
   GrainStabilityCommand stability;
   PrecisionCommand precision;
+  PackingCommand packing;
+  CollapseCommand collapse;
+  ShearCommand shear;
 };
 
 /// Adds the studies of grains to the command `study`.
