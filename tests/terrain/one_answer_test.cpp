@@ -46,6 +46,19 @@ TEST(Heap, SameBitsForThreadsAndRebuildIntervals) {
   EXPECT_EQ(reference, runHeap(2, 0.1));
 }
 
+TEST(Heap, MovesAlikeWhereverItStands) {
+  // Shifts by whole units of position, hundreds of metres: all but the places themselves is the same to the bit.
+  const double unit = base::positionScale(0.054).unit;
+  const auto whole = [unit](double metres) { return std::floor(metres / unit) * unit; };
+  const std::vector<std::uint32_t> here = runHeap(1, 0.3),
+                                   there = runHeap(1, 0.3, {whole(312.7), whole(-245.1), whole(77.3)});
+  ASSERT_EQ(here.size(), there.size());
+  std::size_t differing = 0;
+  for (std::size_t k = 0; k < here.size(); ++k) differing += here[k] != there[k];
+  EXPECT_LE(differing, 4u * 294) << "more than the four words of each position";
+  EXPECT_GT(differing, 3u * 294);
+}
+
 TEST(Heap, NeighbourListLosesNoContact) {
   // Against a brute-force search over all pairs.
   const GrainModel m = gravel(0.3);
