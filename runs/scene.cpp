@@ -173,16 +173,6 @@ void readGrainsAndSurfaces(const Section& root, Scene& scene) {
   }
 }
 
-/// Boxes, cylinders and meshes are for grains alone.
-void checkSurfacesMeetGrains(const Section& root, const Scene& scene) {
-  const bool grains = !scene.grains.empty() || !scene.blocks.empty() || !scene.sources.empty() ||
-                      (scene.terrain && scene.terrain->granular());
-  if (grains) return;
-  for (const char* kind : {"box", "cylinder", "mesh"})
-    for (const Section& section : root.list(kind))
-      section.fail("", "stands in a scene without grains, and nothing else touches it; remove it");
-}
-
 constexpr double kLeastPeriod = 12; // of a tile, in radii [-]
 
 void readTerrain(const Section& section, Scene& scene) {
@@ -321,10 +311,9 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
   readContacts(root, scene);
   readGrainsAndSurfaces(root, scene);
   if (root.has("terrain")) readTerrain(root.section("terrain"), scene);
-  checkSurfacesMeetGrains(root, scene);
   readMechanism(root, scene);
   if (root.has("vehicle")) readVehicle(root.section("vehicle"), scene);
-  checkMeshes(root, scene);
+  checkSurfaces(root, scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);

@@ -2,12 +2,14 @@
 #include "runs/surface_scene.hpp"
 
 #include "runs/detail/scene_tables.hpp"
+#include "runs/grain_kinds.hpp"
 #include "runs/orientation.hpp"
 #include "runs/section_fault.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace grouser::runs {
 
@@ -118,6 +120,8 @@ void loadMesh(const Section& section, MeshSection& mesh) {
   mesh.loaded.query = std::make_shared<const spheredecomp::MeshQuery>(std::move(triangles));
 }
 
+namespace {
+
 void checkMeshes(const Section& root, const Scene& scene) {
   const std::vector<Section> sections = root.list("mesh");
   for (std::size_t k = 0; k < sections.size(); ++k) {
@@ -129,6 +133,28 @@ void checkMeshes(const Section& root, const Scene& scene) {
     if (scene.meshes[k].material != scene.meshes.front().material)
       sections[k].fail("material", fmt::format("differs from that of the first mesh, \"{}\"; all meshes have one",
                                                scene.meshes.front().material));
+  }
+}
+
+} // namespace
+
+void checkSurfaces(const Section& root, const Scene& scene) {
+  checkMeshes(root, scene);
+  const GrainKinds kinds = grainKinds(scene);
+  std::map<std::string, std::string> places; // of names
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    const Section section = root.list(s.kind)[s.number];
+    if (!kinds.any())
+      section.fail("", std::string(s.kind) == "plane"
+                           ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
+                           : "stands in a scene without grains, and nothing else touches it; remove it");
+    const auto [other, fresh] = places.emplace(s.name, section.path());
+    if (!fresh) section.fail("name", fmt::format("\"{}\" is that of {} too; choose another", s.name, other->second));
+    if (s.geometry.shape == terrain::SurfaceShape::tube && s.geometry.half.x <= kinds.largest)
+      section.fail("radius",
+                   fmt::format("[m] is not above that of the largest grain, {:g} m; a hollow cylinder must be "
+                               "wider than what is in it: raise it, or set hollow = false",
+                               kinds.largest));
   }
 }
 

@@ -13,8 +13,8 @@ namespace grouser::runs {
 void readSurfaces(const base::Section& root, Scene& scene);
 /// Reads the file of a [[mesh]], whose name is absolute now. Throws InputError.
 void loadMesh(const base::Section& section, MeshSection& mesh);
-/// What meshes do not go together with. Throws InputError.
-void checkMeshes(const base::Section& root, const Scene& scene);
+/// Whether surfaces fit together with all else of the scene. Throws InputError.
+void checkSurfaces(const base::Section& root, const Scene& scene);
 /// The same sections as TOML.
 std::string surfacesToml(const Scene& scene);
 

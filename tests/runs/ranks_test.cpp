@@ -187,6 +187,15 @@ plots = false
   EXPECT_EQ(run(2, "run moved.toml --hash --resume --out three").hash(), one.hash());
   EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "two/timeseries.csv"));
   EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "three/timeseries.csv"));
+  const Outcome drawn = shell(R"(/usr/bin/python3 -c "
+import h5py
+f = h5py.File('two/frames.h5')
+names = [n.decode() if isinstance(n, bytes) else n for n in f['parts/part'].attrs['names']]
+assert names == ['belt', 'box0', 'lid', 'mesh0'], names
+a, b = f['000000/parts/position'][:], f['000001/parts/position'][:]
+assert abs((b - a)[-1, 0] + 0.3 * 0.1) < 1e-6, 'the mesh has moved with its velocity'
+")");
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
 }
 
 TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {

@@ -106,6 +106,25 @@ TEST(BallInDrum, SwingsWithThePeriodOfRolling) {
   EXPECT_NEAR(4 * crossing / period, 1, 2e-3) << "the springs give way for a fraction of a contact";
 }
 
+TEST(BallInDrum, ThatTurnsWithItFeelsNoRollingResistance) {
+  // Pressed to the wall by the turn alone, spinning as the drum does: nothing slides or rolls.
+  const double omega = 40, radius = 0.03;
+  GrainModel m = ball(1e-5);
+  m.law.friction = 0.6, m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
+  m.law.rollingFriction = 0.3, m.law.rollingDamping = 0.3;
+  const double arm = (radius - m.radius) / (1 - m.mass * omega * omega / m.law.stiffness); // the spring gives way
+  const SurfaceGeometry drum = tubeOf(radius, 0.05);
+  Grains grains(testExec(1), m, {{}, {}, {}, {{drum, m.law, placed({})}}},
+                {{{arm, 0, 0}, {0, omega * arm, 0}, {0, 0, omega}}});
+  const auto motion = [&](std::int64_t n) {
+    return std::vector{placed({}, {}, turn({0, 0, 1}, omega * static_cast<double>(n) * m.timeStep), {}, {0, 0, omega})};
+  };
+  advanceWith(grains, motion, 0, 20000);
+  EXPECT_NEAR(static_cast<double>(grains.snapshot().spin[0].z), omega, 1e-3 * omega);
+  EXPECT_LT(grains.ledger().dissipated, 1e-4 * grains.ledger().kinetic);
+  EXPECT_EQ(grains.surfaceListings(), grains.rebuilds()) << "a drum that turns about its axis asks for no lists";
+}
+
 TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
   // A5 in the frame of the belt: it slides with v0, decelerated by mu g, and rolls at 5/7 of it.
   const double mu = 0.3, v0 = 1;
@@ -241,6 +260,41 @@ TEST(Mill, ListsLoseNoContact) {
   }
   EXPECT_EQ(seldom.stateWords(), always.stateWords());
   EXPECT_LT(seldom.surfaceListings(), 600) << "the plate shakes by 4 mm, the room is 2.5 mm";
+}
+
+TEST(Surfaces, ListsMadeBetweenRebuildsKeepWallsThatAGrainMayComeBackTo) {
+  // It rises by nearly half the skin and falls back onto the floor, while a box far away asks for list after list.
+  GrainModel m = ball(1e-5);
+  m.gravity = {0, 0, -9.81};
+  const double gap = 5e-4, rise = 0.95 * 0.5 * m.skin * m.radius;
+  const auto motion = [&](std::int64_t n) {
+    return std::vector{placed({0.5 + 2 * static_cast<double>(n) * m.timeStep, 0, 0}, {}, {}, {2, 0, 0})};
+  };
+  const auto after = [&](bool always) {
+    Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}, {}, {{boxOf({0.1, 0.1, 0.1}), m.law, placed({0.5, 0, 0})}}},
+                  {{{0, 0, m.radius + gap}, {0, 0, std::sqrt(2 * 9.81 * rise)}, {}}});
+    for (std::int64_t n = 0; n < 4500; ++n) {
+      if (always) grains.invalidateNeighbours();
+      advanceWith(grains, motion, n, n + 1);
+    }
+    if (!always) {
+      EXPECT_GT(grains.surfaceListings(), grains.rebuilds() + 20);
+    }
+    return grains.stateWords();
+  };
+  EXPECT_EQ(after(false), after(true));
+}
+
+TEST(Surfaces, ThatJumpAwayLeaveNoSpringBehind) {
+  GrainModel m = millModel();
+  const SurfaceGeometry box = boxOf({0.02, 0.02, 0.01});
+  Grains grains(testExec(1), m, {{}, {}, {}, {{box, m.law, placed({0, 0, -0.01})}}},
+                {{{0, 0, m.radius - 1e-5}, {0.1, 0, 0}, {}}});
+  advance(grains, 10); // of the 37 of a contact
+  EXPECT_EQ(grains.state().wallBits[0], 1u);
+  grains.placeSurfaces({placed({0, 0, -1})});
+  advance(grains, 1);
+  EXPECT_EQ(grains.state().wallBits[0], 0u);
 }
 
 TEST(Surfaces, NoneCostNothing) {
