@@ -25,7 +25,6 @@ public:
   const multibody::Model& model() const { return model_; }
   const multibody::State& state() const { return state_; }
   const multibody::Solver& solver() const { return solver_; }
-  const multibody::Loads& loads() const { return loads_; }
 
   /// What a drive does now.
   struct DriveReading {

@@ -29,7 +29,7 @@ MeshContacts::MeshContacts(const Scene& scene, const base::Exec& exec, double ti
       });
   force_ = model.force, torque_ = model.torque;
   contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, materials);
-  grains.onHandOver([this](const std::uint32_t* destination, std::size_t) { contacts_->handOver(destination); });
+  grains.onHandOver([this](const std::uint32_t* destination) { contacts_->handOver(destination); });
   motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
   sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size());
   loads_.resize(sets_.size());

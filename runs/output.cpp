@@ -220,10 +220,6 @@ RunWriter::~RunWriter() = default;
 
 const fs::path& RunWriter::folder() const { return impl_->folder; }
 
-void RunWriter::labels(const std::string& path, const std::vector<std::string>& names) {
-  if (impl_->series) impl_->series->results.attribute("/" + path + "/value", "labels", names);
-}
-
 void RunWriter::constant(const std::string& path, const std::string& unit, double value) {
   if (!impl_->series) return;
   impl_->series->results.write("/" + path, std::vector<double>{value}, {1});

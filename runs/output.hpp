@@ -66,7 +66,6 @@ struct Summary {
   double wallTime{};                     ///< [s]
   std::string stateHash;                 ///< hexadecimal; empty where not taken
   std::map<std::string, double> figures; ///< anything else worth keeping: "particle steps per second"
-  std::map<std::string, std::string> notes;
 };
 
 /// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
@@ -96,8 +95,6 @@ public:
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;
 
-  /// Labels of a wide channel's numbers, e.g. of the shoes: kept as an attribute in results.h5.
-  void labels(const std::string& path, const std::vector<std::string>& names);
   /// A constant of the run in results.h5, e.g. "vehicle/pitch_radius" [m].
   void constant(const std::string& path, const std::string& unit, double value);
 

@@ -47,7 +47,6 @@ public:
     if (mechanism_) mechanism_->restartMeans();
   }
   const SettleReport& settled() const { return settled_; }
-  const std::function<double(double, double)>& surface() const { return surface_; }
 
   /// Changes of all energies [J] since the first step, and what does not balance:
   /// residual = kinetic + potential + elastic + dissipated - driveWork.

@@ -93,7 +93,7 @@ void VehicleRig::loadMeshes(const Scene& scene) {
       const int cutter = static_cast<int>(sets_.size()) % comm_.size();
       sets_.push_back(touches && cutter == comm_.rank() ? spheredecomp::decompose(meshes_.back(), part.mesh, options)
                                                         : base::SphereSet{});
-      setFigures_.push_back({part.mesh, 0, 0, 0});
+      setFigures_.push_back({part.mesh, 0, 0});
     }
     meshOfPart_.push_back(at->second);
     ++setFigures_[at->second].instances;
@@ -101,7 +101,7 @@ void VehicleRig::loadMeshes(const Scene& scene) {
   }
   for (std::size_t i = 0; i < sets_.size(); ++i) {
     sets_[i] = shared(comm_, std::move(sets_[i]), static_cast<int>(i) % comm_.size());
-    setFigures_[i].spheres = sets_[i].spheres.size(), setFigures_[i].surface = sets_[i].surfaceCount;
+    setFigures_[i].spheres = sets_[i].spheres.size();
   }
 }
 
@@ -151,7 +151,7 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     std::vector<contact::GrainPart> parts;
     for (const int set : setOfPart) parts.push_back({set, {}, {}});
     bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts, comm_, materials);
-    ground.grains->onHandOver([this](const std::uint32_t* destination, std::size_t) { bed_->handOver(destination); });
+    ground.grains->onHandOver([this](const std::uint32_t* destination) { bed_->handOver(destination); });
   } else if (ground.rigid) {
     const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
     std::vector<int> shoes;

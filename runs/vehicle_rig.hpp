@@ -38,11 +38,8 @@ public:
   /// For the grains' step; null on rigid ground.
   const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
 
-  double time() const { return state_.time; }
   const vehicle::Assembly& assembly() const { return assembly_; }
   const multibody::State& state() const { return state_; }
-  const multibody::Solver& solver() const { return *solver_; }
-  const vehicle::Driver& driver() const { return driver_; }
 
   /// Ground loads are means since the last restartMeans(): on grains a single step says little.
   vehicle::Observation observe() const;
@@ -67,7 +64,7 @@ public:
 
   struct SetFigures {
     std::string mesh;
-    std::size_t spheres{}, surface{};
+    std::size_t spheres{};
     int instances{};
   };
   /// Listed as near now: probes of parts against parts and rigid ground, and pairs of grain and part.

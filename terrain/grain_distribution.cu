@@ -64,7 +64,7 @@ void Grains::shareOut() {
   completeGhosts();
   if (subdomain.rebalances()) rebalance();
   subdomain.findLeaving(position_[0].data(), slots_);
-  if (handOver_) handOver_(subdomain.destination(), slots_);
+  if (handOver_) handOver_(subdomain.destination());
 
   // The rows of the neighbour list travel with their grains, as ids and springs.
   Exchange& exchange = subdomain.handOver();

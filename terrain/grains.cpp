@@ -375,15 +375,6 @@ void Grains::stop() {
   remainders_.zero();
 }
 
-GrainSnapshot Grains::snapshot() const {
-  const GrainState s = state();
-  GrainSnapshot out;
-  out.first = blockStart(comm_, static_cast<std::int64_t>(count_), comm_.rank()), out.total = count_;
-  for (const Position& p : s.position) out.position.push_back(scale_.toMetres(p));
-  out.velocity = s.velocity, out.spin = s.spin, out.radius = s.radius;
-  return out;
-}
-
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
                       wallHistory_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + crossings_.bytes() +

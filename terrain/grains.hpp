@@ -111,7 +111,7 @@ public:
   const std::uint32_t* ghosts() const { return subdomain_ ? subdomain_->ghostMarks() : nullptr; }
   /// Called when grains go to other ranks, before they do: with the rank that the grain of each slot now belongs to
   /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after.
-  using HandOver = std::function<void(const std::uint32_t* destination, std::size_t slots)>;
+  using HandOver = std::function<void(const std::uint32_t* destination)>;
   void onHandOver(HandOver handOver) { handOver_ = std::move(handOver); }
   /// Null on one rank.
   const Subdomain* subdomain() const { return subdomain_.get(); }
@@ -141,8 +141,7 @@ public:
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t steps() const { return steps_; }
   void setSteps(std::int64_t steps) { steps_ = steps; }
-  void setGravity(const base::Vec3d& gravity) { model_.gravity = gravity; }
-  /// Forgets velocities and spins: a bed brought to rest between settling and driving.
+  /// Forgets velocities and spins: grains brought to rest where they are.
   void stop();
 
 private:
@@ -173,7 +172,10 @@ private:
   void checkFlags();
   [[noreturn]] void stopFor(std::uint64_t fault) const;
   GrainLayout layout() const;
+  std::vector<std::uint32_t> ownSlots(const std::vector<std::uint32_t>& id) const;
+  GrainState ownPlaces() const;
   GrainState ownRows() const;
+  GrainState inBlocks(GrainState own) const;
   void restoreContacts(const GrainState& state, const std::vector<std::uint32_t>& id);
 
   // On several ranks: grain_distribution.cu.

@@ -70,8 +70,19 @@ std::vector<std::uint32_t> GrainState::words() const {
   return words;
 }
 
-GrainState Grains::state() const {
-  const GrainState own = ownRows();
+GrainState Grains::state() const { return inBlocks(ownRows()); }
+
+GrainSnapshot Grains::snapshot() const {
+  const GrainState s = inBlocks(ownPlaces());
+  GrainSnapshot out;
+  out.first = blockStart(comm_, static_cast<std::int64_t>(count_), comm_.rank()), out.total = count_;
+  for (const Position& p : s.position) out.position.push_back(scale_.toMetres(p));
+  out.velocity = s.velocity, out.spin = s.spin, out.radius = s.radius;
+  return out;
+}
+
+/// Each rank's rows, given to those whose blocks of ids they are in.
+GrainState Grains::inBlocks(GrainState own) const {
   if (comm_.alone()) return own;
   std::vector<int> block;
   for (const std::uint32_t id : own.id) block.push_back(blockOf(comm_, own.total, id));
@@ -84,7 +95,35 @@ GrainLayout Grains::layout() const {
           period_.any()};
 }
 
-/// The rows of the grains that this rank integrates.
+/// Slots of the grains that this rank integrates, in the order of their ids.
+std::vector<std::uint32_t> Grains::ownSlots(const std::vector<std::uint32_t>& id) const {
+  const auto ghost = ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>(slots_);
+  std::vector<std::uint32_t> slots;
+  for (std::size_t i = 0; i < slots_; ++i)
+    if (!ghost[i]) slots.push_back(static_cast<std::uint32_t>(i));
+  std::sort(slots.begin(), slots.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
+  return slots;
+}
+
+/// What can be seen of these grains, without contacts: little to bring from the device.
+GrainState Grains::ownPlaces() const {
+  const auto position = position_[0].toHost();
+  const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
+  const auto id = id_.toHost();
+  GrainState s;
+  s.layout.radii = layout().radii, s.total = static_cast<std::int64_t>(count_);
+  for (const std::uint32_t i : ownSlots(id)) {
+    s.id.push_back(id[i]);
+    s.position.push_back(position[i]);
+    s.velocity.push_back(velocity[i].xyz());
+    s.spin.push_back(spin[i].xyz());
+    if (s.layout.radii) s.radius.push_back(velocity[i].w);
+  }
+  s.remainders.resize(s.rows()), s.travelled.resize(s.rows()), s.contacts.resize(s.rows());
+  return s;
+}
+
+/// All of these grains.
 GrainState Grains::ownRows() const {
   const auto position = position_[0].toHost();
   const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
@@ -96,17 +135,12 @@ GrainState Grains::ownRows() const {
   const auto reference = reference_.toHost();
   const bool listed = rebuilds_ > 0;
   const auto lists = listed ? neighbours_.toHost() : contact::NeighbourList::HostCopy{};
-  const auto ghost = ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>(slots_);
-  std::vector<std::uint32_t> slotOf;
-  for (std::size_t i = 0; i < slots_; ++i)
-    if (!ghost[i]) slotOf.push_back(static_cast<std::uint32_t>(i));
-  std::sort(slotOf.begin(), slotOf.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
 
   GrainState s;
   s.layout = layout();
   s.total = static_cast<std::int64_t>(count_), s.skin = model_.skin, s.rebuilds = rebuilds_;
   const auto walls = static_cast<std::size_t>(boundaryCount_), width = static_cast<std::size_t>(historyWidth_);
-  for (const std::uint32_t i : slotOf) {
+  for (const std::uint32_t i : ownSlots(id)) {
     s.id.push_back(id[i]);
     s.position.push_back(position[i]);
     s.velocity.push_back(velocity[i].xyz());

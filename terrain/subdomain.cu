@@ -183,7 +183,6 @@ void Subdomain::appended(std::size_t count) {
 }
 
 void Subdomain::findMasters(const Position* position, std::size_t owned) {
-  owned_ = owned;
   const auto n = static_cast<std::int64_t>(owned);
   base::Array<std::uint32_t> count(exec_, owned), first(exec_, owned);
   FindNeedy find{partition_.view(), period_, position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};

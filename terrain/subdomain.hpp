@@ -59,7 +59,6 @@ public:
   void appended(std::size_t count);
   /// The slots hold owned grains only: they were loaded, not sorted.
   void forgetRoles() { haveRoles_ = false; }
-  const std::uint32_t* roles() const { return role_.data(); }
   const std::uint32_t* ghostMarks() const { return ghostMark_.data(); }  ///< not 0 for slaves
   const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending
   const base::Array<std::uint32_t>& masters() const { return masters_; }
@@ -78,7 +77,6 @@ private:
   base::Period period_;
   Partition partition_;
   contact::Exchange handOver_, ghostUpdate_;
-  std::size_t owned_{0};
   bool haveRoles_{false};
   base::Array<std::uint32_t> role_, ghostMark_, destination_, kept_, uniques_, masters_;
 };

@@ -43,7 +43,7 @@ struct Ground {
     model.force = model.torque = base::fixedPointFor(2e3, 36), model.energy = base::fixedPointFor(40, 36);
     part = std::make_unique<GrainPartContacts>(exec, model, std::vector<const base::SphereSet*>{&plate},
                                                std::vector<contact::GrainPart>{{0, {}, {}}}, partition.comm);
-    grains.onHandOver([this](const std::uint32_t* destination, std::size_t) { part->handOver(destination); });
+    grains.onHandOver([this](const std::uint32_t* destination) { part->handOver(destination); });
   }
 
   GrainPartContacts::GrainsView view() const {
