@@ -21,11 +21,13 @@ std::string planText(const Scene& scene);
 /// What one rank does, from `grouser bench bed`: the figures that expectations rest on.
 struct RankSpeed {
   const char* name;
-  double grainSteps; ///< particle-steps a second of one rank alone, for grains of one radius and linear springs
-  double latency;    ///< of one step's messages and sums [s]
+  double grainSteps;    ///< particle-steps a second of one rank alone, for grains of one radius and linear springs
+  double shareOfOthers; ///< of that speed, for other grains [-]
+  double latency;       ///< of one step's messages and sums [s]
   double bytesPerSecond;
 };
-inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 20e-6, 2e9}, {"an H200", 2.9e9, 40e-6, 5e10}};
+inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.3, 20e-6, 2e9},
+                                            {"an H200", 2.9e9, 1.0, 40e-6, 5e10}};
 
 /// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
 std::int64_t plannedGrains(const Scene& scene);
