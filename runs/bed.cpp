@@ -111,9 +111,10 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
     for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
       if (!taken(seed.centre)) start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
   }
+  const std::size_t floor = boundaries.walls.size(); // behind the walls, before the surfaces
   ground.grains =
       std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
-  if (tiles) tiles->bringToRest(*ground.grains);
+  if (tiles) tiles->bringToRest(*ground.grains, floor);
 }
 
 /// Cells of one largest diameter along one axis, in a ring between joined sides.
@@ -234,15 +235,14 @@ struct StepLimit {
   }
 };
 
-/// How many grains may lie on a surface at once: a dense layer on its largest face. A plane has as many as lie in one
-/// layer of a cube of all.
+/// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
 double mostTouching(const Scene& scene, const SceneSurface& surface, double radius) {
   const Vec3d& h = surface.geometry.half;
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
-  if (surface.geometry.shape == terrain::SurfaceShape::plane)
-    return std::max(1.0, base::pow(static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene))), 2.0 / 3));
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
+  if (surface.geometry.shape == terrain::SurfaceShape::plane) return all;
   if (surface.geometry.shape != terrain::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
-  return std::max(1.0, area / (2 * std::sqrt(3.0) * radius * radius));
+  return std::clamp(area / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
 }
 
 /// A surface that forces move, on springs of all grains that it may touch.

@@ -23,6 +23,16 @@ terrain::JoinedSides joinedSides(const Scene& scene) {
   return sides;
 }
 
+base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (!sides[a]) continue;
+    const double period = (*sides[a])[1] - (*sides[a])[0];
+    double& d = way[static_cast<int>(a)];
+    d -= period * std::floor(d / period + 0.5);
+  }
+  return way;
+}
+
 void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
   const terrain::JoinedSides sides = joinedSides(scene);
   for (std::size_t a = 0; a < 2; ++a) {
@@ -30,7 +40,8 @@ void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
     const auto [from, to] = *sides[a];
     const int axis = static_cast<int>(a);
     const auto check = [&](double low, double high, const std::string& what) {
-      if (low >= from && high < to) return;
+      // A source may fill the period: its numbers never reach the upper side itself.
+      if (low >= from && (high < to || (low < high && high <= to))) return;
       throw base::InputError(fmt::format("{}: {} reaches from {} = {:g} to {:g} m, outside the joined sides {:g} and "
                                          "{:g} m; move it between them, or move run.domain_{}",
                                          scene.file.string(), what, "xy"[a], low, high, from, to, "xy"[a]));

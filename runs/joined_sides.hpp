@@ -10,6 +10,9 @@ namespace grouser::runs {
 /// run.domain_y say. InputError: a height-map that does not fit together across them.
 terrain::JoinedSides joinedSides(const Scene& scene);
 
+/// The way between two places, or between one and the nearest image of the other.
+base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way);
+
 /// Grains and sources must lie between the sides. Throws InputError that names the first that does not.
 void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains);
 

@@ -58,6 +58,14 @@ CLI::Validator notNegative(const std::string& what) {
   });
 }
 
+CLI::Validator between(double low, double high) {
+  const std::string range = fmt::format("in [{:g}, {:g}]", low, high);
+  return check("a number " + range, range, [low, high](const std::string& text) {
+    const auto x = numberIn<double>(text);
+    return x && *x >= low && *x <= high; // nan is in no range
+  });
+}
+
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv) {
   const CLI::App* level = &app;
   std::string path;

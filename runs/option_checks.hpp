@@ -19,6 +19,9 @@ CLI::Validator positive(const std::string& what);
 /// A finite number of at least 0.
 CLI::Validator notNegative(const std::string& what);
 
+/// A finite number in [low, high].
+CLI::Validator between(double low, double high);
+
 /// The message for a first word, or one after a command of commands, that is no command: it names the nearest. Empty
 /// where there is none such.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);

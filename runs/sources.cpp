@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "runs/grain_kinds.hpp"
+#include "runs/joined_sides.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ constexpr double kRoom = 2.002; // [radii] between centres that enter together
 
 } // namespace
 
-Sources::Sources(const Scene& scene, double timeStep) {
+Sources::Sources(const Scene& scene, double timeStep) : sides_(joinedSides(scene)) {
   const GrainKinds kinds = grainKinds(scene);
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const Source& s = scene.sources[k];
@@ -65,7 +66,7 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
         place[a] = s.low[a] + u * (s.high[a] - s.low[a]);
       }
       const bool taken = std::any_of(grains.begin(), grains.end(), [&](const terrain::GrainStart& g) {
-        return norm(g.position - place) < kRoom * s.radius;
+        return norm(toNearestImage(sides_, g.position - place)) < kRoom * s.radius;
       });
       if (taken) continue;
       grains.push_back({place, s.velocity, s.spin, s.radius, stream.material});

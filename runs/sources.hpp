@@ -30,6 +30,7 @@ private:
   std::vector<terrain::GrainStart> batch(const Stream& stream, std::int64_t number) const;
 
   std::vector<Stream> sources_;
+  terrain::JoinedSides sides_;
 };
 
 /// Throws base::InputError naming the source whose grains do not fit into its box beside each other.

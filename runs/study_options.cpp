@@ -85,8 +85,8 @@ void addPacking(CLI::App& study, PackingCommand& c) {
   packing->add_option("--seeds", c.seeds, "samples of each friction")
       ->check(wholeNumber(2, 1000))
       ->capture_default_str();
-  packing->add_option("--width", c.width, "between joined sides, in diameters")
-      ->check(CLI::Range(5.0, 1000.0))
+  packing->add_option("--width", c.width, "between joined sides, in diameters; not with --quick")
+      ->check(between(5.0, 1000.0))
       ->capture_default_str();
   addPlace(*packing, c.place, "packing", "two frictions, two seeds, 600 grains: in seconds");
   packing->callback([&c] { studyPackingCommand(c); });
@@ -95,14 +95,14 @@ void addPacking(CLI::App& study, PackingCommand& c) {
 void addCollapse(CLI::App& study, CollapseCommand& c) {
   CLI::App* collapse = study.add_subcommand(
       "collapse", "How far a column of grains runs when its gate is gone, against channels (15 min, one core)");
-  collapse->add_option("--length", c.length, "of the column, in diameters")
-      ->check(CLI::Range(5.0, 1000.0))
+  collapse->add_option("--length", c.length, "of the column, in diameters; not with --quick")
+      ->check(between(5.0, 1000.0))
       ->capture_default_str();
-  collapse->add_option("--width", c.width, "between joined sides, in diameters")
-      ->check(CLI::Range(5.0, 1000.0))
+  collapse->add_option("--width", c.width, "between joined sides, in diameters; not with --quick")
+      ->check(between(5.0, 1000.0))
       ->capture_default_str();
   collapse->add_option("--aspects", c.aspects, "heights of the columns over their length")
-      ->check(CLI::Range(0.2, 20.0))
+      ->check(between(0.2, 20.0))
       ->capture_default_str();
   collapse->add_option("--seeds", c.seeds, "columns of each aspect")
       ->check(wholeNumber(2, 1000))
@@ -115,13 +115,13 @@ void addShear(CLI::App& study, ShearCommand& c) {
   CLI::App* shear = study.add_subcommand(
       "shear", "A direct shear box under several loads: the friction angle of a bed (10 min, one core)");
   shear->add_option("--friction", c.friction, "between grains, and between grains and box [-]")
-      ->check(CLI::Range(0.0, 5.0))
+      ->check(between(0.0, 5.0))
       ->capture_default_str();
   shear->add_option("--rolling-friction", c.rollingFriction, "the same of rolling [-]")
-      ->check(CLI::Range(0.0, 5.0))
+      ->check(between(0.0, 5.0))
       ->capture_default_str();
   shear->add_option("--stresses", c.stresses, "of the lid on the sample [Pa]")
-      ->check(CLI::Range(10.0, 1e5))
+      ->check(between(10.0, 1e5))
       ->capture_default_str();
   shear->add_option("--seeds", c.seeds, "samples of each load")->check(wholeNumber(2, 1000))->capture_default_str();
   addPlace(*shear, c.place, "shear", "one load, two samples of 10 d: in seconds");

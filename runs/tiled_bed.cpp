@@ -16,7 +16,8 @@ namespace {
 Scene tileScene(const Scene& scene, const terrain::BedPlan& plan, const std::array<double, 2>& size) {
   Scene tile = scene;
   tile.run.periodic = {true, true};
-  tile.grains.clear(), tile.blocks.clear(), tile.sources.clear(), tile.planes.clear();
+  tile.grains.clear(), tile.blocks.clear(), tile.sources.clear();
+  tile.planes.clear(), tile.boxes.clear(), tile.cylinders.clear(), tile.meshes.clear();
   tile.vehicle.reset(), tile.mechanism = {}, tile.parallel = {};
   Terrain& t = *tile.terrain;
   t.tile.reset();
@@ -102,7 +103,7 @@ std::vector<terrain::GrainStart> TiledBed::start(double radius, int material) co
   return start;
 }
 
-void TiledBed::bringToRest(terrain::Grains& grains) const {
+void TiledBed::bringToRest(terrain::Grains& grains, std::size_t floor) const {
   terrain::GrainState s = grains.state(); // this rank's block of ids, without contacts
   std::vector<std::size_t> first(tile_.rows() + 1);
   for (std::size_t g = 0; g < tile_.rows(); ++g) first[g + 1] = first[g] + tile_.contacts[g];
@@ -111,10 +112,10 @@ void TiledBed::bringToRest(terrain::Grains& grains) const {
     const Copy& copy = grains_[s.id[k]];
     const std::size_t g = copy.grain;
     s.velocity[k] = tile_.velocity[g], s.spin[k] = tile_.spin[g], s.remainders[k] = tile_.remainders[g];
-    // The tile has one boundary, its floor; here the floor is the last of them.
-    if (tile_.wallBits[g] & 1u) s.wallBits[k] |= 1u << (boundaries - 1);
-    if (!tile_.wallShear.empty()) s.wallShear[k * boundaries + boundaries - 1] = tile_.wallShear[g];
-    if (!tile_.wallRolling.empty()) s.wallRolling[k * boundaries + boundaries - 1] = tile_.wallRolling[g];
+    // The tile has one boundary, its floor.
+    if (tile_.wallBits[g] & 1u) s.wallBits[k] |= 1u << floor;
+    if (!tile_.wallShear.empty()) s.wallShear[k * boundaries + floor] = tile_.wallShear[g];
+    if (!tile_.wallRolling.empty()) s.wallRolling[k * boundaries + floor] = tile_.wallRolling[g];
 
     std::vector<std::pair<std::int64_t, std::size_t>> touching; // neighbour, and its contact in the tile
     for (std::size_t c = first[g]; c < first[g + 1]; ++c) {

@@ -27,8 +27,8 @@ public:
 
   /// Where the grains are, by id.
   std::vector<terrain::GrainStart> start(double radius, int material) const;
-  /// Gives grains that began there their velocities and springs.
-  void bringToRest(terrain::Grains& grains) const;
+  /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
+  void bringToRest(terrain::Grains& grains, std::size_t floor) const;
 
 private:
   /// Where a grain of the tile stands in one of the copies.

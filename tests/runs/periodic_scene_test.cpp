@@ -4,6 +4,7 @@
 #include "runs/bed.hpp"
 #include "runs/joined_sides.hpp"
 #include "runs/plan.hpp"
+#include "runs/sources.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,6 +100,45 @@ TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
                                 "terrain.tile=[0.5, 0.4]"}),
                            base::cpuExec(1), kStep),
                base::InputError);
+}
+
+TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
+  // In joined tiles, as without the surface; one that stands in the bed is refused.
+  const auto ledgerWith = [](const std::string& box) {
+    const std::string text =
+        "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\nperiodic = [true, true]\n[material.soil]\nstiffness = "
+        "1e5\n"
+        "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\nheight_range = [0, 0]\n"
+        "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\ntile = [0.5, 0.4]\ncache = false\n" +
+        box;
+    Ground ground = buildGround(parseScene(text, "bed.toml"), base::cpuExec(1), kStep);
+    for (int k = 0; k < 20; ++k) ground.grains->refreshNeighbours(), ground.grains->step();
+    return ground.grains->ledger();
+  };
+  const std::string at = "[[box]]\nmaterial = \"soil\"\nsize = [0.3, 0.2, 0.04]\nposition = [0.25, 0, ";
+  const terrain::GrainLedger without = ledgerWith(""), far = ledgerWith(at + "5]\n");
+  EXPECT_GT(without.boundaryContacts, 50);
+  EXPECT_EQ(far.boundaryContacts, without.boundaryContacts);
+  EXPECT_EQ(far.elastic, without.elastic) << "springs against the floor";
+  EXPECT_EQ(far.kinetic, without.kinetic);
+  EXPECT_THROW(ledgerWith(at + "-0.05]\n"), base::InputError);
+}
+
+TEST(JoinedSides, GrainsOfASourceDoNotEnterInEachOthersImages) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Scene scene =
+        parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
+                   "[-0.1, 0.1]\nseed = " +
+                       std::to_string(seed) +
+                       "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
+                       "material = \"soil\"\nnumber = 25\ntotal = 25\nevery = 1\n",
+                   "rain.toml");
+    const std::vector<terrain::GrainStart> grains = Sources(scene, kStep).enteringAt(0);
+    ASSERT_EQ(grains.size(), 25u);
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GT(norm(toNearestImage(joinedSides(scene), grains[i].position - grains[j].position)), 0.02);
+  }
 }
 
 TEST(JoinedSides, GrainsOfASceneTouchAcrossThem) {
