@@ -67,7 +67,7 @@ def plot(keys, rows):
     for axis, (label, factor, columns) in zip(panels, PANELS):
         for index, (name, some) in enumerate(curves(keys, rows)):
             for column, style, part in columns:
-                points = [(place[r[keys[0]]], factor * float(r[column])) for r in some if number(r[column]) is not None]
+                points = [(place[r[keys[0]]], factor * float(r[column])) for r in some if number(r.get(column, "")) is not None]
                 if points:
                     text = ", ".join(filter(None, (name, part)))
                     axis.plot(*zip(*sorted(points)), style, marker="o", markersize=4, color=f"C{index % 10}",
@@ -90,7 +90,7 @@ def main(arguments):
         return 2
     matplotlib.rcParams.update(series.STYLE)
     keys, rows = read(arguments[0])
-    if any(number(row[column]) is not None for row in rows for _, _, columns in PANELS for column, _, _ in columns):
+    if any(number(row.get(column, "")) is not None for row in rows for _, _, columns in PANELS for column, _, _ in columns):
         plot(keys, rows).savefig(arguments[1], dpi=110)
     return 0
 
