@@ -314,8 +314,34 @@ double chooseTimeStep(const Scene& scene) {
   return *scene.run.timeStep;
 }
 
+namespace {
+
+/// A surface that goes farther in a step than half a radius could pass through a grain unfelt.
+void checkSurfaceSpeeds(const Scene& scene, double timeStep) {
+  const GrainKinds kinds = grainKinds(scene);
+  if (!kinds.any()) return;
+  const double most = 0.5 * kinds.smallest / timeStep;
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
+    const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
+    const auto across = [&](const std::optional<Vec3d>& v) {
+      return !v ? 0.0 : plane ? std::fabs(dot(*v, base::normalized(scene.planes[s.number].normal))) : norm(*v);
+    };
+    const double speed =
+        across(s.section.velocity) + across(s.section.amplitude) * 2 * base::kPi * s.section.frequency.value_or(0);
+    if (speed > most)
+      throw base::InputError(fmt::format("{}: {} moves at up to {:.4g} m/s, more than half the smallest grain's radius "
+                                         "in a step of {:.3g} s: it could pass through a grain unfelt; keep it below "
+                                         "{:.4g} m/s (velocity, amplitude, frequency), or lower run.time_step",
+                                         scene.file.string(), s.name, speed, timeStep, most));
+  }
+}
+
+} // namespace
+
 Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
   Ground ground;
+  checkSurfaceSpeeds(scene, timeStep);
   if (scene.terrain) {
     ground.surface = readSurface(*scene.terrain);
     if (scene.terrain->granular())

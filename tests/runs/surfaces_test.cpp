@@ -125,6 +125,22 @@ TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
   }
 }
 
+TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
+  const auto built = [](const std::string& surface) {
+    return buildGround(parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
+                                  "radius = 0.01\nposition = [0, 0, 1]\n" +
+                                      surface + "material = \"soil\"\n",
+                                  "quick.toml"),
+                       base::cpuExec(1), 1e-5);
+  };
+  const std::string box = "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.001]\n";
+  EXPECT_NO_THROW(built(box + "velocity = [0, 0, 499]\n")); // half a radius a step is 500 m/s
+  EXPECT_THROW(built(box + "velocity = [0, 0, 501]\n"), base::InputError);
+  EXPECT_THROW(built(box + "amplitude = [0.1, 0, 0]\nfrequency = 800\n"), base::InputError);
+  EXPECT_NO_THROW(built("[[plane]]\nvelocity = [900, 0, 0]\n"));
+  EXPECT_THROW(built("[[plane]]\nvelocity = [0, 0, 900]\n"), base::InputError);
+}
+
 TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
   std::string text =
       "version = 1\n[run]\nduration = 0.05\n[material.soil]\nstiffness = 1e5\n[[plane]]\nmaterial = \"soil\"\n"
