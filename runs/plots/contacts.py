@@ -2,25 +2,10 @@
 """Plot of `grouser bench contacts`: contacts.py FIGURES.json FILE.png
 
 Time of a search and contacts a second over the number of contacts, beside Bullet's where there are.
-Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
 import json
-import pathlib
-import sys
 
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 
 def curves(figures):
@@ -39,8 +24,10 @@ def curves(figures):
     return found
 
 
-def plot(figures):
-    figure = Figure(figsize=(10.5, 4.4))
+def draw(path):
+    with open(path, encoding="utf-8") as file:
+        figures = json.load(file)
+    figure = drawing.Figure(figsize=(10.5, 4.4))
     times, rates = figure.subplots(1, 2)
     for label, style, contacts, seconds in curves(figures):
         times.loglog(contacts, seconds, style, label=label, markersize=4)
@@ -56,15 +43,5 @@ def plot(figures):
     return figure
 
 
-def main(arguments):
-    if len(arguments) != 3:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    figures = json.loads(pathlib.Path(arguments[1]).read_text(encoding="utf-8"))
-    plot(figures).savefig(arguments[2], dpi=150)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv))
+    drawing.main(__doc__, draw, dpi=150)

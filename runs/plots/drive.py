@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Vehicle speed beside what the sprockets ask for, track tension, drive torque."""
 import numpy
-from matplotlib.figure import Figure
 
+import drawing
 import series
 
 COLOURS = {"left": "tab:blue", "right": "tab:orange"}
@@ -15,7 +15,7 @@ def plot(run):
     if all(values is None for values in speeds.values()):
         return None
     radius = run.get("vehicle/pitch_radius")
-    figure = Figure(figsize=(8.0, 8.0))
+    figure = drawing.Figure(figsize=(8.0, 8.0))
     speed, tension, torque = figure.subplots(3, 1, sharex=True)
     for side, omega in speeds.items():
         if omega is None:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The energy ledger, as changes since the first step of the run: what went in, where it is, what does not balance."""
-from matplotlib.figure import Figure
-
+import drawing
 import series
 
 TERMS = (
@@ -18,7 +17,7 @@ def plot(run):
     terms = [term for term in terms if series.finite(term[0])]
     if not terms:
         return None
-    figure = Figure(figsize=(8.0, 6.5))
+    figure = drawing.Figure(figsize=(8.0, 6.5))
     energy, rest = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for values, label, colour in terms:
         energy.plot(run.time, values, color=colour, label=label)

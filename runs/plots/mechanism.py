@@ -2,8 +2,8 @@
 """A mechanism: paths of the bodies' centres in the plane in which they spread most, energies, what does not balance, and
 how well the joints stay closed."""
 import numpy
-from matplotlib.figure import Figure
 
+import drawing
 import series
 
 MOST_BODIES = 12
@@ -32,7 +32,7 @@ def plot(run):
     bodies = {name: run.get(f"bodies/{name}/position") for name in run.names("bodies")}
     if not bodies or len(run.time) == 0:
         return None
-    figure = Figure(figsize=(10.0, 7.0))
+    figure = drawing.Figure(figsize=(10.0, 7.0))
     (where, energy), (rest, gap) = figure.subplots(2, 2)
     paths(where, bodies)
     for name, label, colour in TERMS:

@@ -1,26 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, drive, ledger,
-mechanism.
-
-Exit status: 0 (a plot whose quantities the results lack is left out), 3 where a Python package is missing; its last line
-then says which to install.
+mechanism. A plot whose quantities the results lack is left out.
 """
 import pathlib
-import sys
 
-try:
-    import h5py
-    import matplotlib
-    import numpy
+import packages
 
-    matplotlib.use("Agg")
-except ImportError as missing:
-    packages = {"h5py": "python3-h5py", "matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
+packages.require("numpy", "matplotlib", "h5py")
+import h5py
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import drawing
 import drive
 import ledger
 import mechanism
@@ -31,20 +20,15 @@ PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "drive": drive
          "mechanism": mechanism.plot}
 
 
-def main(arguments):
-    if len(arguments) < 3 or any(name not in PLOTS for name in arguments[2:]):
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    folder = pathlib.Path(arguments[1])
-    with h5py.File(arguments[0], "r") as file:
+def main():
+    results, folder, *names = drawing.words(__doc__, lambda given: len(given) > 2 and all(name in PLOTS for name in given[2:]))
+    with h5py.File(results, "r") as file:
         run = series.Run(file)
-        for name in arguments[2:]:
+        for name in names:
             figure = PLOTS[name](run)
             if figure is not None:
-                figure.savefig(folder / f"{name}.png", dpi=150)
-    return 0
+                figure.savefig(pathlib.Path(folder) / f"{name}.png", dpi=150)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

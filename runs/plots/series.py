@@ -1,20 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading a results.h5, and what all plots have in common."""
+"""Reading a results.h5."""
 import numpy
 
 SIDES = ("left", "right")
-
-STYLE = {
-    "figure.figsize": (8.0, 5.0),
-    "figure.constrained_layout.use": True,
-    "axes.grid": True,
-    "grid.alpha": 0.3,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "lines.linewidth": 1.4,
-    "legend.frameon": False,
-    "font.size": 10,
-}
 
 
 class Run:

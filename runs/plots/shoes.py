@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Heights of four consecutive shoes, and the sinkage of all."""
 import numpy
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+import drawing
 import series
 
 
@@ -64,7 +64,7 @@ def heights(run):
     if not pads or not sinkage or not pads.keys() >= sinkage.keys():
         return None
     chosen = choose_four(pads, sinkage)
-    figure = Figure(figsize=(8.0, 6.5))
+    figure = drawing.Figure(figsize=(8.0, 6.5))
     if chosen is None:
         say_empty(figure.subplots())
         return figure
@@ -100,7 +100,7 @@ def sinkage(run):
     tracks = {side: values for side, values in run.shoes("sinkage").items() if len(values)}
     if not tracks:
         return None
-    figure = Figure(figsize=(9.0, 5.0))
+    figure = drawing.Figure(figsize=(9.0, 5.0))
     axes = figure.subplots(1, len(tracks), sharey=True, squeeze=False)[0]
     for axis, (side, values) in zip(axes, tracks.items()):
         axis.set_title(f"{side} track")

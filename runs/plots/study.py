@@ -2,25 +2,8 @@
 """Plot of a study: study.py MULTIBODY.csv FILE.png
 
 Error against CPU time, one panel a case, one line an integrator; the two precision levels as dashed lines.
-Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
-import csv
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 COLOURS = {"euler": "tab:gray", "rattle2": "tab:blue", "rattle4": "tab:orange", "rattle8": "tab:red"}
 LEVELS = (1e-1, 1e-3)
@@ -29,23 +12,18 @@ LEVELS = (1e-1, 1e-3)
 def read(path):
     """{case: {integrator: [(CPU s, error)]}} of the runs that ended."""
     cases = {}
-    with open(path, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            lines = cases.setdefault(row["case"], {})
-            if row["error [-]"] and float(row["error [-]"]) > 0:
-                lines.setdefault(row["integrator"], []).append((float(row["CPU [s]"]), float(row["error [-]"])))
+    for row in drawing.rows(path):
+        lines = cases.setdefault(row["case"], {})
+        if row["error [-]"] and float(row["error [-]"]) > 0:
+            lines.setdefault(row["integrator"], []).append((float(row["CPU [s]"]), float(row["error [-]"])))
     return cases
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    cases = read(arguments[0])
+def draw(path):
+    cases = read(path)
     columns = min(4, len(cases))
     rows = -(-len(cases) // columns)
-    figure = Figure(figsize=(3.1 * columns, 2.5 * rows))
+    figure = drawing.Figure(figsize=(3.1 * columns, 2.5 * rows))
     panels = figure.subplots(rows, columns, squeeze=False).flatten()
     for axis, (name, lines) in zip(panels, cases.items()):
         for integrator, points in lines.items():
@@ -60,9 +38,8 @@ def main(arguments):
     panels[0].legend(seen.values(), seen.keys(), fontsize=7)
     figure.supxlabel("CPU time [s]", fontsize=9)
     figure.supylabel("error [-]", fontsize=9)
-    figure.savefig(arguments[1], dpi=90)
-    return 0
+    return figure
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    drawing.main(__doc__, draw)

@@ -3,25 +3,8 @@
 
 Worst error against CPU time of a collision: a row for the plane and for two grains, a column a quantity, a line a law and
 precision; 10, 1 and 0.1 % as dashed lines.
-Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
-import csv
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 QUANTITIES = ("restitution", "duration", "overlap")
 TITLES = {"restitution": "restitution: absolute", "duration": "duration: relative", "overlap": "overlap: relative"}
@@ -32,23 +15,18 @@ def wanted(law, damping):
     return law.startswith("Hertz") or damping in ("0", "0.2")
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
+def draw(path):
     lines = {}
-    with open(arguments[0], newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            surface, law, kind = row["case"].split(", ")
-            if not wanted(law, kind.split()[1]) or not float(row["CPU time of a collision [us]"]):
-                continue
-            for quantity in QUANTITIES:
-                error = row[f"{quantity} worst error [-]"]
-                if error and error != "-" and float(error) > 0:
-                    key = (surface, quantity, law, kind, row["precision"])
-                    lines.setdefault(key, []).append((float(row["CPU time of a collision [us]"]), float(error)))
-    figure = Figure(figsize=(9.8, 5.8))
+    for row in drawing.rows(path):
+        surface, law, kind = row["case"].split(", ")
+        if not wanted(law, kind.split()[1]) or not float(row["CPU time of a collision [us]"]):
+            continue
+        for quantity in QUANTITIES:
+            error = row[f"{quantity} worst error [-]"]
+            if error and error != "-" and float(error) > 0:
+                key = (surface, quantity, law, kind, row["precision"])
+                lines.setdefault(key, []).append((float(row["CPU time of a collision [us]"]), float(error)))
+    figure = drawing.Figure(figsize=(9.8, 5.8))
     panels = figure.subplots(2, 3, sharey="col")
     for (surface, quantity, law, kind, precision), points in lines.items():
         axis = panels[0 if surface == "plane" else 1][QUANTITIES.index(quantity)]
@@ -67,9 +45,8 @@ def main(arguments):
     panels[0][0].legend(fontsize=6)
     figure.supxlabel("CPU time of a collision [us], one core; circles: single, crosses: double precision", fontsize=9)
     figure.supylabel("worst error over the phase of first touch [-]", fontsize=9)
-    figure.savefig(arguments[1], dpi=58)
-    return 0
+    return figure
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    drawing.main(__doc__, draw, dpi=58)

@@ -2,36 +2,14 @@
 """Plot of the study of packings: study_packing.py PACKING.csv FILE.png
 
 Solid fraction and coordination over friction, every sample a point, the known limits as bands and lines.
-Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
-import csv
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    with open(arguments[0], newline="", encoding="utf-8") as file:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+def draw(path):
+    rows = drawing.numbers(path)
     friction = [row["friction [-]"] for row in rows]
-    figure = Figure(figsize=(8, 3.4))
+    figure = drawing.Figure(figsize=(8, 3.4))
     left, right = figure.subplots(1, 2)
     left.plot(friction, [row["solid fraction [-]"] for row in rows], "o", markersize=3, color="tab:blue")
     left.axhspan(0.634, 0.64, color="tab:green", alpha=0.3, label="random close packing, no friction")
@@ -47,9 +25,8 @@ def main(arguments):
     for axis in (left, right):
         axis.set_xlabel("friction [-]")
         axis.legend(fontsize=7)
-    figure.savefig(arguments[1], dpi=90)
-    return 0
+    return figure
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    drawing.main(__doc__, draw)

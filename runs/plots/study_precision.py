@@ -3,41 +3,15 @@
 
 Disagreements about touch over the configurations; distance between the same grains of two runs; bias of single against double
 precision over its standard error.
-Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
-import csv
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 ARITHMETICS = ("float from the origin", "float from a local cell", "float of exact difference", "double from the origin")
 
 
-def rows(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def main(arguments):
-    if len(arguments) != 4:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    touch, drift, macro = (rows(path) for path in arguments[:3])
-    figure = Figure(figsize=(11.5, 3.8))
+def draw(*paths):
+    touch, drift, macro = (drawing.rows(path) for path in paths)
+    figure = drawing.Figure(figsize=(11.5, 3.8))
     left, middle, right = figure.subplots(1, 3)
 
     steps = [float(r["step"]) for r in touch]
@@ -67,9 +41,8 @@ def main(arguments):
         axis.title.set_fontsize(9)
         axis.tick_params(labelsize=7)
         axis.legend(fontsize=6)
-    figure.savefig(arguments[3], dpi=80)
-    return 0
+    return figure
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    drawing.main(__doc__, draw, files=3, dpi=80)

@@ -3,41 +3,15 @@
 
 A panel a case: damping ratio to the right, step in units of 1 / sqrt(k / m) upwards; each cell stable (blue) or unstable (red),
 with the predicted limit and that of a run's own check drawn on top.
-Exit status: 0, 3 where a Python package is missing; its last line then says which.
 """
-import csv
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 
-def rows(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def main(arguments):
-    if len(arguments) != 3:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    cells, limits = rows(arguments[0]), rows(arguments[1])
+def draw(*paths):
+    cells, limits = (drawing.rows(path) for path in paths)
     names = list(dict.fromkeys(row["case"] for row in cells))
     stiffnesses = sorted({float(row["stiffness [N/m]"]) for row in cells})
-    figure = Figure(figsize=(3.4 * len(names), 4.2))
+    figure = drawing.Figure(figsize=(3.4 * len(names), 4.2))
     panels = figure.subplots(1, len(names), sharey=True, squeeze=False)[0]
     for axis, name in zip(panels, names):
         for found, colour in (("stable", "tab:blue"), ("unstable", "tab:red")):
@@ -59,9 +33,8 @@ def main(arguments):
     panels[0].legend(fontsize=6)
     figure.supxlabel("damping ratio zeta of a sphere on a plane [-]", fontsize=9)
     figure.supylabel("step sqrt(k / m) [-]", fontsize=9)
-    figure.savefig(arguments[2], dpi=80)
-    return 0
+    return figure
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    drawing.main(__doc__, draw, files=2, dpi=80)

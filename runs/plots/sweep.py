@@ -2,25 +2,8 @@
 """Plot of a sweep: sweep.py SUMMARY.csv FILE.png
 
 Sinkage, slip, torque and tension over the first swept key, one line for each combination of the others.
-Exit status: 0 (no plot where there is nothing to draw), 3 where a Python package is missing; its last line then says which.
 """
-import csv
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib.figure import Figure
-except ImportError as missing:
-    packages = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy"}
-    name = (missing.name or "").split(".")[0]
-    print(f"the Python package {name} is missing; install {packages.get(name, name)}")
-    sys.exit(3)
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import series
+import drawing
 
 # (axis label, factor, columns with their line style and name)
 PANELS = (
@@ -38,15 +21,6 @@ def number(text):
         return None
 
 
-def read(path):
-    """(swept keys, rows of finished runs)"""
-    with open(path, newline="", encoding="utf-8") as file:
-        reader = csv.DictReader(file)
-        rows = [row for row in reader if row["status"] == "finished"]
-        names = reader.fieldnames
-    return names[1 : names.index("status")], rows
-
-
 def curves(keys, rows):
     """[(label, rows)]: one for each combination of all keys but the first."""
     found = {}
@@ -55,14 +29,20 @@ def curves(keys, rows):
     return [(", ".join(f"{k} = {v}" for k, v in zip(keys[1:], values)), some) for values, some in found.items()]
 
 
-def plot(keys, rows):
+def draw(path):
+    table = drawing.rows(path)
+    rows = [row for row in table if row["status"] == "finished"]
+    if not any(number(row.get(column, "")) is not None for row in rows for _, _, columns in PANELS for column, _, _ in columns):
+        return None
+    names = list(table[0])
+    keys = names[1 : names.index("status")]  # the swept ones
     values = [row[keys[0]] for row in rows]
     if all(number(value) is not None for value in values):
         place = {value: number(value) for value in values}
     else:  # words stand side by side
         words = list(dict.fromkeys(values))
         place = {value: words.index(value) for value in values}
-    figure = Figure(figsize=(8.0, 6.5))
+    figure = drawing.Figure(figsize=(8.0, 6.5))
     panels = figure.subplots(2, 2, sharex=True).flatten()
     for axis, (label, factor, columns) in zip(panels, PANELS):
         for index, (name, some) in enumerate(curves(keys, rows)):
@@ -84,16 +64,5 @@ def plot(keys, rows):
     return figure
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        print(__doc__)
-        return 2
-    matplotlib.rcParams.update(series.STYLE)
-    keys, rows = read(arguments[0])
-    if any(number(row.get(column, "")) is not None for row in rows for _, _, columns in PANELS for column, _, _ in columns):
-        plot(keys, rows).savefig(arguments[1], dpi=110)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    drawing.main(__doc__, draw, dpi=110)
