@@ -2,31 +2,22 @@
 // What users get wrong, as they would: a file is cut, a path is misspelt, a disk is full. Each ends with 2, or with 3
 // where a simulation failed, and one line that names cause and remedy, and leaves nothing half written.
 // Wrong keys and values inside a scene stand in scene_test.cpp.
+#include "program_fixture.hpp"
 #include "scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 namespace grouser::runs {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void put(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 fs::path asset(const std::string& name) { return fs::path(GROUSER_SOURCE_DIR) / "assets" / name; }
 
@@ -114,10 +105,7 @@ Mistake badCheckpoint(const std::string& name, const std::function<void(const fs
   return {name,
           [spoil](const fs::path& f) {
             put(f / "scene.toml", kGrains);
-            put(f / "make.sh", "\"$grouser\" run scene.toml --out a --steps 40 >/dev/null 2>&1");
-            const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-            const std::string command = "cd '" + f.string() + "' && grouser='" + program.string() + "' sh make.sh";
-            ASSERT_EQ(std::system(command.c_str()), 0);
+            ASSERT_EQ(shellIn(f, "\"$grouser\" run scene.toml --out a --steps 40").code, 0);
             spoil(f / "a/checkpoint.h5");
           },
           words, says};
@@ -148,15 +136,14 @@ std::vector<Mistake> mistakes() {
                {"periodic", "stand nowhere", "run.domain_x"}),
       badScene("DomainOfSidesNotJoined", "time_step = 1e-5", "time_step = 1e-5\ndomain_y = [0, 1]",
                {"domain_y", "no meaning", "remove it"}),
-      badScene("DomainUpsideDown", "time_step = 1e-5",
-               "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [1, -1]", {"domain_x", "lower side first"}),
+      badScene("DomainUpsideDown", "time_step = 1e-5", "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [1, -1]",
+               {"domain_x", "lower side first"}),
       badScene("JoinedSidesTooNear", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [false, true]\ndomain_y = [-0.02, 0.02]", {"too near", "at least 0.06"}),
       badScene("GrainOutsideJoinedSides", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-0.05, 0.08]",
                {"grain.1", "outside the joined sides", "run.domain_x"}),
-      badScene("TileTooSmall", "layers = 1", "layers = 1\ntile = [0.1, 0.5]", {"tile", "own images", "at least"},
-               kBed),
+      badScene("TileTooSmall", "layers = 1", "layers = 1\ntile = [0.1, 0.5]", {"tile", "own images", "at least"}, kBed),
       badScene("SceneEmpty", kGrains, "", {"scene.toml", "version"}),
       {"SceneIsBinary",
        [](const fs::path& f) { put(f / "scene.toml", picture()); },
@@ -277,39 +264,25 @@ std::vector<Mistake> mistakes() {
   };
 }
 
-class BadInput : public testing::TestWithParam<Mistake> {
+class BadInput : public ProgramTest, public testing::WithParamInterface<Mistake> {
 protected:
-  void SetUp() override {
-    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
-    folder_ = fs::path(testing::TempDir()) / ("grouser_bad_" + GetParam().name);
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "here");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Every file below the working folder with its bytes.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "here"))
+    for (const auto& entry : fs::recursive_directory_iterator(folder_))
       all[entry.path().string()] = entry.is_regular_file() ? contents(entry.path()) : "";
     return all;
   }
-
-  fs::path program_, folder_;
 };
 
 TEST_P(BadInput, EndsWithOneLineAndTouchesNothing) {
   const Mistake& m = GetParam();
-  m.make(folder_ / "here");
+  m.make(folder_);
   if (HasFatalFailure()) return;
   const std::map<std::string, std::string> before = files();
-  const std::string command = "cd '" + (folder_ / "here").string() + "' && export GROUSER_CACHE=; " + m.before + "'" +
-                              program_.string() + "' " + m.words + " >../out.txt 2>../err.txt";
-  const int status = std::system(command.c_str());
-  const std::string errors = contents(folder_ / "err.txt");
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), m.code) << errors;
+  const Outcome o = call(m.words, m.before);
+  const std::string& errors = o.errors;
+  EXPECT_EQ(o.code, m.code) << errors;
   EXPECT_EQ(errors.rfind("grouser: error: ", 0), 0u) << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
   for (const std::string& part : m.says) EXPECT_NE(errors.find(part), std::string::npos) << part << "\n" << errors;

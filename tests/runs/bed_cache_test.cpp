@@ -3,6 +3,7 @@
 #include "runs/bed_cache.hpp"
 
 #include "base/error.hpp"
+#include "folder_fixture.hpp"
 #include "runs/file_lock.hpp"
 #include "runs/simulation.hpp"
 #include "tests/device_under_test.hpp"
@@ -20,20 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class KeptBed : public testing::Test {
+class KeptBed : public FolderTest {
 protected:
   void SetUp() override {
-    folder_ =
-        fs::path(testing::TempDir()) / ("grouser_beds_" + std::to_string(getpid()) +
-                                        std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
+    FolderTest::SetUp();
+    fs::remove(folder_); // the first bed makes it
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// 180 grains that come to rest, and one that falls onto them.
   static Scene scene(const std::vector<std::string>& overrides = {}) {
@@ -80,8 +73,6 @@ protected:
       if (entry.path().extension() == ".h5") found.push_back(entry.path());
     return found;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {

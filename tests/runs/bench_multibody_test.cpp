@@ -2,19 +2,16 @@
 // The bench of the multibody solver steps what it says, and its figures are whole.
 #include "runs/bench_multibody.hpp"
 
+#include "program_fixture.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 namespace grouser::runs {
 namespace {
-
-namespace fs = std::filesystem;
 
 MultibodyBench tinyBench() {
   MultibodyBench b;
@@ -53,22 +50,14 @@ TEST(BenchMultibody, WorkGrowsLinearlyWithTheShoes) {
   EXPECT_GE(f46.iterations, 1);
 }
 
-TEST(BenchMultibody, PrintsFiguresAndWritesThemAsJson) {
-  const fs::path folder = fs::path(testing::TempDir()) / "grouser_bench_multibody";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-  const auto call = [&](const std::string& words) {
-    return WEXITSTATUS(std::system(
-        (program.string() + " bench multibody " + words + " >" + (folder / "out.txt").string() + " 2>&1").c_str()));
-  };
-  ASSERT_EQ(call("--steps 5 --batches 2 --json " + (folder / "figures.json").string()), 0);
-  std::ifstream out(folder / "out.txt");
-  const std::string text{std::istreambuf_iterator<char>(out), {}};
+class BenchMultibodyCommand : public ProgramTest {};
+
+TEST_F(BenchMultibodyCommand, PrintsFiguresAndWritesThemAsJson) {
+  const Outcome o = call("bench multibody --steps 5 --batches 2 --json figures.json");
+  ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* part : {"machine ", "commit ", "125 bodies", "us (median", "each iteration", "growth", "184"})
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  std::ifstream file(folder / "figures.json");
-  const nlohmann::json j = nlohmann::json::parse(file);
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+  const nlohmann::json j = nlohmann::json::parse(contents(folder_ / "figures.json"));
   for (const char* key : {"device", "machine", "commit", "compiler", "vehicle", "growth", "goal_microseconds"})
     EXPECT_TRUE(j.contains(key)) << key;
   ASSERT_EQ(j["growth"].size(), 3u);
@@ -76,9 +65,8 @@ TEST(BenchMultibody, PrintsFiguresAndWritesThemAsJson) {
   EXPECT_TRUE(j["growth"][1].contains("times_the_one_before"));
   EXPECT_GT(j["vehicle"]["microseconds_a_step"]["median"].get<double>(), 0);
 
-  EXPECT_EQ(call("--time-step 1"), 2);
-  EXPECT_EQ(call("--vehicle nosuch.toml"), 2);
-  fs::remove_all(folder);
+  EXPECT_EQ(call("bench multibody --time-step 1").code, 2);
+  EXPECT_EQ(call("bench multibody --vehicle nosuch.toml").code, 2);
 }
 
 } // namespace

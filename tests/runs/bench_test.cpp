@@ -3,19 +3,16 @@
 #include "runs/bench.hpp"
 
 #include "base/error.hpp"
+#include "program_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 namespace grouser::runs {
 namespace {
-
-namespace fs = std::filesystem;
 
 BedBench tinyBed() {
   BedBench b;
@@ -28,13 +25,6 @@ Scene shortScene() {
   return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
                    {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
                     "driver.tension_ramp=0.005", "driver.weight_ramp=0.005"});
-}
-
-std::string call(const std::string& words, const fs::path& out, int& code) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-  code = WEXITSTATUS(std::system((program.string() + " bench " + words + " >" + out.string() + " 2>&1").c_str()));
-  std::ifstream file(out);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
@@ -97,20 +87,16 @@ TEST(BenchBed, UnstableStepIsAnInputError) {
   EXPECT_THROW(benchBed(b, base::cpuExec(1)), base::InputError);
 }
 
-TEST(BenchCommands, PrintFiguresAndWriteThemAsJson) {
-  const fs::path folder = fs::path(testing::TempDir()) / "grouser_bench";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  int code = -1;
-  const std::string bed = call("bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash --json " +
-                                   (folder / "bed.json").string(),
-                               folder / "out.txt", code);
-  ASSERT_EQ(code, 0) << bed;
+class BenchCommands : public ProgramTest {};
+
+TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
+  const Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
+                           "--json bed.json");
+  ASSERT_EQ(bed.code, 0) << bed.errors;
   for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes a grain",
                            "machine ", "commit ", "state-hash "})
-    EXPECT_NE(bed.find(part), std::string::npos) << part << "\n" << bed;
-  std::ifstream bedFile(folder / "bed.json");
-  const nlohmann::json b = nlohmann::json::parse(bedFile);
+    EXPECT_NE(bed.out.find(part), std::string::npos) << part << "\n" << bed.out;
+  const nlohmann::json b = nlohmann::json::parse(contents(folder_ / "bed.json"));
   for (const char* key :
        {"device", "machine", "commit", "grains", "microseconds_a_step", "particle_steps_per_second", "contacts_a_grain",
         "neighbours_listed_a_grain", "steps_between_rebuilds", "rebuild_microseconds", "bytes_a_grain", "state_hash"})
@@ -120,17 +106,14 @@ TEST(BenchCommands, PrintFiguresAndWriteThemAsJson) {
               100 * 1e6, 1);
 
   const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml";
-  const std::string step = call("step " + scene +
-                                    " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03"
-                                    " --after 0.03 --steps 10 --batches 2 --threads 1 --device cpu --json " +
-                                    (folder / "step.json").string(),
-                                folder / "out.txt", code);
-  ASSERT_EQ(code, 0) << step;
+  const Outcome step = call("bench step " + scene +
+                            " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03 --after 0.03 "
+                            "--steps 10 --batches 2 --threads 1 --device cpu --json step.json");
+  ASSERT_EQ(step.code, 0) << step.errors;
   for (const char* part : {"without clocks", "sum is larger", "grain kernel", "multibody", "track contacts",
                            "grain on grain", "grain on part", "memory "})
-    EXPECT_NE(step.find(part), std::string::npos) << part << "\n" << step;
-  std::ifstream stepFile(folder / "step.json");
-  const nlohmann::json s = nlohmann::json::parse(stepFile);
+    EXPECT_NE(step.out.find(part), std::string::npos) << part << "\n" << step.out;
+  const nlohmann::json s = nlohmann::json::parse(contents(folder_ / "step.json"));
   double sum = 0;
   for (const auto& [name, microseconds] : s["instrumented_microseconds_a_step"].items())
     if (name != "sum") sum += microseconds.get<double>();
@@ -138,11 +121,8 @@ TEST(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   EXPECT_GT(s["contacts_a_step"]["grain_boundary"].get<double>(), 0) << "the bottom layer lies on the floor";
   EXPECT_GT(s["host_peak_bytes"].get<double>(), 1e6);
 
-  call("bed --grains 0", folder / "out.txt", code);
-  EXPECT_EQ(code, 2);
-  call("step nosuch.toml", folder / "out.txt", code);
-  EXPECT_EQ(code, 2);
-  fs::remove_all(folder);
+  EXPECT_EQ(call("bench bed --grains 0").code, 2);
+  EXPECT_EQ(call("bench step nosuch.toml").code, 2);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "runs/checkpoint.hpp"
 
 #include "base/error.hpp"
+#include "folder_fixture.hpp"
 #include "runs/hdf5_file.hpp"
 #include "runs/sealed_file.hpp"
 #include "runs/simulation.hpp"
@@ -23,13 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void put(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
-
 void quiet(double, double) {}
 
 /// What a row is made of: equal numbers mean equal bits, NaN and NaN as well.
@@ -45,17 +39,12 @@ std::vector<std::uint64_t> rowOf(Simulation& simulation) {
   return bits;
 }
 
-class CheckpointFile : public testing::Test {
+class CheckpointFile : public FolderTest {
 protected:
   void SetUp() override {
-    folder_ =
-        fs::path(testing::TempDir()) / ("grouser_checkpoint_" + std::to_string(getpid()) +
-                                        std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    FolderTest::SetUp();
     path_ = folder_ / "checkpoint.h5";
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   static Scene grains(const std::vector<std::string>& overrides = {}) {
     return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[plane]]\n"
@@ -86,7 +75,7 @@ protected:
     return "";
   }
 
-  fs::path folder_, path_;
+  fs::path path_;
 };
 
 /// Runs a scene with short ramps to `stop`, goes on from there through a file with `overrides` on `exec`, and compares

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as a user calls it: exit codes, one clear line of error, nothing lost.
+#include "program_fixture.hpp"
 #include "scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 namespace grouser::runs {
@@ -18,37 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int code = -1;
-  std::string out, errors;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class CommandLine : public testing::Test {
+class CommandLine : public ProgramTest {
 protected:
-  void SetUp() override {
-    // The program lies beside this one.
-    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_cli_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// `before`: for the shell, to do first.
-  Outcome call(const std::string& words, const std::string& before = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && export GROUSER_CACHE= && " + before + "'" +
-                                program_.string() + "' " + words + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
-  }
-
   /// A falling grain: the smallest scene that runs.
   void writeGrain(const std::string& name = "grain.toml", const std::string& more = "") const {
     std::ofstream(folder_ / name)
@@ -66,8 +36,6 @@ protected:
         for (const char* z : {"-0.05", "0.05"}) file << "v " << x << ' ' << y << ' ' << z << '\n';
     file << "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
   }
-
-  fs::path program_, folder_;
 };
 
 TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
@@ -246,8 +214,7 @@ TEST_F(CommandLine, ResolvedSceneRunsToTheSameHash) {
   const Outcome first = call("run grain.toml --hash --set run.seed=3 --out a");
   const Outcome second = call("run a/scene.toml --hash --out b");
   ASSERT_EQ(second.code, 0) << second.errors;
-  const auto hash = [](const Outcome& o) { return o.out.substr(o.out.rfind("state-hash")); };
-  EXPECT_EQ(hash(first), hash(second));
+  EXPECT_EQ(first.hash(), second.hash());
 }
 
 TEST_F(CommandLine, HashOfTheCheckpointIsTheHashOfTheRun) {
@@ -256,17 +223,16 @@ TEST_F(CommandLine, HashOfTheCheckpointIsTheHashOfTheRun) {
   ASSERT_EQ(run.code, 0) << run.errors;
   const Outcome hash = call("hash out/grain/checkpoint.h5");
   EXPECT_EQ(hash.code, 0) << hash.errors;
-  EXPECT_EQ(hash.out, run.out.substr(run.out.rfind("state-hash")));
+  EXPECT_EQ(hash.out, run.hash() + "\n");
 }
 
 TEST_F(CommandLine, ResumeFindsTheCheckpointByFolderOrByName) {
   writeGrain();
   const Outcome whole = call("run grain.toml --hash --out whole");
   ASSERT_EQ(whole.code, 0) << whole.errors;
-  const auto hash = [](const Outcome& o) { return o.out.substr(o.out.rfind("state-hash")); };
   ASSERT_EQ(call("run grain.toml --steps 40").code, 0);
-  EXPECT_EQ(hash(call("run grain.toml --resume --steps 70 --hash")).substr(28), "step 70\n");
-  EXPECT_EQ(hash(call("run grain.toml --resume out/grain/checkpoint.h5 --hash")), hash(whole));
+  EXPECT_EQ(call("run grain.toml --resume --steps 70 --hash").hash().substr(28), "step 70");
+  EXPECT_EQ(call("run grain.toml --resume out/grain/checkpoint.h5 --hash").hash(), whole.hash());
   EXPECT_EQ(contents(folder_ / "out/grain/timeseries.csv"), contents(folder_ / "whole/timeseries.csv"));
   const Outcome filled = call("run grain.toml");
   EXPECT_NE(filled.errors.find("go on with --resume"), std::string::npos) << filled.errors;
@@ -290,13 +256,11 @@ TEST_F(CommandLine, ResumeOfWhatIsNotThereEndsWithTwo) {
 TEST_F(CommandLine, TerminatedRunEndsWith143AndIsResumed) {
   writeGrain("long.toml");
   const std::string scene = "run long.toml --set run.duration=100 --set output.frames=false --out run";
-  std::ofstream(folder_ / "stop.sh")
-      << "'" << program_.string() << "' " << scene
-      << " >stopped.txt 2>&1 & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; "
-         "done\nkill -TERM $pid\nwait $pid\nexit $?\n";
-  const int status = std::system(("cd '" + folder_.string() + "' && sh stop.sh").c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 143) << contents(folder_ / "stopped.txt");
-  EXPECT_NE(contents(folder_ / "stopped.txt").find("grouser: stopped by SIGTERM"), std::string::npos);
+  const Outcome stopped = shell("\"$grouser\" " + scene +
+                                " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
+                                "kill -TERM $pid\nwait $pid\nexit $?");
+  EXPECT_EQ(stopped.code, 143) << stopped.errors;
+  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM"), std::string::npos) << stopped.errors;
   const Outcome at = call("hash run/checkpoint.h5");
   ASSERT_EQ(at.code, 0) << at.errors;
   const long long step = std::stoll(at.out.substr(at.out.rfind(' ')));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mechanism as a user runs it: results, hash, resume, plan, sweep.
+#include "program_fixture.hpp"
 #include "runs/hdf5_file.hpp"
 
 #include <gtest/gtest.h>
@@ -7,55 +8,21 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <sys/wait.h>
 
 namespace grouser::runs {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int code = -1;
-  std::string out, errors;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 const std::string kMechanisms = GROUSER_SOURCE_DIR "/runs/mechanisms/";
 const std::string kBare = " --set output.plots=false --set output.picture=false";
 
-class MechanismRun : public testing::Test {
+class MechanismRun : public ProgramTest {
 protected:
-  void SetUp() override {
-    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_mechanism_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Outcome call(const std::string& words) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" + program_.string() + "' " + words + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
-  }
   std::vector<double> series(const std::string& run, const std::string& path) const {
     return Hdf5File::open(folder_ / run / "results.h5").read<double>("/" + path + "/value");
   }
-  static std::string hashLine(const std::string& out) {
-    const std::size_t at = out.find("state-hash ");
-    return at == std::string::npos ? "" : out.substr(at);
-  }
-
-  fs::path program_, folder_;
 };
 
 TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
@@ -101,18 +68,19 @@ TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
   ASSERT_EQ(call("run " + scene + " --out parts --set run.duration=0.0125").code, 0);
   const Outcome resumed = call("run " + scene + " --out parts --set run.duration=0.05 --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.errors;
-  EXPECT_EQ(hashLine(resumed.out), hashLine(straight.out));
-  EXPECT_FALSE(hashLine(straight.out).empty());
+  EXPECT_TRUE(straight.hasHash()) << straight.out;
+  EXPECT_EQ(resumed.hash(), straight.hash());
   EXPECT_EQ(contents(folder_ / "parts" / "timeseries.csv"), contents(folder_ / "straight" / "timeseries.csv"));
-  EXPECT_EQ(hashLine(call("hash parts/checkpoint.h5").out), hashLine(straight.out));
+  EXPECT_EQ(call("hash parts/checkpoint.h5").hash(), straight.hash());
 }
 
 TEST_F(MechanismRun, HashDependsOnTheScene) {
   const std::string scene = "run " + kMechanisms + "pendulum.toml --steps 100 --hash --force --out r" + kBare;
-  const std::string first = hashLine(call(scene).out);
-  EXPECT_EQ(hashLine(call(scene).out), first);
-  EXPECT_NE(hashLine(call(scene + " --set body.0.mass=2").out), "");
-  EXPECT_NE(hashLine(call(scene + " --set run.gravity=[0,-9.8,0]").out), first);
+  const Outcome first = call(scene), weaker = call(scene + " --set run.gravity=[0,-9.8,0]");
+  EXPECT_EQ(call(scene).hash(), first.hash());
+  EXPECT_TRUE(call(scene + " --set body.0.mass=2").hasHash());
+  EXPECT_TRUE(weaker.hasHash()) << weaker.errors;
+  EXPECT_NE(weaker.hash(), first.hash());
 }
 
 TEST_F(MechanismRun, PlanNamesFreedomsAndRedundantRows) {

@@ -2,6 +2,7 @@
 #include "runs/output.hpp"
 
 #include "base/error.hpp"
+#include "folder_fixture.hpp"
 #include "runs/channels.hpp"
 #include "runs/hdf5_file.hpp"
 #include "runs/sinkage.hpp"
@@ -18,11 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> all;
   std::istringstream stream(text);
@@ -37,15 +33,13 @@ std::vector<double> cells(const std::string& line) {
   return all;
 }
 
-/// A folder that is gone after the test.
-class Output : public testing::Test {
+/// Of a run into a folder that is not there yet.
+class Output : public FolderTest {
 protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
+    FolderTest::SetUp();
+    fs::remove(folder_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   Scene scene() const { return parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"); }
 
@@ -78,8 +72,6 @@ protected:
     out.partPoses = {{{0, 0, 1.0 * f}, {}}, {{5, 0, 0}, {}}};
     return out;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/plots.hpp"
 
+#include "folder_fixture.hpp"
 #include "runs/channels.hpp"
 #include "scene_fixture.hpp"
 
@@ -18,12 +19,10 @@ constexpr int kShoes = 12, kRows = 80;
 
 /// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
 /// comes down at row 60 only.
-class Plots : public testing::Test {
+class Plots : public FolderTest {
 protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_plots_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
+    FolderTest::SetUp();
     std::vector<Channel> channels = {
         {"vehicle/left/sinkage", "m", "", kShoes, {}}, {"vehicle/left/pad_height", "m", "", kShoes, {}},
         {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
@@ -55,10 +54,8 @@ protected:
   }
   void TearDown() override {
     unsetenv("GROUSER_SHARE");
-    fs::remove_all(folder_);
+    FolderTest::TearDown();
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Plots, AreDrawnOrSayWhatToInstall) {

@@ -1,37 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `mpirun -np N grouser run`: the same bits on any number of ranks, and one clear end when something breaks.
+#include "program_fixture.hpp"
+
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
-#include <sys/wait.h>
 #include <vector>
 
 namespace grouser::runs {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-struct Outcome {
-  int code = 0;
-  double seconds = 0;
-  std::string out, err;
-
-  /// "state-hash 0123456789abcdef step 100", or everything where there is none.
-  std::string hash() const {
-    std::smatch match;
-    return std::regex_search(out, match, std::regex("state-hash [0-9a-f]{16} step [0-9]+")) ? match.str() : out + err;
-  }
-};
 
 /// The last number of a column of a CSV file.
 double lastOf(const std::string& csv, const std::string& column) {
@@ -49,29 +30,18 @@ double lastOf(const std::string& csv, const std::string& column) {
   return 0;
 }
 
-class OnRanks : public testing::Test {
+class OnRanks : public ProgramTest {
 protected:
   void SetUp() override {
-    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
+    ProgramTest::SetUp();
     if (std::system("mpirun --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no mpirun";
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_ranks_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "bed.toml") << kBed;
+    put(folder_ / "bed.toml", kBed);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome shell(const std::string& command) const {
-    const auto start = std::chrono::steady_clock::now();
-    const std::string all = "cd '" + folder_.string() +
-                            "' && export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                            "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1 GROUSER_CACHE=; grouser='" +
-                            program_.string() + "'; { " + command + "; } >out.txt 2>err.txt";
-    const int status = std::system(all.c_str());
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return {WEXITSTATUS(status), seconds, contents(folder_ / "out.txt"), contents(folder_ / "err.txt")};
+  Outcome shell(const std::string& commands) const {
+    return ProgramTest::shell("export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                              "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1; " +
+                              commands);
   }
   /// `grouser WORDS`, on 1 rank without a launcher.
   Outcome run(int ranks, const std::string& words) const {
@@ -100,7 +70,6 @@ settle_time_limit = 0.0
 picture = false
 plots = false
 )";
-  fs::path program_, folder_;
 };
 
 TEST_F(OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
@@ -181,7 +150,7 @@ picture = false
 plots = false
 )";
   const Outcome one = run(1, "run moved.toml --hash --out one");
-  EXPECT_EQ(one.hash().substr(0, 11), "state-hash ") << one.err;
+  EXPECT_EQ(one.hash().substr(0, 11), "state-hash ") << one.errors;
   EXPECT_EQ(run(2, "run moved.toml --hash --out two").hash(), one.hash());
   EXPECT_EQ(run(3, "run moved.toml --hash --steps 650 --out three").code, 0);
   EXPECT_EQ(run(2, "run moved.toml --hash --resume --out three").hash(), one.hash());
@@ -195,7 +164,7 @@ assert names == ['belt', 'box0', 'lid', 'mesh0'], names
 a, b = f['000000/parts/position'][:], f['000001/parts/position'][:]
 assert abs((b - a)[-1, 0] + 0.3 * 0.1) < 1e-6, 'the mesh has moved with its velocity'
 ")");
-  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_EQ(drawn.code, 0) << drawn.errors;
 }
 
 TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
@@ -203,10 +172,10 @@ TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
                             "--set terrain.settle_kinetic_energy=0.05 ",
                     kept = "export GROUSER_CACHE=\"$PWD/beds\"; ";
   const Outcome anew = run(1, words + "--no-cache --out anew");
-  EXPECT_EQ(anew.hash().substr(0, 11), "state-hash ") << anew.err;
+  EXPECT_EQ(anew.hash().substr(0, 11), "state-hash ") << anew.errors;
   EXPECT_EQ(anew.out.find("\nbed "), std::string::npos) << anew.out;
   const Outcome two = shell(kept + "mpirun -np 2 \"$grouser\" " + words + "--out two");
-  EXPECT_NE(two.out.find("bed       settled in "), std::string::npos) << two.out << two.err;
+  EXPECT_NE(two.out.find("bed       settled in "), std::string::npos) << two.out << two.errors;
   const Outcome three = shell(kept + "mpirun -np 3 \"$grouser\" " + words + "--out three"),
                 one = shell(kept + "\"$grouser\" " + words + "--out one");
   for (const Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
@@ -215,12 +184,12 @@ TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
       << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
   const Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
   EXPECT_EQ(damaged.hash(), anew.hash());
-  EXPECT_NE(damaged.err.find("damaged"), std::string::npos) << damaged.err;
+  EXPECT_NE(damaged.errors.find("damaged"), std::string::npos) << damaged.errors;
 }
 
 TEST_F(OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {
   const Outcome straight = run(1, "run bed.toml --hash --out straight");
-  ASSERT_EQ(straight.code, 0) << straight.err;
+  ASSERT_EQ(straight.code, 0) << straight.errors;
   ASSERT_EQ(run(2, "run bed.toml --hash --steps 600 --out stopped").code, 0);
   fs::copy(folder_ / "stopped", folder_ / "again");
   EXPECT_EQ(run(3, "run bed.toml --hash --resume --out stopped").hash(), straight.hash());
@@ -242,7 +211,7 @@ for frame in ('000000', '000001'):
     for name in ('position', 'radius', 'speed', 'id', 'vertex'):
         assert (a[frame]['grains'][name][:] == b[frame]['grains'][name][:]).all(), name
 ")");
-  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(same.code, 0) << same.errors;
 }
 
 TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
@@ -262,12 +231,12 @@ TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
 
 TEST_F(OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
   const Outcome o = run(2, "bench step bed.toml --steps 10 --batches 1 --threads 1 --device cpu --json /dev/stderr");
-  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.code, 0) << o.errors;
   const std::string title = "\"bench\": \"step\"";
-  const std::size_t at = o.err.find(title);
-  ASSERT_NE(at, std::string::npos) << o.err;
-  EXPECT_EQ(o.err.find(title, at + 1), std::string::npos) << o.err;
-  EXPECT_NE(o.err.find("\"ranks\": 2"), std::string::npos) << "each rank has made the whole scene:\n" << o.err;
+  const std::size_t at = o.errors.find(title);
+  ASSERT_NE(at, std::string::npos) << o.errors;
+  EXPECT_EQ(o.errors.find(title, at + 1), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("\"ranks\": 2"), std::string::npos) << "each rank has made the whole scene:\n" << o.errors;
 }
 
 TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
@@ -275,8 +244,8 @@ TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
                                                               "layers = -2");
   const Outcome o = run(3, "run wrong.toml --out wrong");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("rank 0: wrong.toml:"), std::string::npos) << o.err;
-  EXPECT_EQ(o.err.find("rank 1: wrong.toml:"), std::string::npos) << o.err;
+  EXPECT_NE(o.errors.find("rank 0: wrong.toml:"), std::string::npos) << o.errors;
+  EXPECT_EQ(o.errors.find("rank 1: wrong.toml:"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "wrong"));
   EXPECT_LT(o.seconds, 60);
 }
@@ -284,14 +253,14 @@ TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
 TEST_F(OnRanks, AnImpossibleLatticeIsRefused) {
   const Outcome o = run(2, "run bed.toml --out wrong --set 'parallel.subdomains=[3,1,1]'");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("parallel.subdomains = [3, 1, 1] does not make 2 subdomains"), std::string::npos) << o.err;
+  EXPECT_NE(o.errors.find("parallel.subdomains = [3, 1, 1] does not make 2 subdomains"), std::string::npos) << o.errors;
 }
 
 TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
   std::ofstream(folder_ / "other.toml") << std::regex_replace(std::string(kBed), std::regex("1e5"), "2e5");
   const Outcome o = shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.err.find("rank 1 has another scene than rank 0"), std::string::npos) << o.err;
+  EXPECT_NE(o.errors.find("rank 1 has another scene than rank 0"), std::string::npos) << o.errors;
   EXPECT_LT(o.seconds, 60);
 }
 
@@ -309,7 +278,7 @@ wait $launcher)");
   // It can be gone on with, on another number of ranks.
   const Outcome on = run(3, "run bed.toml --resume --out killed --set run.duration=1e-3");
   EXPECT_EQ(on.code, 2) << "the checkpoint is past this end, which only a checkpoint that was read can tell";
-  EXPECT_NE(on.err.find("this run ends at step 10"), std::string::npos) << on.err;
+  EXPECT_NE(on.errors.find("this run ends at step 10"), std::string::npos) << on.errors;
 }
 
 TEST_F(OnRanks, ARankThatStandsStillForAWhileIsWaitedFor) {
@@ -321,7 +290,7 @@ for i in $(seq 600); do [ -e two/manifest.json ] && break; sleep 0.02; done
 slow=$(pgrep -P $launcher | tail -n 1)
 kill -STOP $slow; sleep 2; kill -CONT $slow
 wait $launcher)");
-  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.code, 0) << o.errors;
   EXPECT_EQ(o.hash(), expected);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
+#include "folder_fixture.hpp"
 #include "runs/film.hpp"
 #include "runs/frame_painter.hpp"
 #include "runs/frames_file.hpp"
@@ -30,15 +31,12 @@ std::string messageOf(const std::function<void()>& call) {
 }
 
 /// Six frames, 0.1 s apart, of a row of grains along x and a cube that moves 1 m a frame.
-class RenderFrames : public testing::Test {
+class RenderFrames : public FolderTest {
 protected:
   static constexpr std::size_t kFrames = 6;
 
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_render_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    FolderTest::SetUp();
     base::TriangleMesh cube;
     for (const double x : {-0.5, 0.5})
       for (const double y : {-0.5, 0.5})
@@ -48,7 +46,6 @@ protected:
     FramesFile file(folder_, {{"hull", "chassis", cube}}, {});
     for (std::size_t k = 0; k < kFrames; ++k) file.add(frame(k));
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   static Frame frame(std::size_t k) {
     Frame f;
@@ -76,13 +73,6 @@ protected:
     std::sort(names.begin(), names.end());
     return names;
   }
-
-  static std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(RenderFrames, ReaderGivesBackWhatTheFileWasGiven) {
@@ -290,10 +280,11 @@ TEST(Labels, CaptionIsDarkOnLightAndStaysInItsCorner) {
   EXPECT_EQ(elsewhere, 0);
 }
 
-TEST(SharedWork, EveryPieceIsDoneOnceWhoeverDoesIt) {
-  const fs::path folder = fs::path(testing::TempDir()) / "grouser_shared_work";
+class SharedWork : public FolderTest {};
+
+TEST_F(SharedWork, EveryPieceIsDoneOnceWhoeverDoesIt) {
   for (const int processes : {1, 3, 8}) {
-    fs::remove_all(folder);
+    const fs::path folder = folder_ / std::to_string(processes);
     fs::create_directories(folder);
     int done = 0;
     shareWork(
@@ -312,10 +303,9 @@ TEST(SharedWork, EveryPieceIsDoneOnceWhoeverDoesIt) {
     std::sort(pids.begin(), pids.end());
     EXPECT_EQ(std::unique(pids.begin(), pids.end()) - pids.begin(), std::min(processes, 5));
   }
-  fs::remove_all(folder);
 }
 
-TEST(SharedWork, FailureOfOneEndsAllWithItsMessage) {
+TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
   const auto failing = [](std::size_t i) {
     if (i == 1) throw base::InputError("piece 1 is bad");
     if (i != 0) usleep(20'000'000); // far beyond the test's time: it must be ended

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The studies of grains as a user calls them: help, tables, plots, and nothing overwritten.
+#include "program_fixture.hpp"
+
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
 #include <vector>
 
 namespace grouser::runs {
@@ -14,61 +13,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 struct StudyCall {
   std::string name, options; ///< options that make it quick
   std::vector<std::string> files, words;
 };
 
-class StudyCommand : public testing::TestWithParam<StudyCall> {
-protected:
-  void SetUp() override {
-    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
-    folder_ = fs::path(testing::TempDir()) / ("grouser_study_" + GetParam().name);
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  int call(const std::string& words) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" + program_.string() + "' study " + words + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    out_ = contents(folder_ / "out.txt"), errors_ = contents(folder_ / "err.txt");
-    return WEXITSTATUS(status);
-  }
-
-  fs::path program_, folder_;
-  std::string out_, errors_;
-};
+class StudyCommand : public ProgramTest, public testing::WithParamInterface<StudyCall> {};
 
 TEST_P(StudyCommand, WritesItsTablesAndKeepsThem) {
   const StudyCall& study = GetParam();
-  EXPECT_EQ(call("--help"), 0);
-  EXPECT_NE(out_.find(study.name), std::string::npos) << out_;
-  EXPECT_EQ(call(study.name + " --help"), 0);
-  for (const char* option : {"--quick", "--out", "--force"}) EXPECT_NE(out_.find(option), std::string::npos) << option;
+  const Outcome all = call("study --help"), help = call("study " + study.name + " --help");
+  EXPECT_EQ(all.code, 0);
+  EXPECT_NE(all.out.find(study.name), std::string::npos) << all.out;
+  EXPECT_EQ(help.code, 0);
+  for (const char* option : {"--quick", "--out", "--force"})
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
 
-  ASSERT_EQ(call(study.name + " " + study.options + " --out results"), 0) << errors_;
-  for (const std::string& word : study.words) EXPECT_NE(out_.find(word), std::string::npos) << word << "\n" << out_;
+  const std::string words = "study " + study.name + " " + study.options + " --out results";
+  const Outcome o = call(words);
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const std::string& word : study.words) EXPECT_NE(o.out.find(word), std::string::npos) << word << "\n" << o.out;
   for (const std::string& file : study.files) {
     const fs::path path = folder_ / "results" / file;
-    if (path.extension() == ".png" && errors_.find("python3") != std::string::npos) continue; // no matplotlib here
-    EXPECT_TRUE(fs::exists(path) && fs::file_size(path) > 100) << path << "\n" << errors_;
+    if (path.extension() == ".png" && o.errors.find("python3") != std::string::npos) continue; // no matplotlib here
+    EXPECT_TRUE(fs::exists(path) && fs::file_size(path) > 100) << path << "\n" << o.errors;
   }
   const auto json = nlohmann::json::parse(contents(folder_ / "results" / "study.json"));
   EXPECT_EQ(json.at("study"), study.name);
   EXPECT_FALSE(json.at("commit").get<std::string>().empty());
   EXPECT_FALSE(json.at("machine").get<std::string>().empty());
 
-  EXPECT_EQ(call(study.name + " " + study.options + " --out results"), 2) << "there are results in it";
-  EXPECT_NE(errors_.find("--force"), std::string::npos) << errors_;
-  EXPECT_EQ(call(study.name + " --colour blue"), 2);
+  const Outcome again = call(words);
+  EXPECT_EQ(again.code, 2) << "there are results in it";
+  EXPECT_NE(again.errors.find("--force"), std::string::npos) << again.errors;
+  EXPECT_EQ(call("study " + study.name + " --colour blue").code, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,

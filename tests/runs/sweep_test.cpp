@@ -3,6 +3,7 @@
 #include "runs/sweep.hpp"
 
 #include "base/error.hpp"
+#include "program_fixture.hpp"
 #include "runs/channels.hpp"
 #include "runs/sweep_summary.hpp"
 #include "scene_fixture.hpp"
@@ -13,18 +14,12 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
-#include <sys/wait.h>
 
 namespace grouser::runs {
 namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// A table of text cells; quotes are taken off.
 struct Csv {
@@ -54,18 +49,12 @@ struct Csv {
   }
 };
 
-class Sweep : public testing::Test {
+class Sweep : public ProgramTest {
 protected:
   void SetUp() override {
-    program_ = fs::read_symlink("/proc/self/exe").parent_path() / "grouser";
-    ASSERT_TRUE(fs::exists(program_)) << "build the target grouser first";
-    folder_ = fs::path(testing::TempDir()) /
-              ("grouser_sweep_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    ProgramTest::SetUp();
     writeScene("1e-3");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// A falling grain. Above half the skin a step, 0.3 x 0.5 x 0.01 m / 1e-5 s = 150 m/s, a run fails at its first step.
   void writeScene(const std::string& duration) const {
@@ -79,7 +68,7 @@ protected:
 
   SweepOptions options() const {
     SweepOptions o;
-    o.program = program_, o.folder = out(), o.plot = false;
+    o.program = programUnderTest(), o.folder = out(), o.plot = false;
     return o;
   }
   int sweep(const Words& sets, int jobs = 1, bool force = false) const {
@@ -89,8 +78,6 @@ protected:
   }
   /// When a run last wrote its manifest; what was left out keeps it.
   fs::file_time_type ended(const std::string& run) const { return fs::last_write_time(out() / run / "manifest.json"); }
-
-  fs::path program_, folder_;
 };
 
 TEST(SweepValues, SplitAtCommasOutsideBracketsAndQuotes) {
@@ -216,21 +203,20 @@ TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
 }
 
 TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
-  const auto call = [&](const std::string& words) {
-    return WEXITSTATUS(std::system(("cd '" + folder_.string() + "' && '" + program_.string() + "' sweep fall.toml " +
-                                    words + " >out.txt 2>err.txt")
-                                       .c_str()));
-  };
-  EXPECT_EQ(call("--set run.seed=1,2"), 0);
+  const Outcome sound = call("sweep fall.toml --set run.seed=1,2");
+  EXPECT_EQ(sound.code, 0) << sound.errors;
   EXPECT_TRUE(fs::exists(folder_ / "out/fall_sweep/seed=2/results.h5"));
-  EXPECT_NE(contents(folder_ / "out.txt").find("run 2 of 2  seed=2"), std::string::npos);
-  EXPECT_EQ(call("--set run.seed=1,-1 --out a"), 2);
+  EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
+  EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-  EXPECT_EQ(call("--set 'grain.0.velocity=[0,0,1],[0,0,1000]' --out b"), 3);
-  EXPECT_NE(contents(folder_ / "err.txt").find("1 of 2 runs failed"), std::string::npos);
+  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,1000]' --out b");
+  EXPECT_EQ(unsound.code, 3);
+  EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
 }
 
-TEST(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
+class SweepSummary : public FolderTest {};
+
+TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
   Scene scene = parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
@@ -241,9 +227,7 @@ TEST(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
 }
 
 /// A vehicle that stands until t = 2 s and then drives as the formulas below say.
-TEST(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
-  const fs::path folder = fs::path(testing::TempDir()) / "grouser_sweep_summary";
-  fs::remove_all(folder);
+TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   SweepPlan plan;
   plan.keys = {"driver.sprocket_speed"};
   plan.runs = {
@@ -260,7 +244,7 @@ TEST(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
     for (const char* shoes : {"sinkage", "tension"})
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
   }
-  RunWriter writer(folder / "sprocket_speed=2", scene, channels, {});
+  RunWriter writer(folder_ / "sprocket_speed=2", scene, channels, {});
   writer.constant("vehicle/pitch_radius", "m", 0.25);
   RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
@@ -286,7 +270,7 @@ TEST(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
   writer.finish(summary);
 
-  const Csv csv(writeSummary(plan, {{"finished", ""}}, folder));
+  const Csv csv(writeSummary(plan, {{"finished", ""}}, folder_));
   const auto number = [&](const char* column) { return std::stod(csv.at(0, column)); };
   EXPECT_EQ(csv.at(0, "driver.sprocket_speed"), "2");
   EXPECT_EQ(number("wall time [s]"), 12.5);
@@ -306,7 +290,6 @@ TEST(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   EXPECT_NEAR(number("energy residual [J]"), 3, 1e-8) << "at the end";
   EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
   EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "what the results lack is empty";
-  fs::remove_all(folder);
 }
 
 } // namespace
