@@ -13,32 +13,8 @@
 namespace grouser::terrain::testing {
 namespace {
 
-GrainModel gravel(double skin = 0.3) {
-  GrainModel m;
-  m.radius = 0.027;
-  m.mass = 2500 * 4.0 / 3.0 * base::kPi * m.radius * m.radius * m.radius;
-  m.timeStep = 5e-5;
-  m.gravity = {0, 0, -9.81};
-  m.law.stiffness = 1e6f;
-  m.law.damping = 1500.0f;
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.tangentialDamping = 750.0f;
-  m.law.friction = 0.5f;
-  m.skin = skin;
-  return m;
-}
-
 /// A block of 360 grains thrown across the box: nearly all of them change their subdomain.
-std::vector<GrainStart> thrownBlock() {
-  std::vector<GrainStart> start;
-  for (int z = 0; z < 5; ++z)
-    for (int y = 0; y < 6; ++y)
-      for (int x = 0; x < 12; ++x) {
-        const double odd = z % 2 ? 0.011 : 0.0, wobble = 0.001 * ((x * 7 + y * 5 + z * 3) % 4);
-        start.push_back({{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {2.5, 1.0, -1}, {3, -2, 9}});
-      }
-  return start;
-}
+std::vector<GrainStart> thrownBlock() { return gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9}); }
 
 Boundaries box(const GrainModel& m) {
   return {{{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}, {{0, -1, 0}, -0.5, m.law}},

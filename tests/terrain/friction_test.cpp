@@ -66,19 +66,9 @@ TEST_P(ObliqueImpact, StickingThroughoutIsTheClosedForm) {
 
 INSTANTIATE_TEST_SUITE_P(A2, ObliqueImpact, ::testing::Range(0, 4));
 
-GrainModel roller(double mu) {
-  GrainModel m = ball(2e-6);
-  m.gravity = {0, 0, -9.81};
-  m.law.friction = static_cast<float>(mu);
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.damping = static_cast<float>(2 * 0.3 * std::sqrt(m.law.stiffness / m.mass));
-  m.law.tangentialDamping = m.law.damping / 2;
-  return m;
-}
-
 TEST(SlidingBall, RollsAtFiveSeventhsOfItsSpeed) {
   const double mu = 0.3, v0 = 1;
-  const GrainModel m = roller(mu);
+  const GrainModel m = roughBall(2e-6, mu, 0.3);
   const double overlap = m.mass * 9.81 / m.law.stiffness;
   Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius - overlap}, {v0, 0, 0}, {}}});
   const double tRoll = 2 * v0 / (7 * mu * 9.81); // 0.09708 s
@@ -95,7 +85,7 @@ TEST(BallOnIncline, RollsOrSlidesAsCoulombSays) {
   const double theta = base::kPi / 6, g = 9.81;
   for (const bool rolls : {true, false}) {
     const double mu = rolls ? 0.3 : 0.1; // critical: 0.16496
-    GrainModel m = roller(mu);
+    GrainModel m = roughBall(2e-6, mu, 0.3);
     m.gravity = {g * base::sin(theta), 0, -g * base::cos(theta)};
     Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}},
                   {{{0, 0, m.radius - m.mass * g * base::cos(theta) / m.law.stiffness}, {}, {}}});
@@ -112,16 +102,13 @@ TEST(BallOnIncline, RollsOrSlidesAsCoulombSays) {
 double pyramidSinks(double muBall, double muFloor) {
   GrainModel m = ball(5e-6);
   m.radius = 0.05;
-  m.mass = 2600 * 4.0 / 3.0 * base::kPi * m.radius * m.radius * m.radius;
+  m.mass = sphereMass(2600, m.radius);
   m.law.stiffness = 1e6f;
   m.timeStep = 2e-5;
   m.gravity = {0, 0, -9.81};
-  m.law.damping = static_cast<float>(2 * 0.3 * std::sqrt(m.law.stiffness / (m.mass / 2)));
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.tangentialDamping = m.law.damping / 2;
+  makeRough(m.law, 2 * 0.3 * std::sqrt(m.law.stiffness / (m.mass / 2)), muBall);
   contact::ContactLaw onFloor = m.law;
-  m.law.friction = static_cast<float>(muBall);
-  onFloor.friction = static_cast<float>(muFloor);
+  onFloor.friction = muFloor;
   const double r = m.radius;
   Grains grains(testExec(1), m, {{floorPlane(onFloor)}, {}},
                 {{{-r, 0, r}, {}, {}}, {{r, 0, r}, {}, {}}, {{0, 0, r + std::sqrt(3.0) * r}, {}, {}}});

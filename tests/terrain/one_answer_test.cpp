@@ -8,33 +8,11 @@
 namespace grouser::terrain::testing {
 namespace {
 
-GrainModel gravel(double skin) {
-  GrainModel m;
-  m.radius = 0.027;
-  m.mass = 2500 * 4.0 / 3.0 * base::kPi * m.radius * m.radius * m.radius;
-  m.timeStep = 5e-5;
-  m.gravity = {0, 0, -9.81};
-  m.law.stiffness = 1e6f;
-  m.law.damping = 1500.0f;
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.tangentialDamping = 750.0f;
-  m.law.friction = 0.5f;
-  m.skin = skin;
-  return m;
-}
-
 std::vector<std::uint32_t> runHeap(int threads, double skin, base::Vec3d shift = {}) {
   const GrainModel m = gravel(skin);
-  std::vector<GrainStart> start;
-  for (int z = 0; z < 6; ++z)
-    for (int y = 0; y < 7; ++y)
-      for (int x = 0; x < 7; ++x) {
-        const double odd = z % 2 ? 0.011 : 0.0, wobble = 0.001 * ((x * 7 + y * 5 + z * 3) % 4);
-        start.push_back(
-            {shift + base::Vec3d{0.0575 * x + odd + wobble, 0.0575 * y - odd, 0.03 + 0.0575 * z}, {0.3, 0.1, -1}, {}});
-      }
   const double offset = shift.z;
-  Grains grains(testExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}}, start);
+  Grains grains(testExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}},
+                gravelBlock(7, 7, 6, {0.3, 0.1, -1}, {}, shift));
   advance(grains, 3000);
   return grains.stateWords();
 }
@@ -61,7 +39,7 @@ TEST(Heap, MovesAlikeWhereverItStands) {
 
 TEST(Heap, NeighbourListLosesNoContact) {
   // Against a brute-force search over all pairs.
-  const GrainModel m = gravel(0.3);
+  const GrainModel m = gravel();
   std::vector<GrainStart> start;
   for (int i = 0; i < 300; ++i) start.push_back({{0.05 * (i % 7), 0.05 * (i / 7 % 7), 0.05 * (i / 49)}, {}, {}});
   Grains grains(testExec(2), m, {}, start);
@@ -75,7 +53,7 @@ TEST(Heap, NeighbourListLosesNoContact) {
 
 TEST(Heap, PairForcesBalanceToTheLastBit) {
   // No gravity, no walls: the sum of all momenta stays what it was, up to the quantum of the kept remainders.
-  GrainModel m = gravel(0.3);
+  GrainModel m = gravel();
   m.gravity = {};
   std::vector<GrainStart> start;
   for (int i = 0; i < 64; ++i) start.push_back({{0.053 * (i % 4), 0.053 * (i / 4 % 4), 0.053 * (i / 16)}, {}, {}});

@@ -15,9 +15,7 @@ constexpr double kLengthX = 0.063, kLengthY = 0.047; // of the domain [m]: twelv
 GrainModel rubbing(double skin = 0.3) {
   GrainModel m = ball(1e-5);
   m.gravity = {0, 0, -80}; // presses them together soon
-  m.law.damping = 2000.0f;
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7, m.law.tangentialDamping = 1000.0f;
-  m.law.friction = 0.5f;
+  makeRough(m.law, 2000);
   m.skin = skin;
   return m;
 }

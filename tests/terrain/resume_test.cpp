@@ -12,9 +12,7 @@ namespace {
 Grains heap(const base::Exec& exec, double skin, int layers = 5) {
   GrainModel m = ball(1e-5);
   m.gravity = {0, 0, -9.81};
-  m.law.stiffness = 1e5f, m.law.damping = 2000.0f;
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7, m.law.tangentialDamping = 1000.0f;
-  m.law.friction = 0.5f;
+  makeRough(m.law, 2000);
   m.floorLaw = m.law;
   m.skin = skin;
   std::vector<GrainStart> start;

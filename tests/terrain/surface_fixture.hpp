@@ -73,8 +73,7 @@ inline std::vector<GrainStart> millGrains() {
 inline GrainModel millModel(double skin = 0.3) {
   GrainModel m = ball(1e-5);
   m.gravity = {0, 0, -9.81};
-  m.law.damping = 1500, m.law.friction = 0.5;
-  m.law.tangentialStiffness = m.law.stiffness * 2 / 7, m.law.tangentialDamping = 750;
+  makeRough(m.law, 1500);
   m.skin = skin;
   return m;
 }

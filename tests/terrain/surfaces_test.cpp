@@ -87,10 +87,7 @@ TEST(BallOnBox, RestsOnFaceEdgeAndCornerAtItsStaticOverlap) {
 
 TEST(BallInDrum, SwingsWithThePeriodOfRolling) {
   // theta'' = -(5/7) g / (R - r) sin(theta): rolling in a drum at rest.
-  GrainModel m = ball(5e-6);
-  m.gravity = {0, 0, -9.81};
-  m.law.friction = 0.6, m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.damping = 2 * 0.5 * std::sqrt(m.law.stiffness / m.mass), m.law.tangentialDamping = m.law.damping / 2;
+  const GrainModel m = roughBall(5e-6, 0.6, 0.5);
   const double radius = 0.03, arm = radius - m.radius, angle = 0.1;
   const base::Quat along = turn({1, 0, 0}, base::kPi / 2);
   Grains grains(testExec(1), m, {{}, {}, {}, {{tubeOf(radius, 0.05), m.law, placed({}, along)}}},
@@ -128,10 +125,7 @@ TEST(BallInDrum, ThatTurnsWithItFeelsNoRollingResistance) {
 TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
   // A5 in the frame of the belt: it slides with v0, decelerated by mu g, and rolls at 5/7 of it.
   const double mu = 0.3, v0 = 1;
-  GrainModel m = ball(2e-6);
-  m.gravity = {0, 0, -9.81};
-  m.law.friction = mu, m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.damping = 2 * 0.3 * std::sqrt(m.law.stiffness / m.mass), m.law.tangentialDamping = m.law.damping / 2;
+  const GrainModel m = roughBall(2e-6, mu, 0.3);
   const double overlap = m.mass * 9.81 / m.law.stiffness;
   const SurfacePlacement belt = placed({}, {}, {}, {v0, 0, 0});
   Grains grains(testExec(1), m, {{}, {}, {}, {{{SurfaceShape::plane, {}}, m.law, belt}}},
@@ -148,10 +142,7 @@ TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
 TEST(BallOnTurntable, RollsRoundWithTwoSeventhsOfItsSpin) {
   // A ball that rolls on a table of spin W moves on a circle at 2/7 W (Milne 1948; Weltner 1979, Am. J. Phys. 47:984).
   const double spin = 6, rho = 0.05;
-  GrainModel m = ball(5e-6);
-  m.gravity = {0, 0, -9.81};
-  m.law.friction = 0.8, m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
-  m.law.damping = 2 * 0.5 * std::sqrt(m.law.stiffness / m.mass), m.law.tangentialDamping = m.law.damping / 2;
+  const GrainModel m = roughBall(5e-6, 0.8, 0.5);
   const double overlap = m.mass * 9.81 / m.law.stiffness;
   Grains grains(testExec(1), m, {{}, {}, {}, {{boxOf({0.1, 0.1, 0.01}), m.law, placed({0, 0, -0.01})}}},
                 {{{rho, 0, m.radius - overlap}, {0, 2 * spin * rho / 7, 0}, {5 * spin * rho / (7 * m.radius), 0, 0}}});
