@@ -80,7 +80,11 @@ double dampingRatioFor(double restitution, bool attraction) {
       restitution, [](double zeta) { return restitutionOf(zeta, false); }, 0);
 }
 
-double stableStep(double omega0, double zeta) { return 2 * (std::sqrt(1 + zeta * zeta) - zeta) / omega0; }
+double stableStepOfMode(double stiffness, double damping) {
+  return 4 / (damping + std::sqrt(damping * damping + 4 * stiffness));
+}
+
+double stableStep(double omega0, double zeta) { return stableStepOfMode(omega0 * omega0, 2 * zeta * omega0); }
 
 double hertzRestitutionOf(double beta, bool attraction) {
   if (attraction) return restitutionOf(beta * std::sqrt(1.2), true);

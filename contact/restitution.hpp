@@ -14,8 +14,14 @@ double dampingRatioFor(double restitution, bool attraction);
 /// Contact duration [s] for omega_0 = sqrt(k / m_eff) [1/s].
 double contactDuration(double omega0, double zeta, bool attraction);
 
-/// Largest stable step [s] of one linear contact under the semi-implicit Euler step with the dashpot taken at the
-/// current velocity: omega_0 dt < 2 (sqrt(1 + zeta^2) - zeta).
+/// Largest stable step [s] of a mode x'' + damping x' + stiffness x = 0 [1/s, 1/s2], not both zero, under the
+/// semi-implicit Euler step with the dashpot taken at the current velocity, v' = v - dt (stiffness x + damping v) and
+/// x' = x + dt v'. Its characteristic polynomial l^2 - (2 - damping dt - stiffness dt^2) l + 1 - damping dt has no root
+/// outside the unit circle while stiffness dt^2 + 2 damping dt < 4 (conditions of Jury 1962).
+double stableStepOfMode(double stiffness, double damping);
+
+/// The same of one linear contact: omega_0 dt < 2 (sqrt(1 + zeta^2) - zeta). A mode that many contacts make has a zeta
+/// of its own.
 double stableStep(double omega0, double zeta);
 
 /// Coefficient of restitution [-] of the Hertz law with the dashpot c_n = 2 beta sqrt(k_n m_eff), k_n = 2 E_eff a; at

@@ -3,23 +3,18 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "contact/restitution.hpp"
-#include "contact/rolling_resistance.hpp"
+#include "runs/grain_kinds.hpp"
 #include "runs/grain_memory.hpp"
 #include "runs/joined_sides.hpp"
-#include "runs/laws.hpp"
-#include "runs/mechanism.hpp"
-#include "runs/plan.hpp"
 #include "runs/sources.hpp"
+#include "runs/step_limit.hpp"
 #include "runs/tiled_bed.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
-#include "vehicle/spec.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <unistd.h>
@@ -28,14 +23,14 @@ namespace grouser::runs {
 
 using base::Vec3d;
 
-namespace {
-
 terrain::HeightField readSurface(const Terrain& t) {
   terrain::HeightmapPlacement placement;
   placement.sizeX = t.size[0], placement.sizeY = t.size[1];
   placement.black = t.heightRange[0], placement.white = t.heightRange[1];
   return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
 }
+
+namespace {
 
 void addPlanesAndSurfaces(const Scene& scene, Surroundings& around) {
   around.surfaces = surfacesOf(scene);
@@ -201,143 +196,6 @@ terrain::LayerOptions layerOptions(const Scene& scene) {
   options.joined = scene.run.periodic;
   return options;
 }
-
-namespace {
-
-/// Keeps the smallest stable step and what it belongs to.
-struct StepLimit {
-  double step = std::numeric_limits<double>::infinity();
-  std::string what;
-
-  /// A mode x'' + damping x' + stiffness x = 0, both per unit of mass: the step takes stiffness dt^2 + 2 damping dt <
-  /// 4, which is omega dt < 2 (sqrt(1 + zeta^2) - zeta) for the mode's own zeta, not that of one of its contacts.
-  void consider(double stiffness, double damping, const std::string& name) {
-    if (stiffness <= 0 && damping <= 0) return;
-    const double limit = 4 / (damping + std::sqrt(damping * damping + 4 * stiffness));
-    if (limit < step) step = limit, what = name;
-  }
-  /// A grain of `mass` and `radius` among twelve neighbours alike, or between two heavy bodies, all of them in contact
-  /// and none sliding. A Hertz contact is as stiff as an impact at `speed` makes it.
-  void considerGrain(const contact::ContactLaw& law, double mass, double radius, bool among, double speed,
-                     const std::string& name) {
-    const double effectiveMass = among ? 0.5 * mass : mass, effectiveRadius = among ? 0.5 * radius : radius;
-    const auto c = stiffest(law, effectiveMass, effectiveRadius, speed);
-    // Among twelve, 8 k / m (Gershgorin). Springs that stick let spheres turn alike at 10/3 k_t / m for each contact:
-    // eight of those, for a bed with friction has four or five. Hertz contacts are not all as deep at once as the one
-    // of that impact: four. Between two bodies: 2 k / m and 5 k_t / m.
-    const double normal = (among ? 8 : 2) / mass, turning = (!among ? 5 : 10.0 / 3 * (law.hertz ? 4 : 8)) / mass;
-    consider(normal * c.normalStiffness, normal * c.damping, name);
-    if (law.friction > 0) consider(turning * c.tangentialStiffness, turning * c.tangentialDamping, name);
-    const double rolling = contact::rollingStiffness(law, c.normalStiffness, effectiveRadius);
-    const double rollingInertia = 1.4 * effectiveMass * radius * radius, inertia = 0.4 * mass * radius * radius;
-    const double rollingDamping = 2 * law.rollingDamping * std::sqrt(rollingInertia * rolling);
-    consider(normal * mass / inertia * rolling, normal * mass / inertia * rollingDamping, name);
-  }
-};
-
-/// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
-double mostTouching(const Scene& scene, const SceneSurface& surface, double radius) {
-  const Vec3d& h = surface.geometry.half;
-  double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
-  const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
-  if (surface.geometry.shape == terrain::SurfaceShape::plane) return all;
-  if (surface.geometry.shape != terrain::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
-  return std::clamp(area / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
-}
-
-/// A surface that forces move, on springs of all grains that it may touch.
-void considerFreeSurfaces(const Scene& scene, const GrainKinds& kinds, StepLimit& limit) {
-  for (const SceneSurface& s : surfacesOf(scene)) {
-    if (!s.section.free) continue;
-    for (const auto& [material, radius, largest] : kinds.kinds) {
-      const double mass = sphereMass(scene.material(material).density, radius);
-      const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
-      const double springs = mostTouching(scene, s, radius) / *s.section.mass;
-      limit.consider(c.normalStiffness * (1 / mass + springs), c.damping * (1 / mass + springs),
-                     s.name + " on its grains");
-    }
-  }
-}
-
-StepLimit grainStepLimit(const Scene& scene) {
-  StepLimit limit;
-  const GrainKinds kinds = grainKinds(scene);
-  // The smallest grains are the quickest.
-  for (const auto& [material, radius, largest] : kinds.kinds) {
-    const double mass = sphereMass(scene.material(material).density, radius), speed = scene.run.impactSpeed;
-    for (const std::string& other : kinds.material)
-      limit.considerGrain(pairLaw(scene, material, other, 0.5 * mass), mass, radius, true, speed,
-                          other == material ? "grain on grain of '" + material + "'"
-                                            : "grain of '" + material + "' among those of '" + other + "'");
-    const auto against = [&](const std::string& other, const std::string& name) {
-      limit.considerGrain(pairLaw(scene, material, other.empty() ? material : other, mass), mass, radius, false, speed,
-                          name);
-    };
-    for (const Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
-    for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
-    if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
-    if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
-  }
-  considerFreeSurfaces(scene, kinds, limit);
-  return limit;
-}
-
-} // namespace
-
-double stableTimeStep(const Scene& scene) {
-  StepLimit limit = grainStepLimit(scene);
-  if (scene.vehicle) {
-    // A shoe that lies on its whole pad: the stiffest that the foundation can be.
-    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-    const double area = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
-    const double stiffness = spec.contact.foundationModulus * area / spec.shoe.mass;
-    limit.consider(stiffness, stiffness * spec.contact.relaxationTime, "shoe on rigid ground or wheel");
-  }
-  return limit.step;
-}
-
-double chooseTimeStep(const Scene& scene) {
-  if (!scene.mechanism.empty()) return scene.run.timeStep ? *scene.run.timeStep : mechanismTimeStep(scene);
-  const double contact = shortestContact(scene), limit = stableTimeStep(scene);
-  double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit);
-  for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
-    automatic = std::min(automatic, kRayleighShare * rayleighTimeOf(scene.material(material), radius));
-  if (!scene.run.timeStep) return automatic;
-  if (*scene.run.timeStep > limit)
-    throw base::InputError(fmt::format(
-        "{}: run.time_step = {:g} s is above {:.3g} s, where the stiffest contact of the scene becomes "
-        "unstable; choose {:.3g} s or less (\"auto\": {:.3g} s), or lower its stiffness{}",
-        scene.file.string(), *scene.run.timeStep, limit, limit, automatic,
-        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.law == "hertz"; })
-            ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s", scene.run.impactSpeed)
-            : ""));
-  return *scene.run.timeStep;
-}
-
-namespace {
-
-/// A surface that goes farther in a step than half a radius could pass through a grain unfelt.
-void checkSurfaceSpeeds(const Scene& scene, double timeStep) {
-  const GrainKinds kinds = grainKinds(scene);
-  if (!kinds.any()) return;
-  const double most = 0.5 * kinds.smallest / timeStep;
-  for (const SceneSurface& s : surfacesOf(scene)) {
-    // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
-    const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
-    const auto across = [&](const std::optional<Vec3d>& v) {
-      return !v ? 0.0 : plane ? std::fabs(dot(*v, base::normalized(scene.planes[s.number].normal))) : norm(*v);
-    };
-    const double speed =
-        across(s.section.velocity) + across(s.section.amplitude) * 2 * base::kPi * s.section.frequency.value_or(0);
-    if (speed > most)
-      throw base::InputError(fmt::format("{}: {} moves at up to {:.4g} m/s, more than half the smallest grain's radius "
-                                         "in a step of {:.3g} s: it could pass through a grain unfelt; keep it below "
-                                         "{:.4g} m/s (velocity, amplitude, frequency), or lower run.time_step",
-                                         scene.file.string(), s.name, speed, timeStep, most));
-  }
-}
-
-} // namespace
 
 Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
   Ground ground;

@@ -34,22 +34,11 @@ struct SettleReport {
   std::int64_t steps{};
 };
 
-/// Step of a vehicle on rigid ground, where no grain sets it [s].
-inline constexpr double kVehicleTimeStep = 1e-4;
-
-/// The largest automatic step of hertz grains, as a share of the time a Rayleigh wave takes along the smallest [-].
-inline constexpr double kRayleighShare = 0.2;
+/// The ground's surface as the height-map says. Throws InputError where that cannot be read.
+terrain::HeightField readSurface(const Terrain& terrain);
 
 /// How the scene's bed is laid.
 terrain::LayerOptions layerOptions(const Scene& scene);
-
-/// Largest step at which the stiffest contact of the scene stays stable [s]: a grain among twelve others, between two
-/// planes or parts, or a shoe on its whole pad. Infinite without contacts.
-double stableTimeStep(const Scene& scene);
-
-/// Step of the run [s]: as the scene says, checked against the stability limit, or the largest sound one.
-/// Throws InputError that names the limit.
-double chooseTimeStep(const Scene& scene);
 
 /// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
 /// On several ranks each takes the grains of its subdomain.

@@ -10,8 +10,8 @@
 #include "runs/mechanism_output.hpp"
 #include "runs/placement.hpp"
 #include "runs/progress.hpp"
+#include "runs/step_limit.hpp"
 #include "runs/surfaces.hpp"
-#include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
 
@@ -27,12 +27,7 @@ namespace {
 
 /// Grains of the bed; reads the height-map, for hills may need more.
 std::int64_t bedGrains(const Scene& scene) {
-  const Terrain& t = *scene.terrain;
-  terrain::HeightmapPlacement placement;
-  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
-  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
-  return terrain::planBed(terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement), layerOptions(scene))
-      .grains;
+  return terrain::planBed(readSurface(*scene.terrain), layerOptions(scene)).grains;
 }
 
 std::string onOff(bool on, const std::string& what, const std::string& why) {
@@ -129,26 +124,6 @@ std::string switches(const Scene& scene) {
 }
 
 } // namespace
-
-double shortestContact(const Scene& scene) {
-  double shortest = std::numeric_limits<double>::infinity();
-  const GrainKinds kinds = grainKinds(scene);
-  for (const auto& [name, radius, largest] : kinds.kinds) {
-    const double mass = sphereMass(scene.material(name).density, radius);
-    const auto duration = [&](const std::string& other, double share) {
-      return contactTime(pairLaw(scene, name, other, share * mass), share * mass, share * radius,
-                         scene.run.impactSpeed);
-    };
-    for (const std::string& other : kinds.material) shortest = std::min(shortest, duration(other, 0.5));
-    // Against what does not give way the whole grain swings.
-    if (scene.terrain) shortest = std::min(shortest, duration(scene.terrain->groundMaterial, 1));
-    for (const Plane& p : scene.planes) shortest = std::min(shortest, duration(p.material, 1));
-    for (const SceneSurface& s : surfacesOf(scene)) shortest = std::min(shortest, duration(s.section.material, 1));
-    if (scene.vehicle && !scene.vehicle->material.empty())
-      shortest = std::min(shortest, duration(scene.vehicle->material, 1));
-  }
-  return std::isfinite(shortest) ? shortest : 0;
-}
 
 std::int64_t plannedGrains(const Scene& scene) {
   std::int64_t grains = placedCount(scene);

@@ -8,13 +8,6 @@
 
 namespace grouser::runs {
 
-/// Duration [s] of the shortest contact that a grain of the scene can have: pi / sqrt(k / m_eff), undamped, of two
-/// grains or of a grain and ground, plane or vehicle (the damped one lasts longer). 0 where there are no grains.
-double shortestContact(const Scene& scene);
-
-/// Steps that a contact should last at least: at 20 steps a collision's restitution is right within 2 %.
-inline constexpr double kStepsPerContact = 20;
-
 /// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
 std::string planText(const Scene& scene);
 

@@ -4,9 +4,9 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "contact/restitution.hpp"
-#include "runs/bed.hpp"
 #include "runs/grain_kinds.hpp"
 #include "runs/laws.hpp"
+#include "runs/step_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -165,7 +165,7 @@ double predictedLimit(const RestingGrains& grains, double zeta) {
 }
 
 double checkedLimit(const RestingGrains& grains, double stiffness, double zeta) {
-  return stableTimeStep(sceneOf(grains, stiffness, zeta));
+  return stepLimit(sceneOf(grains, stiffness, zeta)).step;
 }
 
 GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, double zeta, double timeStep) {

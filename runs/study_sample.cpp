@@ -2,6 +2,7 @@
 #include "runs/study_sample.hpp"
 
 #include "base/math.hpp"
+#include "runs/step_limit.hpp"
 #include "runs/study_common.hpp"
 
 #include <fmt/format.h>

@@ -2,11 +2,11 @@
 // Laws, radii, materials and blocks of grains, from the scene to the run.
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/bed.hpp"
 #include "runs/grain_kinds.hpp"
 #include "runs/laws.hpp"
 #include "runs/plan.hpp"
 #include "runs/simulation.hpp"
+#include "runs/step_limit.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -159,7 +159,7 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
 
 TEST(ManyKindsScene, StepFollowsTheImpactSpeedAndTheSmallestGrain) {
   const Scene s = parse(kMixed);
-  const double automatic = chooseTimeStep(s), limit = stableTimeStep(s);
+  const double automatic = chooseTimeStep(s), limit = stepLimit(s).step;
   EXPECT_LE(automatic, 0.5 * limit);
   // Glass against the plane, the stiffest: contact time at 1 m/s over 20, or the Rayleigh time.
   EXPECT_LE(automatic, shortestContact(s) / kStepsPerContact * 1.0000001);

@@ -2,9 +2,9 @@
 // Where a vehicle is put, which steps are refused, and that created energy stops a run.
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/bed.hpp"
 #include "runs/placement.hpp"
 #include "runs/simulation.hpp"
+#include "runs/step_limit.hpp"
 #include "vehicle/spec.hpp"
 
 #include <gtest/gtest.h>
@@ -61,12 +61,12 @@ material = "hard"
 )";
 
 TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
-  const double soft = stableTimeStep(parseScene(kBall, "ball.toml"));
+  const double soft = stepLimit(parseScene(kBall, "ball.toml")).step;
   std::string stiff = kBall;
   stiff += "[contact.\"soil|hard\"]\nstiffness = 1e9\n";
   // A plane alone: omega^2 = 2 k / m against 8 k / m of a grain among twelve others, so 250 times softer a limit
   // squared.
-  EXPECT_NEAR(soft / stableTimeStep(parseScene(stiff, "ball.toml")), std::sqrt(2e9 / 8e6), 1e-3);
+  EXPECT_NEAR(soft / stepLimit(parseScene(stiff, "ball.toml")).step, std::sqrt(2e9 / 8e6), 1e-3);
   EXPECT_THROW(chooseTimeStep(parseScene(stiff, "ball.toml")), base::InputError);
 }
 
@@ -78,7 +78,7 @@ TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
   const double mass = 2500 * 4.0 / 3 * base::kPi * 0.027 * 0.027 * 0.027, k = 1e6;
   const double damping = 8 * 1.24318785 * std::sqrt(2 * k * mass) / mass, stiffness = 8 * k / mass;
   const double limit = 4 / (damping + std::sqrt(damping * damping + 4 * stiffness));
-  EXPECT_NEAR(stableTimeStep(s) / limit, 1, 1e-6);
+  EXPECT_NEAR(stepLimit(s).step / limit, 1, 1e-6);
 }
 
 TEST(Energy, FromNowhereStopsTheRun) {
