@@ -6,7 +6,7 @@
 #include "runs/grain_kinds.hpp"
 #include "runs/grain_memory.hpp"
 #include "runs/joined_sides.hpp"
-#include "runs/sources.hpp"
+#include "runs/start_checks.hpp"
 #include "runs/step_limit.hpp"
 #include "runs/tiled_bed.hpp"
 #include "terrain/heightmap.hpp"
@@ -15,8 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
-#include <tuple>
 #include <unistd.h>
 
 namespace grouser::runs {
@@ -32,13 +30,30 @@ terrain::HeightField readSurface(const Terrain& t) {
 
 namespace {
 
-void addPlanesAndSurfaces(const Scene& scene, Surroundings& around) {
-  around.surfaces = surfacesOf(scene);
-  for (const Plane& plane : scene.planes) {
+/// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them.
+Surroundings surroundingsOf(const Scene& scene, const Ground& ground) {
+  Surroundings around;
+  around.floor = ground.rigid;
+  if (scene.terrain && scene.terrain->granular()) {
+    const std::string& material = scene.terrain->groundMaterial;
+    const terrain::Rectangle& w = *ground.walls;
+    const auto add = [&](const Vec3d& normal, double offset) {
+      around.walls.push_back({normal, offset, material, "a wall of the terrain"});
+    };
+    around.floorMaterial = material;
+    if (scene.terrain->walls && !scene.run.periodic[0]) add({1, 0, 0}, w.xMin), add({-1, 0, 0}, -w.xMax);
+    if (scene.terrain->walls && !scene.run.periodic[1]) add({0, 1, 0}, w.yMin), add({0, -1, 0}, -w.yMax);
+  } else if (scene.terrain) {
+    around.floorMaterial = scene.terrain->material;
+  }
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
     if (!plane.isWall()) continue;
     const Vec3d normal = base::normalized(plane.normal);
-    around.walls.push_back({normal, dot(normal, plane.point), plane.material});
+    around.walls.push_back({normal, dot(normal, plane.point), plane.material, fmt::format("plane {}", k)});
   }
+  around.surfaces = surfacesOf(scene);
+  return around;
 }
 
 /// Throws before any memory is taken when the bed cannot fit into this machine.
@@ -50,10 +65,10 @@ void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
   const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (grains * bytes > memory || grains > 4e9)
-    throw base::InputError(fmt::format(
-        "{}: terrain.grain_radius = {:g} [m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} "
-        "GiB: use larger grains, fewer layers or a smaller terrain.size",
-        scene.file.string(), options.radius, grains, grains * bytes / 1073741824.0, memory / 1073741824.0));
+    scene.fail("terrain", "grain_radius",
+               fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use larger grains, "
+                           "fewer layers or a smaller terrain.size",
+                           grains, grains * bytes / 1073741824.0, memory / 1073741824.0));
 }
 
 terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {
@@ -66,25 +81,27 @@ terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm
   return partition;
 }
 
-void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
-  const Terrain& t = *scene.terrain;
+/// The terrain without its grains. Empty where it has none.
+std::optional<terrain::BedPlan> readTerrain(const Scene& scene, Ground& ground) {
+  if (!scene.terrain) return {};
+  ground.surface = readSurface(*scene.terrain);
+  if (!scene.terrain->granular()) {
+    ground.rigid = ground.surface;
+    return {};
+  }
   const terrain::LayerOptions options = layerOptions(scene);
   checkBedSize(scene, options);
-  const terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
-  const GrainKinds kinds = grainKinds(scene);
-  const std::string& groundMaterial = t.groundMaterial.empty() ? t.material : t.groundMaterial;
-  ground.rigid = plan.floor;
-  ground.walls = plan.walls;
-  ground.layers = plan.layers;
-  Surroundings around;
-  around.floor = plan.floor, around.floorMaterial = groundMaterial;
+  terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
+  ground.rigid = plan.floor, ground.walls = plan.walls, ground.layers = plan.layers;
   checkLevelAcross(scene, *ground.surface);
-  if (t.walls && !scene.run.periodic[0])
-    around.walls = {{{1, 0, 0}, plan.walls.xMin, groundMaterial}, {{-1, 0, 0}, -plan.walls.xMax, groundMaterial}};
-  if (t.walls && !scene.run.periodic[1])
-    around.walls.insert(around.walls.end(),
-                        {{{0, 1, 0}, plan.walls.yMin, groundMaterial}, {{0, -1, 0}, -plan.walls.yMax, groundMaterial}});
-  addPlanesAndSurfaces(scene, around);
+  return plan;
+}
+
+void layBed(const Scene& scene, const terrain::BedPlan& plan, const Surroundings& around, const base::Exec& exec,
+            double timeStep, const base::Comm& comm, Ground& ground) {
+  const Terrain& t = *scene.terrain;
+  const terrain::LayerOptions options = layerOptions(scene);
+  const GrainKinds kinds = grainKinds(scene);
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   std::optional<TiledBed> tiles;
@@ -99,9 +116,9 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
     start = tiles->start(options.radius, kinds.indexOf(t.material));
     ground.layers = 0; // nothing falls
     if (std::any_of(start.begin(), start.end(), [&](const auto& g) { return taken(g.position); }))
-      throw base::InputError(fmt::format("{}: terrain.tile copies a settled bed, which a box, cylinder or plane of the "
-                                         "scene reaches into; move that, or remove terrain.tile",
-                                         scene.file.string()));
+      scene.fail("terrain", "tile",
+                 "[m] copies a settled bed, which a box, cylinder or plane of the scene reaches into; move that, or "
+                 "remove tile");
   } else {
     for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
       if (!taken(seed.centre)) start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
@@ -112,72 +129,11 @@ void layBed(const Scene& scene, const base::Exec& exec, double timeStep, const b
   if (tiles) tiles->bringToRest(*ground.grains, floor);
 }
 
-/// Cells of one largest diameter along one axis, in a ring between joined sides.
-struct CellsAlong {
-  double from = 0, width;
-  std::int64_t ring = 0; ///< cells between joined sides; 0: walls or nothing
-  double period = 0;
-
-  CellsAlong(double diameter, const std::optional<std::array<double, 2>>& joined) : width(diameter) {
-    if (!joined) return;
-    from = (*joined)[0], period = (*joined)[1] - from;
-    ring = std::max<std::int64_t>(1, static_cast<std::int64_t>(period / diameter));
-    width = period / static_cast<double>(ring);
-  }
-  std::int64_t of(double x) const { return wrapped(static_cast<std::int64_t>(std::floor((x - from) / width))); }
-  std::int64_t wrapped(std::int64_t k) const { return ring > 0 ? (k % ring + ring) % ring : k; }
-  double nearest(double d) const { return ring > 0 ? d - period * std::floor(d / period + 0.5) : d; }
-};
-
-/// Throws when grains start deeper in each other, in a plane or in another surface than a run allows.
-void checkStartingOverlaps(const Scene& scene, const std::vector<Grain>& grains, double largest) {
-  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
-  const terrain::JoinedSides joined = joinedSides(scene);
-  const CellsAlong alongX(2 * largest, joined[0]), alongY(2 * largest, joined[1]), alongZ(2 * largest, {});
-  std::map<Cell, std::vector<std::size_t>> cells;
-  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Grain& g = grains[i];
-    const auto refuseAbove = [&](double overlap, double radius, const char* what, std::size_t which) {
-      if (overlap <= scene.run.maxOverlap * radius) return;
-      const std::string grain = i < scene.grains.size() ? fmt::format("grain.{}.position: the grain", i)
-                                                        : fmt::format("grains: grain {} at ({:g}, {:g}, {:g}) m", i,
-                                                                      g.position.x, g.position.y, g.position.z);
-      throw base::InputError(fmt::format("{}: {} overlaps {} {} by {:.3g} m, more than run.max_overlap = {:g} "
-                                         "of its radius; move it",
-                                         scene.file.string(), grain, what, which, overlap, scene.run.maxOverlap));
-    };
-    const std::int64_t x = alongX.of(g.position.x), y = alongY.of(g.position.y), z = alongZ.of(g.position.z);
-    for (std::int64_t k = 0; k < 27; ++k) {
-      const auto found = cells.find({alongX.wrapped(x + k / 9 - 1), alongY.wrapped(y + k / 3 % 3 - 1), z + k % 3 - 1});
-      if (found == cells.end()) continue;
-      for (const std::size_t j : found->second) {
-        Vec3d apart = g.position - grains[j].position;
-        apart.x = alongX.nearest(apart.x), apart.y = alongY.nearest(apart.y);
-        refuseAbove(g.radius + grains[j].radius - norm(apart), std::min(g.radius, grains[j].radius), "grain", j);
-      }
-    }
-    cells[{x, y, z}].push_back(i);
-    for (const SceneSurface& s : surfaces)
-      refuseAbove(startingOverlap(s, g.position, g.radius), g.radius, s.kind, s.number);
-    for (std::size_t k = 0; k < scene.planes.size(); ++k)
-      if (scene.planes[k].isWall())
-        refuseAbove(g.radius - dot(base::normalized(scene.planes[k].normal), g.position - scene.planes[k].point),
-                    g.radius, "plane", k);
-  }
-}
-
-void placeSingleGrains(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm,
-                       Ground& ground) {
+void placeGrains(const Scene& scene, const std::vector<Grain>& grains, const Surroundings& around,
+                 const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
   const GrainKinds kinds = grainKinds(scene);
-  const std::vector<Grain> grains = placedGrains(scene);
-  checkBetweenSides(scene, grains);
-  checkStartingOverlaps(scene, grains, kinds.largest);
   std::vector<terrain::GrainStart> start;
   for (const Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
-  Surroundings around;
-  addPlanesAndSurfaces(scene, around);
-  if (ground.rigid) around.floor = ground.rigid, around.floorMaterial = scene.terrain->material;
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   ground.grains =
@@ -197,28 +153,48 @@ terrain::LayerOptions layerOptions(const Scene& scene) {
   return options;
 }
 
-Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
-  Ground ground;
+namespace {
+
+void checkCompany(const Scene& scene) {
+  const bool placed = !scene.grains.empty() || !scene.blocks.empty(), bed = scene.terrain && scene.terrain->granular();
+  if (placed && bed)
+    scene.fail(
+        "terrain", "kind",
+        "is a bed of grains beside [[grain]] or [[grains]]; use one of them: a granular terrain, or grains alone");
+  if ((placed || !scene.sources.empty()) && scene.terrain && !bed && scene.vehicle)
+    scene.fail(
+        "vehicle", "",
+        "stands beside [[grain]], [[grains]] or [[source]] on rigid [terrain], which is not possible so far; use "
+        "a granular terrain, or leave the grains out");
+}
+
+} // namespace
+
+void checkGround(const Scene& scene, double timeStep) {
+  constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
+  checkCompany(scene);
   checkSurfaceSpeeds(scene, timeStep);
-  if (scene.terrain) {
-    ground.surface = readSurface(*scene.terrain);
-    if (scene.terrain->granular())
-      layBed(scene, exec, timeStep, comm, ground);
-    else
-      ground.rigid = ground.surface;
-  }
-  checkSources(scene);
-  const bool single = !scene.grains.empty() || !scene.blocks.empty();
-  if (single || (!scene.sources.empty() && !ground.grains)) {
-    if (ground.grains)
-      throw base::InputError(scene.file.string() +
-                             ": [[grain]] and a granular [terrain] in one scene; use one of them");
-    if (scene.vehicle && scene.terrain)
-      throw base::InputError(scene.file.string() +
-                             ": [[grain]] beside a [vehicle] on rigid [terrain] is not possible so far; use "
-                             "a granular terrain, or leave the grains out");
-    placeSingleGrains(scene, exec, timeStep, comm, ground);
-  }
+  const std::int64_t placed = placedCount(scene);
+  if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
+  Ground ground;
+  readTerrain(scene, ground);
+  checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground), timeStep);
+}
+
+Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
+  checkCompany(scene);
+  checkSurfaceSpeeds(scene, timeStep);
+  Ground ground;
+  const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
+  if (!grainKinds(scene).any()) return ground;
+  const Surroundings around = surroundingsOf(scene, ground);
+  const std::vector<Grain> grains = placedGrains(scene);
+  checkStart(scene, grains, around, timeStep);
+  if (bed)
+    layBed(scene, *bed, around, exec, timeStep, comm, ground);
+  else
+    placeGrains(scene, grains, around, exec, timeStep, comm, ground);
+  watchSources(scene, timeStep, *ground.grains);
   return ground;
 }
 

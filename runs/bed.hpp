@@ -40,6 +40,10 @@ terrain::HeightField readSurface(const Terrain& terrain);
 /// How the scene's bed is laid.
 terrain::LayerOptions layerOptions(const Scene& scene);
 
+/// Throws what buildGround() would, and lays nothing: grains that overlap each other (up to a hundred thousand of
+/// them), sources in solids, surfaces too quick for the step.
+void checkGround(const Scene& scene, double timeStep);
+
 /// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
 /// On several ranks each takes the grains of its subdomain.
 Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});

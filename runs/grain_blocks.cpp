@@ -64,7 +64,7 @@ void addLattice(const GrainBlock& b, std::uint64_t seed, std::uint64_t block, st
 }
 
 /// Grains one after the other, each at the first of its random places that is free.
-void addRandom(const std::string& file, const GrainBlock& b, std::uint64_t seed, std::uint64_t block,
+void addRandom(const Scene& scene, const GrainBlock& b, std::uint64_t seed, std::uint64_t block,
                std::vector<Grain>& out) {
   const double edge = 2 * b.largestRadius();
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells;
@@ -92,9 +92,8 @@ void addRandom(const std::string& file, const GrainBlock& b, std::uint64_t seed,
     const double radius = drawRadius(b, dice);
     for (int attempt = 0;; ++attempt) {
       if (attempt == kTries)
-        throw base::InputError(fmt::format("{}: grains.{}: only {} of {} grains find room in the box; enlarge it (low, "
-                                           "high) or lower number",
-                                           file, block, k, *b.number));
+        scene.fail("grains", block, "number",
+                   fmt::format("is too many: only {} find room in the box; enlarge it (low, high), or lower this", k));
       Vec3d place;
       for (int a = 0; a < 3; ++a) place[a] = (*b.low)[a] + radius + dice() * ((*b.high)[a] - (*b.low)[a] - 2 * radius);
       if (!isFree(place, radius)) continue;
@@ -145,20 +144,22 @@ std::vector<Grain> placedGrains(const Scene& scene) {
     if (b.form == "lattice")
       addLattice(b, seed, k, own);
     else
-      addRandom(scene.file.string(), b, seed, k, own);
+      addRandom(scene, b, seed, k, own);
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;
 }
 
+std::int64_t placedCount(const GrainBlock& b) {
+  if (b.form == "file") return static_cast<std::int64_t>(b.fromFile.size());
+  if (b.form == "random") return *b.number;
+  const base::Vec3<std::int64_t> n = latticeCount(b);
+  return n.x * n.y * n.z;
+}
+
 std::int64_t placedCount(const Scene& scene) {
   auto count = static_cast<std::int64_t>(scene.grains.size());
-  for (const GrainBlock& b : scene.blocks) {
-    const auto n = b.form == "lattice" ? latticeCount(b) : base::Vec3<std::int64_t>{};
-    count += b.form == "file"     ? static_cast<std::int64_t>(b.fromFile.size())
-             : b.form == "random" ? *b.number
-                                  : n.x * n.y * n.z;
-  }
+  for (const GrainBlock& b : scene.blocks) count += placedCount(b);
   return count;
 }
 

@@ -34,6 +34,7 @@ GrainKinds grainKinds(const Scene& scene);
 std::vector<Grain> placedGrains(const Scene& scene);
 /// How many those are, without placing them.
 std::int64_t placedCount(const Scene& scene);
+std::int64_t placedCount(const GrainBlock& block);
 
 /// A surface that grains meet, as constants of a step.
 struct Surroundings {
@@ -41,6 +42,7 @@ struct Surroundings {
     base::Vec3d normal;
     double offset;
     std::string material;
+    std::string name{}; ///< in messages: "plane 0"
   };
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;

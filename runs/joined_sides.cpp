@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/joined_sides.hpp"
 
-#include "base/error.hpp"
+#include "runs/grain_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,20 +39,27 @@ void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
     if (!sides[a]) continue;
     const auto [from, to] = *sides[a];
     const int axis = static_cast<int>(a);
-    const auto check = [&](double low, double high, const std::string& what) {
-      // A source may fill the period: its numbers never reach the upper side itself.
-      if (low >= from && (high < to || (low < high && high <= to))) return;
-      throw base::InputError(fmt::format("{}: {} reaches from {} = {:g} to {:g} m, outside the joined sides {:g} and "
-                                         "{:g} m; move it between them, or move run.domain_{}",
-                                         scene.file.string(), what, "xy"[a], low, high, from, to, "xy"[a]));
+    const auto outside = [&](double low, double high) {
+      return fmt::format(
+          "[m] reaches from {} = {:g} to {:g} m, outside the joined sides {:g} and {:g} m; move it between "
+          "them, or move run.domain_{}",
+          "xy"[a], low, high, from, to, "xy"[a]);
     };
     for (std::size_t i = 0; i < grains.size(); ++i) {
       const double at = grains[i].position[axis];
-      if (!(at >= from && at < to))
-        check(at, at, (i < scene.grains.size() ? "the centre of grain." : "the centre of grain ") + std::to_string(i));
+      if (at >= from && at < to) continue;
+      if (i < scene.grains.size()) scene.fail("grain", i, "position", outside(at, at));
+      std::size_t block = 0;
+      for (auto last = static_cast<std::int64_t>(scene.grains.size()); block + 1 < scene.blocks.size(); ++block)
+        if (last += placedCount(scene.blocks[block]); static_cast<std::int64_t>(i) < last) break;
+      scene.fail("grains", block, scene.blocks[block].file ? "file" : at < from ? "low" : "high", outside(at, at));
     }
-    for (std::size_t k = 0; k < scene.sources.size(); ++k)
-      check(scene.sources[k].low[axis], scene.sources[k].high[axis], fmt::format("source.{}", k));
+    for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+      const double low = scene.sources[k].low[axis], high = scene.sources[k].high[axis];
+      // It may fill the period: its numbers never reach the upper side itself.
+      if (!(low >= from && (high < to || (low < high && high <= to))))
+        scene.fail("source", k, low < from ? "low" : "high", outside(low, high));
+    }
   }
 }
 
@@ -71,10 +78,10 @@ void checkLevelAcross(const Scene& scene, const terrain::HeightField& surface) {
                                 area.yMin + (axis == 0 ? t : s) * area.length());
         };
         if (std::fabs(height(across) - height(0)) <= tolerance) continue;
-        throw base::InputError(fmt::format(
-            "{}: run.periodic joins the sides along {}, but terrain.heightmap = {} is not level in that direction; use "
-            "a level height-map, or set run.periodic = [{}]",
-            scene.file.string(), "xy"[axis], scene.terrain->heightmap, axis == 0 ? "false, ..." : "..., false"));
+        scene.fail("run", "periodic",
+                   fmt::format("joins the sides along {}, but terrain.heightmap = {} is not level in that direction; "
+                               "use a level height-map, or set it to [{}]",
+                               "xy"[axis], scene.terrain->heightmap, axis == 0 ? "false, ..." : "..., false"));
       }
   }
 }

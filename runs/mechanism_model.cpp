@@ -5,6 +5,7 @@
 #include "base/table.hpp"
 #include "runs/mechanism_frames.hpp"
 #include "runs/orientation.hpp"
+#include "runs/result_names.hpp"
 
 #include <fmt/format.h>
 
@@ -104,11 +105,10 @@ void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits
 } // namespace
 
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
-  if (name.empty()) throw SectionFault("name", "is empty; every part needs a name");
   if (name == "world") throw SectionFault("name", "is the name of the ground; choose another");
-  if (name.find_first_of("/.\",\n") != std::string::npos)
-    throw SectionFault("name",
-                       "has one of the characters / . , \" in it, which results use between names; leave it out");
+  if (const std::string fault = nameFault(name); !fault.empty()) throw SectionFault("name", fault);
+  if (name.find_first_of(".\",") != std::string::npos)
+    throw SectionFault("name", "has one of the characters . , \" in it, which results use between names; leave it out");
   if (!names_.insert(kind + " " + name).second)
     throw SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
 }

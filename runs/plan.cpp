@@ -143,6 +143,7 @@ std::string planText(const Scene& scene) {
                         spec.shoe.count, spec.pitchRadius());
   }
   const double step = chooseTimeStep(scene);
+  checkGround(scene, step);
   if (!scene.mechanism.empty()) text += mechanismSize(Mechanism(scene, step));
   text += "\ntime\n";
   const double contact = shortestContact(scene);

@@ -3,8 +3,10 @@
 
 #include "base/table.hpp"
 #include "runs/detail/scene_tables.hpp"
+#include "runs/grain_space.hpp"
 #include "runs/locations.hpp"
 #include "runs/mechanism_scene.hpp"
+#include "runs/result_names.hpp"
 #include "runs/surface_scene.hpp"
 
 #include <fmt/format.h>
@@ -56,6 +58,7 @@ std::vector<Material> readMaterials(const Section& root) {
   for (const auto& [name, section] : root.named("material")) {
     if (name.find('|') != std::string::npos)
       section.fail("", "has a name with |, which separates the two of a pair; choose another name");
+    if (const std::string fault = nameFault(name); !fault.empty()) section.fail("", fault);
     Material m = section.read(detail::materialTable());
     m.name = name;
     checkOneLoss(section, m);
@@ -299,12 +302,12 @@ void checkIntervals(const Section& section, const RunSettings& run) {
                  fmt::format("[s] is below the time step of {} s; raise it to that at least", *run.timeStep));
 }
 
-Scene readScene(const base::Document& document, const std::filesystem::path& file,
-                const std::vector<std::string>& overrides) {
-  const Section root = document.root();
+Scene readScene(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const auto document = std::make_shared<const base::Document>(std::move(read));
+  const Section root = document->root();
   root.allowOnly(kSections);
   Scene scene;
-  scene.file = file, scene.overrides = overrides;
+  scene.file = file, scene.overrides = overrides, scene.document = document;
   scene.run = root.section("run").read(detail::runTable());
   checkIntervals(root.section("run"), scene.run);
   scene.materials = readMaterials(root);
@@ -324,6 +327,7 @@ Scene readScene(const base::Document& document, const std::filesystem::path& fil
     throw InputError(fmt::format(
         "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
         file.string()));
+  checkGrainSpace(scene);
   return scene;
 }
 

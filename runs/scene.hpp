@@ -8,10 +8,15 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace grouser::base {
+class Document;
+} // namespace grouser::base
 
 /// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
 /// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
@@ -206,6 +211,15 @@ struct Scene {
   Driver driver;
   Output output;
   Parallel parallel;
+  std::shared_ptr<const base::Document> document; ///< the file itself; null for a scene that a program has made
+
+  /// Throws InputError "file:line: section.key = value message" for what only turns out after loading, as loading does
+  /// for the rest; `key` may be empty. The second form is for an entry of [[list]].
+  [[noreturn]] void fail(const std::string& section, const std::string& key, const std::string& message) const;
+  [[noreturn]] void fail(const std::string& list, std::size_t number, const std::string& key,
+                         const std::string& message) const;
+  /// "scene.toml:14: source.0", for failures of the simulation that come from there.
+  std::string placeOf(const std::string& list, std::size_t number) const;
 
   std::string name() const { return file.stem().string(); }
   /// The material `name`; loading has made sure that it exists.

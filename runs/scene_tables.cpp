@@ -3,6 +3,7 @@
 #include "runs/detail/scene_tables.hpp"
 
 #include "multibody/solver.hpp"
+#include "spheredecomp/decompose.hpp"
 
 #include <fmt/format.h>
 
@@ -251,8 +252,8 @@ Table<MeshSection> meshTable() {
   t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
   t.add("sphere_radius", &S::sphereRadius, "m",
         "of the spheres it is cut into, which round its edges; a fortieth of its diagonal where not given")
-      .above(0)
-      .atMost(1e4);
+      .atLeast(spheredecomp::kSmallestRadius)
+      .atMost(spheredecomp::kLargestRadius);
   addSurface(t);
   return t;
 }

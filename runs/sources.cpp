@@ -26,7 +26,7 @@ Sources::Sources(const Scene& scene, double timeStep) : sides_(joinedSides(scene
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const Source& s = scene.sources[k];
     Stream stream;
-    stream.source = s, stream.index = k;
+    stream.source = s, stream.index = k, stream.place = scene.placeOf("source", k);
     stream.material = kinds.indexOf(s.material);
     stream.every = std::max<std::int64_t>(1, std::llround(s.every / timeStep));
     stream.first = std::llround(s.start / timeStep);
@@ -37,14 +37,28 @@ Sources::Sources(const Scene& scene, double timeStep) : sides_(joinedSides(scene
   }
 }
 
+std::vector<Sources::Batch> Sources::batchesAt(std::int64_t step) const {
+  std::vector<Batch> batches;
+  for (const Stream& stream : sources_)
+    if (step >= stream.first && step <= stream.last && (step - stream.first) % stream.every == 0)
+      batches.push_back({stream.index, batch(stream, (step - stream.first) / stream.every)});
+  return batches;
+}
+
 std::vector<terrain::GrainStart> Sources::enteringAt(std::int64_t step) const {
   std::vector<terrain::GrainStart> entering;
-  for (const Stream& stream : sources_) {
-    if (step < stream.first || step > stream.last || (step - stream.first) % stream.every != 0) continue;
-    const auto grains = batch(stream, (step - stream.first) / stream.every);
-    entering.insert(entering.end(), grains.begin(), grains.end());
-  }
+  for (const Batch& b : batchesAt(step)) entering.insert(entering.end(), b.grains.begin(), b.grains.end());
   return entering;
+}
+
+std::optional<std::int64_t> Sources::nextEntry(std::int64_t step) const {
+  std::optional<std::int64_t> next;
+  for (const Stream& s : sources_) {
+    const std::int64_t behind = std::max<std::int64_t>(0, step - s.first);
+    const std::int64_t own = s.first + (behind + s.every - 1) / s.every * s.every;
+    if (own <= s.last && (!next || own < *next)) next = own;
+  }
+  return next;
 }
 
 /// Places of batch `number`: random in the box, not nearer to each other than the grains are thick.
@@ -57,9 +71,9 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
     for (int attempt = 0;; ++attempt) {
       if (attempt == kTries)
         throw base::InputError(
-            fmt::format("source.{}: {} grains of radius {:g} m do not find room beside each other in "
-                        "its box; enlarge it (low, high) or lower number",
-                        stream.index, s.number, s.radius));
+            fmt::format("{}: {} grains of radius {:g} m do not find room beside each other in its box; enlarge it "
+                        "(low, high) or lower number",
+                        stream.place, s.number, s.radius));
       base::Vec3d place;
       for (int a = 0; a < 3; ++a) {
         const double u = base::uniform(stream.seed, kPurpose, id, static_cast<std::uint64_t>(3 * attempt + a));
@@ -78,11 +92,7 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
 
 void checkSources(const Scene& scene) {
   constexpr double kAllAtOnce = 1e300; // a time step [s] in which all begin
-  try {
-    Sources(scene, kAllAtOnce).enteringAt(0);
-  } catch (const base::InputError& error) {
-    throw base::InputError(fmt::format("{}: {}", scene.file.string(), error.what()));
-  }
+  Sources(scene, kAllAtOnce).enteringAt(0);
 }
 
 } // namespace grouser::runs

@@ -5,6 +5,8 @@
 #include "terrain/grains.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace grouser::runs {
@@ -19,10 +21,20 @@ public:
   std::vector<terrain::GrainStart> enteringAt(std::int64_t step) const;
   bool empty() const { return sources_.empty(); }
 
+  /// What one source sets at a step.
+  struct Batch {
+    std::size_t source{}; ///< among the scene's
+    std::vector<terrain::GrainStart> grains;
+  };
+  std::vector<Batch> batchesAt(std::int64_t step) const; ///< in the order of enteringAt()
+  /// The first step, not before `step`, at which grains enter.
+  std::optional<std::int64_t> nextEntry(std::int64_t step) const;
+
 private:
   struct Stream {
     Source source;
     std::size_t index{};                   ///< among the scene's sources
+    std::string place;                     ///< "scene.toml:14: source.0"
     int material{};                        ///< among those of the scene's grains
     std::int64_t every{}, first{}, last{}; ///< [steps]
     std::uint64_t seed{};

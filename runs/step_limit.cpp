@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/step_limit.hpp"
 
-#include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
@@ -24,10 +23,11 @@ using base::Vec3d;
 namespace {
 
 /// Keeps the smaller limit: of the mode x'' + damping x' + stiffness x = 0 [1/s, 1/s2].
-void consider(StepLimit& limit, double stiffness, double damping, const std::string& what) {
+void consider(StepLimit& limit, double stiffness, double damping, const std::string& what,
+              const std::string& remedy = "lower its stiffness") {
   if (stiffness <= 0 && damping <= 0) return;
   const double step = contact::stableStepOfMode(stiffness, damping);
-  if (step < limit.step) limit = {step, what};
+  if (step < limit.step) limit = {step, what, remedy};
 }
 
 /// What a grain can touch.
@@ -94,8 +94,10 @@ void considerFreeSurfaces(StepLimit& limit, const Scene& scene, const GrainKinds
       const double mass = sphereMass(scene.material(material).density, radius);
       const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
       const double springs = mostTouching(scene, s, radius) / *s.section.mass;
-      consider(limit, c.normalStiffness * (1 / mass + springs), c.damping * (1 / mass + springs),
-               s.name + " on its grains");
+      consider(
+          limit, c.normalStiffness * (1 / mass + springs), c.damping * (1 / mass + springs),
+          fmt::format("{} of {:g} kg on up to {:.0f} grains", s.name, *s.section.mass, mostTouching(scene, s, radius)),
+          fmt::format("raise {}.{}.mass", s.kind, s.number));
     }
   }
 }
@@ -118,7 +120,8 @@ StepLimit stepLimit(const Scene& scene) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
     const double area = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
     const double stiffness = spec.contact.foundationModulus * area / spec.shoe.mass;
-    consider(limit, stiffness, stiffness * spec.contact.relaxationTime, "shoe on rigid ground or wheel");
+    consider(limit, stiffness, stiffness * spec.contact.relaxationTime, "shoe on rigid ground or wheel",
+             "lower contact.foundation_modulus in vehicle.spec");
   }
   return limit;
 }
@@ -143,14 +146,17 @@ double chooseTimeStep(const Scene& scene) {
   for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
     automatic = std::min(automatic, kRayleighShare * rayleighTimeOf(scene.material(material), radius));
   if (!scene.run.timeStep) return automatic;
+  const bool hertz =
+      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.law == "hertz"; });
   if (*scene.run.timeStep > limit.step)
-    throw base::InputError(fmt::format(
-        "{}: run.time_step = {:g} s is above {:.3g} s, where the stiffest contact of the scene ({}) becomes "
-        "unstable; choose {:.3g} s or less (\"auto\": {:.3g} s), or lower its stiffness{}",
-        scene.file.string(), *scene.run.timeStep, limit.step, limit.what, limit.step, automatic,
-        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.law == "hertz"; })
-            ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s", scene.run.impactSpeed)
-            : ""));
+    scene.fail("run", "time_step",
+               fmt::format(
+                   "[s] is above {:.3g} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
+                   "{:.3g} s or less (\"auto\": {:.3g} s), or {}{}",
+                   limit.step, limit.what, limit.step, automatic, limit.remedy,
+                   hertz
+                       ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s", scene.run.impactSpeed)
+                       : ""));
   return *scene.run.timeStep;
 }
 
@@ -167,10 +173,11 @@ void checkSurfaceSpeeds(const Scene& scene, double timeStep) {
     const double speed =
         across(s.section.velocity) + across(s.section.amplitude) * 2 * base::kPi * s.section.frequency.value_or(0);
     if (speed > most)
-      throw base::InputError(fmt::format("{}: {} moves at up to {:.4g} m/s, more than half the smallest grain's radius "
-                                         "in a step of {:.3g} s: it could pass through a grain unfelt; keep it below "
-                                         "{:.4g} m/s (velocity, amplitude, frequency), or lower run.time_step",
-                                         scene.file.string(), s.name, speed, timeStep, most));
+      scene.fail(s.kind, s.number, s.section.velocity ? "velocity" : "amplitude",
+                 fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
+                             "{:.3g} s: it could pass through a grain unfelt; keep it below {:.4g} m/s (velocity, "
+                             "amplitude, frequency), or lower run.time_step",
+                             s.name, speed, timeStep, most));
   }
 }
 

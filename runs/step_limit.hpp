@@ -20,7 +20,8 @@ inline constexpr double kStepsPerContact = 20;
 /// The largest stable step [s], infinite where nothing limits it, and what becomes unstable beyond it.
 struct StepLimit {
   double step = std::numeric_limits<double>::infinity();
-  std::string what; ///< "grain on the floor"
+  std::string what;   ///< "grain on the floor"
+  std::string remedy; ///< "lower its stiffness"
 };
 
 /// The step up to which a scene of grains and vehicle stays stable: for each mode that its contacts make, the bound of

@@ -4,7 +4,9 @@
 #include "runs/detail/scene_tables.hpp"
 #include "runs/grain_kinds.hpp"
 #include "runs/orientation.hpp"
+#include "runs/result_names.hpp"
 #include "runs/section_fault.hpp"
+#include "spheredecomp/decompose.hpp"
 
 #include <fmt/format.h>
 
@@ -58,8 +60,9 @@ void checkSurface(const Section& section, const SurfaceSection& s, std::vector<s
       section.fail(key, "[s] has no meaning for a surface that is not moved; add velocity, spin or amplitude");
   if (s.until && *s.until <= s.start.value_or(0)) section.fail("until", "[s] is not after start; raise it");
   if (!s.name) return;
-  if (s.name->empty() || s.name->find_first_of("/. \t\n,\"") != std::string::npos)
-    section.fail("name", "must be a word without blanks, dots, commas and slashes, since it names columns of the "
+  if (const std::string fault = nameFault(*s.name); !fault.empty()) section.fail("name", fault);
+  if (s.name->find_first_of(". ,\"") != std::string::npos)
+    section.fail("name", "must be a word without blanks, dots, commas and quotes, since it names columns of the "
                          "results; choose another");
   if (std::find(names.begin(), names.end(), *s.name) != names.end())
     section.fail("name", "is that of another surface; choose another");
@@ -111,12 +114,24 @@ void loadMesh(const Section& section, MeshSection& mesh) {
   }
   for (base::Vec3d& v : triangles.vertices) v *= mesh.scale;
   const auto [low, high] = spheredecomp::bounds(triangles);
-  if (!mesh.sphereRadius) mesh.sphereRadius = norm(high - low) / 40;
   const base::Vec3d size = high - low;
-  if (*mesh.sphereRadius > 0.5 * std::max({size.x, size.y, size.z}))
-    section.fail("sphere_radius", fmt::format("[m] is above half of the mesh's longest side of {:.4g} m; lower it, or "
-                                              "correct scale",
-                                              std::max({size.x, size.y, size.z})));
+  const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / 40;
+  if (!mesh.sphereRadius && !(byDefault >= spheredecomp::kSmallestRadius && byDefault <= spheredecomp::kLargestRadius))
+    section.fail("scale",
+                 fmt::format("[m] makes the mesh {:.4g} m long, and its spheres {:.3g} m, outside [{:g}, {:g}];"
+                             " correct it: it is the length of one unit of the file",
+                             longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
+  if (!mesh.sphereRadius) mesh.sphereRadius = byDefault;
+  if (*mesh.sphereRadius > 0.5 * longest)
+    section.fail(
+        "sphere_radius",
+        fmt::format("[m] is above half of the mesh's longest side of {:.4g} m; lower it, or correct scale", longest));
+  if (const double points = spheredecomp::latticePoints(triangles, *mesh.sphereRadius);
+      !(points <= spheredecomp::kMostLatticePoints))
+    section.fail("sphere_radius",
+                 fmt::format("[m] cuts the mesh of {:.4g} x {:.4g} x {:.4g} m by {:.2g} lattice points, "
+                             "more than {:.0e}; raise it, or correct scale",
+                             size.x, size.y, size.z, points, spheredecomp::kMostLatticePoints));
   mesh.loaded.query = std::make_shared<const spheredecomp::MeshQuery>(std::move(triangles));
 }
 

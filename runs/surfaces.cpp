@@ -64,7 +64,11 @@ terrain::SurfacePlacement startingPlace(const SceneSurface& surface) {
 }
 
 double startingOverlap(const SceneSurface& surface, const Vec3d& position, double radius) {
-  const Vec3d p = surface.start.toBody(position);
+  return overlapAt(surface, surface.start, position, radius);
+}
+
+double overlapAt(const SceneSurface& surface, const base::Pose& pose, const Vec3d& position, double radius) {
+  const Vec3d p = pose.toBody(position);
   if (surface.mesh) return radius - surface.mesh->signedDistance(p);
   return radius - terrain::gapTo(surface.geometry, p).distance;
 }

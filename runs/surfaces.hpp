@@ -29,6 +29,8 @@ std::vector<SceneSurface> surfacesOf(const Scene& scene);
 terrain::SurfacePlacement startingPlace(const SceneSurface& surface);
 /// Overlap of a sphere with it at the start [m]; negative where they do not touch.
 double startingOverlap(const SceneSurface& surface, const base::Vec3d& position, double radius);
+/// The same where the surface's own frame has come to `pose`.
+double overlapAt(const SceneSurface& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
 
 /// The moving surfaces of a scene: where they are at each step, what they take to be moved, and how those that forces
 /// move give way. The same on all ranks.

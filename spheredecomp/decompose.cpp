@@ -22,7 +22,6 @@ using detail::OuterSurface;
 using detail::PointGrid;
 using detail::SurfaceSample;
 
-constexpr double kMaxLatticePoints = 5e7;
 /// A disc reaches a little over half the diagonal of a lattice square [spacing].
 constexpr double kFlatReach = 0.74;
 /// Spheres from the lattice whose centres come nearer than this after the move are one [spacing].
@@ -191,10 +190,10 @@ SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const D
                       double radius) {
   const double spacing = radius * options.spacingRatio;
   const Lattice lattice(mesh, radius, spacing);
-  if (!(lattice.points() <= kMaxLatticePoints))
+  if (!(lattice.points() <= kMostLatticePoints))
     throw base::InputError(
         fmt::format("{}: radius = {:.3g} m needs {:.3g} lattice points, more than {:.0e}; take a larger radius", name,
-                    radius, lattice.points(), kMaxLatticePoints));
+                    radius, lattice.points(), kMostLatticePoints));
   const OuterSurface outer(mesh, spacing / 6);
   const double shell = radius + 0.5 * spacing;
   const std::vector<LatticePoint> inside = pointsInside(outer, lattice, shell);
@@ -260,7 +259,7 @@ void check(const std::string& name, const DecompositionOptions& o) {
   range("maxDip", o.maxDip, 0.001, 0.5, "[radius]");
   range("flatTolerance", o.flatTolerance, 0.001, 0.2, "[radius]");
   if (o.radius == 0 && o.targetCount == 0) throw base::InputError(name + ": give radius [m] or targetCount");
-  if (o.radius != 0) range("radius", o.radius, 1e-6, 1e3, "m");
+  if (o.radius != 0) range("radius", o.radius, kSmallestRadius, kLargestRadius, "m");
 }
 
 /// A sphere as wide as the part is long stands for nothing of it.
@@ -275,6 +274,10 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 }
 
 } // namespace
+
+double latticePoints(const TriangleMesh& mesh, double radius) {
+  return Lattice(mesh, radius, radius * DecompositionOptions{}.spacingRatio).points();
+}
 
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options) {
   check(name, options);

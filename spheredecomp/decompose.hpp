@@ -11,6 +11,9 @@ namespace grouser::spheredecomp {
 using base::SphereSet;
 using base::TriangleMesh;
 
+inline constexpr double kSmallestRadius = 1e-6, kLargestRadius = 1e3; ///< of spheres [m]
+inline constexpr double kMostLatticePoints = 5e7;                     ///< that a mesh is cut by
+
 /// How fine a part is cut. Give a radius, or a count and the radius is found.
 struct DecompositionOptions {
   double radius{};           ///< sphere radius [m]; 0: take it from targetCount
@@ -33,5 +36,8 @@ struct DecompositionOptions {
 /// Throws base::InputError when the options are out of range, the mesh is not closed, or the radius is too coarse
 /// (above half the longest side of the bounding box) or too fine for the part (more than 50 million lattice points).
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options);
+
+/// Lattice points about spheres of `radius` at the default spacing, at most kMostLatticePoints of which are possible.
+double latticePoints(const TriangleMesh& mesh, double radius);
 
 } // namespace grouser::spheredecomp

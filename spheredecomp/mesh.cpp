@@ -45,12 +45,29 @@ void checkFinite(const TriangleMesh& mesh, const std::string& name) {
                                          name, i + 1, v.x, v.y, v.z));
 }
 
+/// Whether all of it lies in one plane: that of its largest triangle.
+bool isFlat(const TriangleMesh& mesh) {
+  Vec3d normal, point;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3d& a = mesh.vertices[mesh.indices[i]];
+    const Vec3d n = cross(mesh.vertices[mesh.indices[i + 1]] - a, mesh.vertices[mesh.indices[i + 2]] - a);
+    if (base::norm2(n) > base::norm2(normal)) normal = n, point = a;
+  }
+  const auto [low, high] = bounds(mesh);
+  const double thickness = 1e-6 * norm(high - low) * norm(normal); // float coordinates of a tilted plane
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                     [&](const Vec3d& v) { return std::fabs(dot(v - point, normal)) <= thickness; });
+}
+
 } // namespace
 
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.indices.size() < 3)
     throw base::InputError(name + ": the mesh has no triangles; export it as a triangulated surface");
   checkFinite(mesh, name);
+  if (isFlat(mesh))
+    throw base::InputError(name + ": the mesh is flat and encloses nothing, but only closed bodies can be cut into "
+                                  "spheres; give it a thickness (extrude it), or use a thin box or a plane instead");
 
   // Count directed edges; each must be met as often in the other direction.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;

@@ -249,6 +249,8 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
 void Grains::add(const std::vector<GrainStart>& more) {
   completeGhosts();
   const std::vector<Position> all = placesOf(more, count_, scale_, model_.radius, period_);
+  if (crowdingAlarm_)
+    if (const std::optional<Crowding> crowding = crowdingBy(more)) crowdingAlarm_(*crowding);
   std::vector<Position> position;
   std::vector<Vec4f> velocity, spin;
   std::vector<std::uint32_t> id;

@@ -53,6 +53,15 @@ struct Boundaries {
   std::vector<RigidSurface> surfaces{};
 };
 
+/// What keeps a grain from entering: it would lie in another grain or in a surface, deeper than the model allows.
+struct Crowding {
+  std::size_t entering{};             ///< its place in the list of those that enter
+  double overlap{};                   ///< [m]
+  std::optional<std::uint32_t> grain; ///< id of the other one; none: it is a surface
+  base::Vec3d position;               ///< of that grain [m]
+  std::size_t surface{};              ///< or the place of that surface among those of the boundaries
+};
+
 /// Spheres under gravity, in contact with each other, with walls, a floor and rigid parts.
 ///
 /// Of one radius and material, neither is stored with the grains. Where they differ, the radius lies in velocity.w (a
@@ -91,6 +100,10 @@ public:
 
   /// More grains, with the ids that follow; between steps. Throws InputError as the constructor does.
   void add(const std::vector<GrainStart>& more);
+  /// Called by add() on all ranks, before anything has changed, where there is no room; must throw. Without it add()
+  /// does not look.
+  using CrowdingAlarm = std::function<void(const Crowding&)>;
+  void onCrowding(CrowdingAlarm alarm) { crowdingAlarm_ = std::move(alarm); }
 
   /// Forces and one advance. `loads` come from rigid parts; null without them. The list must be valid.
   /// Throws SimulationError at a fault, with step, time, grain, place and remedy.
@@ -163,6 +176,7 @@ private:
   float radiusInW(const GrainStart& grain) const;
   void rebuild();
   void permute();
+  std::optional<Crowding> crowdingBy(const std::vector<GrainStart>& entering) const; // grain_entry.cu
   void listNearBoundaries();
   // Of surfaces: grain_surfaces.cpp.
   void makeSurfaces(const Boundaries& boundaries);
@@ -230,6 +244,7 @@ private:
   contact::NeighbourList neighbours_;
   std::unique_ptr<Subdomain> subdomain_; ///< null on one rank
   HandOver handOver_;
+  CrowdingAlarm crowdingAlarm_;
   base::Array<std::uint32_t> origin_, arrivedRows_;
   contact::RowOrigins origins_{};
   Clock::time_point measuredFrom_{Clock::now()};

@@ -111,6 +111,35 @@ Mistake badCheckpoint(const std::string& name, const std::function<void(const fs
           words, says};
 }
 
+/// A source at one place beside the glass grains, before [output].
+std::string source(const std::string& place, const std::string& more = "", const std::string& material = "glass",
+                   const std::string& radius = "0.01") {
+  return "[[source]]\nlow = " + place + "\nhigh = " + place + "\nradius = " + radius + "\nmaterial = \"" + material +
+         "\"\nevery = 1\ntotal = 1\n" + more + "\n[output]";
+}
+
+/// A cube of 5 cm.
+std::string cube(const std::string& place, const std::string& more = "") {
+  return "[[box]]\nposition = " + place + "\nsize = [0.05, 0.05, 0.05]\nmaterial = \"glass\"\n" + more;
+}
+
+std::string manyPlanes(int count) {
+  std::string text;
+  for (int k = 0; k < count; ++k) text += "[[plane]]\nmaterial = \"glass\"\n";
+  return text;
+}
+
+Mistake badMesh(const std::string& name, const std::string& line, const std::vector<std::string>& says,
+                const std::string& mesh = contents(asset("meshes/idler.obj"))) {
+  return {name,
+          [=](const fs::path& f) {
+            put(f / "scene.toml", replaced(kGrains, "[[plane]]\n",
+                                           "[[mesh]]\nfile = \"part.obj\"\nposition = [0, 0, -9]\n" + line + "\n"));
+            put(f / "part.obj", mesh);
+          },
+          "run scene.toml", says};
+}
+
 Mistake badVehicle(const std::string& name, const std::function<void(const fs::path& spec)>& make,
                    const std::vector<std::string>& says) {
   return {name,
@@ -139,7 +168,11 @@ std::vector<Mistake> mistakes() {
       badScene("DomainUpsideDown", "time_step = 1e-5", "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [1, -1]",
                {"domain_x", "lower side first"}),
       badScene("JoinedSidesTooNear", "time_step = 1e-5",
-               "time_step = 1e-5\nperiodic = [false, true]\ndomain_y = [-0.02, 0.02]", {"too near", "at least 0.06"}),
+               "time_step = 1e-5\nperiodic = [false, true]\ndomain_y = [-0.02, 0.02]",
+               {"scene.toml:6: run.domain_y", "too near", "at least 0.06", "use smaller grains"}),
+      badScene("JoinedSidesBeyondTheRangeOfPlaces", "time_step = 1e-5",
+               "time_step = 1e-5\nperiodic = [false, true]\ndomain_y = [-1e5, 1e5]",
+               {"scene.toml:6: run.domain_y", "farther than 256 m from the origin"}),
       badScene("GrainOutsideJoinedSides", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-0.05, 0.08]",
                {"grain.1", "outside the joined sides", "run.domain_x"}),
@@ -211,12 +244,66 @@ std::vector<Mistake> mistakes() {
                {"box.0.velocity", "where free leaves it to the forces", "remove free"}),
       badScene("LidWithoutMass", "[[plane]]", "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nfree = \"z\"",
                {"box.0", "mass [kg] is missing", "add it"}),
-      badScene("GrainOutsideTheDomain", "position = [0.1, 0, 0.5]", "position = [1e9, 0, 0.5]", {"grain 1", "m"}),
+      badScene("GrainOutsideTheDomain", "position = [0.1, 0, 0.5]", "position = [1e9, 0, 0.5]",
+               {"scene.toml:13: grain.1.position", "farther than 256 m from the origin", "move the scene nearer"}),
       badScene("GrainAtNoNumber", "position = [0, 0, 0.5]", "position = [nan, 0, 0.5]",
                {"scene.toml:9", "grain.0.position", "is not finite"}),
+      badScene("RadiiTooUnlike", "radius = 0.01", "radius = 5e-6",
+               {"scene.toml:10: grain.0.radius", "less than a thousandth", "raise it"}),
+      badScene("MoreBoundariesThanBits", "[[plane]]", manyPlanes(32) + "[[plane]]",
+               {"scene.toml:70: plane.32", "at most 32", "[[mesh]]"}),
+      badScene("FreeLidTooLightForTheStep", "[[plane]]",
+               "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nfree = \"z\"\nmass = 1e-6",
+               {"scene.toml:4: run.time_step", "lid of 1e-06 kg", "raise box.0.mass"}),
+      badScene("SurfaceTooQuick", "[[plane]]",
+               "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nvelocity = [0, 0, 600]",
+               {"scene.toml:9: box.0.velocity", "unfelt", "keep it below 500 m/s"}),
       badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "choose"}),
-      badScene("TooManyGrains", "grain_radius = 0.03", "grain_radius = 1e-6",
-               {"terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
+      badScene("TooManyGrains", "grain_radius = 0.03\nlayers = 1", "grain_radius = 5e-5\nlayers = 10000",
+               {"scene.toml:11: terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
+      badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",
+               {"scene.toml:9: terrain.size", "terrain.grain_radius", "use larger grains"}, kBed),
+      // Sources that set grains where something is.
+      badScene("SourceInPlane", "[output]", source("[0.4, 0, -0.3]"),
+               {"scene.toml:17: source.0.low", "overlaps plane 0", "move low and high"}),
+      badScene("SourceInBox", "[output]", cube("[0.4, 0, 0.3]") + source("[0.4, 0, 0.3]"),
+               {"source.0.low", "overlaps box 0"}),
+      badScene("SourceWhereABoxWillBe", "[output]",
+               cube("[0.4, 0, 0.2]", "velocity = [0, 0, 200]\n") + source("[0.4, 0, 0.3]", "start = 5e-4"),
+               {"source.0.low", "at 0.0005 s", "overlaps box 0", "change start"}),
+      badScene("SourceInMesh", "[output]",
+               "[[mesh]]\nfile = \"meshes/idler.obj\"\nposition = [0.8, 0, 0.3]\nmaterial = \"glass\"\n" +
+                   source("[0.8, 0, 0.32]"),
+               {"source.0.low", "overlaps mesh 0"}),
+      badScene("SourceOnGrain", "[output]", source("[0.1, 0, 0.505]"),
+               {"source.0.low", "overlaps grain 1 at (0.1, 0, 0.5) m", "move low and high"}),
+      badScene("SourcesOnEachOther", "[output]",
+               replaced(source("[0.4, 0, 0.5]"), "[output]", "") + source("[0.4, 0, 0.501]"),
+               {"source.1.low", "overlaps grain 2"}),
+      badScene("SourceBelowTheFloor", "[output]", source("[0.3, 0, -1]", "", "soil"),
+               {"source.0.low", "the terrain's floor"}, kBed),
+      badScene("SourceBeyondTheWalls", "[output]", source("[0.3, 0.3, 0.3]", "", "soil"),
+               {"source.0.low", "a wall of the terrain"}, kBed),
+      badScene("SourceInTheBed", "[output]", source("[0.3, 0, 0.06]", "", "soil", "0.03"),
+               {"scene.toml:15: source.0 would set a grain", "at step 0", "deep in grain", "elsewhere (low, high)"},
+               kBed),
+      // Names that results bear.
+      badScene("NameWithControlCharacter", "[[plane]]", "[[plane]]\nname = \"a\\u0001b\"",
+               {"scene.toml:7: plane.0.name", "control character", "leave it out"}),
+      badScene("NameWithSlash", "[[plane]]", "[[plane]]\nname = \"a/b\"", {"scene.toml:7: plane.0.name", "has a /"}),
+      badScene("MaterialNameWithControlCharacter", "[material.glass]", "[material.\"a\\tb\"]\n[material.glass]",
+               {"scene.toml:5: material", "control character"}),
+      badScene("BodyNameWithControlCharacter", kGrains,
+               "version = 1\n[run]\nduration = 1\n[[body]]\nname = \"a\\u0000b\"\nmass = 1\nbox = [1, 1, 1]\n",
+               {"scene.toml:5: body.0.name", "control character"}),
+      // Meshes.
+      badMesh("MeshFlat", "", {"scene.toml:7: mesh.0.file", "flat and encloses nothing", "a thin box"},
+              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
+      badMesh("MeshTooSmall", "scale = 1e-7", {"scene.toml:9: mesh.0.scale", "correct it"}),
+      badMesh("MeshTooLarge", "scale = 1e5", {"scene.toml:9: mesh.0.scale", "correct it"}),
+      badMesh("MeshCutTooFine", "sphere_radius = 1e-5",
+              {"scene.toml:9: mesh.0.sphere_radius", "lattice points", "raise it"}),
+      badMesh("MeshCutTooCoarse", "sphere_radius = 5", {"scene.toml:9: mesh.0.sphere_radius", "lower it"}),
       // Simulations that fail.
       badScene("BedDoesNotSettle", "settle_time_limit = 0.0", "settle_time_limit = 0.02",
                {"has not settled", "raise terrain.settle_time_limit"}, kBed, 3),

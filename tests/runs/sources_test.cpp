@@ -95,6 +95,58 @@ TEST(Sources, ABoxWithoutRoomIsRefused) {
   }
 }
 
+/// What a run says that sets a grain where something has come to be; "" where it does not mind.
+std::string stopOf(const std::string& sections, const std::vector<std::string>& overrides = {}) {
+  const std::string text = "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\ngravity = [0, 0, 0]\nthreads = 1\n"
+                           "[material.glass]\nstiffness = 1e5\n" +
+                           sections;
+  Simulation simulation(parseScene(text, "crowd.toml", overrides), base::cpuExec(1), [](double, double) {});
+  try {
+    while (simulation.steps() < 1000) simulation.step();
+  } catch (const base::SimulationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string dropAt(const std::string& place, const std::string& start, const std::string& radius = "0.02") {
+  return "[[source]]\nlow = " + place + "\nhigh = " + place + "\nradius = " + radius +
+         "\nmaterial = \"glass\"\nevery = 0.05\ntotal = 1\nstart = " + start + "\n";
+}
+
+void expectParts(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
+}
+
+TEST(Sources, AGrainThatLiesInTheWayStopsTheRunAndBothAreNamed) {
+  expectParts(stopOf(dropAt("[0, 0, 1]", "0.0"), {"source.0.total=2"}),
+              {"crowd.toml:9: source.0 would set a grain at (0, 0, 1) m at step 500, time 0.05 s",
+               "0.04 m deep in grain 0", "later (start)", "every"});
+  EXPECT_EQ(stopOf(dropAt("[0, 0, 1]", "0.0"), {"source.0.total=2", "source.0.velocity=[0, 0, 1]"}), "");
+}
+
+TEST(Sources, TheDeepestOfManyInTheWayIsNamed) {
+  // 0.03 - 0.021 m and 0.03 - 0.019 m, of radii 0.01 and 0.02 m.
+  const std::string two = dropAt("[0.521, 0, 1]", "0.0", "0.01") + dropAt("[0.481, 0, 1]", "0.0", "0.01");
+  expectParts(stopOf(two + dropAt("[0.5, 0, 1]", "0.01")),
+              {"crowd.toml:25: source.2", "0.011 m deep in grain 1 at (0.481, 0, 1)"});
+}
+
+TEST(Sources, AnImageAcrossJoinedSidesLiesInTheWayToo) {
+  const std::string two = dropAt("[-0.49, 0, 1]", "0.0") + dropAt("[0.49, 0, 1]", "0.01");
+  expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.5, 0.5]"}),
+              {"source.1", "0.02 m deep in grain 0 at (-0.49, 0, 1)"});
+  EXPECT_EQ(stopOf(two), "");
+}
+
+TEST(Sources, ASurfaceThatForcesHaveMovedLiesInTheWayToo) {
+  // Under 100 N a box of 1 kg rises by 50 t^2 = 0.125 m in 0.05 s, and its top comes to 0.175 m.
+  const std::string lid = "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nmaterial = \"glass\"\n"
+                          "free = \"z\"\nmass = 1\nload = 100\n";
+  expectParts(stopOf(lid + dropAt("[0, 0, 0.18]", "0.05")), {"source.0", "step 500", "0.015", "deep in lid"});
+  EXPECT_EQ(stopOf(lid + dropAt("[0, 0, 0.2]", "0.05")), "");
+}
+
 TEST(Sources, ARunFindsTheRoomThatItsSceneWasFoundToHave) {
   // The second source throws its grains on a line that holds them about every second time.
   constexpr const char* kLine = R"(
@@ -118,7 +170,7 @@ total = 8
       checkSources(scene);
     } catch (const base::InputError& error) {
       checked = false;
-      EXPECT_NE(std::string(error.what()).find("drip.toml: source.1: 8 grains"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("drip.toml:21: source.1: 8 grains"), std::string::npos) << error.what();
     }
     try {
       Sources(scene, 1e-4).enteringAt(0);
