@@ -73,6 +73,15 @@ bool isOfBed(const Scene& scene, const std::string& material) {
                      [&](const SceneSurface& s) { return s.section.material == material; });
 }
 
+/// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
+/// they are called. A plane that is felt as a surface stays one.
+void bringToRest(SurfaceSection& s, bool named) {
+  const std::string material = s.material;
+  s = {};
+  s.material = material;
+  if (named) s.name = "surface";
+}
+
 /// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make
 /// two beds of one, but never one of two.
 Scene bedAlone(Scene scene) {
@@ -87,6 +96,9 @@ Scene bedAlone(Scene scene) {
                 [&](const ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
   scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
   scene.terrain->cache = true;
+  for (Plane& p : scene.planes) bringToRest(p, !p.isWall());
+  for (BoxSection& b : scene.boxes) bringToRest(b, false);
+  for (CylinderSection& c : scene.cylinders) bringToRest(c, false);
   return scene;
 }
 

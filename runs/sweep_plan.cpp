@@ -57,11 +57,12 @@ Axis axisOf(const std::string& set) {
 
 std::string lastWord(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-/// The key's last word where that tells it from the others, else the whole key.
+/// The key's last word where that tells it from the others, else the whole key: an entry of a list is no word.
 std::string shortName(const std::string& key, const std::vector<Axis>& axes) {
-  const auto alike =
-      std::count_if(axes.begin(), axes.end(), [&](const Axis& a) { return lastWord(a.key) == lastWord(key); });
-  return alike > 1 ? key : lastWord(key);
+  const std::string last = lastWord(key);
+  const auto alike = std::count_if(axes.begin(), axes.end(), [&](const Axis& a) { return lastWord(a.key) == last; });
+  const bool isEntry = std::all_of(last.begin(), last.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return alike > 1 || isEntry ? key : last;
 }
 
 /// What every file system and shell takes as it is.

@@ -3,6 +3,7 @@
 
 #include "runs/channels.hpp"
 #include "runs/hdf5_file.hpp"
+#include "runs/surfaces.hpp"
 #include "runs/text_file.hpp"
 
 #include <fmt/format.h>
@@ -65,6 +66,13 @@ public:
       for (const double v : rows("vehicle/" + side + "/" + name)) spread.add(v);
     return spread;
   }
+  /// Mean of entry `k` of a vector.
+  double meanOf(const std::string& path, std::size_t k) const {
+    const std::vector<double> all = rows(path);
+    Spread spread;
+    for (std::size_t i = k; i < all.size(); i += 3) spread.add(all[i]);
+    return spread.mean();
+  }
   /// From the first steady row to the last, of one number a row.
   double change(const std::string& path) const {
     const std::vector<double> all = rows(path);
@@ -74,11 +82,13 @@ public:
     const std::vector<double> all = numbers(path);
     return all.empty() ? kNone : all.back();
   }
-  double lastNorm(const std::string& path) const {
+  double last(const std::string& path, std::size_t k) const {
     const std::vector<double> all = numbers(path);
-    if (all.size() < 3) return kNone;
-    const double* v = all.data() + all.size() - 3;
-    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return all.size() < 3 ? kNone : all[all.size() - 3 + k];
+  }
+  double lastNorm(const std::string& path) const {
+    const double x = last(path, 0), y = last(path, 1), z = last(path, 2);
+    return std::sqrt(x * x + y * y + z * z);
   }
   double constant(const std::string& path) const {
     return file_ && file_->has("/" + path) ? file_->numbers("/" + path).front() : kNone;
@@ -102,16 +112,47 @@ private:
 };
 
 struct Figure {
-  const char* column;
+  std::string column;
   double value;
 };
 
+/// What all runs of a sweep have columns for, where only some of them have it, too.
+struct Columns {
+  bool vehicle = false;
+  std::vector<std::string> surfaces; ///< their names
+
+  explicit Columns(const SweepPlan& plan) {
+    for (const SweepRun& run : plan.runs) {
+      vehicle = vehicle || run.scene.vehicle;
+      for (const SceneSurface& s : surfacesOf(run.scene))
+        if (std::find(surfaces.begin(), surfaces.end(), s.name) == surfaces.end()) surfaces.push_back(s.name);
+    }
+  }
+};
+
+/// Loads on the surfaces, and where they are at the end.
+void addSurfaces(const Steady& steady, const std::vector<std::string>& names, std::vector<Figure>& figures) {
+  for (const std::string& name : names) {
+    const std::string group = "surfaces/" + name + "/";
+    for (std::size_t k = 0; k < 3; ++k)
+      figures.push_back({fmt::format("{} force {} [N]", name, "xyz"[k]), steady.meanOf(group + "force", k)});
+    for (std::size_t k = 0; k < 3; ++k)
+      figures.push_back({fmt::format("{} torque {} [N m]", name, "xyz"[k]), steady.meanOf(group + "torque", k)});
+    figures.push_back({name + " power [W]", steady.of(group + "power").mean()});
+    for (std::size_t k = 0; k < 3; ++k)
+      figures.push_back(
+          {fmt::format("{} position {} at the end [m]", name, "xyz"[k]), steady.last(group + "position", k)});
+  }
+}
+
 /// The figures of one run, all NaN where `file` is null: one list for header and rows.
-std::vector<Figure> figuresOf(const Hdf5File* file, double from, bool vehicle) {
+std::vector<Figure> figuresOf(const Hdf5File* file, double from, const Columns& columns) {
   const Steady steady(file, from);
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
                               {"energy residual [J]", steady.last("ledger/residual")}};
-  if (!vehicle) return figures;
+  if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : kNone});
+  addSurfaces(steady, columns.surfaces, figures);
+  if (!columns.vehicle) return figures;
   // Both tracks together: what the hull did against what the sprockets asked for.
   const double speed = steady.ofTracks("speed").mean();
   const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
@@ -159,7 +200,8 @@ nlohmann::json readManifest(const fs::path& folder) {
 }
 
 /// The cells of one run, in the order of the header.
-std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder, bool vehicle) {
+std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
+                             const Columns& columns) {
   std::vector<std::string> cells = {quoted(run.name)};
   for (const std::string& value : run.values) cells.push_back(quoted(value));
   cells.push_back(outcome.status);
@@ -170,7 +212,7 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
   std::optional<Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
     file.emplace(Hdf5File::open(results));
-  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene), vehicle))
+  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene), columns))
     cells.push_back(cell(f.value));
   cells.push_back(manifest.value("state_hash", ""));
   cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
@@ -180,24 +222,23 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
 } // namespace
 
 double steadyFrom(const Scene& scene) {
-  if (!scene.vehicle) return kNone;
+  if (!scene.vehicle) return 0.5 * scene.run.duration;
   double ramped = scene.driver.driveBegins() + scene.driver.driveRamp;
   if (scene.driver.table) ramped = std::max(ramped, scene.driver.driveBegins() + scene.driver.table->time.back());
   return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
 }
 
 fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
-  const bool vehicle = std::any_of(plan.runs.begin(), plan.runs.end(),
-                                   [](const SweepRun& run) { return run.scene.vehicle.has_value(); });
+  const Columns columns(plan);
   std::vector<std::string> header = {"run"};
   for (const std::string& key : plan.keys) header.push_back(quoted(key));
   for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
     header.push_back(column);
-  for (const Figure& f : figuresOf(nullptr, kNone, vehicle)) header.push_back(f.column);
+  for (const Figure& f : figuresOf(nullptr, kNone, columns)) header.push_back(f.column);
   header.insert(header.end(), {"state hash", "commit"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, vehicle), ","));
+    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, columns), ","));
 
   const fs::path path = folder / "summary.csv";
   replaceTextFile(path, text);

@@ -29,12 +29,13 @@ protected:
   }
 
   /// 180 grains that come to rest, and one that falls onto them.
-  static Scene scene(const std::vector<std::string>& overrides = {}) {
+  static Scene scene(const std::vector<std::string>& overrides = {}, const std::string& more = "") {
     return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
                       "restitution = 0.2\n[material.steel]\nstiffness = 1e7\n[terrain]\nheightmap = "
                       "\"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 0.03]\nmaterial = \"soil\"\n"
                       "grain_radius = 0.03\nlayers = 2\nsettle_kinetic_energy = 1e-2\n[[source]]\nlow = [0.3, 0, "
-                      "0.4]\nhigh = [0.3, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 1\nevery = 1\n",
+                      "0.4]\nhigh = [0.3, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 1\nevery = 1\n" +
+                          more,
                       "bed.toml", overrides);
   }
 
@@ -126,6 +127,22 @@ TEST_F(KeptBed, WhatHasNoPartInItChangesNothing) {
         std::string("material.steel.friction=0"), std::string("output.frames=false"),
         std::string("parallel.rebalance=false"), "terrain.heightmap=" + (folder_ / "copy.png").string()})
     EXPECT_EQ(BedCache::origin(scene({key}), 2e-4), origin) << key;
+}
+
+TEST_F(KeptBed, KnowsWhereASurfaceStandsAndNotHowItWillMove) {
+  const std::string box = "[[box]]\nposition = [0.3, 0, 0.2]\nsize = [0.2, 0.2, 0.1]\nmaterial = \"steel\"\n";
+  const std::string plane = "[[plane]]\npoint = [0, 0, -1]\nmaterial = \"steel\"\n";
+  const auto origin = [](const std::string& more, const std::vector<std::string>& overrides = {}) {
+    return BedCache::origin(scene(overrides, more), 2e-4);
+  };
+  for (const char* key : {"box.0.velocity=[0, 0, -1]", "box.0.name=lid", "box.0.spin=[0, 0, 1]"})
+    EXPECT_EQ(origin(box, {key}), origin(box)) << key;
+  EXPECT_EQ(origin(box + "free = \"z\"\nmass = 5\nload = -3\n"), origin(box));
+  for (const char* key :
+       {"box.0.position.2=0.21", "box.0.size.0=0.1", "box.0.material=soil", "material.steel.friction=0"})
+    EXPECT_NE(origin(box, {key}), origin(box)) << key;
+  EXPECT_NE(origin(plane, {"plane.0.velocity=[1, 0, 0]"}), origin(plane)) << "one is a surface, the other a wall";
+  EXPECT_EQ(origin(plane, {"plane.0.velocity=[1, 0, 0]"}), origin(plane, {"plane.0.name=belt"}));
 }
 
 TEST_F(KeptBed, DamagedOrForeignIsToldAndSettledAnew) {

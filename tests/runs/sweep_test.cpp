@@ -108,6 +108,11 @@ TEST_F(Sweep, NamesTellKeysOfOneLastWordApart) {
   EXPECT_EQ(plan.runs[1].name, "material.glass.friction=0.1,material.steel.friction=0.4");
 }
 
+TEST_F(Sweep, AnEntryOfAListIsNamedByItsWholeKey) {
+  const SweepPlan plan = planSweep(scene(), {"grain.0.position.2=1,2"});
+  EXPECT_EQ(plan.runs[1].name, "grain.0.position.2=2");
+}
+
 TEST_F(Sweep, ValuesThatLookAlikeAsFolderNamesGetTheirOwn) {
   const SweepPlan plan = planSweep(scene(), {"grain.0.velocity=[0,0,1],[0, 0, 1]"});
   EXPECT_EQ(plan.runs[0].name, "velocity=0_0_1");
@@ -142,6 +147,23 @@ TEST_F(Sweep, LeavesAFolderARunAndASummary) {
   EXPECT_EQ(csv.at(0, "state hash"), csv.at(1, "state hash")) << "a single grain knows no seed";
   EXPECT_EQ(csv.at(0, "speed [m/s]"), "no such cell") << "no vehicle, no speed";
   EXPECT_GE(std::stod(csv.at(0, "wall time [s]")), 0);
+}
+
+TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
+  // The grain lies on it from the start.
+  std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"belt\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
+                                           "material = \"glass\"\nvelocity = [0.1, 0, 0]\n";
+  ASSERT_EQ(sweep({"run.duration=0.05", "run.output_interval=1e-3", "box.0.velocity.0=0.1,0.2"}), 0);
+  const Csv csv(out() / "summary.csv");
+  const double weight = 2500 * 4.0 / 3 * 3.14159265 * 1e-6 * 9.81;
+  for (std::size_t row = 0; row < 2; ++row) {
+    const auto number = [&](const char* column) { return std::stod(csv.at(row, column)); };
+    EXPECT_EQ(csv.at(row, "run"), row == 0 ? "box.0.velocity.0=0.1" : "box.0.velocity.0=0.2");
+    EXPECT_EQ(number("steady from [s]"), 0.025);
+    EXPECT_NEAR(number("belt force z [N]"), -weight, 0.05 * weight) << "at rest but for what is left of its sinking in";
+    EXPECT_NEAR(number("belt position x at the end [m]"), row == 0 ? 0.005 : 0.01, 1e-12);
+    EXPECT_EQ(number("belt force y [N]"), 0);
+  }
 }
 
 TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
@@ -224,6 +246,8 @@ TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.5);
   scene.run.duration = 1;
   EXPECT_TRUE(std::isnan(steadyFrom(scene)));
+  scene.vehicle.reset();
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 0.5);
 }
 
 /// A vehicle that stands until t = 2 s and then drives as the formulas below say.
