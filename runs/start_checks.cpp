@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 namespace grouser::runs {
@@ -43,10 +44,10 @@ std::string at(const Vec3d& p) { return fmt::format("at ({:.6g}, {:.6g}, {:.6g})
 struct Ball {
   Vec3d position;
   double radius;
-  std::string list;     ///< "grain", "grains", "source"
-  std::size_t number{}; ///< of the section there
-  double time{};        ///< [s]
-  std::size_t id{};
+  std::string_view list; ///< "grain", "grains", "source"
+  std::size_t number{};  ///< of the section there
+  double time{};         ///< [s]
+  std::size_t id{};      ///< of a grain that is there from the start
 };
 
 /// Sets balls into the scene one after the other, each where nothing may be yet.
@@ -103,14 +104,17 @@ private:
         const Ball& other = balls_[j];
         const double depth = ball.radius + other.radius - norm(toNearestImage(joined_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
-          refuse(ball, depth, fmt::format("grain {} {}", other.id, at(other.position)));
+          refuse(ball, depth,
+                 (other.list == "source" ? fmt::format("one of source.{} ", other.number)
+                                         : fmt::format("grain {} ", other.id)) +
+                     at(other.position));
       }
     }
     cells_[{x, y, z}].push_back(balls_.size());
     balls_.push_back(ball);
   }
 
-  /// `radius`: of the smaller one.
+  /// `radius`: of the smaller one [m].
   bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.maxOverlap * radius; }
 
   [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
@@ -153,14 +157,14 @@ void checkStart(const Scene& scene, const std::vector<Grain>& grains, const Surr
   Placing placing(scene, around);
   placeStarting(scene, grains, placing);
   const Sources sources(scene, timeStep);
-  std::size_t id = grains.size(), checked = 0;
+  std::size_t checked = 0;
   for (auto step = sources.nextEntry(0); step && checked < kMostChecked; step = sources.nextEntry(*step + 1)) {
     const double time = static_cast<double>(*step) * timeStep;
     if (time > scene.run.duration) break;
     if (*step > 0) placing.forgetBalls();
     for (const Sources::Batch& batch : sources.batchesAt(*step))
       for (const terrain::GrainStart& g : batch.grains) {
-        placing.place({g.position, g.radius, "source", batch.source, time, id++});
+        placing.place({g.position, g.radius, "source", batch.source, time});
         ++checked;
       }
   }

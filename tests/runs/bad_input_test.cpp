@@ -279,7 +279,7 @@ std::vector<Mistake> mistakes() {
                {"source.0.low", "overlaps grain 1 at (0.1, 0, 0.5) m", "move low and high"}),
       badScene("SourcesOnEachOther", "[output]",
                replaced(source("[0.4, 0, 0.5]"), "[output]", "") + source("[0.4, 0, 0.501]"),
-               {"source.1.low", "overlaps grain 2"}),
+               {"source.1.low", "overlaps one of source.0"}),
       badScene("SourceBelowTheFloor", "[output]", source("[0.3, 0, -1]", "", "soil"),
                {"source.0.low", "the terrain's floor"}, kBed),
       badScene("SourceBeyondTheWalls", "[output]", source("[0.3, 0.3, 0.3]", "", "soil"),
