@@ -1,65 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/for_each.cuh"
+#include "contact/detail/cell_search.cuh"
 #include "contact/neighbour_list.hpp"
 
 /// How neighbours are found: spheres sorted by the cells of a grid, and a look into the 27 cells around each.
 namespace grouser::contact {
 
 using Cell = CellGrid::Cell;
+using FindBounds = detail::FindBounds<CellGrid>;
+using AssignKeys = detail::AssignKeys<CellGrid>;
+using detail::MarkStarts;
 
-constexpr int kBoundsChunk = 512; ///< grains that one thread finds the bounds of
-
-/// Lowest and highest cell in use. bounds[0..2] hold the complement of the minimum, so that all six grow.
-struct FindBounds {
-  CellGrid grid;
-  const base::Position* position;
-  std::int64_t count;
-  std::uint32_t* bounds;
-
-  GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
-#if defined(__CUDA_ARCH__)
-    atomicMax(target, value);
-#else
-    std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
-    while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-    }
-#endif
-  }
-  GROUSER_HD void operator()(int chunk) const {
-    const std::int64_t first = static_cast<std::int64_t>(chunk) * kBoundsChunk;
-    const std::int64_t last = first + kBoundsChunk < count ? first + kBoundsChunk : count;
-    Cell low{~0u, ~0u, ~0u}, high{0, 0, 0};
-    for (std::int64_t i = first; i < last; ++i) {
-      const Cell c = grid.cellOf(position[i]);
-      low = base::min(low, c), high = base::max(high, c);
-    }
-    for (int a = 0; a < 3; ++a) {
-      raiseTo(bounds + a, ~low[a]);
-      raiseTo(bounds + 3 + a, high[a]);
-    }
-  }
-};
-
-struct AssignKeys {
-  CellGrid grid;
-  const base::Position* position;
-  std::uint64_t* key;
-  GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[i])); }
-};
-
-/// start[c] = first slot whose key is >= c, for c in [0, cells].
-struct MarkStarts {
-  const std::uint64_t* key;
-  std::int64_t count, cells;
-  std::uint32_t* start;
-  GROUSER_HD void operator()(int i) const {
-    const std::int64_t before = i == 0 ? -1 : static_cast<std::int64_t>(key[i - 1]);
-    const std::int64_t here = i == count ? cells : static_cast<std::int64_t>(key[i]);
-    for (std::int64_t c = before + 1; c <= here; ++c) start[c] = static_cast<std::uint32_t>(i);
-  }
-};
+constexpr std::int64_t kBoundsChunk = detail::kShare; ///< grains that one thread finds the bounds of
 
 /// The spheres near one: those whose surfaces are closer than the skin.
 struct NearSpheres {
@@ -77,16 +30,15 @@ struct NearSpheres {
     const base::Position p = position[i];
     const Cell c = grid.local(p);
     const std::int64_t own = radii.sphere ? radii.units(i) + skin : 0;
-    const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
     for (int column = 0; column < 9; ++column) {
       std::uint32_t x = c.x + static_cast<std::uint32_t>(column / 3) - 1,
                     y = c.y + static_cast<std::uint32_t>(column % 3) - 1;
       if (!besides(0, x) || !besides(1, y)) continue;
-      const std::uint32_t last = cellStart[grid.key({x, y, z1}) + 1];
-      for (std::uint32_t j = cellStart[grid.key({x, y, z0})]; j < last; ++j) {
+      const detail::ColumnOfThree near(grid, cellStart, x, y, c.z);
+      for (std::uint32_t j = near.first; j < near.last; ++j) {
         if (static_cast<int>(j) == i) continue;
         const base::Vec3l apart = grid.period.apart(p, position[j]);
-        if (!differencesHold(apart)) continue;
+        if (!detail::differencesHold(apart)) continue;
         const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
         if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
       }
@@ -99,13 +51,6 @@ private:
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;
     return c < cells;
-  }
-
-  /// Whether 32-bit differences hold: cells may have been widened for grains far away.
-  GROUSER_HD static bool differencesHold(const base::Vec3l& apart) {
-    constexpr std::int64_t kSafe = std::int64_t{1} << 30;
-    return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&
-           apart.z > -kSafe;
   }
 };
 

@@ -18,13 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t kItems = 512;      // of a thread that goes over many
 constexpr std::int64_t kSample = 1 << 22; // spheres that the slabs are cut by
 constexpr std::size_t kAtATimeOnGpu = 250000000;
 constexpr std::int64_t kMostSpheres = 2147483646; // what forEach counts to, less the one that marks the end
-
-/// Threads of kItems items each.
-std::int64_t threadsFor(std::int64_t count) { return (count + kItems - 1) / kItems; }
 
 } // namespace
 
@@ -63,12 +59,11 @@ struct PairSearch::Work {
 PairSearch::Work::Grid PairSearch::Work::gridOver(const Position* positions, std::int64_t count) {
   // A few spheres far away must not make the grid huge: widen its cells until it fits.
   const double most = 16.0 * static_cast<double>(count) + 1e6;
-  const std::int64_t threads = threadsFor(count);
   small.resize(6);
   for (std::int64_t edge = diameter;; edge *= 2) {
     small.zero();
-    base::forEach(exec, "find bounds of spheres", threads,
-                  FindBounds{{Divider(edge)}, positions, count, threads, small.data()});
+    base::forEach(exec, "find bounds of spheres", sharesOf(count),
+                  FindBounds<SlabGrid>{{{Divider(edge)}, {}, {}}, positions, count, small.data()});
     const std::vector<std::uint32_t> b = small.toHost();
     const Cell low{~b[0], ~b[1], ~b[2]}, cells{b[3] - low.x + 1, b[4] - low.y + 1, b[5] - low.z + 1};
     if (static_cast<double>(cells.x) * cells.y * cells.z <= most) return {low, cells, edge};
@@ -127,7 +122,7 @@ std::int64_t PairSearch::Work::sort(const Slab& slab, const SlabGrid& grid, cons
                                     std::int64_t chosen) {
   const auto n = static_cast<std::size_t>(chosen);
   key.resize(n);
-  base::forEach(exec, "assign cells", chosen, AssignKeys{grid, positions, list.data(), key.data()});
+  base::forEach(exec, "assign cells", chosen, AssignKeys<SlabGrid>{grid, positions, key.data(), list.data()});
   base::sortByKey(exec, key.data(), list.data(), n);
   const std::int64_t column = static_cast<std::int64_t>(grid.cells.y) * grid.cells.z, cells = column * grid.cells.x;
   start.resize(static_cast<std::size_t>(cells) + 1);
@@ -146,9 +141,8 @@ Neighbourhood PairSearch::Work::neighbourhood(const SlabGrid& grid) const {
 std::int64_t PairSearch::Work::countPairs(const Neighbourhood& near, std::int64_t owned) {
   counts.resize(static_cast<std::size_t>(owned));
   base::forEach(exec, "count touching pairs", owned, Count{near, counts.data()});
-  const std::int64_t threads = threadsFor(owned);
   total.zero();
-  base::forEach(exec, "sum pairs", threads, SumCounts{counts.data(), owned, threads, total.data()});
+  base::forEach(exec, "sum pairs", sharesOf(owned), SumCounts{counts.data(), owned, total.data()});
   return total.at(0);
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/for_each.cuh"
-#include "base/position.hpp"
+#include "contact/detail/cell_search.cuh"
 #include "contact/pair_search.hpp"
 
 /// Kernel bodies of the pair search.
@@ -10,8 +9,6 @@ namespace grouser::contact::detail {
 
 using base::Position;
 using base::Vec3l;
-
-using Cell = base::Vec3<std::uint32_t>;
 
 /// Quotients of 42-bit numbers by the cells' edge, without a division.
 struct Divider {
@@ -41,35 +38,6 @@ struct CellOf {
   GROUSER_HD Cell operator()(const Position& p) const {
     const Vec3l u = base::toUnits(p);
     return {along(u.x), along(u.y), along(u.z)};
-  }
-};
-
-/// Lowest and highest cell in use. bounds[0..2] hold the complement of the minimum, so that all six grow.
-struct FindBounds {
-  CellOf cellOf;
-  const Position* position;
-  std::int64_t count, threads;
-  std::uint32_t* bounds;
-
-  GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
-#if defined(__CUDA_ARCH__)
-    if (value > *target) atomicMax(target, value); // most find it raised already; a stale look costs one atomic more
-#else
-    std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
-    while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-    }
-#endif
-  }
-  GROUSER_HD void operator()(int thread) const {
-    Cell low{~0u, ~0u, ~0u}, high{0, 0, 0};
-    for (std::int64_t i = thread; i < count; i += threads) {
-      const Cell c = cellOf(position[i]);
-      low = base::min(low, c), high = base::max(high, c);
-    }
-    for (int a = 0; a < 3; ++a) {
-      raiseTo(bounds + a, ~low[a]);
-      raiseTo(bounds + 3 + a, high[a]);
-    }
   }
 };
 
@@ -107,8 +75,7 @@ struct ListMarked {
   }
 };
 
-/// Dense grid over a slab; z runs fastest, so the three cells of a column are neighbours in memory, and x slowest, so
-/// that the layer of the next slab comes last.
+/// Dense grid over a slab; x runs slowest, so that the layer of the next slab comes last.
 struct SlabGrid {
   CellOf cellOf;
   Cell low, cells;
@@ -118,26 +85,6 @@ struct SlabGrid {
   GROUSER_HD Cell local(const Position& p) const {
     const Cell c = cellOf(p);
     return {c.x - low.x, c.y - low.y, c.z - low.z};
-  }
-};
-
-struct AssignKeys {
-  SlabGrid grid;
-  const Position* position;
-  const std::uint32_t* list;
-  std::uint64_t* key;
-  GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[list[i]])); }
-};
-
-/// start[c] = first place whose key is >= c, for c in [0, cells].
-struct MarkStarts {
-  const std::uint64_t* key;
-  std::int64_t count, cells;
-  std::uint32_t* start;
-  GROUSER_HD void operator()(int i) const {
-    const std::int64_t before = i == 0 ? -1 : static_cast<std::int64_t>(key[i - 1]);
-    const std::int64_t here = i == count ? cells : static_cast<std::int64_t>(key[i]);
-    for (std::int64_t c = before + 1; c <= here; ++c) start[c] = static_cast<std::uint32_t>(i);
   }
 };
 
@@ -157,13 +104,7 @@ struct Neighbourhood {
   bool checkFar; ///< cells are so wide that 32-bit differences may wrap
 
   GROUSER_HD bool touch(const Position& a, const Position& b) const {
-    if (checkFar) {
-      constexpr std::int64_t kSafe = std::int64_t{1} << 30;
-      const Vec3l apart = base::toUnits(b) - base::toUnits(a);
-      if (apart.x >= kSafe || apart.x <= -kSafe || apart.y >= kSafe || apart.y <= -kSafe || apart.z >= kSafe ||
-          apart.z <= -kSafe)
-        return false;
-    }
+    if (checkFar && !differencesHold(base::toUnits(b) - base::toUnits(a))) return false;
     return base::squaredNorm(base::difference(a, b)) < reach2;
   }
 
@@ -172,14 +113,13 @@ struct Neighbourhood {
   template <class Visit> GROUSER_HD void forLater(std::uint32_t i, Visit& visit) const {
     const Position p = position[i];
     const Cell c = grid.local(p);
-    const std::uint32_t z0 = c.z == 0 ? 0 : c.z - 1, z1 = c.z + 1 < grid.cells.z ? c.z + 1 : c.z;
-    across(p, i + 1, start[grid.key({c.x, c.y, z1}) + 1], visit);
+    across(p, i + 1, ColumnOfThree(grid, start, c.x, c.y, c.z).last, visit);
     // Columns (0, 1), (1, -1), (1, 0), (1, 1) from here.
     for (std::uint32_t column = 0; column < 4; ++column) {
       const std::uint32_t x = column == 0 ? c.x : c.x + 1, y = column == 0 ? c.y + 1 : c.y + column - 2;
       if (x >= grid.cells.x || y >= grid.cells.y) continue; // -1 wraps to a large number
-      const std::uint64_t row = grid.key({x, y, 0});
-      across(p, start[row + z0], start[row + z1 + 1], visit);
+      const ColumnOfThree near(grid, start, x, y, c.z);
+      across(p, near.first, near.last, visit);
     }
   }
 
@@ -205,13 +145,14 @@ struct Count {
   }
 };
 
+/// By sharesOf(count) threads.
 struct SumCounts {
   const std::uint32_t* counts;
-  std::int64_t count, threads;
+  std::int64_t count;
   std::int64_t* total;
   GROUSER_HD void operator()(int thread) const {
     std::int64_t sum = 0;
-    for (std::int64_t i = thread; i < count; i += threads) sum += counts[i];
+    overShare(thread, count, [&](std::int64_t i) { sum += counts[i]; });
     base::atomicAdd64(total, sum);
   }
 };

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/for_each.cuh"
+#include "base/position.hpp"
+
+#include <cstdint>
+
+/// Kernel bodies of every search by cells: spheres are sorted by the cells of a dense grid, z fastest, and each looks
+/// into the columns of cells around its own. A grid gives cellOf(position), low, cells, local(position), key(cell).
+namespace grouser::contact::detail {
+
+using Cell = base::Vec3<std::uint32_t>;
+
+constexpr std::int64_t kShare = 512; ///< items of a thread that goes over many
+
+/// Threads of kShare items each.
+GROUSER_HD constexpr std::int64_t sharesOf(std::int64_t count) { return (count + kShare - 1) / kShare; }
+
+/// Calls visit(i) for the items of one of sharesOf(count) threads: on a GPU neighbours read side by side, a core reads
+/// on.
+template <class Visit> GROUSER_HD void overShare(std::int64_t thread, std::int64_t count, const Visit& visit) {
+#if defined(__CUDA_ARCH__)
+  const std::int64_t threads = sharesOf(count);
+  for (std::int64_t i = thread; i < count; i += threads) visit(i);
+#else
+  const std::int64_t first = thread * kShare, last = first + kShare < count ? first + kShare : count;
+  for (std::int64_t i = first; i < last; ++i) visit(i);
+#endif
+}
+
+/// Lowest and highest cell in use, by sharesOf(count) threads. bounds[0..2] hold the complement of the minimum, so that
+/// all six grow.
+template <class Grid> struct FindBounds {
+  Grid grid;
+  const base::Position* position;
+  std::int64_t count;
+  std::uint32_t* bounds;
+
+  GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
+#if defined(__CUDA_ARCH__)
+    if (value > *target) atomicMax(target, value); // most find it raised already; a stale look costs one atomic more
+#else
+    std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
+    while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+    }
+#endif
+  }
+  GROUSER_HD void operator()(int thread) const {
+    Cell low{~0u, ~0u, ~0u}, high{0, 0, 0};
+    overShare(thread, count, [&](std::int64_t i) {
+      const Cell c = grid.cellOf(position[i]);
+      low = base::min(low, c), high = base::max(high, c);
+    });
+    for (int a = 0; a < 3; ++a) {
+      raiseTo(bounds + a, ~low[a]);
+      raiseTo(bounds + 3 + a, high[a]);
+    }
+  }
+};
+
+/// Keys of the spheres, or of those that a list names.
+template <class Grid> struct AssignKeys {
+  Grid grid;
+  const base::Position* position;
+  std::uint64_t* key;
+  const std::uint32_t* list = nullptr;
+  GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[list ? list[i] : i])); }
+};
+
+/// start[c] = first place whose key is >= c, for c in [0, cells]; run for count + 1 places.
+struct MarkStarts {
+  const std::uint64_t* key;
+  std::int64_t count, cells;
+  std::uint32_t* start;
+  GROUSER_HD void operator()(int i) const {
+    const std::int64_t before = i == 0 ? -1 : static_cast<std::int64_t>(key[i - 1]);
+    const std::int64_t here = i == count ? cells : static_cast<std::int64_t>(key[i]);
+    for (std::int64_t c = before + 1; c <= here; ++c) start[c] = static_cast<std::uint32_t>(i);
+  }
+};
+
+/// Places of the spheres in the cells z - 1, z and z + 1 of a column.
+struct ColumnOfThree {
+  std::uint32_t first, last;
+
+  template <class Grid> GROUSER_HD ColumnOfThree(const Grid& grid, const std::uint32_t* start, std::uint32_t x,
+                                                 std::uint32_t y, std::uint32_t z) {
+    const std::uint64_t row = grid.key({x, y, 0});
+    first = start[row + (z == 0 ? 0 : z - 1)];
+    last = start[row + (z + 1 < grid.cells.z ? z + 1 : z) + 1];
+  }
+};
+
+/// Whether differences of the positions' low words hold: cells may have been widened for spheres far away.
+GROUSER_HD bool differencesHold(const base::Vec3l& apart) {
+  constexpr std::int64_t kSafe = std::int64_t{1} << 30;
+  return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&
+         apart.z > -kSafe;
+}
+
+} // namespace grouser::contact::detail
