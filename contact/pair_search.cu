@@ -3,6 +3,7 @@
 
 #include "base/algorithms.hpp"
 #include "base/error.hpp"
+#include "base/gather.cuh"
 #include "contact/detail/pair_kernels.cuh"
 
 #include <algorithm>
@@ -128,7 +129,7 @@ std::int64_t PairSearch::Work::sort(const Slab& slab, const SlabGrid& grid, cons
   start.resize(static_cast<std::size_t>(cells) + 1);
   base::forEach(exec, "mark cell starts", chosen + 1, MarkStarts{key.data(), chosen, cells, start.data()});
   position.resize(n);
-  base::forEach(exec, "gather positions", chosen, Gather{positions, list.data(), position.data()});
+  base::forEach(exec, "gather positions", chosen, base::Gather<Position>{list.data(), positions, position.data()});
   return start.at(static_cast<std::size_t>(column * (slab.to - slab.from)));
 }
 

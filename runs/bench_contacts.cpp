@@ -198,12 +198,7 @@ void benchContactsCommand(const ContactsBench& bench) {
   }
   const base::Comm comm = bench.ranks ? bench.ranks->comm() : base::Comm();
   writeBench(json, bench.json, comm);
-  if (bench.plot.empty() || !comm.first()) return;
-  std::string warning;
-  if (drawContacts(bench.json, bench.plot, warning))
-    fmt::print("plot      {}\n", bench.plot);
-  else
-    fmt::print(stderr, "grouser: warning: {}\n", warning);
+  if (!bench.plot.empty() && comm.first()) drawPicture("contacts.py", {bench.json}, bench.plot);
 }
 
 } // namespace grouser::runs

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/bench_report.hpp"
 
-#include "base/error.hpp"
 #include "runs/build_info.hpp"
+#include "runs/text_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <fstream>
 
 namespace grouser::runs {
 
@@ -31,10 +29,7 @@ Json benchOrigin(const char* bench, const base::Exec& exec) {
 
 void writeBench(const Json& json, const std::string& path, const base::Comm& comm) {
   if (path.empty() || !comm.first()) return;
-  std::ofstream file(path, std::ios::binary);
-  file << json.dump(2) << '\n';
-  file.close();
-  if (!file) throw base::InputError(fmt::format("{}: cannot be written; name another file with --json", path));
+  writeTextFile(path, json.dump(2) + '\n', "--json");
   fmt::print("json      {}\n", path);
 }
 

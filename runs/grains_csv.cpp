@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/grains_csv.hpp"
 
+#include "runs/text_file.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -60,11 +62,9 @@ GrainsCsv::GrainsCsv(const fs::path& folder, const std::optional<Former>& former
     : path_(folder / kGrainsCsvName), comm_(comm) {
   if (!comm_.first()) return;
   const std::string kept = former ? linesOf(path_, *former) : "";
-  const fs::path part = path_.string() + ".part"; // a kill loses nothing of the former file
-  file_.open(part, std::ios::binary);
-  file_ << kHead << kept << std::flush;
+  replaceTextFile(path_, kHead + kept); // a kill loses nothing of the former file
+  file_.open(path_, std::ios::binary | std::ios::app);
   check();
-  fs::rename(part, path_);
 }
 
 void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grains) {

@@ -8,6 +8,7 @@
 #include "runs/hdf5_file.hpp"
 #include "runs/manifest.hpp"
 #include "runs/sealed_file.hpp"
+#include "runs/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -31,13 +32,6 @@ constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.
                                   "scene.toml",       "manifest.json",  "sinkage.csv",  "sinkage.png",
                                   "shoe_heights.png", "drive.png",      "ledger.png",   "mechanism.png",
                                   "picture.png",      "grains.csv",     kCheckpointName};
-
-void writeText(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path.string()));
-}
 
 fs::path prepared(fs::path folder, const RunWriter::Options& options) {
   if (options.former) return folder;
@@ -101,7 +95,7 @@ struct RunWriter::Series {
         results(Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
         manifest(folder, scene, options.metadata) {
     const std::string resolved = resolvedToml(scene);
-    writeText(folder / "scene.toml", resolved);
+    replaceTextFile(folder / "scene.toml", resolved);
     const BuildInfo build = buildInfo();
     results.attribute("/", "creator", std::string("grouser"));
     results.attribute("/", "version", build.version);

@@ -85,21 +85,18 @@ std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& result
   return drawn;
 }
 
-std::filesystem::path drawSweep(const std::filesystem::path& summary, const std::filesystem::path& folder,
-                                std::string& warning) {
-  const std::filesystem::path file = folder / "summary.png";
+void drawPicture(const std::string& script, const std::vector<std::filesystem::path>& inputs,
+                 const std::filesystem::path& file) {
   std::error_code error;
-  std::filesystem::remove(file, error);
-  if (!draw("sweep.py", {summary.string(), file.string()}, warning)) return {};
-  return std::filesystem::exists(file) ? file : std::filesystem::path();
-}
-
-bool drawContacts(const std::filesystem::path& json, const std::filesystem::path& file, std::string& warning) {
-  return draw("contacts.py", {json.string(), file.string()}, warning) && std::filesystem::exists(file);
-}
-
-bool drawStudy(const std::filesystem::path& table, const std::filesystem::path& file, std::string& warning) {
-  return draw("study.py", {table.string(), file.string()}, warning);
+  if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
+  std::vector<std::string> words;
+  for (const std::filesystem::path& input : inputs) words.push_back(input.string());
+  words.push_back(file.string());
+  std::string warning;
+  if (!draw(script, words, warning))
+    fmt::print(stderr, "grouser: warning: {}\n", warning);
+  else if (std::filesystem::exists(file, error))
+    fmt::print("plot      {}\n", file.string());
 }
 
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {

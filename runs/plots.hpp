@@ -16,18 +16,12 @@ inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage", "d
 std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
                                              const std::vector<std::string>& names, std::string& warning);
 
-/// Draws the summary.csv of a sweep as summary.png into `folder`. Returns the file; empty, with a `warning`, where it
-/// could not be drawn.
-std::filesystem::path drawSweep(const std::filesystem::path& summary, const std::filesystem::path& folder,
-                                std::string& warning);
-
-/// Draws the multibody.csv of a study into `file`. False, with a `warning`, where it could not be drawn.
-bool drawStudy(const std::filesystem::path& table, const std::filesystem::path& file, std::string& warning);
+/// Draws by `script` of runs/plots/ what `inputs` hold into `file`, in place of a former one, and prints its name; on
+/// stderr a warning where it could not be drawn. Nothing is said where there is nothing to draw.
+void drawPicture(const std::string& script, const std::vector<std::filesystem::path>& inputs,
+                 const std::filesystem::path& file);
 
 /// Runs a Python script with these words. False, with a `warning`, where it does not end well.
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& words, std::string& warning);
-
-/// Draws the JSON of `grouser bench contacts` as `file`. False, with a `warning`, where it could not be drawn.
-bool drawContacts(const std::filesystem::path& json, const std::filesystem::path& file, std::string& warning);
 
 } // namespace grouser::runs

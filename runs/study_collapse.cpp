@@ -2,6 +2,7 @@
 #include "runs/study_collapse.hpp"
 
 #include "base/math.hpp"
+#include "runs/plots.hpp"
 #include "runs/progress.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/text_file.hpp"
@@ -162,7 +163,7 @@ void studyCollapseCommand(const CollapseCommand& command) {
   writeStudyOrigin(
       folder, "collapse", std::chrono::duration<double>(Clock::now() - begin).count(),
       {{"length_in_diameters", length}, {"width_in_diameters", command.width}, {"seeds", seeds}, {"threads", 1}});
-  drawStudyPlot("study_collapse.py", {(folder / "collapse.csv").string()}, folder / "collapse.png");
+  drawPicture("study_collapse.py", {folder / "collapse.csv"}, folder / "collapse.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

@@ -2,9 +2,7 @@
 #include "runs/study_common.hpp"
 
 #include "runs/build_info.hpp"
-#include "runs/locations.hpp"
 #include "runs/output.hpp"
-#include "runs/plots.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/text_file.hpp"
 
@@ -40,17 +38,6 @@ void writeStudyOrigin(const std::filesystem::path& folder, const std::string& na
   json["wall_s"] = seconds;
   json.update(more);
   writeTextFile(folder / "study.json", json.dump(2) + "\n", "--out");
-}
-
-void drawStudyPlot(const std::string& script, const std::vector<std::string>& words,
-                   const std::filesystem::path& file) {
-  std::vector<std::string> all = words;
-  all.push_back(file.string());
-  std::string warning;
-  if (runScript(shareFolder() / "runs" / "plots" / script, all, warning))
-    fmt::print("plot      {}\n", file.string());
-  else
-    fmt::print(stderr, "grouser: warning: {}\n", warning);
 }
 
 std::string Slope::text() const { return exists() ? fmt::format("{:.2f} +- {:.2f}", value, halfWidth) : "-"; }

@@ -24,9 +24,6 @@ std::filesystem::path beginStudy(const std::string& name, const StudyPlace& plac
 void writeStudyOrigin(const std::filesystem::path& folder, const std::string& name, double seconds,
                       const nlohmann::ordered_json& more);
 
-/// Draws by runs/plots/`script` what `words` name; a warning on stderr where it cannot be drawn.
-void drawStudyPlot(const std::string& script, const std::vector<std::string>& words, const std::filesystem::path& file);
-
 /// Slope of log y over log x by least squares, with the half width of its 95 % confidence interval (Student).
 struct Slope {
   double value = 0, halfWidth = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study stability`: tables and files of the maps.
 #include "base/error.hpp"
+#include "runs/plots.hpp"
 #include "runs/progress.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/study_grain_stability.hpp"
@@ -139,8 +140,7 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   }
   writeStudyOrigin(folder, "stability", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"steps", kStabilitySteps}, {"growth", kGrowth}, {"quick", quick}, {"maps", counts}});
-  drawStudyPlot("study_stability.py", {(folder / "stability.csv").string(), (folder / "limits.csv").string()},
-                folder / "stability.png");
+  drawPicture("study_stability.py", {folder / "stability.csv", folder / "limits.csv"}, folder / "stability.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study impact`: which collisions, which steps, and the files.
 #include "contact/restitution.hpp"
+#include "runs/plots.hpp"
 #include "runs/progress.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/study_impact_report.hpp"
@@ -109,7 +110,7 @@ void studyImpactCommand(const ImpactCommand& command) {
                     {"repeats", command.repeats},
                     {"threads", 1},
                     {"quick", quick}});
-  drawStudyPlot("study_impact.py", {(folder / "impact.csv").string()}, folder / "impact.png");
+  drawPicture("study_impact.py", {folder / "impact.csv"}, folder / "impact.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

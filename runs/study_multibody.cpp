@@ -197,12 +197,7 @@ void studyMultibodyCommand(const StudyCommand& command) {
   writeTextFile(folder / "multibody.csv", pointsCsv(results), "--out");
   writeTextFile(folder / "cheapest.csv", cheapestCsv(results), "--out");
   writeTextFile(folder / "reactions.csv", reactionsCsv(reactions), "--out");
-  std::string warning;
-  const fs::path plot = folder / "multibody.png";
-  if (drawStudy(folder / "multibody.csv", plot, warning))
-    fmt::print("plot      {}\n", plot.string());
-  else
-    fmt::print(stderr, "grouser: warning: {}\n", warning);
+  drawPicture("study.py", {folder / "multibody.csv"}, folder / "multibody.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

@@ -2,6 +2,7 @@
 #include "runs/study_packing.hpp"
 
 #include "base/math.hpp"
+#include "runs/plots.hpp"
 #include "runs/progress.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/text_file.hpp"
@@ -152,7 +153,7 @@ void studyPackingCommand(const PackingCommand& command) {
   writeTextFile(folder / "packing.csv", csv, "--out");
   writeStudyOrigin(folder, "packing", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"grains", grains}, {"seeds", seeds}, {"width_in_diameters", width}, {"threads", 1}});
-  drawStudyPlot("study_packing.py", {(folder / "packing.csv").string()}, folder / "packing.png");
+  drawPicture("study_packing.py", {folder / "packing.csv"}, folder / "packing.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

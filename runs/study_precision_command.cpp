@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/study_precision_command.hpp"
 
+#include "runs/plots.hpp"
 #include "runs/progress.hpp"
 #include "runs/stop_signals.hpp"
 #include "runs/text_file.hpp"
@@ -69,10 +70,8 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
                     {"drift_grains", drift.grains},
                     {"runs", drift.runs},
                     {"quick", command.place.quick}});
-  drawStudyPlot(
-      "study_precision.py",
-      {(folder / "touch.csv").string(), (folder / "drift.csv").string(), (folder / "macroscopic.csv").string()},
-      folder / "precision.png");
+  drawPicture("study_precision.py", {folder / "touch.csv", folder / "drift.csv", folder / "macroscopic.csv"},
+              folder / "precision.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

@@ -2,6 +2,7 @@
 #include "runs/study_shear.hpp"
 
 #include "base/math.hpp"
+#include "runs/plots.hpp"
 #include "runs/progress.hpp"
 #include "runs/simulation.hpp"
 #include "runs/stop_signals.hpp"
@@ -170,7 +171,7 @@ void studyShearCommand(const ShearCommand& command) {
                     {"length_in_diameters", box.length},
                     {"speed_m_s", box.speed},
                     {"threads", 1}});
-  drawStudyPlot("study_shear.py", {(folder / "shear.csv").string()}, folder / "shear.png");
+  drawPicture("study_shear.py", {folder / "shear.csv"}, folder / "shear.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

@@ -229,11 +229,7 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   const int failed = Runner(plan, options).run();
   const fs::path summary = options.folder / "summary.csv";
   fmt::print("summary   {}\n", summary.string());
-  std::string warning;
-  if (options.plot)
-    if (const fs::path plot = drawSweep(summary, options.folder, warning); !plot.empty())
-      fmt::print("plot      {}\n", plot.string());
-  if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
+  if (options.plot) drawPicture("sweep.py", {summary}, options.folder / "summary.png");
   return failed;
 }
 

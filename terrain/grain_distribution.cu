@@ -3,7 +3,7 @@
 #include "terrain/grains.hpp"
 
 #include "base/algorithms.hpp"
-#include "base/for_each.cuh"
+#include "base/gather.cuh"
 
 #include <algorithm>
 
@@ -14,19 +14,6 @@ using contact::ExchangeField;
 using contact::fieldOf;
 
 namespace {
-
-/// to[i] = from[slots[i]], records of `words` words each.
-struct Keep {
-  const std::uint32_t* slots;
-  const std::uint32_t* from;
-  std::uint32_t* to;
-  std::uint32_t words;
-  GROUSER_HD void operator()(int i) const {
-    const std::uint64_t source = static_cast<std::uint64_t>(slots[i]) * words;
-    const std::uint64_t target = static_cast<std::uint64_t>(i) * words;
-    for (std::uint32_t w = 0; w < words; ++w) to[target + w] = from[source + w];
-  }
-};
 
 /// Where the row of each grain is found after the hand-over, before sorting.
 struct NoteOrigins {
@@ -87,13 +74,12 @@ void Grains::shareOut() {
   fields.clear();
   forOwnArrays([&]<class T>(base::Array<T>& array, std::uint32_t width) {
     base::Array<T> to(exec_, owned * width);
-    const ExchangeField from = fieldOf(array), target = fieldOf(to);
     base::forEach(exec_, "keep grains", static_cast<std::int64_t>(kept),
-                  Keep{subdomain.kept().data(), static_cast<const std::uint32_t*>(from.data),
-                       static_cast<std::uint32_t*>(target.data), from.words * width});
+                  base::Gather<T>{subdomain.kept().data(), array.data(), to.data(), static_cast<int>(width)});
     base::synchronize(exec_);
     array.swap(to);
-    fields.push_back({target.data, target.words * width});
+    const ExchangeField field = fieldOf(array);
+    fields.push_back({field.data, field.words * width});
   });
   fields.push_back({arrivedRows_.data(), rows.words(), true});
   exchange.putFrom(kept);

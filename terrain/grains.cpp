@@ -154,7 +154,7 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
     const auto k = static_cast<std::size_t>(a);
     size[k] = static_cast<double>(high[a] - low[a]) + 1;
     weights[k].resize(kPartitionBins);
-    const std::int64_t width = std::max<std::int64_t>(1, (high[a] - low[a]) / kPartitionBins + 1);
+    const std::int64_t width = binWidth(low[a], high[a]);
     for (const Position& p : position) ++weights[k][static_cast<std::size_t>((base::toUnits(p)[a] - low[a]) / width)];
   }
   const Partition chosen(latticeShape(options.comm.size(), size, wanted), low, high, weights);

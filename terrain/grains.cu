@@ -2,6 +2,7 @@
 #include "terrain/grains.hpp"
 
 #include "base/algorithms.hpp"
+#include "base/gather.cuh"
 #include "terrain/grain_kernels.cuh"
 
 #include <utility>
@@ -13,18 +14,6 @@ using base::Vec3d;
 using base::Vec3f;
 
 namespace {
-
-/// to[i] = from[order[i]], records of `width` elements each.
-template <class T> struct Gather {
-  const std::uint32_t* order;
-  const T* from;
-  T* to;
-  int width = 1;
-  GROUSER_HD void operator()(int i) const {
-    for (int w = 0; w < width; ++w)
-      to[static_cast<std::int64_t>(i) * width + w] = from[static_cast<std::int64_t>(order[i]) * width + w];
-  }
-};
 
 struct KeepReference {
   const Position* position;
@@ -185,7 +174,7 @@ void Grains::permute() {
   const std::uint32_t* order = neighbours_.order();
   const auto n = static_cast<std::int64_t>(slots_);
   const auto gather = [&]<class T>(base::Array<T>& from, base::Array<T>& to) {
-    base::forEach(exec_, "permute grains", n, Gather<T>{order, from.data(), to.data()});
+    base::forEach(exec_, "permute grains", n, base::Gather<T>{order, from.data(), to.data()});
     from.swap(to);
   };
   gather(position_[0], position_[1]);
@@ -194,7 +183,7 @@ void Grains::permute() {
   const auto gatherOwn = [&]<class T>(base::Array<T>& array, int width = 1) {
     if (array.empty()) return;
     base::Array<T> to(exec_, array.size());
-    base::forEach(exec_, "permute grains", n, Gather<T>{order, array.data(), to.data(), width});
+    base::forEach(exec_, "permute grains", n, base::Gather<T>{order, array.data(), to.data(), width});
     base::synchronize(exec_);
     array.swap(to);
   };

@@ -17,7 +17,7 @@ std::vector<std::int64_t> shareOut(int parts, std::int64_t low, std::int64_t hig
   std::int64_t total = 0;
   for (const std::int64_t w : weights) total += w;
   const auto bins = static_cast<std::int64_t>(weights.size());
-  const std::int64_t width = std::max<std::int64_t>(1, (high - low) / bins + 1);
+  const std::int64_t width = binWidth(low, high, bins);
   std::vector<std::int64_t> cuts;
   std::int64_t before = 0, bin = 0;
   for (std::int64_t part = 1; part < parts; ++part) {

@@ -3,6 +3,7 @@
 
 #include "base/position.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -60,5 +61,10 @@ std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size,
 
 /// Bins of the histograms that cuts are made from.
 inline constexpr int kPartitionBins = 4096;
+
+/// Width of so many equal bins that hold all from `low` to `high` [units].
+inline std::int64_t binWidth(std::int64_t low, std::int64_t high, std::int64_t bins = kPartitionBins) {
+  return std::max<std::int64_t>(1, (high - low) / bins + 1);
+}
 
 } // namespace grouser::terrain

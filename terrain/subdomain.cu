@@ -226,7 +226,7 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
     const auto k = static_cast<std::size_t>(a);
     low[a] = static_cast<std::int64_t>(e[k]) - kBias;
     high[a] = kBias - static_cast<std::int64_t>(e[k + 3]);
-    width[a] = std::max<std::int64_t>(1, (high[a] - low[a]) / kPartitionBins + 1);
+    width[a] = binWidth(low[a], high[a]);
   }
   base::Array<std::int64_t> bins(exec_, 3 * kPartitionBins);
   base::forEach(exec_, "count grains in bins", n, CountInBins{position, role, low, width, bins.data()});

@@ -88,13 +88,6 @@ struct SlabGrid {
   }
 };
 
-struct Gather {
-  const Position* from;
-  const std::uint32_t* list;
-  Position* to;
-  GROUSER_HD void operator()(int i) const { to[i] = from[list[i]]; }
-};
-
 /// What the search of one slab reads.
 struct Neighbourhood {
   SlabGrid grid;
