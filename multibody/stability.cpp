@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/start.hpp"
 
+#include "multibody/detail/axis_springs.hpp"
 #include "multibody/detail/vector6.hpp"
 
 #include <algorithm>
@@ -17,39 +18,16 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void axisStiffness(const ConstraintSystem& system, const Model& model, const Loads& loads,
                    std::vector<double>& stiffness) {
-  std::fill(stiffness.begin(), stiffness.end(), 0.0);
+  for (std::size_t a = 0; a < stiffness.size(); ++a)
+    stiffness[a] = ownSpring(system, model, loads, system.axes()[a]).stiffness;
   for (std::size_t s = 0; s < model.axisSprings().size(); ++s) {
     const AxisSpring& spring = model.axisSprings()[s];
-    stiffness[at(system.axisOf(spring.joint, spring.axis))] += loads.axisSprings[s].stiffnessFactor * spring.stiffness;
-  }
-  for (std::size_t a = at(system.firstAxis(static_cast<int>(model.joints().size()))); a < stiffness.size(); ++a) {
-    const Axis& axis = system.axes()[a];
-    const Constraint& c = system.constraints()[at(axis.constraint)];
-    if (c.kind == ConstraintKind::kPointSpring) {
-      stiffness[a] = loads.pointSprings[at(c.source)].stiffnessFactor * model.pointSprings()[at(c.source)].stiffness;
-    } else {
-      const Bushing& bushing = model.bushings()[at(c.source)];
-      stiffness[a] = loads.bushings[at(c.source)].stiffnessFactor *
-                     (axis.row < 3 ? bushing.stiffness[axis.row] : bushing.rotationStiffness[axis.row - 3]);
-    }
+    stiffness[at(system.axisOf(spring.joint, spring.axis))] += linearSpring(spring, loads.axisSprings[s]).stiffness;
   }
 }
 
 void axisDamping(const ConstraintSystem& system, const Model& model, std::vector<double>& damping) {
-  for (std::size_t a = 0; a < damping.size(); ++a) {
-    const Axis& axis = system.axes()[a];
-    const Constraint& c = system.constraints()[at(axis.constraint)];
-    if (c.kind == ConstraintKind::kPointSpring) {
-      damping[a] = model.pointSprings()[at(c.source)].damping;
-    } else if (c.kind == ConstraintKind::kBushing) {
-      const Bushing& bushing = model.bushings()[at(c.source)];
-      damping[a] = axis.row < 3 ? bushing.damping[axis.row] : bushing.rotationDamping[axis.row - 3];
-    } else {
-      const Joint& joint = model.joints()[at(c.source)];
-      const bool slide = c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow;
-      damping[a] = slide ? joint.slideDamping : joint.damping;
-    }
-  }
+  for (std::size_t a = 0; a < damping.size(); ++a) damping[a] = ownDamping(system, model, system.axes()[a]);
   for (const AxisSpring& spring : model.axisSprings())
     damping[at(system.axisOf(spring.joint, spring.axis))] += std::max(spring.damping, spring.stopDamping);
 }

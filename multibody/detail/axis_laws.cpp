@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/axis_laws.hpp"
 
+#include "multibody/detail/axis_springs.hpp"
+
 #include <cstddef>
 
 namespace grouser::multibody::detail {
@@ -16,6 +18,11 @@ void add(AxisLaw& law, double force, double stiffness, double damping, double dt
   law.dampingPart += dt * damping;
   law.springKnown += force;
   law.springSoftness += dt * damping + dt * dt * stiffness;
+}
+
+/// Adds a spring at position x.
+void add(AxisLaw& law, const LinearSpring& spring, double x, double dt) {
+  add(law, spring.load - spring.stiffness * (x - spring.rest), spring.stiffness, spring.damping, dt);
 }
 
 } // namespace
@@ -56,23 +63,15 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
                         const std::vector<Frame>& frames, const std::vector<double>& start,
                         std::vector<AxisLaw>& laws) const {
   for (AxisLaw& law : laws) law = {};
-  for (std::size_t j = 0; j < model_->joints().size(); ++j) {
-    const Joint& joint = model_->joints()[j];
-    if (system.firstAxis(static_cast<int>(j)) == system.firstAxis(static_cast<int>(j) + 1)) continue;
-    AxisLaw& law = laws[at(system.firstAxis(static_cast<int>(j) + 1) - 1)];
-    law.softness = law.dampingPart = dt * joint.damping;
-    if (joint.type != JointType::kCylindrical) continue;
-    AxisLaw& slide = laws[at(system.firstAxis(static_cast<int>(j)))];
-    slide.softness = slide.dampingPart = dt * joint.slideDamping;
-  }
+  const std::size_t ofJoints = at(system.firstAxis(static_cast<int>(model_->joints().size())));
+  for (std::size_t a = 0; a < ofJoints; ++a)
+    laws[a].softness = laws[a].dampingPart = dt * ownDamping(system, *model_, system.axes()[a]);
   for (std::size_t s = 0; s < model_->axisSprings().size(); ++s) {
     const AxisSpring& spring = model_->axisSprings()[s];
-    const SpringControl& control = loads.axisSprings[s];
     const int axis = system.axisOf(spring.joint, spring.axis);
     const double position = axisPositionIn(state, system, axis), rate = axisRateIn(state, system, axis);
     AxisLaw& law = laws[at(axis)];
-    const double k = control.stiffnessFactor * spring.stiffness;
-    add(law, control.loadFactor * spring.preload - k * (position - spring.freePosition), k, spring.damping, dt);
+    add(law, linearSpring(spring, loads.axisSprings[s]), position, dt);
 
     // End stops; their dampers act on the way in only, so that they do not hold back what leaves.
     const double over = overLimit(spring, position);
@@ -83,23 +82,9 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
     const Constraint& c = system.constraints()[at(a.constraint)];
     return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), a.row);
   };
-  for (std::size_t i = at(system.firstAxis(static_cast<int>(model_->joints().size()))); i < laws.size(); ++i) {
-    const Axis& axis = system.axes()[i];
-    const Constraint& c = system.constraints()[at(axis.constraint)];
-    const double x = position(axis);
-    if (c.kind == ConstraintKind::kPointSpring) {
-      const PointSpring& spring = model_->pointSprings()[at(c.source)];
-      const SpringControl& control = loads.pointSprings[at(c.source)];
-      const double k = control.stiffnessFactor * spring.stiffness;
-      add(laws[i], control.loadFactor * spring.preload - k * (x - spring.restLength), k, spring.damping, dt);
-    } else {
-      const Bushing& bushing = model_->bushings()[at(c.source)];
-      const bool turn = axis.row >= 3;
-      const int along = axis.row % 3;
-      const double k =
-          loads.bushings[at(c.source)].stiffnessFactor * (turn ? bushing.rotationStiffness : bushing.stiffness)[along];
-      add(laws[i], -k * x, k, (turn ? bushing.rotationDamping : bushing.damping)[along], dt);
-    }
+  for (std::size_t a = ofJoints; a < laws.size(); ++a) {
+    const Axis& axis = system.axes()[a];
+    add(laws[a], ownSpring(system, *model_, loads, axis), position(axis), dt);
   }
   for (AxisLaw& law : laws) law.force = law.known;
   for (std::size_t d = 0; d < model_->drives().size(); ++d) {

@@ -2,6 +2,7 @@
 #include "multibody/detail/soft_rows.hpp"
 
 #include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/axis_springs.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,12 @@ namespace grouser::multibody::detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+void add(SoftRow& row, const LinearSpring& spring) {
+  row.stiffness += spring.stiffness;
+  row.constant += spring.load + spring.stiffness * spring.rest;
+  row.damping += spring.damping;
+}
 
 } // namespace
 
@@ -27,35 +34,11 @@ void SoftRows::evaluate(const Loads& loads, double t, double h, std::vector<Soft
   for (SoftRow& row : rows) row = {};
   for (std::size_t a = 0; a < rows.size(); ++a) {
     rows[a].stops = !stopsOf_[a].empty();
-    const Axis& axis = system_.axes()[a];
-    const Constraint& c = system_.constraints()[at(axis.constraint)];
-    const std::size_t source = at(c.source);
-    if (c.kind == ConstraintKind::kPointSpring) {
-      const PointSpring& spring = model_.pointSprings()[source];
-      const SpringControl& control = loads.pointSprings[source];
-      rows[a].stiffness = control.stiffnessFactor * spring.stiffness;
-      rows[a].constant = control.loadFactor * spring.preload + rows[a].stiffness * spring.restLength;
-      rows[a].damping = spring.damping;
-    } else if (c.kind == ConstraintKind::kBushing) {
-      const Bushing& bushing = model_.bushings()[source];
-      const bool turn = axis.row >= 3;
-      rows[a].stiffness =
-          loads.bushings[source].stiffnessFactor * (turn ? bushing.rotationStiffness : bushing.stiffness)[axis.row % 3];
-      rows[a].damping = (turn ? bushing.rotationDamping : bushing.damping)[axis.row % 3];
-    } else {
-      const Joint& joint = model_.joints()[source];
-      const bool slide = c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow;
-      rows[a].damping = slide ? joint.slideDamping : joint.damping;
-    }
+    add(rows[a], ownSpring(system_, model_, loads, system_.axes()[a]));
   }
   for (std::size_t s = 0; s < model_.axisSprings().size(); ++s) {
     const AxisSpring& spring = model_.axisSprings()[s];
-    const SpringControl& control = loads.axisSprings[s];
-    SoftRow& row = rows[at(system_.axisOf(spring.joint, spring.axis))];
-    const double k = control.stiffnessFactor * spring.stiffness;
-    row.stiffness += k;
-    row.constant += control.loadFactor * spring.preload + k * spring.freePosition;
-    row.damping += spring.damping;
+    add(rows[at(system_.axisOf(spring.joint, spring.axis))], linearSpring(spring, loads.axisSprings[s]));
   }
   for (std::size_t d = 0; d < model_.drives().size(); ++d) {
     if (!loads.drives[d].on) continue;
