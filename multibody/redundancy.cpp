@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Weak rows while closing: pivots below 1e-6 of a row alone.
 constexpr double kWeakPivot = 1e5;

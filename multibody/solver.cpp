@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "multibody/detail/euler_step.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/start.hpp"
@@ -18,8 +19,6 @@ namespace grouser::multibody {
 using namespace detail;
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 SolverOptions resolved(const SolverOptions& given) {
   SolverOptions o = given;

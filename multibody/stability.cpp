@@ -2,6 +2,7 @@
 #include "multibody/detail/start.hpp"
 
 #include "multibody/detail/axis_springs.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/vector6.hpp"
 
 #include <algorithm>
@@ -9,12 +10,6 @@
 #include <cstddef>
 
 namespace grouser::multibody::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-} // namespace
 
 void axisStiffness(const ConstraintSystem& system, const Model& model, const Loads& loads,
                    std::vector<double>& stiffness) {

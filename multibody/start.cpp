@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/integrator.hpp"
 #include "multibody/detail/vector6.hpp"
 
@@ -16,8 +17,6 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Joints must be closed this well by who builds the model [m, rad].
 constexpr double kStartGap = 1e-6;
 /// A drive whose axis can move by less than this part of what it could alone is taken as fixed by the others.
@@ -30,20 +29,6 @@ template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) {
   std::ostringstream message;
   (message << ... << parts);
   throw base::InputError(message.str());
-}
-
-std::vector<Frame> startFrames(const ConstraintSystem& system, const Model& model) {
-  std::vector<Pose> poses;
-  for (const Body& body : model.bodies()) poses.push_back(body.pose);
-  std::vector<Frame> frames;
-  system.place(poses, frames);
-  return frames;
-}
-
-double position(const ConstraintSystem& system, const std::vector<Frame>& frames, int axis) {
-  const Axis& a = system.axes()[at(axis)];
-  const Constraint& c = system.constraints()[at(a.constraint)];
-  return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), a.row);
 }
 
 bool imposes(const Drive& drive) { return drive.kind != DriveKind::kForce; }
@@ -63,7 +48,7 @@ std::string others(const Model& model, const std::string& drive) {
 } // namespace
 
 void checkClosed(const ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<Frame> frames = system.framesOfModel();
   for (std::size_t k = 0; k < system.constraints().size(); ++k) {
     const Constraint& c = system.constraints()[k];
     const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
@@ -83,7 +68,7 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
   for (std::size_t c = 0; c < system.couplings().size(); ++c) {
     const CouplingRow& row = system.couplings()[c];
     const double gap =
-        position(system, frames, row.axis2) - row.ratio * position(system, frames, row.axis1) - row.offset;
+        system.positionOfAxis(row.axis2, frames) - row.ratio * system.positionOfAxis(row.axis1, frames) - row.offset;
     if (!(std::fabs(gap) <= kStartGap))
       refuse("coupling '", model.couplings()[c].name, "' is open by ", gap, " [m or rad] at the start; allowed are ",
              kStartGap, "; place the bodies so that it closes, or leave its offset out");
@@ -93,7 +78,7 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
 /// An axis that could move but for the couplings, and cannot with them, is one that two of them want to move by
 /// different amounts. Mobility: row . y with y = K^-1 row.
 void checkCouplings(ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<Frame> frames = system.framesOfModel();
   const std::vector<AxisLaw> laws = hardOnly(system);
   for (const ConstraintSystem::Part& part : system.parts()) {
     if (part.couplings.empty()) continue;
@@ -128,17 +113,17 @@ void checkCouplings(ConstraintSystem& system, const Model& model) {
 }
 
 std::vector<double> driveStart(const ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<Frame> frames = system.framesOfModel();
   std::vector<double> start;
   for (const Drive& drive : model.drives())
-    start.push_back(position(system, frames, system.axisOf(drive.joint, drive.axis)));
+    start.push_back(system.positionOfAxis(system.axisOf(drive.joint, drive.axis), frames));
   return start;
 }
 
 /// Goes through the drives in order: y_d = K^-1 (row d), with joints and couplings held; what the drives before leave
 /// of row d . y_d is the mobility of its axis (Cholesky's pivot).
 void checkDrives(ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<Frame> frames = system.framesOfModel();
   const std::vector<AxisLaw> laws = hardOnly(system);
   const std::vector<double> start = driveStart(system, model);
   for (const ConstraintSystem::Part& part : system.parts()) {
@@ -208,7 +193,7 @@ void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads
 }
 
 void checkVelocities(ConstraintSystem& system, const Model& model, double tolerance, bool drives) {
-  const std::vector<Frame> frames = startFrames(system, model);
+  const std::vector<Frame> frames = system.framesOfModel();
   std::vector<Twist> twist;
   double fastest = 0;
   for (const Body& body : model.bodies()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/articulation.hpp"
 
+#include "multibody/detail/index.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -10,8 +12,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Builder {
 public:

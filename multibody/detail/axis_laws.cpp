@@ -2,14 +2,13 @@
 #include "multibody/detail/axis_laws.hpp"
 
 #include "multibody/detail/axis_springs.hpp"
+#include "multibody/detail/index.hpp"
 
 #include <cstddef>
 
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Adds a spring-damper: `force` known at the start of the step, stiffness and damping for its implicit part.
 void add(AxisLaw& law, double force, double stiffness, double damping, double dt) {
@@ -78,14 +77,9 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
     if (over != 0)
       add(law, -spring.stopStiffness * over, spring.stopStiffness, rate * over >= 0 ? spring.stopDamping : 0, dt);
   }
-  const auto position = [&](const Axis& a) {
-    const Constraint& c = system.constraints()[at(a.constraint)];
-    return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), a.row);
-  };
-  for (std::size_t a = ofJoints; a < laws.size(); ++a) {
-    const Axis& axis = system.axes()[a];
-    add(laws[a], ownSpring(system, *model_, loads, axis), position(axis), dt);
-  }
+  for (std::size_t a = ofJoints; a < laws.size(); ++a)
+    add(laws[a], ownSpring(system, *model_, loads, system.axes()[a]),
+        system.positionOfAxis(static_cast<int>(a), frames), dt);
   for (AxisLaw& law : laws) law.force = law.known;
   for (std::size_t d = 0; d < model_->drives().size(); ++d) {
     if (!loads.drives[d].on) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/constraint_system.hpp"
 
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 ConstraintKind kindOf(JointType type) {
   switch (type) {
@@ -111,16 +110,24 @@ ConstraintSystem::ConstraintSystem(const Model& model) : model_(&model) {
 
 /// Offsets that were not given: as the bodies are placed.
 void ConstraintSystem::setOffsets() {
+  const std::vector<Frame> frames = framesOfModel();
+  for (CouplingRow& c : couplings_)
+    if (!std::isfinite(c.offset))
+      c.offset = positionOfAxis(c.axis2, frames) - c.ratio * positionOfAxis(c.axis1, frames);
+}
+
+std::vector<Frame> ConstraintSystem::framesOfModel() const {
   std::vector<Pose> poses;
   for (const Body& body : model_->bodies()) poses.push_back(body.pose);
   std::vector<Frame> frames;
   place(poses, frames);
-  const auto position = [&](int axis) {
-    const Constraint& c = constraints_[at(axes_[at(axis)].constraint)];
-    return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), axes_[at(axis)].row);
-  };
-  for (CouplingRow& c : couplings_)
-    if (!std::isfinite(c.offset)) c.offset = position(c.axis2) - c.ratio * position(c.axis1);
+  return frames;
+}
+
+double ConstraintSystem::positionOfAxis(int axis, const std::vector<Frame>& frames) const {
+  const Axis& a = axes_[at(axis)];
+  const Constraint& c = constraints_[at(a.constraint)];
+  return axisPosition(c, framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]), a.row);
 }
 
 int ConstraintSystem::axisOf(int joint, JointAxis axis) const {

@@ -85,6 +85,10 @@ public:
   /// Frames of all bodies at `poses`, the world last.
   void place(const std::vector<Pose>& poses, std::vector<Frame>& frames) const;
   void placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const;
+  /// The same as the model places the bodies.
+  std::vector<Frame> framesOfModel() const;
+  /// Position along an axis row [m, rad] of bodies at `frames`.
+  double positionOfAxis(int axis, const std::vector<Frame>& frames) const;
 
   /// Sets up and factors one part at `frames`. `laws`: one an axis. Returns the rows left out as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/constraint_system.hpp"
 
+#include "multibody/detail/index.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace grouser::multibody::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-} // namespace
 
 void ConstraintSystem::addImpulse(int k, int row, double impulse, std::vector<Vector6>& x) const {
   const Constraint& c = constraints_[at(k)];

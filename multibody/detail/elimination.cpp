@@ -2,6 +2,7 @@
 #include "multibody/detail/elimination.hpp"
 
 #include "multibody/detail/constraint.hpp"
+#include "multibody/detail/index.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,8 +10,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// What the world contributes to a solution.
 constexpr Vector6 kStill{};

@@ -2,6 +2,8 @@
 // What is known of an elimination before any number is: batches, columns, and the order of operations.
 #include "multibody/detail/elimination.hpp"
 
+#include "multibody/detail/index.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <tuple>
@@ -9,8 +11,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> bitsOf(unsigned mask) {
   std::vector<int> bits;

@@ -3,6 +3,7 @@
 // the scheme and treats what is left: constraints that close loops, springs between points, bushings, couplings.
 #include "multibody/detail/euler_step.hpp"
 
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/vector6.hpp"
 
 #include <cmath>
@@ -12,7 +13,6 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t kWidth = kLanes;
 
 constexpr Vector6 kStill{};

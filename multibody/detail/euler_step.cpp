@@ -2,6 +2,7 @@
 #include "multibody/detail/euler_step.hpp"
 
 #include "base/error.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
 
@@ -29,8 +30,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Iterations before a slow position solve is helped.
 constexpr int kPatience = 4;

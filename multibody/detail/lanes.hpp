@@ -16,8 +16,8 @@ using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using Vec3L = base::Vec3<Lanes>;
 using Mat3L = base::Mat3<Lanes>;
 
-/// Functions that work on lanes: compiled for AVX-512 (more registers), AVX2 and plain x86-64, chosen at load time. None
-/// of them may fuse multiply and add (-ffp-contract=off). Tests choose for themselves.
+/// Functions that work on lanes: compiled for AVX-512 (more registers), AVX2 and plain x86-64, chosen at load time.
+/// None of them may fuse multiply and add (-ffp-contract=off). Tests choose for themselves.
 #if !defined(GROUSER_LANES)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
 #define GROUSER_LANES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))

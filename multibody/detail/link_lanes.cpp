@@ -3,6 +3,7 @@
 #include "multibody/detail/link_lanes.hpp"
 
 #include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation_lanes.hpp"
 
 #include <cstddef>
@@ -10,8 +11,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One lane of a number, and of what is made of numbers.
 double& lane(Lanes& x, std::size_t l) { return reinterpret_cast<double*>(&x)[l]; }

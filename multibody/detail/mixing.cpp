@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/mixing.hpp"
 
+#include "multibody/detail/index.hpp"
+
 #include <cstddef>
 
 namespace grouser::multibody::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-} // namespace
 
 void Mixing::improve(const ConstraintSystem::Part& part, const Iterate& iterate, std::vector<Vector6>& x) {
   const auto forAll = [&](auto&& f) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
@@ -15,8 +16,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Gaps are not closed further than this part of the coordinates.
 constexpr double kRoundOff = 5e-16;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/rattle_step.hpp"
 
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
 #include <algorithm>
@@ -44,8 +45,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// First halves of the palindromes, the middle last.
 /// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,

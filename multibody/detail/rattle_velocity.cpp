@@ -2,6 +2,7 @@
 #include "multibody/detail/rattle_step.hpp"
 
 #include "multibody/detail/axis_laws.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
 
@@ -11,12 +12,6 @@
 
 /// Second half of a stage of RATTLE (rattle_step.cpp), and the reactions at its end.
 namespace grouser::multibody::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-} // namespace
 
 /// p_1 = P(u) + h/2 f(q_1) + J^T Mu, J v_1 = rates, solved for v_1 - u and Mu.
 void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h) {

@@ -3,6 +3,7 @@
 
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/axis_springs.hpp"
+#include "multibody/detail/index.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -10,8 +11,6 @@
 namespace grouser::multibody::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void add(SoftRow& row, const LinearSpring& spring) {
   row.stiffness += spring.stiffness;
