@@ -71,7 +71,7 @@ void checkInertia(const std::string& what, const Mat3d& I) {
   if (!positiveDefinite(second))
     refuse(what, "inertia [kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
                  "two (diagonal " +
-                     text(I.m[0][0]) + ", " + text(I.m[1][1]) + ", " + text(I.m[2][2]) + ")");
+                     text(I.m[0][0]) + ", " + text(I.m[1][1]) + ", " + text(I.m[2][2]) + "); correct the entries");
 }
 
 Vec3d perpendicularTo(const Vec3d& z) {
@@ -123,7 +123,7 @@ void Model::checkBodies(const std::string& what, int bodyA, int bodyB) const {
     if (b < kWorld || b >= count)
       refuse(what, "body index " + std::to_string(b) + " is outside [-1, " + std::to_string(count - 1) +
                        "] (-1 is the world); add the body first");
-  if (bodyA == bodyB) refuse(what, "joins '" + bodyName(bodyA) + "' to itself");
+  if (bodyA == bodyB) refuse(what, "joins '" + bodyName(bodyA) + "' to itself; name two bodies");
   const auto immovable = [&](int b) { return b == kWorld || bodies_[static_cast<std::size_t>(b)].fixed; };
   if (immovable(bodyA) && immovable(bodyB))
     refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; leave it out");
@@ -272,8 +272,8 @@ int Model::addCoupling(const Coupling& given) {
   checkAxis(what, coupling.joint1, coupling.axis1);
   checkAxis(what, coupling.joint2, coupling.axis2);
   if (coupling.joint1 == coupling.joint2 && coupling.axis1 == coupling.axis2)
-    refuse(what,
-           "couples an axis of joint '" + joints_[static_cast<std::size_t>(coupling.joint1)].name + "' to itself");
+    refuse(what, "couples an axis of joint '" + joints_[static_cast<std::size_t>(coupling.joint1)].name +
+                     "' to itself; name two axes");
   if (!(std::isfinite(coupling.ratio) && coupling.ratio != 0))
     refuse(what, "ratio = " + text(coupling.ratio) + " must be finite and not 0");
   if (std::isinf(coupling.offset)) refuse(what, "offset is infinite");

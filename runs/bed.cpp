@@ -21,11 +21,16 @@ namespace grouser::runs {
 
 using base::Vec3d;
 
-terrain::HeightField readSurface(const Terrain& t) {
+terrain::HeightField readSurface(const Scene& scene) {
+  const Terrain& t = *scene.terrain;
   terrain::HeightmapPlacement placement;
   placement.sizeX = t.size[0], placement.sizeY = t.size[1];
   placement.black = t.heightRange[0], placement.white = t.heightRange[1];
-  return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
+  try {
+    return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
+  } catch (const base::InputError& error) {
+    scene.fail("terrain", "heightmap", fmt::format("is of no use: {}", error.what()));
+  }
 }
 
 namespace {
@@ -56,19 +61,39 @@ Surroundings surroundingsOf(const Scene& scene, const Ground& ground) {
   return around;
 }
 
-/// Throws before any memory is taken when the bed cannot fit into this machine.
+constexpr double kGiB = 1073741824.0; // [bytes]
+
+double memoryOfMachine() { // [bytes]
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// Throws before any memory is taken when grains cannot fit into this machine.
+void checkBlockSizes(const Scene& scene) {
+  const double bytes = grainMemory(scene).most();
+  for (std::size_t k = 0; k < scene.blocks.size(); ++k) {
+    const auto grains = static_cast<double>(placedCount(scene.blocks[k]));
+    if (grains * bytes > memoryOfMachine())
+      scene.fail(
+          "grains", k, scene.blocks[k].form == "random" ? "number" : "radius",
+          fmt::format("{} makes {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use fewer or larger grains",
+                      scene.blocks[k].form == "random" ? "[-]" : "[m]", grains, grains * bytes / kGiB,
+                      memoryOfMachine() / kGiB));
+  }
+}
+
+/// The same of a bed.
 void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
   const double bytes = grainMemory(scene).most();
   const Terrain& t = *scene.terrain;
   const double spacing = options.spacingInRadii * options.radius;
   const double layers = options.layers > 0 ? options.layers : std::max(1.0, options.depth / spacing);
   const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double memory = memoryOfMachine();
   if (grains * bytes > memory || grains > 4e9)
     scene.fail("terrain", "grain_radius",
                fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use larger grains, "
                            "fewer layers or a smaller terrain.size",
-                           grains, grains * bytes / 1073741824.0, memory / 1073741824.0));
+                           grains, grains * bytes / kGiB, memory / kGiB));
 }
 
 terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {
@@ -84,7 +109,7 @@ terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm
 /// The terrain without its grains. Empty where it has none.
 std::optional<terrain::BedPlan> readTerrain(const Scene& scene, Ground& ground) {
   if (!scene.terrain) return {};
-  ground.surface = readSurface(*scene.terrain);
+  ground.surface = readSurface(scene);
   if (!scene.terrain->granular()) {
     ground.rigid = ground.surface;
     return {};
@@ -155,6 +180,7 @@ terrain::LayerOptions layerOptions(const Scene& scene) {
 
 namespace {
 
+/// What stands beside each other in a scene.
 void checkCompany(const Scene& scene) {
   const bool placed = !scene.grains.empty() || !scene.blocks.empty(), bed = scene.terrain && scene.terrain->granular();
   if (placed && bed)
@@ -173,7 +199,7 @@ void checkCompany(const Scene& scene) {
 void checkGround(const Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
   checkCompany(scene);
-  checkSurfaceSpeeds(scene, timeStep);
+  checkSpeeds(scene, timeStep);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
   Ground ground;
@@ -183,10 +209,11 @@ void checkGround(const Scene& scene, double timeStep) {
 
 Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
   checkCompany(scene);
-  checkSurfaceSpeeds(scene, timeStep);
+  checkSpeeds(scene, timeStep);
   Ground ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
   if (!grainKinds(scene).any()) return ground;
+  checkBlockSizes(scene);
   const Surroundings around = surroundingsOf(scene, ground);
   const std::vector<Grain> grains = placedGrains(scene);
   checkStart(scene, grains, around, timeStep);

@@ -35,7 +35,7 @@ struct SettleReport {
 };
 
 /// The ground's surface as the height-map says. Throws InputError where that cannot be read.
-terrain::HeightField readSurface(const Terrain& terrain);
+terrain::HeightField readSurface(const Scene& scene);
 
 /// How the scene's bed is laid.
 terrain::LayerOptions layerOptions(const Scene& scene);

@@ -85,6 +85,22 @@ public:
     add("plane", scene_.planes.size()), add("box", scene_.boxes.size()), add("cylinder", scene_.cylinders.size());
   }
 
+  /// Ids are 32-bit numbers.
+  void ids() const {
+    constexpr double kMostGrains = 4e9;
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
+      const GrainBlock& b = scene_.blocks[k];
+      if (b.form != "lattice") continue;
+      double grains = 1; // in a whole number they might not fit
+      for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
+      if (grains > kMostGrains)
+        scene_.fail("grains", k, "radius",
+                    fmt::format("[m] makes a lattice of about {:.3g} grains between low and high, more than {:g}; use "
+                                "larger grains or a smaller box",
+                                grains, kMostGrains));
+    }
+  }
+
 private:
   void radius(const char* list, std::size_t k, const char* key, double smallest) const {
     constexpr double kLeast = 1e-3; // of the largest [-]; see terrain::Grains
@@ -115,7 +131,7 @@ private:
 void checkGrainSpace(const Scene& scene) {
   if (!grainKinds(scene).any()) return;
   const SpaceCheck check(scene);
-  check.grains(), check.sides(), check.boundaries();
+  check.grains(), check.sides(), check.boundaries(), check.ids();
 }
 
 } // namespace grouser::runs

@@ -63,14 +63,13 @@ Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec) {
               along(base::sin(heading), f.yMin, f.yMax, area->yMin, area->yMax), heading};
   if (scene.vehicle->position) p.x = (*scene.vehicle->position)[0], p.y = (*scene.vehicle->position)[1];
   if (p.x + f.xMin < area->xMin || p.x + f.xMax > area->xMax || p.y + f.yMin < area->yMin || p.y + f.yMax > area->yMax)
-    throw base::InputError(fmt::format("{}: vehicle.position = [{:.3f}, {:.3f}] [m] at vehicle.heading = {:g} [deg]: "
-                                       "the vehicle would cover [{:.2f}, {:.2f}] "
-                                       "x [{:.2f}, {:.2f}] m, the terrain is [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; it "
-                                       "needs {:.2f} x {:.2f} m: move it or "
-                                       "enlarge terrain.size",
-                                       scene.file.string(), p.x, p.y, scene.vehicle->heading, p.x + f.xMin,
-                                       p.x + f.xMax, p.y + f.yMin, p.y + f.yMax, area->xMin, area->xMax, area->yMin,
-                                       area->yMax, f.width(), f.length()));
+    scene.fail(
+        "vehicle", "position",
+        fmt::format("[m] puts the vehicle at ({:.3f}, {:.3f}) m with vehicle.heading = {:g} [deg], where it would "
+                    "cover [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; the terrain is [{:.2f}, {:.2f}] x [{:.2f}, "
+                    "{:.2f}] m, and it needs {:.2f} x {:.2f} m: move it or enlarge terrain.size",
+                    p.x, p.y, scene.vehicle->heading, p.x + f.xMin, p.x + f.xMax, p.y + f.yMin, p.y + f.yMax,
+                    area->xMin, area->xMax, area->yMin, area->yMax, f.width(), f.length()));
   return p;
 }
 

@@ -27,7 +27,7 @@ namespace {
 
 /// Grains of the bed; reads the height-map, for hills may need more.
 std::int64_t bedGrains(const Scene& scene) {
-  return terrain::planBed(readSurface(*scene.terrain), layerOptions(scene)).grains;
+  return terrain::planBed(readSurface(scene), layerOptions(scene)).grains;
 }
 
 std::string onOff(bool on, const std::string& what, const std::string& why) {

@@ -265,6 +265,12 @@ void readParallel(const Section& section, Scene& scene) {
         section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
 }
 
+void checkSettling(const Section& run, const Scene& scene) {
+  if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 && !(scene.run.gravity.z < 0))
+    run.fail("gravity", "[m/s2] does not bring the bed to rest on its floor; give z below 0, or set "
+                        "terrain.settle_time_limit = 0");
+}
+
 /// Joined sides: where they stand must be known, and what stands between them must be able to do without sides.
 void checkPeriodic(const Section& section, const Scene& scene) {
   const RunSettings& run = scene.run;
@@ -321,6 +327,7 @@ Scene readScene(base::Document read, const std::filesystem::path& file, const st
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
   checkPeriodic(root.section("run"), scene);
+  checkSettling(root.section("run"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
   if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
       scene.mechanism.empty())

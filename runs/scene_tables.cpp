@@ -126,8 +126,8 @@ Table<Grain> grainTable() {
   using S = Grain;
   Table<S> t("[grain]", "A single grain, for small scenes");
   t.add("position", &S::position, "m", "of the centre").required();
-  t.add("velocity", &S::velocity, "m/s", "at the start");
-  t.add("spin", &S::spin, "rad/s", "angular velocity at the start");
+  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "angular velocity at the start").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of its material").required();
   return t;
@@ -148,8 +148,8 @@ Table<GrainBlock> blockTable() {
   t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a share of its free gap").atLeast(0).atMost(1);
   t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "", "text with a grain a line, relative to the scene");
-  t.add("velocity", &S::velocity, "m/s", "at the start");
-  t.add("spin", &S::spin, "rad/s", "at the start");
+  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "at the start").atLeast(-1e6).atMost(1e6);
   t.add("material", &S::material, "", "name of their material").required();
   return t;
 }
@@ -159,8 +159,8 @@ Table<Source> sourceTable() {
   Table<S> t("[source]", "Grains that enter while the run goes, at random places in a box");
   t.add("low", &S::low, "m", "corner of the box in which their centres start").required();
   t.add("high", &S::high, "m", "the opposite corner").required();
-  t.add("velocity", &S::velocity, "m/s", "at which they enter");
-  t.add("spin", &S::spin, "rad/s", "at which they enter");
+  t.add("velocity", &S::velocity, "m/s", "at which they enter").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "at which they enter").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "of each").above(0).atMost(10).required();
   t.add("material", &S::material, "", "name of its material").required();
   t.add("number", &S::number, "-", "of grains that enter together").atLeast(1).atMost(1e6);

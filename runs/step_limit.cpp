@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/step_limit.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
@@ -138,8 +139,25 @@ double shortestContact(const Scene& scene) {
   return std::isfinite(shortest) ? shortest : 0;
 }
 
+namespace {
+
+/// Springs and dampers that the integrator cannot take at this step are found out by a step.
+double mechanismStep(const Scene& scene) {
+  const double step = scene.run.timeStep ? *scene.run.timeStep : mechanismTimeStep(scene);
+  Mechanism trial(scene, step);
+  try {
+    trial.advance();
+  } catch (const base::InputError& error) {
+    scene.fail("run", "time_step", fmt::format("[s] is not possible: {}", error.what()));
+  } catch (const base::SimulationError&) { // the run will say where
+  }
+  return step;
+}
+
+} // namespace
+
 double chooseTimeStep(const Scene& scene) {
-  if (!scene.mechanism.empty()) return scene.run.timeStep ? *scene.run.timeStep : mechanismTimeStep(scene);
+  if (!scene.mechanism.empty()) return mechanismStep(scene);
   const StepLimit limit = stepLimit(scene);
   const double contact = shortestContact(scene);
   double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit.step);
@@ -160,25 +178,65 @@ double chooseTimeStep(const Scene& scene) {
   return *scene.run.timeStep;
 }
 
-void checkSurfaceSpeeds(const Scene& scene, double timeStep) {
-  const GrainKinds kinds = grainKinds(scene);
-  if (!kinds.any()) return;
-  const double most = 0.5 * kinds.smallest / timeStep;
+namespace {
+
+/// How far a point of a surface can be from what it turns about, but for the part of it that turning brings upon itself
+/// [m]. A plane has no end: what is far out there does not count.
+double leverOf(const SceneSurface& s) {
+  const Vec3d& h = s.geometry.half;
+  const double arm = s.section.pivot ? norm(s.start.position - *s.section.pivot) : 0;
+  switch (s.geometry.shape) {
+  case terrain::SurfaceShape::plane:
+    return 0;
+  case terrain::SurfaceShape::box:
+    return arm + norm(h);
+  default: {
+    const Vec3d axis = rotate(s.start.orientation, {0, 0, 1});
+    return arm + norm(cross(base::normalized(*s.section.spin), axis)) * norm(h);
+  }
+  }
+}
+
+void checkSurfaceSpeeds(const Scene& scene, double smallest, double timeStep) {
+  const double most = 0.5 * smallest / timeStep;
   for (const SceneSurface& s : surfacesOf(scene)) {
     // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     const auto across = [&](const std::optional<Vec3d>& v) {
       return !v ? 0.0 : plane ? std::fabs(dot(*v, base::normalized(scene.planes[s.number].normal))) : norm(*v);
     };
-    const double speed =
+    const double shifts =
         across(s.section.velocity) + across(s.section.amplitude) * 2 * base::kPi * s.section.frequency.value_or(0);
-    if (speed > most)
-      scene.fail(s.kind, s.number, s.section.velocity ? "velocity" : "amplitude",
-                 fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
-                             "{:.3g} s: it could pass through a grain unfelt; keep it below {:.4g} m/s (velocity, "
-                             "amplitude, frequency), or lower run.time_step",
-                             s.name, speed, timeStep, most));
+    const double turns = s.section.spin && norm(*s.section.spin) > 0 ? norm(*s.section.spin) * leverOf(s) : 0;
+    if (shifts + turns > most)
+      scene.fail(
+          s.kind, s.number,
+          turns > shifts       ? "spin"
+          : s.section.velocity ? "velocity"
+                               : "amplitude",
+          fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
+                      "{:.3g} s: it could pass through a grain unfelt; keep it below {:.4g} m/s (velocity, spin, "
+                      "amplitude, frequency), or lower run.time_step",
+                      s.name, shifts + turns, timeStep, most));
   }
+}
+
+} // namespace
+
+void checkSpeeds(const Scene& scene, double timeStep) {
+  const GrainKinds kinds = grainKinds(scene);
+  if (!kinds.any()) return;
+  checkSurfaceSpeeds(scene, kinds.smallest, timeStep);
+  const double most = 0.5 * scene.run.skin * kinds.smallest / timeStep;
+  const auto check = [&](const char* list, const auto& sections) {
+    for (std::size_t k = 0; k < sections.size(); ++k)
+      if (norm(sections[k].velocity) > most)
+        scene.fail(list, k, "velocity",
+                   fmt::format("[m/s] is more than half the neighbour list's skin in a step of {:.3g} s; keep it below "
+                               "{:.4g} m/s, or lower run.time_step, or raise run.skin",
+                               timeStep, most));
+  };
+  check("grain", scene.grains), check("grains", scene.blocks), check("source", scene.sources);
 }
 
 } // namespace grouser::runs

@@ -41,7 +41,8 @@ double shortestContact(const Scene& scene);
 /// Throws InputError that names the limit and what sets it.
 double chooseTimeStep(const Scene& scene);
 
-/// Throws InputError where a surface goes farther in a step than half a radius: it could pass through a grain unfelt.
-void checkSurfaceSpeeds(const Scene& scene, double timeStep);
+/// Throws InputError where a surface goes farther in a step than half a radius: it could pass through a grain unfelt;
+/// and where a grain starts or enters more quickly than the neighbour lists can follow.
+void checkSpeeds(const Scene& scene, double timeStep);
 
 } // namespace grouser::runs

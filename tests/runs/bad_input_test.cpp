@@ -263,6 +263,28 @@ std::vector<Mistake> mistakes() {
                {"scene.toml:11: terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
       badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",
                {"scene.toml:9: terrain.size", "terrain.grain_radius", "use larger grains"}, kBed),
+      badScene("GrainTooQuickForTheLists", "radius = 0.01", "radius = 0.01\nvelocity = [200, 0, 0]",
+               {"scene.toml:11: grain.0.velocity", "keep it below 150 m/s", "lower run.time_step"}),
+      badScene("SpinTooQuickToBeFelt", "[[plane]]",
+               "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nspin = [0, 1000, 0]",
+               {"scene.toml:9: box.0.spin", "unfelt", "keep it below 500 m/s"}),
+      badScene("MoreGrainsThanIds", "[output]",
+               "[[grains]]\nlow = [0, 0, 1]\nhigh = [100, 100, 100]\nradius = 0.01\nmaterial = \"glass\"\n[output]",
+               {"scene.toml:19: grains.0.radius", "larger grains or a smaller box"}),
+      // Four thousand million at 1.5 kB: more than any one machine has.
+      badScene("MoreGrainsThanMemory", "[output]",
+               manyPlanes(30) +
+                   "[[grains]]\nlow = [0, 0, 1]\nhigh = [33, 33, 34]\nradius = 0.01\nmaterial = \"glass\"\n[output]",
+               {"grains.0.radius", "this machine has", "use fewer or larger grains"},
+               replaced(kGrains, "[material.glass]", "[material.glass]\nrolling_friction = 0.1")),
+      badScene("BedWithoutGravity", "time_step = 1e-4", "time_step = 1e-4\ngravity = [0, 0, 0]",
+               {"scene.toml:5: run.gravity", "give z below 0", "settle_time_limit"},
+               replaced(kBed, "settle_time_limit = 0.0", "settle_time_limit = 1.0")),
+      badScene("ExplicitSpringTooStiffForTheStep", kGrains,
+               "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\nsprings = \"explicit\"\n[[body]]\nname = "
+               "\"a\"\nmass = 1\nbox = [1, 1, 1]\n[[spring]]\nname = \"s\"\nbodies = [\"world\", "
+               "\"a\"]\npoint_a = [0, 0, 3]\nstiffness = 1e9\n",
+               {"scene.toml:4: run.time_step", "set by spring 's'", "take a shorter step"}),
       // Sources that set grains where something is.
       badScene("SourceInPlane", "[output]", source("[0.4, 0, -0.3]"),
                {"scene.toml:17: source.0.low", "overlaps plane 0", "move low and high"}),

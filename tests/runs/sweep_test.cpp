@@ -56,11 +56,13 @@ protected:
     writeScene("1e-3");
   }
 
-  /// A falling grain. Above half the skin a step, 0.3 x 0.5 x 0.01 m / 1e-5 s = 150 m/s, a run fails at its first step.
+  /// A falling grain above a plane, which at 100 m/s it would meet v sqrt(m / k) = 1e-2 m deep, five times what is
+  /// allowed: then a run fails.
   void writeScene(const std::string& duration) const {
     std::ofstream(scene()) << "version = 1\n[run]\nduration = " << duration
                            << "\ntime_step = 1e-5\noutput_interval = 1e-4\nthreads = 1\n[material.glass]\n[[grain]]\n"
                               "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
+                              "[[plane]]\npoint = [0, 0, 0.98]\nmaterial = \"glass\"\n"
                               "[output]\nplots = false\npicture = false\nframes = false\n";
   }
   fs::path scene() const { return folder_ / "fall.toml"; }
@@ -195,11 +197,11 @@ TEST_F(Sweep, ForceRunsAll) {
 }
 
 TEST_F(Sweep, AFailedRunStopsNoOther) {
-  EXPECT_EQ(sweep({"grain.0.velocity=[0,0,1],[0,0,1000],[0,0,2]"}), 1);
+  EXPECT_EQ(sweep({"grain.0.velocity=[0,0,1],[0,0,-100],[0,0,2]"}), 1);
   const Csv csv(out() / "summary.csv");
   EXPECT_EQ(csv.at(0, "status"), "finished");
   EXPECT_EQ(csv.at(1, "status"), "failed");
-  EXPECT_NE(csv.at(1, "message").find("skin"), std::string::npos) << csv.at(1, "message");
+  EXPECT_NE(csv.at(1, "message").find("overlaps"), std::string::npos) << csv.at(1, "message");
   EXPECT_EQ(csv.at(1, "state hash"), "");
   EXPECT_EQ(csv.at(2, "status"), "finished");
   EXPECT_EQ(csv.rows[1].size(), csv.header.size()) << "a message with commas is one cell";
@@ -231,7 +233,7 @@ TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
   EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
   EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,1000]' --out b");
+  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
   EXPECT_EQ(unsound.code, 3);
   EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
 }
