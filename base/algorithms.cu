@@ -19,6 +19,8 @@
 #include <thrust/system/omp/execution_policy.h>
 
 #if defined(__CUDACC__)
+#include "base/cuda_check.cuh"
+
 #include <thrust/system/cuda/execution_policy.h>
 #endif
 
@@ -26,10 +28,28 @@ namespace grouser::base {
 
 namespace {
 
+#if defined(__CUDACC__)
+/// Thrust's own memory for a moment, from the pool that Array takes its from.
+struct PoolAllocator {
+  using value_type = char;
+  const Exec& exec;
+  char* allocate(std::ptrdiff_t bytes) {
+    void* memory = nullptr;
+    checkCuda(cudaMallocAsync(&memory, static_cast<std::size_t>(bytes), static_cast<cudaStream_t>(exec.stream)),
+              "cudaMallocAsync of " + std::to_string(bytes) + " bytes for sorting or scanning");
+    return static_cast<char*>(memory);
+  }
+  void deallocate(char* memory, std::size_t) { release(exec, memory); }
+};
+#endif
+
 /// Calls `work(policy)` with Thrust's policy for `exec`.
 template <class Work> auto withPolicy(const Exec& exec, const Work& work) {
 #if defined(__CUDACC__)
-  if (!exec.onCpu()) return work(thrust::cuda::par.on(static_cast<cudaStream_t>(exec.stream)));
+  if (!exec.onCpu()) {
+    PoolAllocator pool{exec};
+    return work(thrust::cuda::par_nosync(pool).on(static_cast<cudaStream_t>(exec.stream)));
+  }
 #endif
   omp_set_num_threads(exec.threads);
   return work(thrust::omp::par);

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -50,6 +51,11 @@ int cudaDevices() {
 
 Exec cudaExec(int index) {
   checkCuda(cudaSetDevice(index), "cudaSetDevice");
+  // What is released is kept for the next who asks: asking the driver takes longer than most kernels.
+  cudaMemPool_t pool = nullptr;
+  checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
+  std::uint64_t all = ~std::uint64_t{0};
+  checkCuda(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all), "cudaMemPoolSetAttribute");
   cudaStream_t stream = nullptr;
   checkCuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "cudaStreamCreate");
   Exec exec;
@@ -112,7 +118,8 @@ void* allocate(const Exec& exec, std::size_t bytes) {
     return memory;
   }
 #if defined(__CUDACC__)
-  checkCuda(cudaMalloc(&memory, bytes), "cudaMalloc of " + std::to_string(bytes) + " bytes");
+  checkCuda(cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream)),
+            "cudaMallocAsync of " + std::to_string(bytes) + " bytes");
   setZero(exec, memory, bytes);
   return memory;
 #else
@@ -126,7 +133,7 @@ void release(const Exec& exec, void* memory) noexcept {
     return;
   }
 #if defined(__CUDACC__)
-  cudaFree(memory); // nothing to be done about a failure while unwinding
+  if (memory) cudaFreeAsync(memory, static_cast<cudaStream_t>(exec.stream)); // while unwinding, failures are too late
 #endif
 }
 

@@ -35,6 +35,7 @@ void synchronize(const Exec& exec);
 
 /// Untyped memory on `exec`'s device, zeroed. Throws DeviceError (out of memory names the bytes asked for).
 void* allocate(const Exec& exec, std::size_t bytes);
+/// Work given to `exec` so far may still use the memory.
 void release(const Exec& exec, void* memory) noexcept;
 void copyToDevice(const Exec& exec, void* device, const void* host, std::size_t bytes);
 /// Waits for earlier work on the stream, then copies.

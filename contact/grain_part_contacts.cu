@@ -243,10 +243,11 @@ std::vector<std::int64_t> GrainPartContacts::allSums() const {
   return sums;
 }
 
-void GrainPartContacts::compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
-  base::setZero(exec_, sums_.data(), 2 * sizeof(std::int64_t));
+void GrainPartContacts::computeOn(const base::Exec& exec, const GrainsView& grains,
+                                  const base::Array<PartMotion>& motion, PartLoad* loads) {
+  base::setZero(exec, sums_.data(), 2 * sizeof(std::int64_t));
   const auto run = [&]<unsigned kFeatures>() {
-    base::forEachGroup<16>(exec_, "grain-part contacts", static_cast<std::int64_t>(pairs_),
+    base::forEachGroup<16>(exec, "grain-part contacts", static_cast<std::int64_t>(pairs_),
                            GrainPartForces<kFeatures>{model_, laws_.data(), massPerCube_.data(), grains, motion.data(),
                                                       parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
                                                       memory_.data(), rolling_ ? angle_.data() : nullptr, load_.data(),

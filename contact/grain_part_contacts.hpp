@@ -76,7 +76,12 @@ public:
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
   /// Contact loads of this step. `loads` (one a part) is added to.
-  void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
+  void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
+    computeOn(exec_, grains, motion, loads);
+  }
+  /// The same on a side stream.
+  void computeOn(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
+                 PartLoad* loads);
 
   /// What the grains' step needs: valid until the next refresh.
   GrainLoadsView grainLoads();

@@ -86,7 +86,7 @@ void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {
   listProbes(buffers_, target(), motion, model_.margin);
 }
 
-void PartPartContacts::compute(const base::Array<PartMotion>& motion, double travelled, PartLoad* loads) {
+void PartPartContacts::compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads) {
   pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 

@@ -66,7 +66,7 @@ public:
   void refresh(const base::Array<PartMotion>& motion);
   /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
   /// relative to each other since the refresh [m]; at most the margin.
-  void compute(const base::Array<PartMotion>& motion, double travelled, PartLoad* loads);
+  void compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads);
 
   std::size_t probesListed() const { return buffers_.entries; }
   PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }

@@ -25,10 +25,10 @@ void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<P
 }
 
 /// Pressure on every listed probe, then friction on every patch. `travelled`: bound of the relative motion of any pair
-/// since the probes were listed [m].
+/// since the probes were listed [m], on the device.
 template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
-                                         double timeStep, double travelled, const base::Array<PartMotion>& motion,
-                                         PartLoad* loads) {
+                                         double timeStep, const double* travelled,
+                                         const base::Array<PartMotion>& motion, PartLoad* loads) {
   buffers.sums.zero();
   base::forEachGroup<8>(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
                         PressProbe<Target>{target, buffers.probe.data(), quanta, motion.data(), buffers.entry.data(),

@@ -93,13 +93,13 @@ template <class Target> struct PressProbe {
   const PartMotion* motion;
   const std::uint64_t* entry;
   const float* gap;
-  double travelled;   ///< bound of the relative motion of any pair since the list was made [m]
-  PatchSums* patches; ///< [pair * kClusters + cluster]
+  const double* travelled; ///< bound of the relative motion of any pair since the list was made [m]
+  PatchSums* patches;      ///< [pair * kClusters + cluster]
   PartLoad* loads;
   double timeStep;
 
   template <class Lanes> GROUSER_HD void operator()(int e, const Lanes& lanes) const {
-    if (static_cast<double>(gap[e]) > travelled) return;
+    if (static_cast<double>(gap[e]) > *travelled) return;
     const int pair = static_cast<int>(entry[e] >> 32);
     const Probe probe = probes[entry[e] & 0xFFFFFFFFu];
     const int a = target.partA(pair), b = target.partB(pair);

@@ -239,10 +239,7 @@ SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& pr
   double forceRatio = 0;
   int calm = 0;
   while (report.time < t.settleTimeLimit) {
-    for (std::int64_t i = 0; i < checkEvery; ++i) {
-      grains.refreshNeighbours();
-      grains.step();
-    }
+    for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
     report.steps += checkEvery;
     report.time = static_cast<double>(report.steps) * dt;
     if (t.settleForceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step

@@ -79,7 +79,7 @@ public:
     const char* name;
     double microseconds = 0; ///< sum over all steps
   };
-  enum { kPlace, kNeighbours, kLists, kTrack, kGround, kCollect, kGrains, kMultibody, kFlags, kAlarm, kParts };
+  enum { kPlace, kNeighbours, kLists, kUpload, kTrack, kGround, kCollect, kGrains, kMultibody, kFlags, kAlarm, kParts };
   const std::array<Part, kParts>& parts() const { return parts_; }
   std::int64_t steps() const { return steps_; }
   std::int64_t rebuilds() const { return rebuilds_; }
@@ -93,6 +93,7 @@ private:
   std::array<Part, kParts> parts_{{{"place surfaces"},
                                    {"neighbours"},
                                    {"lists of parts"},
+                                   {"poses to device"},
                                    {"track contacts"},
                                    {"ground contacts"},
                                    {"loads to host"},

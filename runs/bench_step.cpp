@@ -36,10 +36,14 @@ void StepBench::step() {
   if (vehicle) {
     vehicle->refreshLists(grains, slotsChanged);
     mark(kLists);
+    vehicle->noteTravel();
+    vehicle->uploadPoses();
+    mark(kUpload);
     vehicle->touchTrack();
     mark(kTrack);
     vehicle->touchGround(grains);
     mark(kGround);
+    vehicle->downloadLoads();
     vehicle->collectLoads();
     mark(kCollect);
   }

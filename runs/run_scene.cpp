@@ -150,7 +150,9 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
   const std::int64_t saveEvery = scene.run.checkpointInterval > 0 ? stepsOf(scene.run.checkpointInterval) : total + 1;
   Progress progress("running", simulation.comm().first());
   while (simulation.steps() < total) {
-    simulation.step();
+    const std::int64_t now = simulation.steps();
+    simulation.advance(
+        std::min({total - now, rowEvery - now % rowEvery, frameEvery - now % frameEvery, saveEvery - now % saveEvery}));
     if (simulation.steps() % rowEvery == 0) recorder.row();
     if (simulation.steps() % frameEvery == 0) recorder.frame();
     if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());

@@ -41,8 +41,8 @@ void Simulation::step() {
   const bool slotsChanged = grains && grains->refreshNeighbours();
   if (vehicle_) {
     vehicle_->refreshLists(grains, slotsChanged);
-    vehicle_->touchTrack();
-    vehicle_->touchGround(grains);
+    if (grains) grains->beginBoundaries();
+    vehicle_->touch(grains);
     vehicle_->collectLoads();
   }
   if (surfaces_) surfaces_->touch(*grains, steps_, slotsChanged);
@@ -55,6 +55,17 @@ void Simulation::step() {
   ++steps_;
   addGrains();
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+}
+
+std::int64_t Simulation::advance(std::int64_t most) {
+  const bool grainsAlone = ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && sources_.empty();
+  if (!grainsAlone) {
+    step();
+    return 1;
+  }
+  const std::int64_t taken = ground_.grains->advance(most);
+  steps_ += taken;
+  return taken;
 }
 
 /// Of the rigid parts that touch the grains in this step; null without.

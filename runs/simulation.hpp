@@ -31,6 +31,8 @@ public:
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
   void step();
+  /// At least one step, at most `most`: as many as can be given to the device at once. Returns how many were taken.
+  std::int64_t advance(std::int64_t most);
 
   double timeStep() const { return timeStep_; }
   std::int64_t steps() const { return steps_; }

@@ -64,8 +64,8 @@ base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
 
 VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeStep, const Ground& ground,
                        const std::function<double(double, double)>& surfaceHeight)
-    : exec_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)), surfaceHeight_(surfaceHeight),
-      gravity_(scene.run.gravity) {
+    : exec_(exec), side_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)),
+      surfaceHeight_(surfaceHeight), gravity_(scene.run.gravity) {
   if (ground.grains) comm_ = ground.grains->comm();
   if (!comm_.alone()) sharedGrains_ = ground.grains.get();
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
@@ -116,7 +116,9 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     partReach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[p]]) + norm(assembly_.parts[p].pose_B.position));
   }
   const std::size_t n = contactParts_.size();
+  for (Touches& touches : touches_) touches.replay = base::Replay(exec_);
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
+  travelled_ = base::Mirrored<double>(exec_, 2);
   loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n);
 
   const vehicle::ContactSpec& spec = assembly_.spec.contact;
@@ -180,17 +182,20 @@ contact::PartMotion VehicleRig::motionOf(std::size_t c) const {
 
 void VehicleRig::placeSurfaces() {
   for (std::size_t c = 0; c < contactParts_.size(); ++c) motion_.host()[c] = motionOf(c);
-  motion_.upload();
-  loadSums_.device().zero();
 }
 
 void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
   // Two parts approach each other at most as fast as both move relative to the hull.
-  if (2 * relativeTravel_ > trackMargin_) {
+  const bool trackIsDue = 2 * relativeTravel_ > trackMargin_;
+  const bool groundIsDue = absoluteTravel_ > groundMargin_ || slotsChanged;
+  if (!trackIsDue && !groundIsDue) return;
+  motion_.upload();
+  forgetTouches();
+  if (trackIsDue) {
     track_->refresh(motion_.device());
     relativeTravel_ = 0;
   }
-  if (absoluteTravel_ <= groundMargin_ && !slotsChanged) return;
+  if (!groundIsDue) return;
   if (bed_) bed_->refresh(viewOf(*grains), motion_.device());
   if (rigidGround_) rigidGround_->refresh(motion_.device());
   absoluteTravel_ = 0;
@@ -204,21 +209,57 @@ template <class Work> void VehicleRig::asAllRanksDo(const Work& work) {
   sharedGrains_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
+void VehicleRig::touch(const terrain::Grains* grains) {
+  noteTravel();
+  touchesFrom(grains ? grains->positions() : nullptr).run([this, grains] {
+    uploadPoses();
+    side_.fork();
+    touchGround(grains);
+    touchTrack();
+    side_.join();
+    downloadLoads();
+  });
+}
+
+/// The record of touches of grains that are at `positions`.
+base::Replay& VehicleRig::touchesFrom(const base::Position* positions) {
+  for (Touches& touches : touches_)
+    if (touches.positions == positions) return touches.replay;
+  Touches& other = touches_[touches_[0].positions ? 1 : 0];
+  other.positions = positions;
+  other.replay.forget();
+  return other.replay;
+}
+
+void VehicleRig::forgetTouches() {
+  for (Touches& touches : touches_) touches.positions = nullptr, touches.replay.forget();
+}
+
+/// On the host: no record of work does that.
+void VehicleRig::noteTravel() { travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_; }
+
+void VehicleRig::uploadPoses() {
+  motion_.upload();
+  travelled_.upload();
+  loadSums_.device().zero();
+}
+
+void VehicleRig::downloadLoads() { loadSums_.download(); }
+
 void VehicleRig::touchTrack() {
-  asAllRanksDo([this] { track_->compute(motion_.device(), 2 * relativeTravel_, loadSums_.device().data()); });
+  asAllRanksDo([this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
 void VehicleRig::touchGround(const terrain::Grains* grains) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
   if (bed_) {
-    bed_->compute(viewOf(*grains), motion_.device(), groundLoads);
+    bed_->computeOn(side_.exec(), viewOf(*grains), motion_.device(), groundLoads);
     grainLoads_ = bed_->grainLoads();
   }
-  if (rigidGround_) rigidGround_->compute(motion_.device(), absoluteTravel_, groundLoads);
+  if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);
 }
 
 void VehicleRig::collectLoads() {
-  loadSums_.download();
   base::synchronize(exec_);
   const std::size_t n = contactParts_.size();
   const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;

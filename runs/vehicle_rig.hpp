@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/replay.hpp"
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "multibody/solver.hpp"
@@ -13,6 +14,7 @@
 #include "vehicle/driver.hpp"
 #include "vehicle/observers.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,13 +29,19 @@ public:
              const std::function<double(double, double)>& surfaceHeight);
 
   // One step, in this order.
-  void placeSurfaces(); ///< poses of all parts to the device; sums of loads to zero
+  void placeSurfaces(); ///< poses of all parts
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
-  void touchTrack(); ///< shoes against sprocket, wheels, rollers, idler
-  void touchGround(
-      const terrain::Grains* grains); ///< shoes and all other parts against the bed, or shoes against rigid ground
-  void collectLoads();                ///< sums to the host: one small transfer
-  void advance();                     ///< multibody step
+  void touch(const terrain::Grains* grains); ///< all contacts of parts; the device works, the host does not wait
+  void collectLoads();                       ///< waits for the sums of loads
+  void advance();                            ///< multibody step
+
+  // What touch() is made of.
+  void noteTravel();  ///< since the lists were made
+  void uploadPoses(); ///< one small transfer; sums of loads to zero
+  void touchTrack();  ///< shoes against sprocket, wheels, rollers, idler
+  /// Shoes and all other parts against the bed, or shoes against rigid ground.
+  void touchGround(const terrain::Grains* grains);
+  void downloadLoads(); ///< one small transfer
 
   /// For the grains' step; null on rigid ground.
   const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
@@ -95,8 +103,17 @@ private:
   vehicle::GroundLoads meanGroundLoads(const std::vector<base::Vec3l>& sums, std::int64_t steps) const;
   /// Bound of how far any point of a part may have moved [m] in this step: absolute, and relative to the hull.
   void trackTravel();
+  base::Replay& touchesFrom(const base::Position* positions);
+  void forgetTouches();
 
   base::Exec exec_;
+  base::SideStream side_;
+  /// The touches of a step, for each of the two buffers that the grains' state takes turns in.
+  struct Touches {
+    const base::Position* positions{nullptr};
+    base::Replay replay;
+  };
+  std::array<Touches, 2> touches_;
   terrain::Grains* sharedGrains_{nullptr}; ///< told how long work takes that no cut can shift; null on one rank
   base::Comm comm_; ///< each rank touches its own grains; everything else is done alike on all of them
   double timeStep_;
@@ -118,6 +135,7 @@ private:
 
   contact::PatchQuanta quanta_;
   base::Mirrored<contact::PartMotion> motion_;
+  base::Mirrored<double> travelled_; ///< relative and absolute travel since the lists were made [m], for the device
   base::Mirrored<contact::PartLoad> loadSums_; ///< of all contact parts: from the track, then from the ground
   std::vector<base::Vec3l> groundForceSums_;   ///< by contact part, over `meanSteps_` steps
   std::vector<base::Vec3l> alarmForceSums_;    ///< the same since the last alarm()

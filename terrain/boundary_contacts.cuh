@@ -26,6 +26,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   };
 
   GROUSER_HD void operator()(int k) const {
+    if (Kernel::ended()) return;
     const int i = static_cast<int>(d.nearBoundary[k]);
     const Vec v = d.velocity[i].xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
@@ -40,7 +41,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
       now |= 1u << b;
       touchFixed(grain, b, d.walls[b].normal.template as<Real>(), overlap, sum);
     }
-    if (d.hasFloor && !d.floor.clearOf(x, radius)) {
+    if (has(kFloor) && !d.floor.clearOf(x, radius)) {
       const FootPoint foot = d.floor.closestPoint(x);
       const Real overlap = static_cast<Real>(radius - foot.distance);
       if (overlap > 0) {

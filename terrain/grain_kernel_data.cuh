@@ -26,7 +26,6 @@ struct GrainKernelData {
   base::Vec3d gravityStep; // g dt
   const Wall* walls;
   int wallCount, boundaryCount; ///< planes; planes, floor and surfaces together, in this order
-  bool hasFloor;
   HeightFieldView floor;
   base::Period period;
   const SurfaceGeometry* surfaces;
@@ -56,7 +55,8 @@ struct GrainKernelData {
   contact::PartLoad* surfaceLoads;   ///< sums of this step
   double* dissipated;
   contact::GrainLoadsView loads;
-  StepFlags* flags;
+  StepFlags* flags;        ///< of this step
+  const StepFlags* former; ///< of the step before, where several go at once: what it raises, ends them; else null
 };
 
 /// Constants in the precision of the forces, by value.
@@ -94,6 +94,8 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   GROUSER_HD base::Vec3i apart(const base::Position& i, const base::Position& j) const {
     return has(kPeriodic) ? d.period.apart(i, j).template as<std::int32_t>() : base::difference(i, j);
   }
+  /// Whether an earlier one of the steps that go at once is the last.
+  GROUSER_HD bool ended() const { return d.former && (d.former->stale || d.former->fault != kNoFault); }
   GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction); }
   GROUSER_HD int historyWidth() const { return has(contact::kRollingFriction) ? 6 : 3; }
 

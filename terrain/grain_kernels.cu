@@ -26,14 +26,16 @@ using StepKernels =
                kBed | kManyRadii, kBed | kManyRadii | kRollingFriction, kHertz | kBed, kHertz | kBed | kLoads,
                kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic,
                kBed | kSurfaces, kBed | kSurfaces | kRollingFriction>;
-using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction,
+/// The search on a floor needs many registers.
+using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction, kFriction | kFloor,
+                                   kFriction | kRollingFriction | kFloor, kHertz | kFriction | kFloor,
                                    kFriction | kSurfaces, kFriction | kRollingFriction | kSurfaces>;
 /// In double all scenes take the general kernels.
 using NoKernels = KernelList<>;
 
 /// Features that the kernel of walls and floor asks for.
 constexpr unsigned kAtBoundaries =
-    kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kSurfaces | kGeneral;
+    kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kSurfaces | kFloor | kGeneral;
 
 template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features) {
   return ((features == kSets) || ...);
@@ -51,7 +53,7 @@ void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, c
 
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                               std::int64_t count, bool specialised) {
-  const unsigned features = specialised ? d.features : kGeneral;
+  const unsigned features = specialised ? d.features & ~kFloor : kGeneral;
   if (const int width = exec.onCpu() ? laneWidth(features, f.law, d.mostLanes) : 1; width > 1)
     return runGrainLanes(exec, d, f, count, width);
   runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
@@ -72,7 +74,7 @@ template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelDa
 }
 
 bool hasOwnKernel(unsigned features, Precision precision) {
-  return precision == Precision::single && listed(StepKernels{}, features);
+  return precision == Precision::single && listed(StepKernels{}, features & ~kFloor);
 }
 
 std::string featureText(unsigned features) {
@@ -83,8 +85,7 @@ std::string featureText(unsigned features) {
   add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
   add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
   add(kPeriodic, "joined sides"), add(kBoundaries, "planes or floor"), add(kSurfaces, "moving surfaces");
-  add(kLoads, "rigid parts"),
-      add(kLedger, "ledger");
+  add(kLoads, "rigid parts"), add(kLedger, "ledger");
   return text;
 }
 

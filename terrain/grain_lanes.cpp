@@ -48,7 +48,8 @@ void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, co
                   const base::Vec3d& torque, float deepest) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
   const Vec4f v = d.velocity[i], w = d.spin[i];
-  step.advance(i, d.position[i], v, w, step.sizeOf(v.w, w.w), force, torque, deepest);
+  step.advance(i, {d.position[i], v, w, d.remainders[i], d.reference[i]}, step.sizeOf(v.w, w.w), force, torque,
+               deepest);
 }
 
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,

@@ -23,12 +23,15 @@ struct Crossings {
 
 /// What stops a run; the smallest key (code, then grain id) is kept.
 enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, range = 4, none = 255 };
+inline constexpr std::uint64_t kNoFault = ~std::uint64_t{0}; ///< in StepFlags
 
 /// Written by the step, read by the host once a step.
 struct StepFlags {
   std::uint64_t fault; ///< Fault << 56 | grain id
   std::uint32_t stale; ///< a grain has used up its half of the skin
   std::uint32_t padding;
+  bool raised() const { return stale != 0 || fault != kNoFault; }
 };
+inline constexpr StepFlags kNoFlags{kNoFault, 0, 0};
 
 } // namespace grouser::terrain

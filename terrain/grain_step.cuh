@@ -19,19 +19,34 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   };
 
   GROUSER_HD void operator()(int k) const {
+    if (Kernel::ended()) {
+      if (k == 0) base::raise(&d.flags->stale); // those behind end too
+      return;
+    }
     const int i = d.active ? static_cast<int>(d.active[k]) : k;
     Sum sum;
     const base::Position p = d.position[i];
     const Vec4f v = d.velocity[i], w = d.spin[i];
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, v.xyz().template as<Real>(), w.xyz().template as<Real>(), size, sum);
+    // Asked for together, since none can be moved before another's stores.
+    const Remainders kept = d.remainders[i];
+    const base::Vec3<std::uint32_t> reference = d.reference[i];
     if (has(kBoundaries)) addBoundaries(i, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque, sum);
     if (has(kLedger)) d.dissipated[i] += static_cast<double>(sum.dissipated);
-    advance(i, p, v, w, size, force, torque, sum.deepest);
+    advance(i, {p, v, w, kept, reference}, size, force, torque, sum.deepest);
   }
+
+  /// The state that a step replaces.
+  struct State {
+    base::Position position;
+    Vec4f velocity, spin;
+    Remainders kept;
+    base::Vec3<std::uint32_t> reference;
+  };
 
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Vec& v, const Vec& w, const GrainSize<Real>& own,
                                Sum& sum) const {
@@ -40,14 +55,20 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     // 64 neighbours a word; of equal spheres no more can be near.
     std::uint64_t* touching = d.neighbours.touching + (has(kManyRadii) ? i * d.neighbours.maskWords : i);
     std::uint64_t before = *touching, now = 0;
+    // Asked for ahead: the slot after the next, and the place of the next.
+    const auto slotAt = [&](std::uint32_t k) { return d.neighbours.slot[row + k * d.neighbours.stride]; };
+    std::uint32_t j = 0, ahead = n > 0 ? slotAt(0) : 0, second = n > 1 ? slotAt(1) : 0;
+    base::Position place = n > 0 ? d.position[ahead] : base::Position{}, there{};
     for (std::uint32_t k = 0; k < n; ++k) {
       if (has(kManyRadii) && k > 0 && (k & 63u) == 0) {
         *touching++ = now;
         before = *touching, now = 0;
       }
+      j = ahead, ahead = second, there = place;
+      if (k + 2 < n) second = slotAt(k + 2);
+      if (k + 1 < n) place = d.position[ahead];
       const std::int64_t at = row + k * d.neighbours.stride;
-      const std::uint32_t j = d.neighbours.slot[at];
-      const base::Vec3i apart = Kernel::apart(p, d.position[j]);
+      const base::Vec3i apart = Kernel::apart(p, there);
       const std::int64_t distance2 = base::squaredNorm(apart);
       GrainSize<Real> other{};
       std::int64_t reach2 = d.diameterUnits2;
@@ -63,20 +84,24 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         continue;
       }
       now |= std::uint64_t{1} << (k & 63u);
+      const Vec vj = d.velocity[j].xyz().template as<Real>(), wj = d.spin[j].xyz().template as<Real>();
+      float* const history = Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
+      const bool held = Kernel::hasHistory() && (before >> (k & 63u) & 1);
+      const base::Vec3f spring = held ? loadVector(history) : base::Vec3f{};
       // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
       const Real distance = contact::squareRoot(static_cast<Real>(distance2));
       const Real overlap = static_cast<Real>(reach2 - distance2) / (reach + distance) * f.unit;
       const Vec normal = apart.as<Real>() * (Real(1) / distance);
-      const Vec vj = d.velocity[j].xyz().template as<Real>(), wj = d.spin[j].xyz().template as<Real>();
-      touchGrain(at, before >> (k & 63u) & 1, normal, overlap, distance * f.unit, own, other, v - vj, w, wj, sum);
+      touchGrain(history, held, spring, normal, overlap, distance * f.unit, own, other, v - vj, w, wj, sum);
     }
     *touching = now;
   }
 
-  /// `held`: the history is that of this contact. `relative`: velocity of the centres.
-  GROUSER_HD void touchGrain(std::int64_t at, bool held, const Vec& normal, Real overlap, Real distance,
-                             const GrainSize<Real>& own, const GrainSize<Real>& other, const Vec& relative,
-                             const Vec& w, const Vec& wj, Sum& sum) const {
+  /// `held`: the history is that of this contact; `spring`: its first three numbers, or 0. `relative`: velocity of the
+  /// centres.
+  GROUSER_HD void touchGrain(float* history, bool held, const base::Vec3f& spring, const Vec& normal, Real overlap,
+                             Real distance, const GrainSize<Real>& own, const GrainSize<Real>& other,
+                             const Vec& relative, const Vec& w, const Vec& wj, Sum& sum) const {
     contact::BasicTouch<Real> touch{normal, overlap, relative, f.halfMass, Real(0.5) * f.radius};
     // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
     Real arm = Real(0.5) * distance;
@@ -90,9 +115,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     }
     const contact::BasicLaw<Real>& law =
         has(kManyMaterials) ? f.pairLaws[own.material * d.materials + other.material] : f.law;
-    float* history = Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
-    Vec shear{};
-    if (Kernel::hasHistory() && held) shear = loadVector(history).template as<Real>();
+    Vec shear = spring.template as<Real>();
     const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
     if (Kernel::hasHistory()) storeVector(history, shear.template as<float>());
     sum.force += reaction.force;
@@ -149,21 +172,22 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// A grain that has left through a joined side enters through the opposite one. What the lists hold of it moves
   /// along, so that they stay valid.
-  GROUSER_HD void crossSides(int i, base::Vec3l& place) const {
+  GROUSER_HD void crossSides(int i, base::Vec3l& place, base::Vec3<std::uint32_t>& reference) const {
     for (int a = 0; a < 2; ++a) {
       const int periods = d.period.periodsBack(a, place[a]);
       if (periods == 0) continue;
       const std::int64_t shift = periods * d.period.length[a];
       place[a] += shift;
-      d.reference[i][a] += static_cast<std::uint32_t>(shift);
+      reference[a] += static_cast<std::uint32_t>(shift);
+      d.reference[i][a] = reference[a];
       (a == 0 ? d.crossings[i].x : d.crossings[i].y) -= periods;
     }
   }
 
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
-  GROUSER_HD void advance(int i, const base::Position& p, Vec4f v4, Vec4f w4, const GrainSize<Real>& size,
-                          const base::Vec3d& force, const base::Vec3d& torque, float deepest) const {
-    base::Vec3f v = v4.xyz(), w = w4.xyz();
+  GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
+                          const base::Vec3d& torque, float deepest) const {
+    base::Vec3f v = now.velocity.xyz(), w = now.spin.xyz();
     double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
     float maxOverlap = d.maxOverlap;
     if (has(kManyRadii)) {
@@ -172,8 +196,9 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       stepPerInertia = d.timeStep / (0.4 * mass * radius * radius);
       maxOverlap = d.maxOverlapShare * static_cast<float>(size.radius);
     }
-    Remainders kept = d.remainders[i];
-    base::Vec3l moved = base::toUnits(p);
+    Remainders kept = now.kept;
+    base::Vec3<std::uint32_t> r = now.reference;
+    base::Vec3l moved = base::toUnits(now.position);
     for (int a = 0; a < 3; ++a) {
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
       const double speed = addKeeping(v[a], rv, force[a] * stepPerMass + d.gravityStep[a]);
@@ -183,14 +208,13 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       // A speed that is no number must not reach the integer conversion.
       if (displacement > -1e9 && displacement < 1e9) moved[a] += advanceKeeping(displacement, kept.position, a);
     }
-    if (has(kPeriodic)) crossSides(i, moved);
+    if (has(kPeriodic)) crossSides(i, moved, r);
     const base::Position q = base::fromUnits(moved);
     d.nextPosition[i] = q;
-    d.nextVelocity[i] = {v.x, v.y, v.z, has(kManyRadii) ? v4.w : 0.0f};
-    d.nextSpin[i] = {w.x, w.y, w.z, has(kManyMaterials) ? w4.w : 0.0f};
+    d.nextVelocity[i] = {v.x, v.y, v.z, has(kManyRadii) ? now.velocity.w : 0.0f};
+    d.nextSpin[i] = {w.x, w.y, w.z, has(kManyMaterials) ? now.spin.w : 0.0f};
     d.remainders[i] = kept;
 
-    const base::Vec3<std::uint32_t> r = d.reference[i];
     const base::Vec3i travelled{static_cast<std::int32_t>(q.x - r.x), static_cast<std::int32_t>(q.y - r.y),
                                 static_cast<std::int32_t>(q.z - r.z)};
     if (base::squaredNorm(travelled) > d.halfSkinUnits2) base::raise(&d.flags->stale);

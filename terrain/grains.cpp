@@ -18,8 +18,6 @@ using base::Vec3f;
 
 namespace {
 
-constexpr StepFlags kNoFlags{~std::uint64_t{0}, 0, 0};
-
 /// Laws against walls, floor and surfaces, [walls, floor, surfaces][materials].
 std::vector<contact::ContactLaw> boundaryLaws(const GrainModel& model, const Boundaries& boundaries) {
   if (model.materials.count() > 0) return model.materials.boundaries;
@@ -225,9 +223,11 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   dissipated_ = base::Array<double>(exec, model.ledger ? slots_ : 0);
   crossings_ = base::Array<Crossings>(exec, period_.any() ? slots_ : 0);
   origin_ = base::Array<std::uint32_t>(exec), arrivedRows_ = base::Array<std::uint32_t>(exec);
-  flags_ = base::Mirrored<StepFlags>(exec, 1);
-  *flags_.host() = kNoFlags;
+  flags_ = base::Mirrored<StepFlags>(exec, 1 + kAtOnce);
+  std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
+  someSteps_ = base::Replay(exec);
+  side_ = base::SideStream(exec);
   walls_ = base::Array<Wall>(exec, boundaries.walls);
   std::vector<double> massPerCube;
   for (const double density : model.materials.density) massPerCube.push_back(density * (4.0 / 3 * base::kPi));
@@ -314,26 +314,45 @@ void Grains::setPartition(const Partition& partition) {
 }
 
 void Grains::endStep() {
-  ++steps_;
-  checkFlags();
+  readFlags(1);
   if (!geometries_.empty()) collectSurfaceLoads();
   if (subdomain_ && !stale_) sendGhosts(); // a rebuild would fetch them anew
 }
 
-void Grains::checkFlags() {
+std::int64_t Grains::advance(std::int64_t most) {
+  if (refreshNeighbours()) slotsChanged_ = true; // nobody else has been told
+  if (exec_.onCpu() || subdomain_ || !geometries_.empty() || most < kAtOnce) {
+    step();
+    return 1;
+  }
+  if (recordedFrom_ != position_[0].data()) someSteps_.forget();
+  recordedFrom_ = position_[0].data();
+  someSteps_.run([this] { launchSteps(); });
+  return readFlags(kAtOnce);
+}
+
+/// Waits for the `steps` given to the device. Returns how many were taken: a list that is no longer valid, or a fault,
+/// ends them early.
+int Grains::readFlags(int steps) {
   base::synchronize(exec_);
-  StepFlags flags = *flags_.host();
-  if (flags.stale || flags.fault != kNoFlags.fault) {
-    *flags_.host() = kNoFlags;
+  const StepFlags* const flag = flags_.host();
+  int taken = 1;
+  while (taken < steps && !flag[taken].raised()) ++taken;
+  StepFlags last = flag[taken];
+  if (last.raised()) {
+    std::fill_n(flags_.host(), flags_.size(), kNoFlags);
     flags_.upload();
   }
   if (subdomain_) {
-    std::uint64_t all[] = {flags.fault, flags.stale ? 0u : 1u};
+    std::uint64_t all[] = {last.fault, last.stale ? 0u : 1u};
     comm_.minimum(all, 2);
-    flags.fault = all[0], flags.stale = all[1] == 0;
+    last.fault = all[0], last.stale = all[1] == 0;
   }
-  if (flags.stale) stale_ = true;
-  if (flags.fault != kNoFlags.fault) stopFor(flags.fault);
+  steps_ += taken;
+  if ((steps - taken) % 2 != 0) swapBuffers(); // they have been swapped for all of the steps
+  if (last.stale) stale_ = true;
+  if (last.fault != kNoFault) stopFor(last.fault);
+  return taken;
 }
 
 void Grains::stopFor(std::uint64_t key) const {

@@ -37,7 +37,7 @@ struct MarkNearBoundary {
     }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
     const double within = reach + (manyRadii ? static_cast<double>(d.velocity[i].w) : 0.0);
-    bool near = d.hasFloor && !d.floor.clearOf(x, within);
+    bool near = (d.features & kFloor) && !d.floor.clearOf(x, within);
     for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
     for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
     mark[i] = near ? 1u : 0u;
@@ -68,10 +68,11 @@ struct ListNearBoundary {
 
 } // namespace
 
-GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
+/// `place`: of the step among those that go at once.
+GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads, int place) {
   GrainKernelData d{};
   const double dt = model_.timeStep, r = model_.radius;
-  d.features = features_ | (loads ? kLoads : 0u);
+  d.features = features_ | (loads ? kLoads : 0u) | (hasFloor_ ? kFloor : 0u);
   d.mostLanes = model_.mostLanes;
   d.timeStep = dt;
   d.diameter = static_cast<float>(2 * r);
@@ -87,7 +88,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
   d.gravityStep = model_.gravity * dt;
   d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = boundaryCount_;
-  d.hasFloor = hasFloor_, d.floor = floorView_;
+  d.floor = floorView_;
   d.period = period_, d.crossings = crossings_.data();
   d.surfaces = surfaces_.data(), d.surfaceCount = static_cast<int>(geometries_.size());
   d.placements = placements_.device().data(), d.surfaceLoads = surfaceSums_.device().data();
@@ -105,7 +106,8 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads) {
   d.wallHistory = wallHistory_.data(), d.wallTouching = wallTouching_.data();
   d.dissipated = dissipated_.data();
   if (loads) d.loads = *loads;
-  d.flags = flags_.device().data();
+  d.flags = flags_.device().data() + place + 1;
+  d.former = place > 0 ? flags_.device().data() + place : nullptr;
   return d;
 }
 
@@ -142,6 +144,7 @@ void Grains::rebuild() {
                 KeepReference{position_[0].data(), reference_.data()});
   stale_ = false;
   slotsChanged_ = true;
+  someSteps_.forget();
   ++rebuilds_;
 }
 
@@ -196,39 +199,70 @@ void Grains::permute() {
   gatherOwn(origin_);
 }
 
-template <class Real> void Grains::advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads,
+template <class Real> void Grains::advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place,
                                                  const base::Array<std::uint32_t>* active) {
-  GrainKernelData d = kernelData(loads);
+  GrainKernelData d = kernelData(loads, place);
   const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
   if (active) d.active = active->data();
   runGrainStep(exec_, d, forceData(forces), count, model_.specialised);
 }
 
-template <class Real> void Grains::stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads) {
+void Grains::touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place) {
   if (!geometries_.empty()) surfaceSums_.device().zero();
-  if (boundaryCount_ > 0)
-    runBoundaryContacts(exec_, kernelData(loads), forceData(forces), static_cast<std::int64_t>(nearBoundary_.size()),
-                        model_.specialised);
+  if (boundaryCount_ == 0) return;
+  const auto near = static_cast<std::int64_t>(nearBoundary_.size());
+  if (model_.precision == Precision::single)
+    runBoundaryContacts(exec, kernelData(loads, place), forceData(single_), near, model_.specialised);
+  else
+    runBoundaryContacts(exec, kernelData(loads, place), forceData(double_), near, model_.specialised);
+}
+
+void Grains::beginBoundaries() {
+  if (!geometries_.empty()) return; // nobody has placed the surfaces yet
+  side_.fork();
+  touchBoundaries(side_.exec(), nullptr, 0);
+  boundariesBegun_ = true;
+}
+
+template <class Real>
+void Grains::stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place) {
+  if (std::exchange(boundariesBegun_, false))
+    side_.join();
+  else
+    touchBoundaries(exec_, loads, place);
   if (subdomain_) {
     // Grains that need no ghost go first: meanwhile the ghosts are on their way.
-    advanceGrains(forces, loads, &subdomain_->uniques());
+    advanceGrains(forces, loads, place, &subdomain_->uniques());
     completeGhosts();
-    advanceGrains(forces, loads, &subdomain_->masters());
+    advanceGrains(forces, loads, place, &subdomain_->masters());
   } else {
-    advanceGrains(forces, loads, nullptr);
+    advanceGrains(forces, loads, place, nullptr);
   }
 }
 
-void Grains::beginStep(const contact::GrainLoadsView* loads) {
+void Grains::launchStep(const contact::GrainLoadsView* loads, int place) {
   if (model_.precision == Precision::single)
-    stepWith(single_, loads);
+    stepWith(single_, loads, place);
   else
-    stepWith(double_, loads);
-  flags_.download();
-  if (!geometries_.empty()) surfaceSums_.download();
+    stepWith(double_, loads, place);
+  swapBuffers();
+}
+
+void Grains::swapBuffers() {
   position_[0].swap(position_[1]);
   velocity_[0].swap(velocity_[1]);
   spin_[0].swap(spin_[1]);
+}
+
+void Grains::beginStep(const contact::GrainLoadsView* loads) {
+  launchStep(loads, 0);
+  flags_.download();
+  if (!geometries_.empty()) surfaceSums_.download();
+}
+
+void Grains::launchSteps() {
+  for (int place = 0; place < kAtOnce; ++place) launchStep(nullptr, place);
+  flags_.download();
 }
 
 } // namespace grouser::terrain

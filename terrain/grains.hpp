@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/replay.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/neighbour_list.hpp"
 #include "terrain/grain_model.hpp"
@@ -111,9 +112,15 @@ public:
     beginStep(loads);
     endStep();
   }
+  /// Walls and floor, beside other work that the device is given before beginStep(); else they are part of that.
+  void beginBoundaries();
   /// The step in two halves: the device works between them.
   void beginStep(const contact::GrainLoadsView* loads);
   void endStep();
+
+  /// Steps of grains that nothing else acts on, each as refreshNeighbours() and step(): at least one, at most `most`.
+  /// On one GPU those between two lists go as one, without the host in between. Returns how many were taken.
+  std::int64_t advance(std::int64_t most);
 
   // For those who compute loads on grains: device arrays by slot, valid until the next refresh; local.
   const base::Position* positions() const { return position_[0].data(); }
@@ -166,11 +173,15 @@ private:
     base::Array<BoundaryLoad<Real>> boundaryLoads;
   };
 
-  GrainKernelData kernelData(const contact::GrainLoadsView* loads);
+  GrainKernelData kernelData(const contact::GrainLoadsView* loads, int place = 0);
   template <class Real> ForceData<Real> forceData(Forces<Real>& forces);
   template <class Real> void makeForces(Forces<Real>& forces, const std::vector<contact::ContactLaw>& boundaries);
-  template <class Real> void stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads);
-  template <class Real> void advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads,
+  void touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place);
+  template <class Real> void stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place);
+  void launchStep(const contact::GrainLoadsView* loads, int place);
+  void launchSteps();
+  void swapBuffers();
+  template <class Real> void advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place,
                                            const base::Array<std::uint32_t>* active);
   contact::RadiiInW radii() const;
   float radiusInW(const GrainStart& grain) const;
@@ -183,7 +194,7 @@ private:
   bool surfacesHaveLeft() const;
   double surfaceWay() const { return 0.5 * smallestRadius_; } ///< that they may move between two lists [m]
   void collectSurfaceLoads();
-  void checkFlags();
+  int readFlags(int steps);
   [[noreturn]] void stopFor(std::uint64_t fault) const;
   GrainLayout layout() const;
   std::vector<std::uint32_t> ownSlots(const std::vector<std::uint32_t>& id) const;
@@ -225,7 +236,10 @@ private:
   base::Array<double> massPerCube_;
   Forces<float> single_;
   Forces<double> double_;
-  base::Mirrored<StepFlags> flags_;
+  static constexpr int kAtOnce = 16; ///< steps that go as one; even, so that the buffers end where they began
+  base::Mirrored<StepFlags> flags_;  ///< of each of them, behind one that is never raised
+  base::Replay someSteps_;
+  const base::Position* recordedFrom_{nullptr}; ///< the buffer that they begin with
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;
   HeightFieldView floorView_{};
@@ -243,6 +257,8 @@ private:
 
   contact::NeighbourList neighbours_;
   std::unique_ptr<Subdomain> subdomain_; ///< null on one rank
+  base::SideStream side_;
+  bool boundariesBegun_{false};
   HandOver handOver_;
   CrowdingAlarm crowdingAlarm_;
   base::Array<std::uint32_t> origin_, arrivedRows_;

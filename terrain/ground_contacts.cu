@@ -25,7 +25,7 @@ void GroundContacts::refresh(const base::Array<contact::PartMotion>& motion) {
   contact::listProbes(buffers_, target(), motion, model_.margin);
 }
 
-void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, double travelled,
+void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, const double* travelled,
                              contact::PartLoad* loads) {
   contact::pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }

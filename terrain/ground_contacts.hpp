@@ -21,8 +21,8 @@ public:
                  const std::vector<int>& parts);
 
   void refresh(const base::Array<contact::PartMotion>& motion);
-  /// `travelled`: no part has moved farther than this since the refresh [m]; at most the margin.
-  void compute(const base::Array<contact::PartMotion>& motion, double travelled, contact::PartLoad* loads);
+  /// `travelled`, on the device: no part has moved farther than this since the refresh [m]; at most the margin.
+  void compute(const base::Array<contact::PartMotion>& motion, const double* travelled, contact::PartLoad* loads);
 
   std::size_t probesListed() const { return buffers_.entries; }
   contact::PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }

@@ -36,7 +36,8 @@ struct PlateOnPlate {
     motion = base::Array<PartMotion>(exec, std::vector<PartMotion>{a, b});
     if (contacts->probesListed() == 0) contacts->refresh(motion);
     loads.zero();
-    contacts->compute(motion, model.margin, loads.data());
+    const base::Array<double> travelled(exec, std::vector<double>{model.margin});
+    contacts->compute(motion, travelled.data(), loads.data());
   }
   Vec3d force(int part) const { return model.quanta.force.value(loads.at(static_cast<std::size_t>(part)).force); }
   Vec3d torque(int part) const { return model.quanta.torque.value(loads.at(static_cast<std::size_t>(part)).torque); }

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/replay.hpp"
+
+#if defined(__CUDACC__)
+#include "base/cuda_check.cuh"
+#endif
+
+namespace grouser::base {
+
+#if defined(__CUDACC__)
+
+namespace {
+
+cudaStream_t streamOf(const Exec& exec) { return static_cast<cudaStream_t>(exec.stream); }
+cudaGraphExec_t graphOf(void* graph) { return static_cast<cudaGraphExec_t>(graph); }
+cudaEvent_t eventOf(void* event) { return static_cast<cudaEvent_t>(event); }
+
+void* makeEvent() {
+  cudaEvent_t event = nullptr;
+  checkCuda(cudaEventCreateWithFlags(&event, cudaEventDisableTiming), "cudaEventCreate");
+  return event;
+}
+
+} // namespace
+
+Replay::~Replay() {
+  if (graph_) cudaGraphExecDestroy(graphOf(graph_));
+}
+
+void Replay::begin() {
+  checkCuda(cudaStreamBeginCapture(streamOf(exec_), cudaStreamCaptureModeThreadLocal), "cudaStreamBeginCapture");
+}
+
+void Replay::end() {
+  cudaGraph_t graph = nullptr;
+  checkCuda(cudaStreamEndCapture(streamOf(exec_), &graph), "cudaStreamEndCapture");
+  // Work of the same shape takes the former's place, which is quicker than to begin anew.
+  cudaGraphExecUpdateResultInfo unused{};
+  cudaError_t code = cudaErrorGraphExecUpdateFailure;
+  if (graph_) code = cudaGraphExecUpdate(graphOf(graph_), graph, &unused);
+  if (code != cudaSuccess) {
+    cudaGetLastError(); // the failed update is no error of the program
+    if (graph_) cudaGraphExecDestroy(graphOf(graph_));
+    graph_ = nullptr;
+    cudaGraphExec_t fresh = nullptr;
+    code = cudaGraphInstantiate(&fresh, graph, 0);
+    graph_ = fresh;
+  }
+  cudaGraphDestroy(graph);
+  checkCuda(code, "cudaGraphInstantiate");
+  recorded_ = true;
+}
+
+void Replay::abandon() noexcept {
+  cudaGraph_t graph = nullptr;
+  if (cudaStreamEndCapture(streamOf(exec_), &graph) == cudaSuccess && graph) cudaGraphDestroy(graph);
+  cudaGetLastError(); // the error that ended the recording is already on its way
+}
+
+void Replay::start() { checkCuda(cudaGraphLaunch(graphOf(graph_), streamOf(exec_)), "cudaGraphLaunch"); }
+
+SideStream::SideStream(const Exec& main) : main_(main), side_(main) {
+  if (main.onCpu()) return;
+  cudaStream_t stream = nullptr;
+  checkCuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "cudaStreamCreate");
+  side_.stream = stream;
+  forked_ = makeEvent(), joined_ = makeEvent();
+}
+
+SideStream::~SideStream() {
+  if (!forked_) return;
+  cudaStreamSynchronize(streamOf(side_));
+  cudaStreamDestroy(streamOf(side_));
+  cudaEventDestroy(eventOf(forked_));
+  cudaEventDestroy(eventOf(joined_));
+}
+
+void SideStream::fork() {
+  if (!forked_) return;
+  checkCuda(cudaEventRecord(eventOf(forked_), streamOf(main_)), "cudaEventRecord");
+  checkCuda(cudaStreamWaitEvent(streamOf(side_), eventOf(forked_), 0), "cudaStreamWaitEvent");
+}
+
+void SideStream::join() {
+  if (!forked_) return;
+  checkCuda(cudaEventRecord(eventOf(joined_), streamOf(side_)), "cudaEventRecord");
+  checkCuda(cudaStreamWaitEvent(streamOf(main_), eventOf(joined_), 0), "cudaStreamWaitEvent");
+}
+
+#else
+
+// Without CUDA every Exec is a CPU's: nothing is ever recorded, and no stream is made.
+Replay::~Replay() = default;
+void Replay::begin() {}
+void Replay::end() {}
+void Replay::abandon() noexcept {}
+void Replay::start() {}
+SideStream::SideStream(const Exec& main) : main_(main), side_(main) {}
+SideStream::~SideStream() = default;
+void SideStream::fork() {}
+void SideStream::join() {}
+
+#endif
+
+} // namespace grouser::base

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+
+#include <utility>
+
+namespace grouser::base {
+
+/// Work on a device that is the same every time: recorded once, then started as one, which takes the host as long as a
+/// single kernel (a CUDA graph). On a CPU it is simply done again.
+///
+/// Recorded are launches and copies with their pointers, counts and constants, not what the host does in between. So
+/// the work asks for no memory, waits for nothing, and is forgotten when anything of it has changed.
+class Replay {
+public:
+  Replay() = default;
+  explicit Replay(const Exec& exec) : exec_(exec) {}
+  Replay(Replay&& other) noexcept { swap(other); }
+  Replay& operator=(Replay&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+  ~Replay();
+
+  /// Does `work()`, which gives work to the Exec and to side streams that fork from it and join it.
+  template <class Work> void run(const Work& work) {
+    if (exec_.onCpu()) return work();
+    if (!recorded_) {
+      Recording recording(*this);
+      work();
+      recording.finish();
+    }
+    start();
+  }
+  /// The next run records anew.
+  void forget() { recorded_ = false; }
+
+private:
+  /// While it lives, what is given to the stream is recorded instead of done.
+  class Recording {
+  public:
+    explicit Recording(Replay& replay) : replay_(replay) { replay_.begin(); }
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+    ~Recording() {
+      if (!finished_) replay_.abandon();
+    }
+    void finish() {
+      finished_ = true;
+      replay_.end();
+    }
+
+  private:
+    Replay& replay_;
+    bool finished_{false};
+  };
+
+  void begin();
+  void end();
+  void abandon() noexcept;
+  void start();
+  void swap(Replay& other) noexcept {
+    std::swap(exec_, other.exec_);
+    std::swap(graph_, other.graph_);
+    std::swap(recorded_, other.recorded_);
+  }
+
+  Exec exec_{};
+  void* graph_{nullptr}; ///< cudaGraphExec_t
+  bool recorded_{false};
+};
+
+/// A second stream of an Exec's device, for work that may run beside the Exec's own. On a CPU it is the Exec itself.
+class SideStream {
+public:
+  SideStream() = default;
+  explicit SideStream(const Exec& main);
+  SideStream(SideStream&& other) noexcept { swap(other); }
+  SideStream& operator=(SideStream&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  SideStream(const SideStream&) = delete;
+  SideStream& operator=(const SideStream&) = delete;
+  ~SideStream();
+
+  const Exec& exec() const { return side_; }
+  /// What the side is given from now on comes after what the main stream has been given so far.
+  void fork();
+  /// What the main stream is given from now on comes after what the side has been given so far.
+  void join();
+
+private:
+  void swap(SideStream& other) noexcept {
+    std::swap(main_, other.main_);
+    std::swap(side_, other.side_);
+    std::swap(forked_, other.forked_);
+    std::swap(joined_, other.joined_);
+  }
+  Exec main_{}, side_{};
+  void *forked_{nullptr}, *joined_{nullptr}; ///< cudaEvent_t
+};
+
+} // namespace grouser::base
