@@ -41,7 +41,7 @@ void StepBench::step() {
     mark(kUpload);
     vehicle->touchTrack();
     mark(kTrack);
-    vehicle->touchGround(grains);
+    vehicle->touchGround(grains, exec_);
     mark(kGround);
     vehicle->downloadLoads();
     vehicle->collectLoads();

@@ -214,7 +214,7 @@ void VehicleRig::touch(const terrain::Grains* grains) {
   touchesFrom(grains ? grains->positions() : nullptr).run([this, grains] {
     uploadPoses();
     side_.fork();
-    touchGround(grains);
+    touchGround(grains, side_.exec());
     touchTrack();
     side_.join();
     downloadLoads();
@@ -250,10 +250,10 @@ void VehicleRig::touchTrack() {
   asAllRanksDo([this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
-void VehicleRig::touchGround(const terrain::Grains* grains) {
+void VehicleRig::touchGround(const terrain::Grains* grains, const base::Exec& exec) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
   if (bed_) {
-    bed_->computeOn(side_.exec(), viewOf(*grains), motion_.device(), groundLoads);
+    bed_->computeOn(exec, viewOf(*grains), motion_.device(), groundLoads);
     grainLoads_ = bed_->grainLoads();
   }
   if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);

@@ -40,7 +40,7 @@ public:
   void uploadPoses(); ///< one small transfer; sums of loads to zero
   void touchTrack();  ///< shoes against sprocket, wheels, rollers, idler
   /// Shoes and all other parts against the bed, or shoes against rigid ground.
-  void touchGround(const terrain::Grains* grains);
+  void touchGround(const terrain::Grains* grains, const base::Exec& exec);
   void downloadLoads(); ///< one small transfer
 
   /// For the grains' step; null on rigid ground.
