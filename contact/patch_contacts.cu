@@ -21,7 +21,7 @@ PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::Sp
                            const std::vector<int>& setOf, const std::vector<int>& probedParts)
     : exec(e), pairs(probedParts.size()), setOfPart(e, setOf), near(e, pairs), entry(e), gap(e),
       sums(e, pairs * kClusters), states(e, pairs * kClusters) {
-  constexpr std::uint32_t kProbesPerChunk = 32;
+  constexpr std::uint32_t kProbesPerChunk = 8;
   std::vector<Probe> all;
   std::vector<std::uint32_t> start{0};
   for (const base::SphereSet* set : sets) {
