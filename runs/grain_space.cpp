@@ -103,6 +103,11 @@ public:
 
 private:
   void radius(const char* list, std::size_t k, const char* key, double smallest) const {
+    constexpr double kSmallest = 1e-12; // [m]; no unit of places resolves a hundred-millionth of much less
+    if (smallest < kSmallest)
+      scene_.fail(
+          list, k, key,
+          fmt::format("[m] gives a grain of {:g} m, smaller than {:g} m; give it in metres", smallest, kSmallest));
     constexpr double kLeast = 1e-3; // of the largest [-]; see terrain::Grains
     if (smallest < kLeast * kinds_.largest)
       scene_.fail(

@@ -45,6 +45,15 @@ TEST(PositionScale, ResolvesAHundredMillionthOfADiameter) {
   }
 }
 
+TEST(PositionScale, OfADiameterThatIsNoLengthEnds) {
+  // As a broken scene may give them; their places are then out of range.
+  for (const double diameter : {0.0, 2e-320, 1e-300}) {
+    const PositionScale s = positionScale(diameter);
+    EXPECT_EQ(s.unit * s.perMetre, 1) << diameter;
+    EXPECT_LT(s.limit(), 1e-280) << diameter;
+  }
+}
+
 TEST(FixedPoint, SumsDoNotDependOnOrder) {
   const FixedPoint f = fixedPointFor(1e4, 42);
   std::mt19937_64 random(3);

@@ -225,6 +225,8 @@ std::vector<Mistake> mistakes() {
                  {"car.toml:", "mass = -1", "outside"}),
       badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { put(p, spec); }, {".obj"}),
       // Grains and planes where they cannot be.
+      badScene("GrainOfNoSize", "position = [0, 0, 0.5]\nradius = 0.01", "position = [0, 0, 0]\nradius = 2e-320",
+               {"scene.toml:10", "grain.0.radius", "smaller than 1e-12 m"}),
       badScene("GrainsOverlap", "position = [0.1, 0, 0.5]", "position = [0.015, 0, 0.5]",
                {"grain.1.position", "overlaps", "move it"}),
       badScene("GrainsAtOnePlace", "position = [0.1, 0, 0.5]", "position = [0, 0, 0.5]",
