@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/laws.hpp"
 
-#include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
 
@@ -42,10 +41,11 @@ void setLinear(const Scene& scene, const Material& a, const Material& b, const C
     return;
   }
   if (!given && a.damping.has_value() != b.damping.has_value())
-    throw base::InputError(fmt::format(
-        "{}: material.{} gives damping and material.{} restitution, which cannot be compared among grains of many "
-        "masses; give both the same way, or [contact.\"{}|{}\"] for the pair",
-        scene.file.string(), a.damping ? a.name : b.name, a.damping ? b.name : a.name, a.name, b.name));
+    scene.failMaterial(
+        (a.damping ? a : b).name, "damping",
+        fmt::format("[1/s] cannot be compared with the restitution of material.{} among grains of many masses; give "
+                    "both the same way, or [contact.\"{}|{}\"] for the pair",
+                    (a.damping ? b : a).name, a.name, b.name));
   const std::optional<double> damping = given       ? pair->damping
                                         : a.damping ? std::optional(std::max(*a.damping, *b.damping))
                                                     : std::nullopt;
@@ -85,10 +85,10 @@ ContactLaw pairLaw(const Scene& scene, const std::string& nameA, const std::stri
   const Material &a = scene.material(nameA), &b = scene.material(nameB);
   const ContactPair* pair = scene.contact(nameA, nameB);
   if (a.law != b.law)
-    throw base::InputError(
-        fmt::format("{}: material.{}.law = \"{}\" meets material.{}.law = \"{}\"; surfaces that touch "
-                    "must have the same law",
-                    scene.file.string(), a.name, a.law, b.name, b.law));
+    scene.failMaterial(b.name, "law",
+                       fmt::format("differs from law = \"{}\" of material.{}, which it meets; surfaces that touch must "
+                                   "have the same law: give both one of the two",
+                                   a.law, a.name));
   ContactLaw law;
   law.attraction = a.attraction && b.attraction;
   law.friction = pair && pair->friction ? *pair->friction : std::min(a.friction, b.friction);

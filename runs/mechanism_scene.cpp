@@ -90,7 +90,7 @@ void readMechanism(const Section& root, Scene& scene) {
     }
   }
   checkWhole(root, builder.model(), scene);
-  for (const char* other : {"grain", "source", "plane", "box", "cylinder", "mesh", "terrain", "vehicle"})
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain", "vehicle"})
     if (root.has(other))
       root.list("body").front().fail("",
                                      fmt::format("stands beside {}, but free bodies touch neither ground nor grains "

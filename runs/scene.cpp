@@ -265,6 +265,29 @@ void readParallel(const Section& section, Scene& scene) {
         section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
 }
 
+/// What stands at one of two joined sides must stand at the other, too.
+void checkPlanesAcross(const std::vector<Section>& sections, const Scene& scene) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k)
+    for (int a = 0; a < 2; ++a)
+      if (scene.run.periodic[static_cast<std::size_t>(a)] &&
+          std::fabs(scene.planes[k].normal[a]) > 1e-9 * norm(scene.planes[k].normal))
+        sections[k].fail("normal", fmt::format("[-] leans along {}, where run.periodic joins the sides, at which the "
+                                               "plane must look alike; set that entry to 0, or do not join them",
+                                               "xy"[a]));
+}
+
+/// A path that no file system takes would only turn out when results are written.
+void checkFolder(const Section& output, const std::string& folder) {
+  if (std::any_of(folder.begin(), folder.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+    output.fail("folder", "has a control character in it; leave it out");
+}
+
+void checkOrder(const Section& run, const RunSettings& settings) {
+  const int order = settings.integratorOrder;
+  if (settings.integrator == "rattle" && order != 2 && order != 4 && order != 6 && order != 8)
+    run.fail("integrator_order", "[-] is none of 2, 4, 6, 8; choose one of these");
+}
+
 void checkSettling(const Section& run, const Scene& scene) {
   if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 && !(scene.run.gravity.z < 0))
     run.fail("gravity", "[m/s2] does not bring the bed to rest on its floor; give z below 0, or set "
@@ -316,6 +339,7 @@ Scene readScene(base::Document read, const std::filesystem::path& file, const st
   scene.file = file, scene.overrides = overrides, scene.document = document;
   scene.run = root.section("run").read(detail::runTable());
   checkIntervals(root.section("run"), scene.run);
+  checkOrder(root.section("run"), scene.run);
   scene.materials = readMaterials(root);
   readContacts(root, scene);
   readGrainsAndSurfaces(root, scene);
@@ -325,8 +349,10 @@ Scene readScene(base::Document read, const std::filesystem::path& file, const st
   checkSurfaces(root, scene);
   if (root.has("driver")) readDriver(root.section("driver"), scene);
   if (root.has("output")) scene.output = root.section("output").read(detail::outputTable());
+  if (root.has("output")) checkFolder(root.section("output"), scene.output.folder);
   if (!scene.output.record.empty()) checkRecord(root.section("output"), scene);
   checkPeriodic(root.section("run"), scene);
+  checkPlanesAcross(root.list("plane"), scene);
   checkSettling(root.section("run"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
   if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&

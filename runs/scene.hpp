@@ -218,6 +218,7 @@ struct Scene {
   [[noreturn]] void fail(const std::string& section, const std::string& key, const std::string& message) const;
   [[noreturn]] void fail(const std::string& list, std::size_t number, const std::string& key,
                          const std::string& message) const;
+  [[noreturn]] void failMaterial(const std::string& name, const std::string& key, const std::string& message) const;
   /// "scene.toml:14: source.0", for failures of the simulation that come from there.
   std::string placeOf(const std::string& list, std::size_t number) const;
 

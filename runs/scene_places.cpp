@@ -21,6 +21,13 @@ void Scene::fail(const std::string& list, std::size_t number, const std::string&
       fmt::format("{}: {}.{}{}{} {}", file.string(), list, number, key.empty() ? "" : ".", key, message));
 }
 
+void Scene::failMaterial(const std::string& name, const std::string& key, const std::string& message) const {
+  if (document)
+    for (const auto& [known, section] : document->root().named("material"))
+      if (known == name) section.fail(key, message);
+  throw base::InputError(fmt::format("{}: material.{}.{} {}", file.string(), name, key, message));
+}
+
 std::string Scene::placeOf(const std::string& list, std::size_t number) const {
   if (document)
     if (const std::vector<base::Section> all = document->root().list(list); number < all.size())

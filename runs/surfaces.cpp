@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/orientation.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace grouser::runs {
@@ -121,6 +122,19 @@ void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
   grains.placeSurfaces(placements);
 }
 
+/// What goes farther in a step than half a radius could pass through a grain unfelt.
+void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const {
+  const bool plane = surfaces_[i].geometry.shape == terrain::SurfaceShape::plane;
+  const double across = plane ? std::fabs(dot(freeAxes_[i], placement(i, step).normal())) : 1;
+  const double speed = std::fabs(states_.surfaces[i].speed), most = 0.5 * smallestRadius / timeStep_;
+  if (speed * across <= most) return;
+  throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {}, which forces move, goes at {:.4g} m/s, more "
+                                          "than half the smallest grain's radius in a "
+                                          "step ({:.4g} m/s): it could pass through a grain unfelt; lower its load, "
+                                          "raise its mass, or use a smaller time_step",
+                                          step, static_cast<double>(step) * timeStep_, surfaces_[i].name, speed, most));
+}
+
 void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
@@ -133,6 +147,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
       const double mass = *surfaces_[i].section.mass, given = loadAt(surfaces_[i].section, time);
       s.speed += (dot(load.force + gravity_ * mass, freeAxes_[i]) + given) / mass * timeStep_;
       s.offset += s.speed * timeStep_;
+      checkSpeed(i, step, grains.smallestRadius());
       power += given * s.speed;
     }
     s.work += power * timeStep_;

@@ -47,7 +47,8 @@ public:
   const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
   /// Where they are at step `step`, to the grains.
   void place(terrain::Grains& grains, std::int64_t step) const;
-  /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step.
+  /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step. Throws
+  /// SimulationError where forces have made a surface so quick that grains might not feel it.
   void advance(terrain::Grains& grains, std::int64_t step);
 
   std::size_t count() const { return surfaces_.size(); }
@@ -77,6 +78,7 @@ public:
 
 private:
   terrain::SurfacePlacement placement(std::size_t i, std::int64_t step) const;
+  void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
   std::vector<SceneSurface> surfaces_;
   std::vector<SurfaceMotion> motions_;

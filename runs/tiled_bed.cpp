@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/tiled_bed.hpp"
 
-#include "base/error.hpp"
 #include "runs/bed.hpp"
 
 #include <algorithm>
@@ -38,10 +37,10 @@ TiledBed::TiledBed(const Scene& scene, const terrain::HeightField& surface, cons
   const double radius = *t.grainRadius;
   const terrain::HeightFieldBounds floor = plan.floor.bounds();
   if (floor.highest - floor.lowest > 1e-6 * radius)
-    throw base::InputError(fmt::format("{}: terrain.tile needs a level floor, but with floor = \"{}\" it follows "
-                                       "terrain.heightmap from {:g} to {:g} m; set terrain.floor = \"flat\", or leave "
-                                       "the tile out",
-                                       scene.file.string(), t.floor, floor.lowest, floor.highest));
+    scene.fail("terrain", "tile",
+               fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
+                           "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
+                           t.floor, floor.lowest, floor.highest));
   // Between joined sides whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the last one.
   const double cell = t.spacing * radius;
   std::array<double, 2> size{};

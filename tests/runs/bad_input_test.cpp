@@ -265,6 +265,25 @@ std::vector<Mistake> mistakes() {
                {"scene.toml:11: terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
       badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",
                {"scene.toml:9: terrain.size", "terrain.grain_radius", "use larger grains"}, kBed),
+      badScene(
+          "PlaneAcrossJoinedSides", "time_step = 1e-5\n[material.glass]\n[[plane]]",
+          "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-1, 1]\n[material.glass]\n[[plane]]\nnormal = [1, "
+          "0, 1]",
+          {"scene.toml:9: plane.0.normal", "leans along x", "set that entry to 0"}),
+      badScene("LawsThatDoNotMeet", "[material.glass]",
+               "[material.stone]\nlaw = \"hertz\"\nyoung = 1e7\n[material.glass]\n[[plane]]\nmaterial = \"stone\"",
+               {"scene.toml:6: material.stone.law", "same law", "give both one of the two"}),
+      badScene("FolderWithControlCharacter", "[output]", "[output]\nfolder = \"a\\u0000b\"",
+               {"scene.toml:17: output.folder", "control character"}),
+      badScene(
+          "OrderThatIsNone", kGrains,
+          "version = 1\n[run]\nduration = 1\nintegrator_order = 3\n[[body]]\nname = \"a\"\nmass = 1\nbox = [1, 1, 1]\n",
+          {"scene.toml:4: run.integrator_order", "2, 4, 6, 8"}),
+      badScene(
+          "BodiesBesideGrains", kGrains,
+          "version = 1\n[run]\nduration = 1\n[material.glass]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nradius = "
+          "0.1\nmaterial = \"glass\"\n[[body]]\nname = \"a\"\nmass = 1\nbox = [1, 1, 1]\n",
+          {"scene.toml:10: body.0", "beside grains", "a scene of its own"}),
       badScene("GrainTooQuickForTheLists", "radius = 0.01", "radius = 0.01\nvelocity = [200, 0, 0]",
                {"scene.toml:11: grain.0.velocity", "keep it below 150 m/s", "lower run.time_step"}),
       badScene("SpinTooQuickToBeFelt", "[[plane]]",

@@ -142,6 +142,28 @@ TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
   EXPECT_THROW(built("[[plane]]\nvelocity = [0, 0, 900]\n"), base::InputError);
 }
 
+TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {
+  const auto stop = [](const std::string& load) -> std::string {
+    Simulation s(parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
+                            "0.01\nposition = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"lid\"\nmaterial = "
+                            "\"soil\"\nposition = [5, 0, 0]\nsize = [1, 1, 1]\nfree = \"z\"\nmass = 1\nload = " +
+                                load + "\n",
+                            "lid.toml"),
+                 base::cpuExec(1), [](double, double) {});
+    try {
+      while (s.steps() < 100) s.step();
+    } catch (const base::SimulationError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  // Half a radius a step is 500 m/s, which a load of 1e6 N on 1 kg makes of it in 50 steps.
+  const std::string told = stop("1e6");
+  for (const char* part : {"step 50, time 0.0005 s: lid", "(500 m/s)", "lower its load"})
+    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+  EXPECT_EQ(stop("4e5"), "");
+}
+
 TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
   std::string text =
       "version = 1\n[run]\nduration = 0.05\n[material.soil]\nstiffness = 1e5\n[[plane]]\nmaterial = \"soil\"\n"
