@@ -6,6 +6,7 @@
 #include "runs/grain_kinds.hpp"
 #include "runs/grain_memory.hpp"
 #include "runs/joined_sides.hpp"
+#include "runs/placement.hpp"
 #include "runs/start_checks.hpp"
 #include "runs/step_limit.hpp"
 #include "runs/tiled_bed.hpp"
@@ -199,6 +200,7 @@ void checkCompany(const Scene& scene) {
 void checkGround(const Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
   checkCompany(scene);
+  if (scene.vehicle) checkParts(scene);
   checkSpeeds(scene, timeStep);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
@@ -209,6 +211,7 @@ void checkGround(const Scene& scene, double timeStep) {
 
 Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
   checkCompany(scene);
+  if (scene.vehicle) checkParts(scene);
   checkSpeeds(scene, timeStep);
   Ground ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);

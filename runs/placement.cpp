@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/placement.hpp"
 
-#include "base/error.hpp"
 #include "base/math.hpp"
+#include "spheredecomp/decompose.hpp"
+#include "spheredecomp/mesh.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace grouser::runs {
@@ -71,6 +73,24 @@ Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec) {
                     p.x, p.y, scene.vehicle->heading, p.x + f.xMin, p.x + f.xMax, p.y + f.yMin, p.y + f.yMax,
                     area->xMin, area->xMax, area->yMin, area->yMax, f.width(), f.length()));
   return p;
+}
+
+void checkParts(const Scene& scene) {
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  const double radius = scene.vehicle->sphereRadius;
+  for (const std::string& name :
+       {spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh, spec.roller.mesh, spec.idler.mesh}) {
+    const base::TriangleMesh mesh = spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+    const auto [low, high] = spheredecomp::bounds(mesh);
+    const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (radius > 0.5 * longest)
+      scene.fail("vehicle", "sphere_radius",
+                 fmt::format("[m] is above half of the longest side of {}, {:.4g} m; lower it", name, longest));
+    if (const double points = spheredecomp::latticePoints(mesh, radius); !(points <= spheredecomp::kMostLatticePoints))
+      scene.fail("vehicle", "sphere_radius",
+                 fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
+                             spheredecomp::kMostLatticePoints));
+  }
 }
 
 double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,

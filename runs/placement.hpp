@@ -25,6 +25,10 @@ std::optional<terrain::Rectangle> terrainArea(const Scene& scene);
 /// Throws InputError when the vehicle does not stand wholly on the terrain.
 Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec);
 
+/// The parts' meshes must be there and fit the scene's vehicle.sphere_radius. Throws InputError before a bed takes its
+/// time; cutting them checks the same, but knows of no scene.
+void checkParts(const Scene& scene);
+
 /// Highest ground under the tracks [m].
 double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
                    const std::function<double(double, double)>& surfaceHeight);

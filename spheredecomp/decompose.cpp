@@ -276,7 +276,11 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 } // namespace
 
 double latticePoints(const TriangleMesh& mesh, double radius) {
-  return Lattice(mesh, radius, radius * DecompositionOptions{}.spacingRatio).points();
+  const auto [low, high] = bounds(mesh);
+  double points = 1; // as Lattice has them, but that they need not fit into whole numbers
+  for (int k = 0; k < 3; ++k)
+    points *= 1 + std::max(0.0, high[k] - low[k] - 2 * radius) / (radius * DecompositionOptions{}.spacingRatio);
+  return points;
 }
 
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options) {

@@ -68,6 +68,16 @@ picture = false
 plots = false
 )";
 
+/// A vehicle without ground.
+const char* const kBench = R"(version = 1
+[run]
+duration = 0.1
+[vehicle]
+spec = "vehicles/light_tracked.toml"
+sphere_radius = RADIUS
+chassis = "fixed"
+)";
+
 struct Mistake {
   std::string name;
   std::function<void(const fs::path& folder)> make; ///< puts scene.toml and what belongs to it there
@@ -223,6 +233,10 @@ std::vector<Mistake> mistakes() {
                    put(p, std::string(spec).replace(at, spec.find('\n', at) - at, "mass = -1"));
                  },
                  {"car.toml:", "mass = -1", "outside"}),
+      badScene("VehicleCutTooFine", kGrains, replaced(kBench, "RADIUS", "1e-5"),
+               {"scene.toml:6: vehicle.sphere_radius", "lattice points", "raise it"}),
+      badScene("VehicleCutTooCoarse", kGrains, replaced(kBench, "RADIUS", "0.9"),
+               {"scene.toml:6: vehicle.sphere_radius", "above half of the longest side", "lower it"}),
       badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { put(p, spec); }, {".obj"}),
       // Grains and planes where they cannot be.
       badScene("GrainOfNoSize", "position = [0, 0, 0.5]\nradius = 0.01", "position = [0, 0, 0]\nradius = 2e-320",
