@@ -108,6 +108,24 @@ void synchronize(const Exec& exec) {
 #endif
 }
 
+#if defined(__CUDACC__)
+namespace {
+
+DeviceError outOfMemory(std::size_t bytes) {
+  const auto inMiB = [](std::size_t count) { return std::to_string(count >> 20) + " MiB"; };
+  std::size_t unused = 0, total = 0;
+  int index = 0;
+  cudaGetLastError(); // this failure is being told
+  if (cudaGetDevice(&index) != cudaSuccess || cudaMemGetInfo(&unused, &total) != cudaSuccess) unused = total = 0;
+  return DeviceError("GPU " + std::to_string(index) + " is out of memory: " + inMiB(bytes) + " more are needed, " +
+                     inMiB(unused) + " of " + inMiB(total) +
+                     " are free; end what else runs there, use more GPUs or ranks, or fewer grains (grouser plan SCENE "
+                     "tells what a scene needs)");
+}
+
+} // namespace
+#endif
+
 void* allocate(const Exec& exec, std::size_t bytes) {
   if (bytes == 0) return nullptr;
   void* memory = nullptr;
@@ -118,8 +136,9 @@ void* allocate(const Exec& exec, std::size_t bytes) {
     return memory;
   }
 #if defined(__CUDACC__)
-  checkCuda(cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream)),
-            "cudaMallocAsync of " + std::to_string(bytes) + " bytes");
+  const cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
+  if (code == cudaErrorMemoryAllocation) throw outOfMemory(bytes);
+  checkCuda(code, "cudaMallocAsync of " + std::to_string(bytes) + " bytes");
   setZero(exec, memory, bytes);
   return memory;
 #else

@@ -27,6 +27,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     Sum sum;
     const base::Position p = d.position[i];
     const Vec4f v = d.velocity[i], w = d.spin[i];
+    if (d.role && d.role[i] != 0) return;
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, v.xyz().template as<Real>(), w.xyz().template as<Real>(), size, sum);
     // Asked for together, since none can be moved before another's stores.

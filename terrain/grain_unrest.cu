@@ -35,7 +35,8 @@ double Grains::forceRatio() const {
                 AddVelocityChange{velocity_[0].data(), velocity_[1].data(), ghosts(), scale, sum.data()});
   std::int64_t total = sum.toHost().front();
   comm_.sum(&total, 1);
-  return scale.checked(total, "changes of velocity") / weightChange / static_cast<double>(std::max<std::size_t>(1, count_));
+  return scale.checked(total, "changes of velocity") / weightChange /
+         static_cast<double>(std::max<std::size_t>(1, count_));
 }
 
 } // namespace grouser::terrain

@@ -207,6 +207,14 @@ template <class Real> void Grains::advanceGrains(Forces<Real>& forces, const con
   runGrainStep(exec_, d, forceData(forces), count, model_.specialised);
 }
 
+/// On a CPU by their list, in lanes. A GPU's threads would wait for the list before they could ask for anything.
+template <class Real> void Grains::advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads) {
+  if (exec_.onCpu()) return advanceGrains(forces, loads, 0, &subdomain_->uniques());
+  GrainKernelData d = kernelData(loads);
+  d.role = subdomain_->roles();
+  runGrainStep(exec_, d, forceData(forces), d.count, model_.specialised);
+}
+
 void Grains::touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place) {
   if (!geometries_.empty()) surfaceSums_.device().zero();
   if (boundaryCount_ == 0) return;
@@ -224,15 +232,14 @@ void Grains::beginBoundaries() {
   boundariesBegun_ = true;
 }
 
-template <class Real>
-void Grains::stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place) {
+template <class Real> void Grains::stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place) {
   if (std::exchange(boundariesBegun_, false))
     side_.join();
   else
     touchBoundaries(exec_, loads, place);
   if (subdomain_) {
     // Grains that need no ghost go first: meanwhile the ghosts are on their way.
-    advanceGrains(forces, loads, place, &subdomain_->uniques());
+    advanceUniques(forces, loads);
     completeGhosts();
     advanceGrains(forces, loads, place, &subdomain_->masters());
   } else {

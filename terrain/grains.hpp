@@ -176,6 +176,7 @@ private:
   GrainKernelData kernelData(const contact::GrainLoadsView* loads, int place = 0);
   template <class Real> ForceData<Real> forceData(Forces<Real>& forces);
   template <class Real> void makeForces(Forces<Real>& forces, const std::vector<contact::ContactLaw>& boundaries);
+  template <class Real> void advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads);
   void touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place);
   template <class Real> void stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place);
   void launchStep(const contact::GrainLoadsView* loads, int place);

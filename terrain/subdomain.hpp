@@ -14,7 +14,7 @@ namespace grouser::terrain {
 
 /// What a copy of a grain is to the subdomain that holds it.
 enum class Role : std::uint32_t {
-  unique, ///< no other subdomain needs it; integrated here
+  unique, ///< no other subdomain needs it; integrated here. Kernels take it for 0
   master, ///< its centre lies here, within range of a border; integrated here, and known to others as slaves
   slave,  ///< a copy of a grain mastered elsewhere: used for forces, never integrated (a ghost)
 };
@@ -60,6 +60,7 @@ public:
   /// The slots hold owned grains only: they were loaded, not sorted.
   void forgetRoles() { haveRoles_ = false; }
   const std::uint32_t* ghostMarks() const { return ghostMark_.data(); }  ///< not 0 for slaves
+  const std::uint32_t* roles() const { return role_.data(); }            ///< by slot, as Role
   const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending
   const base::Array<std::uint32_t>& masters() const { return masters_; }
 
