@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains::advance(), which on a GPU gives many steps to the device at once: the bits, the lists and the faults are those
+// of single steps.
+#include "grain_fixture.hpp"
+#include "tests/device_under_test.hpp"
+
+#include "base/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+/// A block of gravel that is thrown at the floor, with so thin a skin that lists end within many steps.
+Grains thrown(double speed) {
+  const GrainModel model = gravel(0.02);
+  Boundaries floor;
+  floor.walls.push_back(floorPlane(model.law));
+  return Grains(testExec(2), model, std::move(floor), gravelBlock(6, 6, 3, {0.4, 0, -speed}, {3, 0, 0}));
+}
+
+void advanceAtOnce(Grains& grains, std::int64_t steps) {
+  for (std::int64_t i = 0; i < steps;) {
+    const std::int64_t taken = grains.advance(steps - i);
+    ASSERT_GE(taken, 1);
+    ASSERT_LE(taken, steps - i);
+    i += taken;
+  }
+}
+
+TEST(StepsAtOnce, EndWhereSingleStepsEnd) {
+  Grains single = thrown(1), some = thrown(1);
+  // Not whole numbers of what goes at once, so that single steps come between.
+  for (const int steps : {37, 16, 101, 32, 300}) {
+    advance(single, steps);
+    advanceAtOnce(some, steps);
+    ASSERT_EQ(some.steps(), single.steps());
+    ASSERT_EQ(some.rebuilds(), single.rebuilds()) << "a list that has ended ends the steps that go at once";
+    ASSERT_EQ(some.stateWords(), single.stateWords()) << "after " << single.steps() << " steps";
+  }
+  EXPECT_GT(single.rebuilds(), 10);
+}
+
+TEST(StepsAtOnce, MixWithSingleSteps) {
+  Grains single = thrown(1), mixed = thrown(1);
+  advance(single, 200);
+  for (int round = 0; round < 5; ++round) {
+    advance(mixed, 7); // an odd number: the state lies in the other buffer
+    advanceAtOnce(mixed, 33);
+  }
+  EXPECT_EQ(mixed.stateWords(), single.stateWords());
+}
+
+TEST(StepsAtOnce, AFaultHasTheSameStepGrainAndPlace) {
+  const auto messageOf = [](auto&& go) {
+    Grains grains = thrown(12); // presses the grains below far into each other
+    try {
+      go(grains);
+    } catch (const base::SimulationError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no fault");
+  };
+  const std::string single = messageOf([](Grains& g) { advance(g, 2000); });
+  EXPECT_NE(single.find("step "), std::string::npos) << single;
+  EXPECT_EQ(messageOf([](Grains& g) { advanceAtOnce(g, 2000); }), single);
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
