@@ -20,7 +20,7 @@ struct RankSpeed {
   double bytesPerSecond;
 };
 inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.3, 20e-6, 2e9},
-                                            {"an H200", 2.9e9, 1.0, 40e-6, 5e10}};
+                                            {"an H200", 4.4e9, 1.0, 100e-6, 5e10}};
 
 /// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
 std::int64_t plannedGrains(const Scene& scene);

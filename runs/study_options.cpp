@@ -94,7 +94,7 @@ void addPacking(CLI::App& study, PackingCommand& c) {
 
 void addCollapse(CLI::App& study, CollapseCommand& c) {
   CLI::App* collapse = study.add_subcommand(
-      "collapse", "How far a column of grains runs when its gate is gone, against channels (15 min, one core)");
+      "collapse", "How far a column of grains runs when its gate is gone, against channels (30 min, one core)");
   collapse->add_option("--length", c.length, "of the column, in diameters; not with --quick")
       ->check(between(5.0, 1000.0))
       ->capture_default_str();
