@@ -19,8 +19,6 @@
 #include <thrust/system/omp/execution_policy.h>
 
 #if defined(__CUDACC__)
-#include "base/cuda_check.cuh"
-
 #include <thrust/system/cuda/execution_policy.h>
 #endif
 
@@ -34,10 +32,7 @@ struct PoolAllocator {
   using value_type = char;
   const Exec& exec;
   char* allocate(std::ptrdiff_t bytes) {
-    void* memory = nullptr;
-    checkCuda(cudaMallocAsync(&memory, static_cast<std::size_t>(bytes), static_cast<cudaStream_t>(exec.stream)),
-              "cudaMallocAsync of " + std::to_string(bytes) + " bytes for sorting or scanning");
-    return static_cast<char*>(memory);
+    return static_cast<char*>(allocateUnset(exec, static_cast<std::size_t>(bytes)));
   }
   void deallocate(char* memory, std::size_t) { release(exec, memory); }
 };

@@ -112,7 +112,7 @@ void synchronize(const Exec& exec) {
 namespace {
 
 DeviceError outOfMemory(std::size_t bytes) {
-  const auto inMiB = [](std::size_t count) { return std::to_string(count >> 20) + " MiB"; };
+  const auto inMiB = [](std::size_t count) { return std::to_string((count + (1u << 20) - 1) >> 20) + " MiB"; };
   std::size_t unused = 0, total = 0;
   int index = 0;
   cudaGetLastError(); // this failure is being told
@@ -126,23 +126,47 @@ DeviceError outOfMemory(std::size_t bytes) {
 } // namespace
 #endif
 
-void* allocate(const Exec& exec, std::size_t bytes) {
+void* allocateUnset(const Exec& exec, std::size_t bytes) {
   if (bytes == 0) return nullptr;
   void* memory = nullptr;
   if (exec.onCpu()) {
     memory = std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
     if (!memory) throw DeviceError("out of host memory: " + std::to_string(bytes) + " bytes asked for");
-    std::memset(memory, 0, bytes);
     return memory;
   }
 #if defined(__CUDACC__)
   const cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
   if (code == cudaErrorMemoryAllocation) throw outOfMemory(bytes);
   checkCuda(code, "cudaMallocAsync of " + std::to_string(bytes) + " bytes");
-  setZero(exec, memory, bytes);
   return memory;
 #else
   noCuda();
+#endif
+}
+
+void* allocate(const Exec& exec, std::size_t bytes) {
+  void* memory = allocateUnset(exec, bytes);
+  setZero(exec, memory, bytes);
+  return memory;
+}
+
+void* allocateForMessages(const Exec& exec, std::size_t bytes) {
+  if (exec.onCpu() || bytes == 0) return allocateUnset(exec, bytes);
+#if defined(__CUDACC__)
+  void* memory = nullptr;
+  const cudaError_t code = cudaMalloc(&memory, bytes);
+  if (code == cudaErrorMemoryAllocation) throw outOfMemory(bytes);
+  checkCuda(code, "cudaMalloc of " + std::to_string(bytes) + " bytes");
+  return memory;
+#else
+  noCuda();
+#endif
+}
+
+void releaseForMessages(const Exec& exec, void* memory) noexcept {
+  if (exec.onCpu()) return release(exec, memory);
+#if defined(__CUDACC__)
+  cudaFree(memory);
 #endif
 }
 

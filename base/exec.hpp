@@ -35,8 +35,15 @@ void synchronize(const Exec& exec);
 
 /// Untyped memory on `exec`'s device, zeroed. Throws DeviceError (out of memory names the bytes asked for).
 void* allocate(const Exec& exec, std::size_t bytes);
-/// Work given to `exec` so far may still use the memory.
+/// The same, not zeroed.
+void* allocateUnset(const Exec& exec, std::size_t bytes);
+/// Work given to `exec` so far, and what has joined it, may still use the memory.
 void release(const Exec& exec, void* memory) noexcept;
+/// Memory that other processes may be given a view of, as MPI does where it takes device memory; not zeroed. What
+/// allocate() gives comes from a pool of this process, which no other can open.
+void* allocateForMessages(const Exec& exec, std::size_t bytes);
+/// Waits until nothing uses the memory.
+void releaseForMessages(const Exec& exec, void* memory) noexcept;
 void copyToDevice(const Exec& exec, void* device, const void* host, std::size_t bytes);
 /// Waits for earlier work on the stream, then copies.
 void copyToHost(const Exec& exec, void* host, const void* device, std::size_t bytes);

@@ -3,6 +3,7 @@
 
 #include "base/exec.hpp"
 
+#include <array>
 #include <utility>
 
 namespace grouser::base {
@@ -71,6 +72,35 @@ private:
   Exec exec_{};
   void* graph_{nullptr}; ///< cudaGraphExec_t
   bool recorded_{false};
+};
+
+/// Replays of work on one of two buffers that take turns: each has its own record.
+class AlternatingReplay {
+public:
+  AlternatingReplay() = default;
+  explicit AlternatingReplay(const Exec& exec) {
+    for (Turn& turn : turns_) turn.replay = Replay(exec);
+  }
+  /// The record of work that begins with `buffer`; a third buffer takes a former one's place.
+  Replay& from(const void* buffer) {
+    for (Turn& turn : turns_)
+      if (turn.taken && turn.buffer == buffer) return turn.replay;
+    Turn& turn = turns_[turns_[0].taken ? 1 : 0];
+    turn.taken = true, turn.buffer = buffer;
+    turn.replay.forget();
+    return turn.replay;
+  }
+  void forget() {
+    for (Turn& turn : turns_) turn.taken = false;
+  }
+
+private:
+  struct Turn {
+    bool taken{false};
+    const void* buffer{nullptr};
+    Replay replay;
+  };
+  std::array<Turn, 2> turns_;
 };
 
 /// A second stream of an Exec's device, for work that may run beside the Exec's own. On a CPU it is the Exec itself.

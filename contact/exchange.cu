@@ -93,7 +93,7 @@ Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, std::size_t w
     : exec_(exec), comm_(comm), wordsAtATime_(wordsAtATime),
       direct_(exec.onCpu() || base::Messages::deviceMemoryTravels()),
       sendStart_(static_cast<std::size_t>(comm.size()) + 1), receiveStart_(sendStart_), sendSlots_(exec),
-      receiveSlots_(exec), messages_(comm) {}
+      receiveSlots_(exec), sendBuffer_(exec), receiveBuffer_(exec), messages_(comm) {}
 
 void Exchange::route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count) {
   const auto size = static_cast<std::size_t>(comm_.size());
@@ -130,22 +130,19 @@ void Exchange::renumber(const std::uint32_t* newSlot) {
 
 void Exchange::reserve(std::size_t words) {
   bufferWords_ = words;
-  const auto grow = [this](base::Mirrored<std::uint32_t>& buffer, std::size_t size) {
-    if (buffer.size() < size) buffer = base::Mirrored<std::uint32_t>(exec_, size + size / 4);
-  };
-  grow(sendBuffer_, leaving() * words);
-  grow(receiveBuffer_, coming_ * words);
+  sendBuffer_.reserve(leaving() * words);
+  receiveBuffer_.reserve(coming_ * words);
 }
 
 void Exchange::start(std::span<const ExchangeField> fields) {
   const Fields all = collect(fields);
   reserve(all.words);
   const std::size_t words = bufferWords_, sent = leaving() * words;
-  moveWords<true>(exec_, all, sendSlots_.data(), leaving(), sendBuffer_.device().data(), wordsAtATime_);
-  if (!direct_) base::copyToHostLater(exec_, sendBuffer_.host(), sendBuffer_.device().data(), sent * 4);
+  moveWords<true>(exec_, all, sendSlots_.data(), leaving(), sendBuffer_.device(), wordsAtATime_);
+  if (!direct_) base::copyToHostLater(exec_, sendBuffer_.host(), sendBuffer_.device(), sent * 4);
   base::synchronize(exec_);
-  std::uint32_t* out = direct_ ? sendBuffer_.device().data() : sendBuffer_.host();
-  std::uint32_t* in = direct_ ? receiveBuffer_.device().data() : receiveBuffer_.host();
+  std::uint32_t* out = direct_ ? sendBuffer_.device() : sendBuffer_.host();
+  std::uint32_t* in = direct_ ? receiveBuffer_.device() : receiveBuffer_.host();
   for (int r = 0; r < comm_.size(); ++r) {
     const std::size_t first = receiveStart_[static_cast<std::size_t>(r)] * words;
     messages_.receive(r, in + first, (receiveStart_[static_cast<std::size_t>(r) + 1] * words - first) * 4, kTag);
@@ -165,8 +162,8 @@ void Exchange::finish(std::span<const ExchangeField> fields) {
   messages_.waitAll();
   underWay_ = false;
   const std::size_t received = coming_ * bufferWords_;
-  if (!direct_) base::copyToDeviceLater(exec_, receiveBuffer_.device().data(), receiveBuffer_.host(), received * 4);
-  moveWords<false>(exec_, all, receiveSlots_.data(), coming_, receiveBuffer_.device().data(), wordsAtATime_);
+  if (!direct_) base::copyToDeviceLater(exec_, receiveBuffer_.device(), receiveBuffer_.host(), received * 4);
+  moveWords<false>(exec_, all, receiveSlots_.data(), coming_, receiveBuffer_.device(), wordsAtATime_);
 }
 
 } // namespace grouser::contact

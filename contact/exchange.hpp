@@ -3,6 +3,7 @@
 
 #include "base/array.hpp"
 #include "base/comm.hpp"
+#include "base/message_buffer.hpp"
 
 #include <cstdint>
 #include <span>
@@ -73,7 +74,7 @@ private:
   std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] places on the route
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
   std::size_t coming_{0};
-  base::Mirrored<std::uint32_t> sendBuffer_, receiveBuffer_;
+  base::MessageBuffer sendBuffer_, receiveBuffer_;
   std::size_t bufferWords_{0}; ///< of one element in the buffers under way
   base::Messages messages_;
   bool underWay_{false};

@@ -184,7 +184,8 @@ namespace {
 /// [m]. A plane has no end: what is far out there does not count.
 double leverOf(const SceneSurface& s) {
   const Vec3d& h = s.geometry.half;
-  const double arm = s.section.pivot ? norm(s.start.position - *s.section.pivot) : 0;
+  const Vec3d turning = base::normalized(*s.section.spin);
+  const double arm = s.section.pivot ? norm(cross(turning, s.start.position - *s.section.pivot)) : 0;
   switch (s.geometry.shape) {
   case terrain::SurfaceShape::plane:
     return 0;
@@ -192,7 +193,7 @@ double leverOf(const SceneSurface& s) {
     return arm + norm(h);
   default: {
     const Vec3d axis = rotate(s.start.orientation, {0, 0, 1});
-    return arm + norm(cross(base::normalized(*s.section.spin), axis)) * norm(h);
+    return arm + norm(cross(turning, axis)) * norm(h);
   }
   }
 }

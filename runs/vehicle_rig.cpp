@@ -116,7 +116,7 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
     partReach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[p]]) + norm(assembly_.parts[p].pose_B.position));
   }
   const std::size_t n = contactParts_.size();
-  for (Touches& touches : touches_) touches.replay = base::Replay(exec_);
+  touches_ = base::AlternatingReplay(exec_);
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
   travelled_ = base::Mirrored<double>(exec_, 2);
   loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n);
@@ -190,13 +190,16 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
   const bool groundIsDue = absoluteTravel_ > groundMargin_ || slotsChanged;
   if (!trackIsDue && !groundIsDue) return;
   motion_.upload();
-  forgetTouches();
+  touches_.forget();
   if (trackIsDue) {
     track_->refresh(motion_.device());
     relativeTravel_ = 0;
   }
   if (!groundIsDue) return;
-  if (bed_) bed_->refresh(viewOf(*grains), motion_.device());
+  if (bed_) {
+    bed_->refresh(viewOf(*grains), motion_.device());
+    grainLoads_ = bed_->grainLoads();
+  }
   if (rigidGround_) rigidGround_->refresh(motion_.device());
   absoluteTravel_ = 0;
 }
@@ -211,7 +214,7 @@ template <class Work> void VehicleRig::asAllRanksDo(const Work& work) {
 
 void VehicleRig::touch(const terrain::Grains* grains) {
   noteTravel();
-  touchesFrom(grains ? grains->positions() : nullptr).run([this, grains] {
+  touches_.from(grains ? grains->positions() : nullptr).run([this, grains] {
     uploadPoses();
     side_.fork();
     touchGround(grains, side_.exec());
@@ -219,20 +222,6 @@ void VehicleRig::touch(const terrain::Grains* grains) {
     side_.join();
     downloadLoads();
   });
-}
-
-/// The record of touches of grains that are at `positions`.
-base::Replay& VehicleRig::touchesFrom(const base::Position* positions) {
-  for (Touches& touches : touches_)
-    if (touches.positions == positions) return touches.replay;
-  Touches& other = touches_[touches_[0].positions ? 1 : 0];
-  other.positions = positions;
-  other.replay.forget();
-  return other.replay;
-}
-
-void VehicleRig::forgetTouches() {
-  for (Touches& touches : touches_) touches.positions = nullptr, touches.replay.forget();
 }
 
 /// On the host: no record of work does that.
@@ -252,10 +241,7 @@ void VehicleRig::touchTrack() {
 
 void VehicleRig::touchGround(const terrain::Grains* grains, const base::Exec& exec) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
-  if (bed_) {
-    bed_->computeOn(exec, viewOf(*grains), motion_.device(), groundLoads);
-    grainLoads_ = bed_->grainLoads();
-  }
+  if (bed_) bed_->computeOn(exec, viewOf(*grains), motion_.device(), groundLoads);
   if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);
 }
 

@@ -14,7 +14,6 @@
 #include "vehicle/driver.hpp"
 #include "vehicle/observers.hpp"
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -103,17 +102,10 @@ private:
   vehicle::GroundLoads meanGroundLoads(const std::vector<base::Vec3l>& sums, std::int64_t steps) const;
   /// Bound of how far any point of a part may have moved [m] in this step: absolute, and relative to the hull.
   void trackTravel();
-  base::Replay& touchesFrom(const base::Position* positions);
-  void forgetTouches();
 
   base::Exec exec_;
   base::SideStream side_;
-  /// The touches of a step, for each of the two buffers that the grains' state takes turns in.
-  struct Touches {
-    const base::Position* positions{nullptr};
-    base::Replay replay;
-  };
-  std::array<Touches, 2> touches_;
+  base::AlternatingReplay touches_;        ///< of a step, by the buffer that holds the grains' state
   terrain::Grains* sharedGrains_{nullptr}; ///< told how long work takes that no cut can shift; null on one rank
   base::Comm comm_; ///< each rank touches its own grains; everything else is done alike on all of them
   double timeStep_;

@@ -93,7 +93,7 @@ std::optional<Crowding> Grains::crowdingBy(const std::vector<GrainStart>& enteri
   // Only the rank that integrates the other grain knows where it is.
   const std::vector<std::uint32_t> id = id_.toHost();
   const std::vector<std::uint32_t> roles =
-      subdomain_ ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>();
+      ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>();
   double found[] = {-1e300, -1e300, -1e300};
   double nearest = 1e300; // to the overlap that was found [m]
   for (std::size_t i = 0; i < slots_; ++i) {

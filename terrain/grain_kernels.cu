@@ -27,9 +27,11 @@ using StepKernels =
                kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic,
                kBed | kSurfaces, kBed | kSurfaces | kRollingFriction>;
 /// The search on a floor needs many registers.
-using BoundaryKernels = KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction, kFriction | kFloor,
-                                   kFriction | kRollingFriction | kFloor, kHertz | kFriction | kFloor,
-                                   kFriction | kSurfaces, kFriction | kRollingFriction | kSurfaces>;
+using BoundaryKernels =
+    KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction, kFloor, kFriction | kFloor,
+               kFriction | kRollingFriction | kFloor, kHertz | kFriction | kFloor, kFriction | kSurfaces,
+               kFriction | kRollingFriction | kSurfaces, kFriction | kSurfaces | kFloor,
+               kFriction | kRollingFriction | kSurfaces | kFloor>;
 /// In double all scenes take the general kernels.
 using NoKernels = KernelList<>;
 

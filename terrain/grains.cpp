@@ -223,10 +223,10 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   dissipated_ = base::Array<double>(exec, model.ledger ? slots_ : 0);
   crossings_ = base::Array<Crossings>(exec, period_.any() ? slots_ : 0);
   origin_ = base::Array<std::uint32_t>(exec), arrivedRows_ = base::Array<std::uint32_t>(exec);
-  flags_ = base::Mirrored<StepFlags>(exec, 1 + kAtOnce);
+  flags_ = base::Mirrored<StepFlags>(exec, kAtOnce);
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
-  someSteps_ = base::Replay(exec);
+  someSteps_ = base::AlternatingReplay(exec);
   side_ = base::SideStream(exec);
   walls_ = base::Array<Wall>(exec, boundaries.walls);
   std::vector<double> massPerCube;
@@ -325,9 +325,7 @@ std::int64_t Grains::advance(std::int64_t most) {
     step();
     return 1;
   }
-  if (recordedFrom_ != position_[0].data()) someSteps_.forget();
-  recordedFrom_ = position_[0].data();
-  someSteps_.run([this] { launchSteps(); });
+  someSteps_.from(position_[0].data()).run([this] { launchSteps(); });
   return readFlags(kAtOnce);
 }
 
@@ -337,8 +335,8 @@ int Grains::readFlags(int steps) {
   base::synchronize(exec_);
   const StepFlags* const flag = flags_.host();
   int taken = 1;
-  while (taken < steps && !flag[taken].raised()) ++taken;
-  StepFlags last = flag[taken];
+  while (taken < steps && !flag[taken - 1].raised()) ++taken;
+  StepFlags last = flag[taken - 1];
   if (last.raised()) {
     std::fill_n(flags_.host(), flags_.size(), kNoFlags);
     flags_.upload();
@@ -361,7 +359,7 @@ void Grains::stopFor(std::uint64_t key) const {
   // Only the rank that integrates the grain knows where it is.
   const std::vector<std::uint32_t> ids = id_.toHost();
   const std::vector<std::uint32_t> roles =
-      subdomain_ ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>();
+      ghosts() ? base::toHost(exec_, ghosts(), slots_) : std::vector<std::uint32_t>();
   double found[4] = {-1e300, -1e300, -1e300, -1e300}; // place and speed
   for (std::size_t i = 0; i < slots_; ++i) {
     if (ids[i] != id || (!roles.empty() && roles[i])) continue;

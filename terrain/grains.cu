@@ -5,6 +5,7 @@
 #include "base/gather.cuh"
 #include "terrain/grain_kernels.cuh"
 
+#include <stdexcept>
 #include <utility>
 
 namespace grouser::terrain {
@@ -106,8 +107,8 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads, int pla
   d.wallHistory = wallHistory_.data(), d.wallTouching = wallTouching_.data();
   d.dissipated = dissipated_.data();
   if (loads) d.loads = *loads;
-  d.flags = flags_.device().data() + place + 1;
-  d.former = place > 0 ? flags_.device().data() + place : nullptr;
+  d.flags = flags_.device().data() + place;
+  d.former = place > 0 ? d.flags - 1 : nullptr;
   return d;
 }
 
@@ -130,6 +131,7 @@ bool Grains::refreshNeighbours() {
 }
 
 void Grains::rebuild() {
+  if (boundariesBegun_) throw std::logic_error("grains are listed anew while their walls are being touched");
   if (subdomain_) shareOut();
   neighbours_.sort(position_[0].data(), slots_);
   permute();

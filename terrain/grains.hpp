@@ -119,7 +119,8 @@ public:
   void endStep();
 
   /// Steps of grains that nothing else acts on, each as refreshNeighbours() and step(): at least one, at most `most`.
-  /// On one GPU those between two lists go as one, without the host in between. Returns how many were taken.
+  /// On one GPU sixteen go as one where `most` allows, without the host in between; where a list ends, fewer. Returns
+  /// how many were taken.
   std::int64_t advance(std::int64_t most);
 
   // For those who compute loads on grains: device arrays by slot, valid until the next refresh; local.
@@ -238,9 +239,8 @@ private:
   Forces<float> single_;
   Forces<double> double_;
   static constexpr int kAtOnce = 16; ///< steps that go as one; even, so that the buffers end where they began
-  base::Mirrored<StepFlags> flags_;  ///< of each of them, behind one that is never raised
-  base::Replay someSteps_;
-  const base::Position* recordedFrom_{nullptr}; ///< the buffer that they begin with
+  base::Mirrored<StepFlags> flags_;  ///< of each of them
+  base::AlternatingReplay someSteps_;
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;
   HeightFieldView floorView_{};

@@ -12,10 +12,14 @@ namespace grouser::terrain::testing {
 namespace {
 
 /// A block of gravel that is thrown at the floor, with so thin a skin that lists end within many steps.
-Grains thrown(double speed) {
-  const GrainModel model = gravel(0.02);
+Grains thrown(double speed, Precision precision = Precision::single, bool hills = false) {
+  GrainModel model = gravel(0.02);
+  model.precision = precision, model.floorLaw = model.law;
   Boundaries floor;
-  floor.walls.push_back(floorPlane(model.law));
+  if (hills)
+    floor.floor = HeightField::plane({-2, 3, -2, 3}, -0.05, 0.1, -0.05);
+  else
+    floor.walls.push_back(floorPlane(model.law));
   return Grains(testExec(2), model, std::move(floor), gravelBlock(6, 6, 3, {0.4, 0, -speed}, {3, 0, 0}));
 }
 
@@ -39,6 +43,29 @@ TEST(StepsAtOnce, EndWhereSingleStepsEnd) {
     ASSERT_EQ(some.stateWords(), single.stateWords()) << "after " << single.steps() << " steps";
   }
   EXPECT_GT(single.rebuilds(), 10);
+}
+
+TEST(StepsAtOnce, EndSoInDoubleAndOnAFloorToo) {
+  for (const bool hills : {false, true})
+    for (const Precision precision : {Precision::single, Precision::double_}) {
+      Grains single = thrown(1, precision, hills), some = thrown(1, precision, hills);
+      advance(single, 150);
+      advanceAtOnce(some, 150);
+      EXPECT_EQ(some.stateWords(), single.stateWords());
+      EXPECT_EQ(some.forceRatio(), single.forceRatio()) << "which needs the velocities of the step before";
+    }
+}
+
+TEST(StepsAtOnce, LookingAtThemOrAddingToThemInBetweenChangesNothing) {
+  Grains single = thrown(1), some = thrown(1);
+  const std::vector<GrainStart> more = {{{0.2, 0.2, 0.6}, {0, 0, -1}, {}}};
+  for (int round = 0; round < 4; ++round) {
+    advance(single, 40);
+    advanceAtOnce(some, 40);
+    some.ledger(); // may list anew
+    if (round == 1) single.add(more), some.add(more);
+  }
+  EXPECT_EQ(some.stateWords(), single.stateWords());
 }
 
 TEST(StepsAtOnce, MixWithSingleSteps) {
