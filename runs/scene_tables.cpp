@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one table of fields of a scene file: it drives parsing, checks, `grouser fields` and the resolved copy.
+// The one table of fields of a scene file, with those of surfaces and mechanisms beside it: it drives parsing, checks,
+// `grouser fields` and the resolved copy.
 #include "runs/detail/scene_tables.hpp"
 
 #include "multibody/solver.hpp"
-#include "spheredecomp/decompose.hpp"
 
 #include <fmt/format.h>
 
@@ -170,94 +170,6 @@ Table<Source> sourceTable() {
   return t;
 }
 
-namespace {
-
-/// What all rigid surfaces have alike.
-template <class S> void addSurface(Table<S>& t) {
-  using base::Vec3d;
-  using Number = std::optional<double>;
-  using Vector = std::optional<Vec3d>;
-  t.template add<std::string>("material", &S::material, "", "name of its material").required();
-  t.template add<std::optional<std::string>>("name", &S::name, "",
-                                             "in results.h5 and timeseries.csv; kind and number where not given");
-  t.template add<Vector>("velocity", &S::velocity, "m/s", "at which it is moved").atLeast(-1e4).atMost(1e4);
-  t.template add<Vector>("spin", &S::spin, "rad/s", "angular velocity at which it is turned, in the world")
-      .atLeast(-1e5)
-      .atMost(1e5);
-  t.template add<Vector>("pivot", &S::pivot, "m",
-                         "that it is turned about, which velocity moves along; its own centre where not given");
-  t.template add<Vector>("amplitude", &S::amplitude, "m", "of an oscillation, along this vector");
-  t.template add<Number>("frequency", &S::frequency, "Hz", "of that oscillation").above(0).atMost(1e5);
-  t.template add<Number>("phase", &S::phase, "deg", "of that sine at the start; -90 begins from rest")
-      .atLeast(-360)
-      .atMost(360);
-  t.template add<Number>("start", &S::start, "s", "when velocity, spin and oscillation begin").atLeast(0).atMost(1e5);
-  t.template add<Number>("until", &S::until, "s", "when they end").above(0).atMost(1e5);
-  t.template add<std::optional<std::string>>("free", &S::free, "",
-                                             "axis along which load, grains and weight move it, from the start")
-      .oneOf({"x", "y", "z"});
-  t.template add<Number>("mass", &S::mass, "kg", "of a free surface; required there").above(0).atMost(1e12);
-  t.template add<Number>("load", &S::load, "N", "on a free surface along its axis; negative presses down where z is up")
-      .atLeast(-1e12)
-      .atMost(1e12);
-  t.template add<Number>("load_ramp", &S::loadRamp, "s", "over which the load comes on; at once where not given")
-      .atLeast(0)
-      .atMost(1e5);
-}
-
-} // namespace
-
-Table<Plane> planeTable() {
-  using S = Plane;
-  Table<S> t("[plane]", "A rigid plane; the solid lies behind its normal. Fixed, or moved as boxes are");
-  t.add("point", &S::point, "m", "any point of the plane; loads are taken about it");
-  t.add("normal", &S::normal, "-", "out of the solid; of any length but zero");
-  addSurface(t);
-  return t;
-}
-
-Table<BoxSection> boxTable() {
-  using S = BoxSection;
-  Table<S> t("[box]", "A solid rigid box that grains touch, fixed or moved");
-  t.add("position", &S::position, "m", "of its centre").required();
-  t.add("size", &S::size, "m", "its edges along x, y, z before it is turned").above(0).atMost(1e5).required();
-  t.add("axis", &S::axis, "-", "about which it is turned from the world's axes, with angle");
-  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
-  t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
-  addSurface(t);
-  return t;
-}
-
-Table<CylinderSection> cylinderTable() {
-  using S = CylinderSection;
-  Table<S> t("[cylinder]", "A rigid cylinder that grains touch, fixed or moved: a solid rod with flat ends, or hollow");
-  t.add("position", &S::position, "m", "of its centre").required();
-  t.add("axis", &S::axis, "-", "its direction; of any length but zero");
-  t.add("radius", &S::radius, "m", "of its wall").above(0).atMost(1e5).required();
-  t.add("length", &S::length, "m", "along its axis").above(0).atMost(1e5).required();
-  t.add("hollow", &S::hollow, "", "a drum or pipe without thickness, felt from inside and outside, open at both ends");
-  addSurface(t);
-  return t;
-}
-
-Table<MeshSection> meshTable() {
-  using S = MeshSection;
-  Table<S> t("[mesh]", "A rigid body from a file that grains touch, fixed or moved, cut into spheres");
-  t.add("file", &S::file, "", "OBJ, STL, PLY...: closed, outward; relative to the scene or to the assets folder")
-      .required();
-  t.add("scale", &S::scale, "m", "of one unit of the file").above(0).atMost(1e6);
-  t.add("position", &S::position, "m", "of the file's origin, about which loads are taken");
-  t.add("axis", &S::axis, "-", "about which it is turned from the file's axes, with angle");
-  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
-  t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
-  t.add("sphere_radius", &S::sphereRadius, "m",
-        "of the spheres it is cut into, which round its edges; a fortieth of its diagonal where not given")
-      .atLeast(spheredecomp::kSmallestRadius)
-      .atMost(spheredecomp::kLargestRadius);
-  addSurface(t);
-  return t;
-}
-
 Table<Terrain> terrainTable() {
   using S = Terrain;
   Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
@@ -293,130 +205,6 @@ Table<Terrain> terrainTable() {
       .atMost(1e3)
       .orWord("none");
   t.add("cache", &S::cache, "", "keep the settled bed for later runs, and take it from an earlier one; same bits");
-  return t;
-}
-
-Table<BodySection> bodyTable() {
-  using S = BodySection;
-  Table<S> t("[body]", "A rigid body of a mechanism");
-  t.add("name", &S::name, "", "what joints and springs call it; \"world\" is the ground's").required();
-  t.add("mass", &S::mass, "kg", "required unless the body is fixed").above(0).atMost(1e12);
-  t.add("inertia", &S::inertia, "kg m2",
-        "about the centre of mass in the body's axes: xx, yy, zz, or these with the entries xy, xz, yz of the matrix; "
-        "of a uniform box where not given");
-  t.add("box", &S::box, "m", "edges of the box that is drawn; without one it follows from mass and inertia")
-      .above(0)
-      .atMost(1e5);
-  t.add("position", &S::position, "m", "of the centre of mass at the start").atLeast(-1e6).atMost(1e6);
-  t.add("axis", &S::axis, "-", "about which the body's axes are turned from the world's, with angle");
-  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
-  t.add("orientation", &S::orientation, "-",
-        "unit quaternion w, x, y, z from body to world, instead of axis and angle");
-  t.add("velocity", &S::velocity, "m/s", "of the centre of mass at the start, world components");
-  t.add("spin", &S::spin, "rad/s", "angular velocity at the start, world components");
-  t.add("fixed", &S::fixed, "", "never moves");
-  t.add("point", &S::point, "", "a mass without extent or inertia, for spherical and distance joints and springs");
-  return t;
-}
-
-Table<JointSection> jointTable() {
-  using S = JointSection;
-  Table<S> t("[joint]", "Holds two bodies together; what it leaves free is measured from the first to the second");
-  t.add("name", &S::name, "", "what springs and drives call it").required();
-  t.add("type", &S::type, "",
-        "what stays free: one turn, all turns, two turns, a slide, turn and slide, nothing, or all "
-        "but a distance")
-      .oneOf({"revolute", "spherical", "universal", "prismatic", "cylindrical", "fixed", "distance"});
-  t.add("bodies", &S::bodies, "", "names of the two, e.g. [\"world\", \"rod\"]").required();
-  t.add("point", &S::point, "m", "where it is at the start, in the world");
-  t.add("axis", &S::axis, "-", "of turn or slide at the start, in the world; of a universal joint the first body's");
-  t.add("second_axis", &S::secondAxis, "-", "of a universal joint, the second body's, perpendicular to axis");
-  t.add("point_a", &S::pointA, "m", "instead of point: in the first body's frame, together with point_b");
-  t.add("point_b", &S::pointB, "m", "the same in the second body's frame");
-  t.add("axis_a", &S::axisA, "-", "instead of axis: in the first body's frame, together with axis_b");
-  t.add("axis_b", &S::axisB, "-", "the same in the second body's frame; of a universal joint its own axis");
-  t.add("length", &S::length, "m", "between point_a and point_b of a distance joint; as at the start where not given")
-      .above(0)
-      .atMost(1e5);
-  t.add("damping", &S::damping, "N m s/rad or N s/m", "on the free axis; of a cylindrical joint on its angle")
-      .atLeast(0);
-  t.add("slide_damping", &S::slideDamping, "N s/m", "of a cylindrical joint on its slide").atLeast(0);
-  t.add("limits", &S::limits, "rad or m", "end stops on the free axis, lower and upper, from its position 0");
-  t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
-  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
-  return t;
-}
-
-Table<SpringSection> springTable() {
-  using S = SpringSection;
-  Table<S> t("[spring]", "Spring and damper between two points, or on the free axis of a joint");
-  t.add("name", &S::name, "", "in results and messages").required();
-  t.add("bodies", &S::bodies, "", "names of the two that it pushes apart; or joint");
-  t.add("point_a", &S::pointA, "m", "its end on the first body, in that body's frame; (0, 0, 0) where not given");
-  t.add("point_b", &S::pointB, "m", "its end on the second body, in that body's frame");
-  t.add("joint", &S::joint, "",
-        "name of a revolute, prismatic or cylindrical joint on whose axis it acts; instead of "
-        "bodies");
-  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
-  t.add("stiffness", &S::stiffness, "N/m or N m/rad", "of the spring").atLeast(0);
-  t.add("damping", &S::damping, "N s/m or N m s/rad", "of the damper; taken implicitly: any size is stable").atLeast(0);
-  t.add("preload", &S::preload, "N or N m", "force at free_position, positive pushes apart");
-  t.add("free_position", &S::freePosition, "m or rad",
-        "length, or position of the axis, where only the preload acts; as at the start where not given");
-  t.add("limits", &S::limits, "rad or m", "end stops on the axis of a joint, lower and upper");
-  t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
-  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
-  return t;
-}
-
-Table<BushingSection> bushingTable() {
-  using S = BushingSection;
-  Table<S> t("[bushing]", "Elastic bearing: springs and dampers between two bodies in all six directions, relaxed at "
-                          "the start");
-  t.add("name", &S::name, "", "in results and messages").required();
-  t.add("bodies", &S::bodies, "", "names of the two").required();
-  t.add("point", &S::point, "m", "its middle at the start, in the world").required();
-  t.add("axis", &S::axis, "-", "its z direction at the start, in the world; the world's axes where not given");
-  t.add("stiffness", &S::stiffness, "N/m", "along its x, y, z").atLeast(0);
-  t.add("damping", &S::damping, "N s/m", "along its x, y, z").atLeast(0);
-  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "about its x, y, z").atLeast(0);
-  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "about its x, y, z").atLeast(0);
-  return t;
-}
-
-Table<DriveSection> driveTable() {
-  using S = DriveSection;
-  Table<S> t("[drive]", "Motor on a free axis of a joint: value, polynomial, sine and table over time add up; what it "
-                        "takes is in the results");
-  t.add("name", &S::name, "", "in results and messages").required();
-  t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
-  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
-  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)")
-      .oneOf({"speed", "position", "torque"});
-  t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times");
-  t.add("polynomial", &S::polynomial, "of value over s^i", "c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
-  t.add("amplitude", &S::amplitude, "as value", "of a sine");
-  t.add("frequency", &S::frequency, "Hz", "of that sine").atLeast(0).atMost(1e6);
-  t.add("phase", &S::phase, "deg", "of that sine at t = 0").atLeast(-3600).atMost(3600);
-  t.add("time", &S::time, "s", "increasing; of the table").atLeast(0);
-  t.add("values", &S::values, "as value",
-        "of the table: straight between its times for speed and torque, a smooth spline from rest to rest for a "
-        "position; constant "
-        "outside");
-  return t;
-}
-
-Table<CouplingSection> couplingTable() {
-  using S = CouplingSection;
-  Table<S> t("[coupling]",
-             "Ties two axes as gears, belts, rack and pinion or a screw do: position of the second = ratio x "
-             "position of the first + offset");
-  t.add("name", &S::name, "", "in results and messages").required();
-  t.add("joints", &S::joints, "", "names of the two").required();
-  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis over that of the first").required();
-  t.add("offset", &S::offset, "rad or m", "as at the start where not given");
-  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]")
-      .oneOf({"angle", "slide"});
   return t;
 }
 
