@@ -321,7 +321,9 @@ void Grains::endStep() {
 
 std::int64_t Grains::advance(std::int64_t most) {
   if (refreshNeighbours()) slotsChanged_ = true; // nobody else has been told
-  if (exec_.onCpu() || subdomain_ || !geometries_.empty() || most < kAtOnce) {
+  // A CPU gains nothing by it, and its lanes do not ask whether an earlier step was the last; without them it can.
+  const bool lanes = exec_.onCpu() && model_.mostLanes > 1;
+  if (lanes || subdomain_ || !geometries_.empty() || most < kAtOnce) {
     step();
     return 1;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains::advance(), which on a GPU gives many steps to the device at once: the bits, the lists and the faults are those
-// of single steps.
+// Grains::advance(), which gives many steps to the device at once: the bits, the lists and the faults are those of
+// single steps.
 #include "grain_fixture.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -15,6 +15,7 @@ namespace {
 Grains thrown(double speed, Precision precision = Precision::single, bool hills = false) {
   GrainModel model = gravel(0.02);
   model.precision = precision, model.floorLaw = model.law;
+  model.mostLanes = 1; // a CPU then gives its steps as a GPU is given them
   Boundaries floor;
   if (hills)
     floor.floor = HeightField::plane({-2, 3, -2, 3}, -0.05, 0.1, -0.05);
