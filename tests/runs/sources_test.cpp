@@ -133,9 +133,10 @@ TEST(Sources, TheDeepestOfManyInTheWayIsNamed) {
 }
 
 TEST(Sources, AnImageAcrossJoinedSidesLiesInTheWayToo) {
-  const std::string two = dropAt("[-0.49, 0, 1]", "0.0") + dropAt("[0.49, 0, 1]", "0.01");
-  expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.5, 0.5]"}),
-              {"source.1", "0.02 m deep in grain 0 at (-0.49, 0, 1)"});
+  // Not 1 m apart, which is 2^32 units of length: differences of the low words alone would find that image.
+  const std::string two = dropAt("[-0.59, 0, 1]", "0.0") + dropAt("[0.59, 0, 1]", "0.01");
+  expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.6, 0.6]"}),
+              {"source.1", "0.02 m deep in grain 0 at (-0.59, 0, 1)"});
   EXPECT_EQ(stopOf(two), "");
 }
 

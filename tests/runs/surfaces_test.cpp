@@ -140,6 +140,10 @@ TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
   EXPECT_THROW(built(box + "amplitude = [0.1, 0, 0]\nfrequency = 800\n"), base::InputError);
   EXPECT_NO_THROW(built("[[plane]]\nvelocity = [900, 0, 0]\n"));
   EXPECT_THROW(built("[[plane]]\nvelocity = [0, 0, 900]\n"), base::InputError);
+  // 2 m from the pivot, at 400 rad/s: along the axis of turning that is no lever, across it 800 m/s.
+  const std::string auger = "[[cylinder]]\nposition = [0, 0, 0]\nradius = 0.05\nlength = 0.1\nspin = [0, 0, 400]\n";
+  EXPECT_NO_THROW(built(auger + "pivot = [0, 0, -2]\n"));
+  EXPECT_THROW(built(auger + "pivot = [2, 0, 0]\n"), base::InputError);
 }
 
 TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {

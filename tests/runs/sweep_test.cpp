@@ -165,6 +165,7 @@ TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
     EXPECT_NEAR(number("belt force z [N]"), -weight, 0.05 * weight) << "at rest but for what is left of its sinking in";
     EXPECT_NEAR(number("belt position x at the end [m]"), row == 0 ? 0.005 : 0.01, 1e-12);
     EXPECT_EQ(number("belt force y [N]"), 0);
+    EXPECT_NEAR(number("belt torque z [N m]"), 0, 1e-9) << "grain and centre lie in one plane";
   }
 }
 
