@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "multibody/detail/euler_step.hpp"
 #include "multibody/detail/index.hpp"
+#include "multibody/detail/pull.hpp"
 #include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/start.hpp"
@@ -60,7 +61,11 @@ struct Solver::Impl {
   void countFreedom();
   void describe();
   void checkFits(const State& state, const Loads& loads) const;
+  double stableTurn() const {
+    return options.integrator == Integrator::kRattle ? detail::stableTurn(options.order) : 2;
+  }
   double stableStep(const State& state, const Loads& loads, std::string* spring);
+  double pullRate(const State& state, const Loads& loads, std::string* part);
   void checkDampers(double dt);
   void checkStable(const State& state, const Loads& loads, double dt);
 
@@ -150,7 +155,25 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
     if (omega2 > highest) highest = omega2, worst = axis;
   }
   if (spring) *spring = worst < 0 ? "" : springName(system, model, worst);
-  return highest > 0 ? stableTurn(options.order) / std::sqrt(highest) : std::numeric_limits<double>::infinity();
+  return highest > 0 ? stableTurn() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
+}
+
+double Solver::Impl::pullRate(const State& state, const Loads& loads, std::string* name) {
+  system.place(state.pose, frames);
+  imposedLaws(system, model, loads, state.time, laws);
+  const SoftRows softRows(model, system, start);
+  Pull pull(system.constraints().size());
+  double highest = 0;
+  int worst = -1;
+  for (const ConstraintSystem::Part& part : system.parts()) {
+    system.linearise(part, frames, laws);
+    findPull(system, model, part, frames, state, loads, softRows, x, pull);
+    int constraint = -1;
+    const double rate2 = fastestOnPull(system, model, part, state.pose, pull, x, constraint);
+    if (rate2 > highest) highest = rate2, worst = constraint;
+  }
+  if (name) *name = worst < 0 ? "" : system.describe(worst);
+  return std::sqrt(highest);
 }
 
 /// Orders above 2 go backwards in some stages, where a damper feeds what it took: tolerable while it takes little.
@@ -229,6 +252,13 @@ double Solver::stableStep(const State& state, const Loads& loads, std::string* s
   impl_->checkFits(state, loads);
   return impl_->stableStep(state, loads, spring);
 }
+
+double Solver::pullRate(const State& state, const Loads& loads, std::string* part) {
+  impl_->checkFits(state, loads);
+  return impl_->pullRate(state, loads, part);
+}
+
+double Solver::stableTurn() const { return impl_->stableTurn(); }
 
 double Solver::velocityError(const State& state) const {
   Impl& s = *impl_;

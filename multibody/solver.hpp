@@ -97,6 +97,15 @@ public:
   /// infinite without springs. `spring`, if given, receives the name of the spring with the greatest part in it.
   double stableStep(const State& state, const Loads& loads, std::string* spring = nullptr);
 
+  /// Fastest rate [rad/s] at which the pull of joints, springs, couplings and drives moves bodies at a state: a taut
+  /// chain or spring lets them swing across it, a pressed one lets them fall to the side (detail/pull.hpp). All schemes
+  /// need dt < stableTurn() / rate; beyond that a swing grows. 0 where nothing pulls. `part`, if given, receives the
+  /// name of what has the greatest part in it.
+  double pullRate(const State& state, const Loads& loads, std::string* part = nullptr);
+
+  /// Largest omega dt [rad] of a swing that the scheme takes explicitly: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
+  double stableTurn() const;
+
   const StepReport& lastStep() const;
   /// Rows without a pivot, by name, in the last matrix of the last step (kSymplecticEuler: of its start, kRattle: of
   /// its end); empty but in singular positions.

@@ -17,6 +17,12 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Steps of a period or turn that "auto" gives [-], and the longest step it gives [s].
 constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
+/// The same of swings on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves room for
+/// forty times the pull of the start [-].
+constexpr double kStepsPerSwingOnPull = 20;
+/// A stable step is inverse to the root of the pull. It is looked at again when this share of what the step bears is
+/// reached, but not before the pull has grown by the second, and when it has grown by the third: poses change too [-].
+constexpr double kPullShare = 0.5, kLeastGrowth = 1.5, kMostGrowth = 4;
 /// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
 constexpr double kRoundedRate = 1e-12;
 
@@ -53,11 +59,30 @@ Mechanism::Mechanism(const Scene& scene, double timeStep)
 }
 
 void Mechanism::advance() {
-  solver_.step(state_, loads_, timeStep_);
+  try {
+    solver_.step(state_, loads_, timeStep_);
+  } catch (const base::SimulationError& error) {
+    throw base::SimulationError(tooTaut_.empty() ? error.what() : fmt::format("{}; {}", error.what(), tooTaut_));
+  }
   const multibody::StepReport& report = solver_.lastStep();
   worst_.position = std::max(worst_.position, report.maxPositionError);
   worst_.iterations = std::max(worst_.iterations, report.iterations);
   worst_.singularSteps += report.singularRows > 0;
+  if (tooTaut_.empty()) watchPull();
+}
+
+/// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
+void Mechanism::watchPull() {
+  double pull = 0;
+  for (const multibody::JointReading& joint : state_.joint) pull = std::max(pull, norm(joint.force));
+  for (const multibody::SpringReading& spring : state_.spring) pull = std::max(pull, std::fabs(spring.force));
+  if (!(pull > boundedPull_)) return;
+  std::string part;
+  const double most = solver_.stableTurn() / solver_.pullRate(state_, loads_, &part);
+  boundedPull_ = pull * std::clamp(kPullShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
+  if (timeStep_ >= most)
+    tooTaut_ =
+        fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
 }
 
 Mechanism::DriveReading Mechanism::drive(int index) const {
@@ -87,6 +112,7 @@ double mechanismTimeStep(const Scene& scene) {
   Mechanism mechanism(scene, kLongestStep);
   double shortest = std::min(kStepsPerPeriod * kLongestStep, mechanism.shortestSwing());
   for (const multibody::Twist& V : mechanism.state().twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
+  shortest = std::min(shortest, kStepsPerPeriod / kStepsPerSwingOnPull * mechanism.shortestSwingOnPull());
   // Rows fall on whole steps.
   const double row = scene.run.outputInterval;
   return row / std::ceil(kStepsPerPeriod * row / shortest);

@@ -48,7 +48,11 @@ public:
 
   /// Shortest period of all springs and bushings against the masses, where the bodies are now [s]; infinite without
   /// any.
-  double shortestSwing() { return base::kPi * solver_.stableStep(state_, loads_); }
+  double shortestSwing() { return 2 * base::kPi / solver_.stableTurn() * solver_.stableStep(state_, loads_); }
+  /// The same of bodies that hang on taut joints and springs (Solver::pullRate).
+  double shortestSwingOnPull() { return 2 * base::kPi / solver_.pullRate(state_, loads_); }
+  /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere.
+  const std::string& tooTaut() const { return tooTaut_; }
 
   /// How well the joints are closed.
   struct Drift {
@@ -65,6 +69,8 @@ public:
   void restore(const MechanismState& saved);
 
 private:
+  void watchPull();
+
   const double timeStep_;
   const multibody::Model model_;
   multibody::State state_;
@@ -72,13 +78,15 @@ private:
   multibody::Solver solver_;
   Drift worst_;
   double startBlow_ = 0;
+  double boundedPull_ = 0; ///< up to this force in joints and springs the step is short enough [N]
+  std::string tooTaut_;
 };
 
 /// The solver's options as a scene's [run] gives them.
 multibody::SolverOptions solverOptions(const RunSettings& run);
 
-/// The step that "auto" stands for: a hundredth of the shortest swing of the springs or turn of a body at the start, at
-/// most 1 ms, and a whole share of the output interval.
+/// The step that "auto" stands for: at the start a hundredth of the shortest swing of the springs or turn of a body, a
+/// twentieth of the shortest swing on taut joints; at most 1 ms, and a whole share of the output interval.
 double mechanismTimeStep(const Scene& scene);
 
 } // namespace grouser::runs

@@ -145,11 +145,12 @@ void Simulation::checkEnergy(const Ledger& now) {
   // A vehicle is set down with small overlaps between its parts, whose energy nobody put in.
   const double floor = kEnergyFloor + (vehicle_ ? kVehicleFloor * vehicle_->assembly().mass : 0.0);
   if (now.residual <= kMostCreated * available + floor) return;
+  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
+  if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (mechanism_ && !mechanism_->tooTaut().empty()) remedy += "; " + mechanism_->tooTaut();
   throw base::SimulationError(
-      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; the {}", steps_,
-                  time(), now.residual, available,
-                  mechanism_ ? "steps are too long for this motion: use a smaller time_step"
-                             : "contacts are unstable: use a smaller time_step or softer contacts"));
+      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; {}", steps_, time(),
+                  now.residual, available, remedy));
 }
 
 } // namespace grouser::runs

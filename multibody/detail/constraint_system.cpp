@@ -260,11 +260,16 @@ double ConstraintSystem::rate(int k, int row, const std::vector<Twist>& twist) c
   return sum;
 }
 
-std::string ConstraintSystem::describe(int k, int row) const {
+std::string ConstraintSystem::describe(int k) const {
   const Constraint& c = constraints_[at(k)];
   if (c.kind == ConstraintKind::kPointSpring) return "spring '" + model_->pointSprings()[at(c.source)].name + "'";
   if (c.kind == ConstraintKind::kBushing) return "bushing '" + model_->bushings()[at(c.source)].name + "'";
-  return "joint '" + model_->joints()[at(c.source)].name + "': " + rowName(c.kind, row);
+  return "joint '" + model_->joints()[at(c.source)].name + "'";
+}
+
+std::string ConstraintSystem::describe(int k, int row) const {
+  const ConstraintKind kind = constraints_[at(k)].kind;
+  return isJoint(kind) ? describe(k) + ": " + rowName(kind, row) : describe(k);
 }
 
 } // namespace grouser::multibody::detail

@@ -135,6 +135,8 @@ public:
 
   /// "joint 'pin 7': rotation about x".
   std::string describe(int constraint, int row) const;
+  /// "joint 'pin 7'".
+  std::string describe(int constraint) const;
 
 private:
   void makeLinks();

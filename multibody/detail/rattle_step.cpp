@@ -70,10 +70,10 @@ RattleStep::RattleStep(const Problem& problem)
     : model(problem.model), options(problem.options), system(problem.system), last(problem.last),
       softRows(model, system, problem.driveStart), implicitSprings(options.springs == Springs::kImplicit),
       soft(system.axes().size()), x0(system.axes().size(), 0.0), x1(x0), softImpulse(x0), startRate(x0), axisRate(x0),
-      springForce(x0), laws(system.axes().size()), x(at(system.nodes())), impulse(system.constraints().size()),
-      endImpulse(impulse), couplingImpulse(system.couplings().size(), 0.0), couplingEndImpulse(couplingImpulse),
-      gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()), twist(mean),
-      trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
+      springForce(x0), axisForce(x0), laws(system.axes().size()), x(at(system.nodes())),
+      impulse(system.constraints().size()), endImpulse(impulse), couplingImpulse(system.couplings().size(), 0.0),
+      couplingEndImpulse(couplingImpulse), gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()),
+      twist(mean), trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
       relinearised(system.parts().size(), 0), factored(system.parts().size(), -1), gapOf(system.parts().size(), 0.0),
       mixing(system, model), drivenThen(system.axes().size(), 0) {
   for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;

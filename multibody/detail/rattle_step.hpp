@@ -63,14 +63,14 @@ private:
   bool implicitSprings;
   double stageTime = 0; ///< at the beginning of the stage
 
-  std::vector<SoftRow> soft;                  ///< one an axis
-  std::vector<double> x0, x1;                 ///< axis positions at the beginning and at the end of the stage
-  std::vector<double> softImpulse;            ///< h / 2 times the mean force of an axis' implicit part
-  std::vector<double> startRate;              ///< of driven axes, at the beginning of the stage
-  std::vector<double> axisRate, springForce;  ///< at the end of the step
-  std::vector<AxisLaw> laws;                  ///< what linearise() is given, one an axis
-  std::vector<Vector6> x;                     ///< residuals in, corrections out; one a node
-  std::vector<std::array<double, 6>> impulse; ///< of the rows, in the position and then in the velocity stage
+  std::vector<SoftRow> soft;                            ///< one an axis
+  std::vector<double> x0, x1;                           ///< axis positions at the beginning and at the end of the stage
+  std::vector<double> softImpulse;                      ///< h / 2 times the mean force of an axis' implicit part
+  std::vector<double> startRate;                        ///< of driven axes, at the beginning of the stage
+  std::vector<double> axisRate, springForce, axisForce; ///< at the end of the step
+  std::vector<AxisLaw> laws;                            ///< what linearise() is given, one an axis
+  std::vector<Vector6> x;                               ///< residuals in, corrections out; one a node
+  std::vector<std::array<double, 6>> impulse;           ///< of the rows, in the position and then in the velocity stage
   std::vector<std::array<double, 6>> endImpulse;
   std::vector<double> couplingImpulse, couplingEndImpulse;
   std::vector<Vec3d> gyro;           ///< gyroscopic momentum at the current iterate, one a movable body

@@ -3,6 +3,7 @@
 
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/index.hpp"
+#include "multibody/detail/reactions.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
 
@@ -155,52 +156,16 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
   }
 }
 
-/// Accelerations and multipliers lambda at the end of the step, of the differential-algebraic equations themselves, so
-/// that reactions have no error of their own:
-///   M a - J^T lambda = f - (0, w x I w),   J a = acceleration imposed - J' v.
+/// Reactions at the end of the step, and what springs and dampers do there.
 void RattleStep::readReactions(const Part& part, State& state, const Loads& loads) {
-  for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    const Wrench& wrench = loads.external[at(b)];
-    set(x[at(node)], wrench.force + model.bodies()[at(b)].mass * loads.gravity,
-        wrench.torque - cross(state.twist[at(b)].w, state.spinMomentum[at(b)]));
-  }
-  const auto twistOf = [&](int body) { return at(body) < state.twist.size() ? state.twist[at(body)] : Twist{}; };
-  for (const int k : part.constraints) {
-    const Constraint& c = system.constraints()[at(k)];
-    double bias[6];
-    rowBias(c, system.jointFrames(k), frames[at(c.bodyA)], frames[at(c.bodyB)], twistOf(c.bodyA), twistOf(c.bodyB),
-            bias);
-    Vector6& residual = x[at(rowNode(k))];
-    residual = {};
-    for (int r = 0; r < 6; ++r)
-      if (system.hardRowsOf(k) >> r & 1u) residual[at(r)] = -bias[r];
+  for (const int k : part.constraints)
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
       const SoftRow& s = soft[at(a)];
       axisRate[at(a)] = system.rateOfAxis(a, state.twist);
-      springForce[at(a)] =
-          s.constant - s.stiffness * x1[at(a)] + (s.stops ? softRows.stopForce(a, x1[at(a)], axisRate[at(a)]) : 0);
-      const double known = springForce[at(a)] - s.damping * axisRate[at(a)] + s.applied1;
-      if (known != 0) system.addImpulse(k, row, known, x);
-      if (s.driven) residual[at(row)] = s.acceleration - bias[row];
+      springForce[at(a)] = softRows.springForce(s, a, x1[at(a)], axisRate[at(a)]);
+      axisForce[at(a)] = springForce[at(a)] - s.damping * axisRate[at(a)] + s.applied1;
     }
-  }
-  for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
-    double bias[2];
-    for (int i = 0; i < 2; ++i) {
-      const Axis& a = system.axes()[at(i == 0 ? row.axis1 : row.axis2)];
-      const Constraint& k = system.constraints()[at(a.constraint)];
-      double all[6];
-      rowBias(k, system.jointFrames(a.constraint), frames[at(k.bodyA)], frames[at(k.bodyB)], twistOf(k.bodyA),
-              twistOf(k.bodyB), all);
-      bias[i] = all[a.row];
-    }
-    x[at(system.couplingNode(c))] = {};
-    x[at(system.couplingNode(c))][0] = row.ratio * bias[0] - bias[1];
-  }
-  system.solve(part, x);
+  solveReactions(system, model, part, frames, state, loads, soft, axisForce, x);
   for (const int k : part.constraints) readConstraint(k, state);
   for (const int c : part.couplings) state.coupling[at(c)].force = x[at(system.couplingNode(c))][0];
 }

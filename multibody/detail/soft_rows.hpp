@@ -42,6 +42,10 @@ public:
   ForceAndSlope stops(int axis, double x0, double x1, double h) const;
   /// Their force at a position and rate.
   double stopForce(int axis, double x, double rate) const;
+  /// Force of springs and stops, without the springs' dampers, at a position and rate.
+  double springForce(const SoftRow& row, int axis, double x, double rate) const {
+    return row.constant - row.stiffness * x + (row.stops ? stopForce(axis, x, rate) : 0);
+  }
   /// Energy of springs (with preloads, as constant forces) and stops at a position.
   double energy(const SoftRow& row, int axis, double x) const;
   /// Energy that the stops' dampers took over a stage.

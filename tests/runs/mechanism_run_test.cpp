@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mechanism as a user runs it: results, hash, resume, plan, sweep.
+#include "base/math.hpp"
 #include "program_fixture.hpp"
 #include "runs/hdf5_file.hpp"
 
@@ -8,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
 #include <string>
+#include <utility>
 
 namespace grouser::runs {
 namespace {
@@ -98,6 +102,45 @@ TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
   EXPECT_NE(call(scene).out.find("time step                0.001 s"), std::string::npos) << call(scene).out;
   const Outcome stiff = call(scene + " --set spring.0.stiffness=2e6");
   EXPECT_NE(stiff.out.find("time step                3.135e-05 s"), std::string::npos) << stiff.out;
+}
+
+/// Ten links of 1 kg with a weight at the end, leaning by a thousandth.
+std::string chainScene(double weight) {
+  std::string text = "version = 1\n[run]\nduration = 0.2\noutput_interval = 0.01\ngravity = [9.81e-3, 0, -9.81]\n";
+  for (int i = 0; i <= 10; ++i) {
+    const bool tip = i == 10;
+    const std::string name = tip ? "weight" : fmt::format("link {}", i);
+    text += fmt::format("[[body]]\nname = \"{}\"\nmass = {}\nposition = [0, 0, {}]\n{}\n", name, tip ? weight : 1,
+                        -0.15 * (tip ? i : i + 0.5), tip ? "point = true" : "inertia = [0.002, 0.002, 0.0002]");
+    text += fmt::format("[[joint]]\nname = \"pin {}\"\nbodies = [\"{}\", \"{}\"]\npoint = [0, 0, {}]\n{}\n", i,
+                        i == 0 ? "world" : fmt::format("link {}", i - 1), name, -0.15 * i,
+                        tip ? "type = \"spherical\"" : "axis = [0, 1, 0]");
+  }
+  return text;
+}
+
+TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
+  // 2 / omega of the fastest swing in closed form, as `study multibody --stability` has it; a twentieth of the swing is
+  // pi / 10 of that, of which rows of 0.01 s take a whole share. Light chains are left with 1 ms.
+  for (const auto& [weight, stable] : {std::pair{1.0, 0.02801}, {1e2, 0.00744}, {1e4, 7.627e-4}, {1e6, 7.629e-5}}) {
+    std::ofstream(folder_ / "chain.toml") << chainScene(weight);
+    const Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kBare);
+    ASSERT_EQ(o.code, 0) << weight << ": " << o.errors;
+    const double step =
+        0.2 /
+        static_cast<double>(Hdf5File::open(folder_ / "r" / "results.h5").read<std::int64_t>("/series/step").back());
+    EXPECT_LE(step, std::min(1e-3, base::kPi / 10 / 2 * stable * 1.01)) << weight;
+    EXPECT_GE(step, std::min(1e-3, base::kPi / 10 / 2 * stable * 0.98)) << weight;
+  }
+}
+
+TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCan) {
+  std::ofstream(folder_ / "chain.toml") << chainScene(1e6);
+  const Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kBare);
+  EXPECT_EQ(o.code, 3) << o.errors;
+  EXPECT_NE(o.errors.find("at 0.0002 s joint 'pin 5' bore so much that only steps below 7.6e-05 s are stable"),
+            std::string::npos)
+      << o.errors;
 }
 
 TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/soft_rows.hpp"
+
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+/// Accelerations and multipliers lambda of one part, linearised at `frames`, from the differential-algebraic equations
+/// themselves, so that reactions have no error of their own:
+///   M a - J^T lambda = f - (0, w x I w),   J a = acceleration imposed - J' v.
+/// `force`: what springs, dampers, stops and force drives exert along each axis, part of f. `x`: one vector a node;
+/// holds a and lambda afterwards.
+void solveReactions(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                    const std::vector<Frame>& frames, const State& state, const Loads& loads,
+                    const std::vector<SoftRow>& soft, const std::vector<double>& force, std::vector<Vector6>& x);
+
+} // namespace grouser::multibody::detail
