@@ -14,9 +14,12 @@ using base::Table;
 Table<RunSettings> runTable() {
   using S = RunSettings;
   Table<S> t("run", "Time, gravity, and the machine to run on");
-  t.add("duration", &S::duration, "s", "simulated time, after the bed has settled").above(0).atMost(1e5).required();
+  t.add("duration", &S::duration, "s", "simulated time, after the bed has settled")
+      .atLeast(1e-12)
+      .atMost(1e5)
+      .required();
   t.add("time_step", &S::timeStep, "s", "\"auto\" is the largest step the stability rule allows")
-      .above(0)
+      .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
   t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);
@@ -68,18 +71,18 @@ Table<RunSettings> runTable() {
 Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
-  t.add("density", &S::density, "kg/m3", "of the solid").above(0).atMost(1e5);
+  t.add("density", &S::density, "kg/m3", "of the solid").atLeast(1e-3).atMost(1e5);
   t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction")
       .oneOf({"linear", "hertz"});
   t.add("stiffness", &S::stiffness, "N/m", "linear: normal stiffness k of a contact; 1e6 where not given")
-      .above(0)
+      .atLeast(1e-3)
       .atMost(1e12);
-  t.add("young", &S::young, "Pa", "hertz: Young's modulus of the solid; required").above(0).atMost(1e13);
+  t.add("young", &S::young, "Pa", "hertz: Young's modulus of the solid; required").atLeast(1).atMost(1e13);
   t.add("poisson", &S::poisson, "-", "hertz: Poisson's ratio of the solid; 0.25 where not given")
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-", "rebound over impact speed; 0.5 where damping is not given either")
-      .above(0)
+      .atLeast(1e-6)
       .atMost(1);
   t.add("damping", &S::damping, "1/s", "linear: gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
       .atLeast(0)
@@ -113,8 +116,8 @@ Table<Material> materialTable() {
 Table<ContactPair> contactTable() {
   using S = ContactPair;
   Table<S> t("contact.\"a|b\"", "What materials a and b have against each other, otherwise than the mixing rule gives");
-  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").above(0).atMost(1e12);
-  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").above(0).atMost(1);
+  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
+  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(1e-6).atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
   t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
   t.add("rolling_friction", &S::rollingFriction, "-", "of the pair").atLeast(0).atMost(2);

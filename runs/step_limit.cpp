@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/table.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
 #include "runs/grain_kinds.hpp"
@@ -22,6 +23,9 @@ namespace grouser::runs {
 using base::Vec3d;
 
 namespace {
+
+/// The longest step that run.time_step takes [s].
+constexpr double kLongestStep = 0.1;
 
 /// Keeps the smaller limit: of the mode x'' + damping x' + stiffness x = 0 [1/s, 1/s2].
 void consider(StepLimit& limit, double stiffness, double damping, const std::string& what,
@@ -156,13 +160,68 @@ double mechanismStep(const Scene& scene) {
 
 } // namespace
 
+namespace {
+
+/// How far a grain sinks under its own weight [m]: linear F = k overlap, hertz F = K sqrt(R) overlap^(3/2).
+double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRadius) {
+  if (!law.hertz) return weight / law.stiffness;
+  return base::pow(weight / (law.stiffness * std::sqrt(effectiveRadius)), 2.0 / 3);
+}
+
+/// Throws at the key that says how stiff two materials are against each other; `times`: how much more it would have to
+/// be.
+[[noreturn]] void failStiffness(const Scene& scene, const Material& a, const Material& b, double times,
+                                const std::string& message) {
+  const auto wanted = [&](double stiffness) {
+    return fmt::format("{}; raise it to {:.3g} at least, or choose smaller grains", message, times * stiffness);
+  };
+  if (a.law == "hertz") {
+    const Material& soft = *b.young < *a.young ? b : a;
+    scene.failMaterial(soft.name, "young", "[Pa] " + wanted(*soft.young));
+  }
+  const ContactPair* pair = scene.contact(a.name, b.name);
+  if (pair && pair->stiffness && scene.document)
+    for (const auto& [name, section] : scene.document->root().named("contact"))
+      if (name == pair->first + "|" + pair->second) section.fail("stiffness", "[N/m] " + wanted(*pair->stiffness));
+  const Material& soft = *b.stiffness < *a.stiffness ? b : a;
+  scene.failMaterial(soft.name, "stiffness", "[N/m] " + wanted(*soft.stiffness));
+}
+
+/// Throws where a grain at rest sinks deeper than a run may bear: contacts so soft hold nothing up, last longer than
+/// runs do, and their energies have no scale in common with those of gravity.
+void checkSoftness(const Scene& scene) {
+  const double gravity = norm(scene.run.gravity), most = scene.run.maxOverlap;
+  if (gravity == 0) return;
+  const GrainKinds kinds = grainKinds(scene);
+  for (const auto& [name, smallest, radius] : kinds.kinds) {
+    const double mass = sphereMass(scene.material(name).density, radius);
+    for (const Partner& p : partnersOf(scene, kinds, name)) {
+      const contact::ContactLaw law = pairLaw(scene, name, p.material, p.share() * mass);
+      const double sinks = sinksBy(law, mass * gravity, p.share() * radius) / radius;
+      if (sinks <= most) continue;
+      // A hundredth more than what is needed, so that the number holds as it is printed.
+      const double times = 1.01 * (law.hertz ? std::sqrt(sinks / most) : 1) * sinks / most;
+      failStiffness(
+          scene, scene.material(name), scene.material(p.material), times,
+          fmt::format("is so soft that a grain of radius {:g} m sinks in by {:.3g} radii under its own weight "
+                      "({}); run.max_overlap allows {:g}",
+                      radius, sinks, p.name, most));
+    }
+  }
+}
+
+} // namespace
+
 double chooseTimeStep(const Scene& scene) {
   if (!scene.mechanism.empty()) return mechanismStep(scene);
+  checkSoftness(scene);
   const StepLimit limit = stepLimit(scene);
   const double contact = shortestContact(scene);
   double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit.step);
   for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
     automatic = std::min(automatic, kRayleighShare * rayleighTimeOf(scene.material(material), radius));
+  // What may be given is what is chosen: soft contacts ask for no more.
+  automatic = std::min({automatic, kLongestStep, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
   const bool hertz =
       std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.law == "hertz"; });
