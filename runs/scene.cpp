@@ -159,6 +159,10 @@ void readGrainsAndSurfaces(const Section& root, Scene& scene) {
     checkMaterial(scene, section, "material", s.material);
     for (int a = 0; a < 3; ++a)
       if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
+    if (s.start > scene.run.duration)
+      section.fail("start", fmt::format("[s] is after the end of the run, run.duration = {:g} s: no grain would ever "
+                                        "enter; lower it, raise run.duration, or remove the source",
+                                        scene.run.duration));
     scene.sources.push_back(s);
   }
   readSurfaces(root, scene);

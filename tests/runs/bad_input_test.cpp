@@ -321,6 +321,9 @@ std::vector<Mistake> mistakes() {
                "\"a\"]\npoint_a = [0, 0, 3]\nstiffness = 1e9\n",
                {"scene.toml:4: run.time_step", "set by spring 's'", "take a shorter step"}),
       // Sources that set grains where something is.
+      badScene("SourceAfterTheEnd", "[output]", source("[0.4, 0, 0.3]", "start = 2e-3"),
+               {"scene.toml:23: source.0.start = 0.002 [s] is after the end of the run, run.duration = 0.001 s",
+                "raise run.duration"}),
       badScene("SourceInPlane", "[output]", source("[0.4, 0, -0.3]"),
                {"scene.toml:17: source.0.low", "overlaps plane 0", "move low and high"}),
       badScene("SourceInBox", "[output]", cube("[0.4, 0, 0.3]") + source("[0.4, 0, 0.3]"),
