@@ -6,10 +6,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace grouser::runs {
 
 namespace {
+
+/// Numbers of vertices that are written at a time.
+constexpr std::size_t kVertexBlock = std::size_t{1} << 20;
 
 /// A <DataItem> that points into frames.h5.
 std::string item(const std::string& shape, const char* type, int bytes, const std::string& dataset) {
@@ -141,8 +145,8 @@ void FramesFile::add(const Frame& frame) {
     ++count_;
     return;
   }
-  file_->flush();
   describe(total, frame.step, frame.time);
+  file_->flush();
   if (!steps_.empty()) writeXdmf();
 }
 
@@ -156,7 +160,6 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
     file_->reserve<float>(at + "/radius", {grains});
     file_->reserve<float>(at + "/speed", {grains});
     file_->reserve<std::uint32_t>(at + "/id", {grains});
-    file_->reserve<std::uint32_t>(at + "/vertex", {grains, 1});
   }
   if (partTriangles_) {
     std::vector<base::Vec3d> world;
@@ -175,17 +178,28 @@ void FramesFile::writeGrains(Hdf5File& file, const Frame& frame, const std::stri
   const std::size_t grains = frame.positions.size();
   const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(grains)));
   std::vector<float> positions(3 * grains);
-  std::vector<std::uint32_t> sequence(grains);
-  for (std::size_t i = 0; i < grains; ++i) {
+  for (std::size_t i = 0; i < grains; ++i)
     for (int k = 0; k < 3; ++k) positions[3 * i + static_cast<std::size_t>(k)] = frame.positions[i][k];
-    sequence[i] = static_cast<std::uint32_t>(first + i);
-  }
   const std::string at = group + "/grains";
   file.writeRows(at + "/position", first, positions);
   file.writeRows(at + "/radius", first, frame.radii);
   file.writeRows(at + "/speed", first, frame.speeds);
   file.writeRows(at + "/id", first, frame.ids);
-  file.writeRows(at + "/vertex", first, sequence);
+}
+
+/// The list of `grains` vertices, which frames of as many grains share. They are just 0, 1, 2..., but not every reader
+/// makes them up.
+std::string FramesFile::listVertices(std::size_t grains) {
+  const std::string list = fmt::format("/vertices/{}", grains);
+  if (file_->has(list)) return list;
+  file_->reserve<std::uint32_t>(list, {grains, 1});
+  std::vector<std::uint32_t> block;
+  for (std::size_t first = 0; first < grains; first += block.size()) {
+    block.resize(std::min(kVertexBlock, grains - first));
+    std::iota(block.begin(), block.end(), static_cast<std::uint32_t>(first));
+    file_->writeRows(list, first, block);
+  }
+  return list;
 }
 
 void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
@@ -193,10 +207,9 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
   std::string grids;
   if (grains) {
     const std::string at = group + "/grains";
-    // The vertices are listed, though they are just 0, 1, 2...: not every reader makes them up.
     const std::string vertices = fmt::format(
         "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
-        grains, item(fmt::format("{} 1", grains), "UInt", 4, at + "/vertex"));
+        grains, item(fmt::format("{} 1", grains), "UInt", 4, listVertices(grains)));
     grids += grid("grains", vertices + geometry(grains, at + "/position") +
                                 attribute("radius", "Node", grains, "Float", at + "/radius") +
                                 attribute("speed", "Node", grains, "Float", at + "/speed") +

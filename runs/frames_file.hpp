@@ -14,6 +14,7 @@ namespace grouser::runs {
 /// Grains, parts and ground over time for ParaView: numbers in frames.h5, their meaning in frames.xdmf beside it.
 ///
 /// frames.h5:  /parts/triangles [t, 3], /parts/part [t], /parts/kind [t];  /ground/position [v, 3], /ground/triangles;
+///             /vertices/1000 [1000, 1]: 0, 1, 2... for frames of as many grains;
 ///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3],
 ///             /000012/partition/{x, y, z} [b]: where borders of subdomains cross that axis [m]; absent where none does
 /// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground". It is written anew after each
@@ -37,6 +38,7 @@ private:
              const base::TriangleMesh& ground, const base::Comm& comm);
   void writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains);
   void writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const;
+  std::string listVertices(std::size_t grains);
   /// Adds the XML of the next frame, which is in the file.
   void describe(std::size_t grains, std::int64_t step, double time);
   void writeXdmf() const;

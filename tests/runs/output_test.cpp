@@ -210,6 +210,22 @@ TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
   EXPECT_EQ(file.numbers("/000001/grains/id").size(), 5u);
 }
 
+TEST_F(Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
+  RunWriter writer(folder_, scene(), channels(), {});
+  writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
+  for (const int grains : {4, 4, 6, 4}) writer.frame(frame(0, grains));
+  writer.finish({});
+  const Hdf5File file = Hdf5File::open(folder_ / "frames.h5");
+  EXPECT_EQ(file.numbers("/vertices/4"), (std::vector<double>{0, 1, 2, 3}));
+  EXPECT_EQ(file.numbers("/vertices/6").size(), 6u);
+  const std::string xml = contents(folder_ / "frames.xdmf");
+  int uses = 0;
+  for (std::size_t at = 0; (at = xml.find(">frames.h5:/vertices/4<", at)) != std::string::npos; ++at) ++uses;
+  EXPECT_EQ(uses, 3);
+  for (const char* frame : {"/000000", "/000001", "/000002", "/000003"})
+    EXPECT_FALSE(file.has(std::string(frame) + "/grains/vertex")) << frame;
+}
+
 TEST_F(Output, SinkageCsvHasOneColumnAShoe) {
   {
     RunWriter writer(folder_, scene(), channels(), {});
