@@ -230,7 +230,12 @@ std::string hashOfFile(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
   base::StateHash hash;
-  for (char c; file.get(c);) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  std::vector<char> block(std::size_t{1} << 20);
+  do {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(block[static_cast<std::size_t>(i)])));
+  } while (file);
   return hash.hex();
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/placement.hpp"
+#include "runs/step_limit.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

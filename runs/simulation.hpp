@@ -8,7 +8,6 @@
 #include "runs/scene.hpp"
 #include "runs/simulation_state.hpp"
 #include "runs/sources.hpp"
-#include "runs/step_limit.hpp"
 #include "runs/surfaces.hpp"
 #include "runs/vehicle_rig.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/step_limit.hpp"
 
 namespace grouser::runs {
 

@@ -3,6 +3,7 @@
 #include "runs/checkpoint.hpp"
 
 #include "base/error.hpp"
+#include "base/hash.hpp"
 #include "folder_fixture.hpp"
 #include "runs/hdf5_file.hpp"
 #include "runs/sealed_file.hpp"
@@ -209,6 +210,21 @@ TEST_F(CheckpointFile, FilesOfTheSceneAreComparedByWhatIsInThem) {
     ADD_FAILURE();
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("terrain.heightmap"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(CheckpointFile, EveryByteOfAFileOfTheSceneCounts) {
+  // Files are read a mebibyte at a time; what is hashed are their bytes, one after the other.
+  for (const std::size_t size :
+       {std::size_t{1}, (std::size_t{1} << 20) - 1, std::size_t{1} << 20, std::size_t{2500000}}) {
+    std::string bytes(size, 'a');
+    bytes.back() = '\xff';
+    std::ofstream(folder_ / "map.png", std::ios::binary) << bytes;
+    base::StateHash hash;
+    for (const char c : bytes) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    Scene scene = grains();
+    scene.terrain.emplace().heightmap = (folder_ / "map.png").string();
+    EXPECT_EQ(inputsOf(scene), "terrain.heightmap " + hash.hex() + "\n") << size;
   }
 }
 

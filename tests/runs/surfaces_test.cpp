@@ -8,6 +8,7 @@
 #include "runs/laws.hpp"
 #include "runs/plan.hpp"
 #include "runs/simulation.hpp"
+#include "runs/step_limit.hpp"
 #include "runs/surface_mesh.hpp"
 
 #include <fmt/format.h>
