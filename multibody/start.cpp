@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -24,6 +26,8 @@ constexpr double kFixedAxis = 1e-9;
 
 /// An axis that couplings leave less than this part of its mobility is locked: round-off, and beyond any reduction.
 constexpr double kLockedAxis = 1e-13;
+/// Ratios nearer to each other than this are taken as written with a few digits.
+constexpr double kSameRatio = 1e-6;
 
 template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) {
   std::ostringstream message;
@@ -43,6 +47,70 @@ std::string others(const Model& model, const std::string& drive) {
     if (d.name != drive && d.on && imposes(d)) text += (text.empty() ? "drive '" : ", drive '") + d.name + "'";
   for (const Coupling& c : model.couplings()) text += (text.empty() ? "coupling '" : ", coupling '") + c.name + "'";
   return text.empty() ? "joints" : "joints, " + text;
+}
+
+/// What couplings make of one axis' motion on another.
+struct Train {
+  double ratio = 1;
+  std::vector<int> couplings;
+};
+
+/// Of the couplings before `end`, from one axis to another; none where these do not join the two.
+std::optional<Train> trainBetween(const std::vector<CouplingRow>& couplings, int from, int to, int end) {
+  std::map<int, Train> reached{{from, {}}};
+  for (std::vector<int> next{from}; !next.empty();) {
+    const int axis = next.back();
+    next.pop_back();
+    for (int c = 0; c < end; ++c) {
+      const CouplingRow& row = couplings[at(c)];
+      if (row.axis1 != axis && row.axis2 != axis) continue;
+      const bool forwards = row.axis1 == axis;
+      const int other = forwards ? row.axis2 : row.axis1;
+      if (reached.count(other)) continue;
+      Train train = reached[axis];
+      train.ratio *= forwards ? row.ratio : 1 / row.ratio;
+      train.couplings.push_back(c);
+      reached[other] = train;
+      next.push_back(other);
+    }
+  }
+  const auto found = reached.find(to);
+  return found == reached.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string namesOf(const Model& model, const std::vector<int>& couplings) {
+  std::string names;
+  for (const int c : couplings) names += (names.empty() ? "'" : ", '") + model.couplings()[at(c)].name + "'";
+  return names;
+}
+
+/// Couplings of `part` lock an axis that could move without them: says why. `canMove`: of both axes of each, without
+/// couplings.
+[[noreturn]] void refuseLock(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                             const std::vector<std::pair<bool, bool>>& canMove) {
+  // A ratio that is not the one which those before it make.
+  for (const int c : part.couplings) {
+    const CouplingRow& row = system.couplings()[at(c)];
+    const std::optional<Train> train = trainBetween(system.couplings(), row.axis1, row.axis2, c);
+    if (!train || std::fabs(train->ratio - row.ratio) <= kSameRatio * std::fabs(row.ratio)) continue;
+    const Coupling& coupling = model.couplings()[at(c)];
+    refuse("coupling '", coupling.name, "': joint '", model.joints()[at(coupling.joint2)].name, "' cannot move ",
+           row.ratio, " times as far as joint '", model.joints()[at(coupling.joint1)].name, "', since by ",
+           namesOf(model, train->couplings), " it moves ", train->ratio,
+           " times as far; leave one of them out, or correct a ratio");
+  }
+  for (std::size_t i = 0; i < canMove.size(); ++i) {
+    if (canMove[i].first && canMove[i].second) continue;
+    const Coupling& coupling = model.couplings()[at(part.couplings[i])];
+    refuse("coupling '", coupling.name, "': the axis of joint '",
+           model.joints()[at(canMove[i].first ? coupling.joint2 : coupling.joint1)].name,
+           "' cannot move even without it, since other joints hold it, and nothing that is coupled to it can; leave it "
+           "out, or free that axis");
+  }
+  const Coupling& first = model.couplings()[at(part.couplings.front())];
+  refuse("coupling '", first.name, "': joints '", model.joints()[at(first.joint1)].name, "' and '",
+         model.joints()[at(first.joint2)].name, "' cannot move, since the couplings (", namesOf(model, part.couplings),
+         ") contradict each other through the joints; leave one of them out, or correct a ratio");
 }
 
 } // namespace
@@ -99,16 +167,19 @@ void checkCouplings(ConstraintSystem& system, const Model& model) {
       return of;
     };
     const auto alone = mobilities(false), together = mobilities(true);
-    const auto locked = [](double before, double after) { return before > 0 && after <= kLockedAxis * before; };
+    std::vector<std::pair<bool, bool>> canMove;
     for (std::size_t i = 0; i < alone.size(); ++i) {
-      if (!locked(alone[i].first, together[i].first) || !locked(alone[i].second, together[i].second)) continue;
-      std::string all;
-      for (const int c : part.couplings) all += (all.empty() ? "'" : ", '") + model.couplings()[at(c)].name + "'";
-      const Coupling& coupling = model.couplings()[at(part.couplings[i])];
-      refuse("coupling '", coupling.name, "': joints '", model.joints()[at(coupling.joint1)].name, "' and '",
-             model.joints()[at(coupling.joint2)].name, "' cannot move, since the couplings contradict each other (",
-             all, "); leave one of them out, or correct a ratio");
+      const CouplingRow& row = system.couplings()[at(part.couplings[i])];
+      const auto moves = [&](int axis, double mobility) {
+        const Axis& a = system.axes()[at(axis)];
+        return mobility > kFixedAxis * system.rowSize(a.constraint, a.row);
+      };
+      canMove.emplace_back(moves(row.axis1, alone[i].first), moves(row.axis2, alone[i].second));
     }
+    const auto locked = [](double before, double after) { return before > 0 && after <= kLockedAxis * before; };
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      if (locked(alone[i].first, together[i].first) && locked(alone[i].second, together[i].second))
+        refuseLock(system, model, part, canMove);
   }
 }
 
