@@ -119,7 +119,10 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
   for (const multibody::Joint& j : model.joints()) {
     if (!isKept(record, j.name)) continue;
     const std::string path = "joints/" + j.name + "/";
-    c.push_back({path + "force", "N", "on the second body from the first, world components", 3, kAxes});
+    c.push_back({path + "force", "N",
+                 "on the second body from the first, with springs and drives of the axis, without couplings; world "
+                 "components",
+                 3, kAxes});
     c.push_back({path + "torque", "N m", "the same, about the joint", 3, kAxes});
     for (const NamedAxis& a : axesOf(j)) {
       c.push_back({path + a.prefix + "position", a.turns ? "rad" : "m", "of the free axis", 1, {}});
@@ -165,7 +168,8 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
     if (!isKept(record, coupling.name)) continue;
     c.push_back({"couplings/" + coupling.name + "/force",
                  turns(jointOf(model, coupling.joint2), coupling.axis2) ? "N m" : "N",
-                 "on the second axis",
+                 "on the second axis, beside what the joint's force and torque hold; the first feels minus the ratio "
+                 "times it",
                  1,
                  {}});
   }
