@@ -6,6 +6,7 @@
 #include "runs/grain_kinds.hpp"
 #include "runs/grain_memory.hpp"
 #include "runs/joined_sides.hpp"
+#include "runs/lattice.hpp"
 #include "runs/placement.hpp"
 #include "runs/start_checks.hpp"
 #include "runs/step_limit.hpp"
@@ -102,8 +103,8 @@ terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm
   partition.comm = comm;
   partition.rebalance = scene.parallel.rebalance;
   partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
-  if (const auto& n = scene.parallel.subdomains)
-    partition.subdomains = {static_cast<int>(n->x), static_cast<int>(n->y), static_cast<int>(n->z)};
+  partition.subdomains = wantedSubdomains(scene);
+  checkLattice(scene, comm.size());
   return partition;
 }
 

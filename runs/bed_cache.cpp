@@ -3,9 +3,11 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/build_info.hpp"
 #include "runs/checkpoint.hpp"
 #include "runs/file_lock.hpp"
 #include "runs/grain_kinds.hpp"
+#include "runs/ranks_alike.hpp"
 #include "runs/surfaces.hpp"
 
 #include <algorithm>
@@ -40,26 +42,6 @@ void warn(const base::Comm& comm, const std::string& message) {
 /// The first rank's answer, on all.
 bool agreed(const base::Comm& comm, bool answer) { return comm.maximumOf(comm.first() && answer ? 1 : 0) != 0; }
 bool allOf(const base::Comm& comm, bool answer) { return comm.maximumOf(answer ? 0 : 1) == 0; }
-
-/// Eight bytes a word: a program of 100 MB takes 0.05 s.
-std::string hashOfProgram() {
-  static const std::string hash = [] {
-    std::ifstream file("/proc/self/exe", std::ios::binary);
-    if (!file) throw base::InputError("/proc/self/exe: cannot be read; use --no-cache");
-    base::StateHash h;
-    std::vector<char> chunk(1 << 20);
-    while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), file.gcount() > 0) {
-      const auto got = static_cast<std::size_t>(file.gcount());
-      for (std::size_t i = 0; i < got; i += sizeof(std::uint64_t)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, chunk.data() + i, std::min(sizeof word, got - i));
-        h.add(word);
-      }
-    }
-    return h.hex();
-  }();
-  return hash;
-}
 
 /// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
 bool isOfBed(const Scene& scene, const std::string& material) {
@@ -102,11 +84,19 @@ Scene bedAlone(Scene scene) {
   return scene;
 }
 
+/// Empty where nothing is to be kept.
+std::string folderOfUser() {
+  if (const char* set = std::getenv("GROUSER_CACHE")) return set;
+  if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return (fs::path(set) / "grouser").string();
+  if (const char* set = std::getenv("HOME"); set && *set) return (fs::path(set) / ".cache/grouser").string();
+  return "";
+}
+
 } // namespace
 
-std::optional<BedCache> BedCache::ofUser() {
+std::optional<BedCache> BedCache::ofUser(const base::Comm& comm) {
   std::uint64_t limit = kDefaultLimit;
-  if (const char* set = std::getenv("GROUSER_CACHE_GIB"); set && *set) {
+  if (const char* set = std::getenv("GROUSER_CACHE_GIB"); set && *set && comm.first()) {
     double gib = 0;
     const auto [end, error] = std::from_chars(set, set + std::strlen(set), gib);
     if (error != std::errc() || *end || !(gib >= 0 && gib <= 1e6))
@@ -114,17 +104,16 @@ std::optional<BedCache> BedCache::ofUser() {
           fmt::format("GROUSER_CACHE_GIB = {} [GiB] is no number in [0, 1e6]; correct or unset it", set));
     limit = static_cast<std::uint64_t>(gib * 1073741824.0);
   }
-  if (const char* set = std::getenv("GROUSER_CACHE")) return *set ? std::optional(BedCache(set, limit)) : std::nullopt;
-  if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return BedCache(fs::path(set) / "grouser", limit);
-  if (const char* set = std::getenv("HOME"); set && *set) return BedCache(fs::path(set) / ".cache/grouser", limit);
-  return std::nullopt;
+  const std::string folder = comm.broadcast(folderOfUser());
+  limit = comm.gatherValue(limit).front();
+  return folder.empty() ? std::nullopt : std::optional(BedCache(folder, limit));
 }
 
 std::string BedCache::origin(const Scene& scene, double timeStep) {
   Scene bed = bedAlone(scene);
   const std::string inputs = inputsOf(bed);
   bed.terrain->heightmap.clear(); // by its bytes, not by its name
-  return fmt::format("program {}\ntime step {:a}\n{}{}", hashOfProgram(), timeStep, inputs, resolvedToml(bed));
+  return fmt::format("program {}\ntime step {:a}\n{}{}", programHash(), timeStep, inputs, resolvedToml(bed));
 }
 
 SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettleProgress& progress,
@@ -147,7 +136,8 @@ SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettlePr
   std::error_code error;
   if (comm.first()) fs::create_directories(folder_, error);
   const bool fits = kBytesPerGrain * static_cast<double>(ground.grains->count()) <= static_cast<double>(limit_);
-  const bool usable = agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0);
+  const bool usable =
+      agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0) && !rankThatMisses(folder_, comm).has_value();
   if (!usable) warn(comm, fmt::format("{}: settled beds cannot be kept in this folder", folder_.string()));
   // Of several runs that want one bed the first settles it.
   FileLock lock;
@@ -175,14 +165,13 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, Ground& grou
   std::error_code error;
   if (!allOf(comm, fs::is_regular_file(file, error))) return false;
   std::string damage;
-  if (comm.first()) {
-    try {
-      checkStateFile(file, kBedFile);
-    } catch (const std::exception& e) {
-      damage = e.what();
-    }
+  try {
+    checkStateFile(file, kBedFile); // of each rank's own copy, where the folder is not shared
+  } catch (const std::exception& e) {
+    damage = e.what();
   }
-  damage = comm.broadcast(damage);
+  for (const std::vector<char>& found : comm.gatherAll(std::vector<char>(damage.begin(), damage.end())))
+    if (!found.empty()) damage.assign(found.begin(), found.end());
   Checkpoint bed;
   if (damage.empty()) {
     // Another run may delete it just now: then all ranks settle.

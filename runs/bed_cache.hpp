@@ -25,8 +25,8 @@ public:
 
   /// As the user's surroundings say: GROUSER_CACHE names the folder, and where it is set but empty nothing is kept;
   /// otherwise $XDG_CACHE_HOME/grouser, otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits its size. Throws
-  /// InputError where that is no number.
-  static std::optional<BedCache> ofUser();
+  /// InputError where that is no number. On several ranks the surroundings of the first count.
+  static std::optional<BedCache> ofUser(const base::Comm& comm = {});
 
   /// Puts the kept bed of this scene in the place of the loose one; where there is none, settles as runs/bed does and
   /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a

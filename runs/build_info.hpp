@@ -14,6 +14,10 @@ struct BuildInfo {
 };
 BuildInfo buildInfo();
 
+/// Hash of the file of the running program: neither a version nor a commit tells of changes that are not committed, or
+/// of a compiler. Throws InputError where the file cannot be read.
+std::string programHash();
+
 /// `grouser --version`: one line a fact.
 std::string versionText();
 

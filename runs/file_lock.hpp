@@ -13,9 +13,9 @@ public:
   FileLock& operator=(const FileLock&) = delete;
   ~FileLock();
 
-  /// True when the lock of this file, which is made where it is missing, is now held, or where files cannot be locked
-  /// at all: some file systems cannot. False while another holds it.
-  bool take(const std::filesystem::path& file);
+  /// True when the lock of this file or folder is now held, or where it cannot be locked at all: some file systems
+  /// cannot. False while another holds it. A file is made where it is missing.
+  bool take(const std::filesystem::path& path);
 
 private:
   int descriptor_ = -1;

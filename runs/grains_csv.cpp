@@ -20,16 +20,13 @@ constexpr const char* kHead = "step,time [s],id,position.x [m],position.y [m],po
                               "velocity.y [m/s],velocity.z [m/s],spin.x [rad/s],spin.y [rad/s],spin.z [rad/s],"
                               "radius [m]\n";
 
-/// The lines that stay of a former run, without the header. A line that was cut short has no end.
-std::string linesOf(const fs::path& path, const GrainsCsv::Former& former) {
+/// The lines up to this step, without the header. A line that was cut short has no end.
+std::string linesUpTo(std::int64_t last, const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text, line;
   std::getline(file, line);
-  std::int64_t last = -1, rows = 0;
   while (std::getline(file, line) && !file.eof()) {
-    const std::int64_t step = std::strtoll(line.c_str(), nullptr, 10);
-    rows += step != last, last = step;
-    if (step > former.step || rows > former.rows) break;
+    if (std::strtoll(line.c_str(), nullptr, 10) > last) break;
     text += line + '\n';
   }
   return text;
@@ -58,11 +55,10 @@ bool GrainsCsv::isWanted(const Scene& scene, std::int64_t grains) {
   return grains > 0 && grains <= kMostGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMostLines);
 }
 
-GrainsCsv::GrainsCsv(const fs::path& folder, const std::optional<Former>& former, const base::Comm& comm)
+GrainsCsv::GrainsCsv(const fs::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm)
     : path_(folder / kGrainsCsvName), comm_(comm) {
   if (!comm_.first()) return;
-  const std::string kept = former ? linesOf(path_, *former) : "";
-  replaceTextFile(path_, kHead + kept); // a kill loses nothing of the former file
+  replaceTextFile(path_, kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
   file_.open(path_, std::ios::binary | std::ios::app);
   check();
 }

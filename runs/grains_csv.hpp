@@ -24,13 +24,10 @@ public:
   /// Whether a run of this scene, which begins with `grains`, writes the file: as output.grains_csv says.
   static bool isWanted(const Scene& scene, std::int64_t grains);
 
-  /// What a checkpoint counted on: later output times are cut off the file that is there.
-  struct Former {
-    std::int64_t step{}, rows{};
-  };
-  /// Begins the file anew, or goes on with it. Throws std::runtime_error. On several ranks all of them have one, and
-  /// the first writes.
-  GrainsCsv(const std::filesystem::path& folder, const std::optional<Former>& former, const base::Comm& comm);
+  /// Begins the file anew, or goes on with it: then what came after the last row that is `kept` of the time series [its
+  /// step; -1: none is] is cut off. Throws std::runtime_error. On several ranks all of them have one, and the first
+  /// writes.
+  GrainsCsv(const std::filesystem::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm);
 
   void add(std::int64_t step, double time, const terrain::Grains& grains);
 

@@ -14,12 +14,14 @@
 #include "runs/study_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <exception>
 #include <stdexcept>
+#include <string_view>
 
 namespace {
 
@@ -274,6 +276,21 @@ void addOthers(CLI::App& app, runs::SinkageCommand& s, runs::PlanCommand& p, run
   });
 }
 
+/// What several ranks would only hinder each other at.
+void refuseRanks(CLI::App& app, const char* name, const base::Comm& comm, const std::string& instead) {
+  app.get_subcommand(name)->preparse_callback([=](std::size_t) {
+    if (!comm.alone())
+      throw base::InputError(
+          fmt::format("grouser {} is no work for {} ranks: start it without mpirun{}", name, comm.size(), instead));
+  });
+}
+
+/// Commands that ranks share; all others are done by the first alone.
+bool isShared(const char* command) {
+  const std::string_view name = command;
+  return name == "run" || name == "bench" || name == "render";
+}
+
 /// Says why, and ends the other ranks too. What all ranks find out alike is said by the first; the others wait a moment
 /// for it to end them.
 int fail(const base::Ranks& ranks, int code, const char* message) {
@@ -304,6 +321,8 @@ void waitBriefly(char** argv) {
 
 int main(int argc, char** argv) {
   waitBriefly(argv);
+  // A limit to the size of files is met as a full disk is: by a message, not by the signal's silent end.
+  std::signal(SIGXFSZ, SIG_IGN);
   const base::Ranks ranks(argc, argv);
   const auto stop = [&ranks](ExitCode code, const char* message) { return fail(ranks, code, message); };
   // One rank speaks for all.
@@ -340,6 +359,9 @@ int main(int argc, char** argv) {
   addStudy(app, study, grainStudies);
   addRender(app, render);
   addOthers(app, sinkage, plan, spheres);
+  refuseRanks(app, "sweep", ranks.comm(), "; --jobs lets several runs go at the same time");
+  refuseRanks(app, "study", ranks.comm(), "");
+  if (!ranks.comm().first() && argc > 1 && !isShared(argv[1])) return 0; // the first ends all where it fails
   if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())
     return stop(kInput, unknown.c_str());
   try {

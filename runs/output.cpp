@@ -7,6 +7,7 @@
 #include "runs/frames_file.hpp"
 #include "runs/hdf5_file.hpp"
 #include "runs/manifest.hpp"
+#include "runs/ranks_alike.hpp"
 #include "runs/sealed_file.hpp"
 #include "runs/text_file.hpp"
 
@@ -33,7 +34,7 @@ constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.
                                   "shoe_heights.png", "drive.png",      "ledger.png",   "mechanism.png",
                                   "picture.png",      "grains.csv",     kCheckpointName};
 
-fs::path prepared(fs::path folder, const RunWriter::Options& options) {
+fs::path prepared(fs::path folder, const RunWriter::Options& options, FileLock& lock) {
   if (options.former) return folder;
   checkOutputFolder(folder, options.force);
   std::error_code error;
@@ -41,6 +42,8 @@ fs::path prepared(fs::path folder, const RunWriter::Options& options) {
   if (error)
     throw base::InputError(
         fmt::format("{}: the folder cannot be made ({}); name another with --out", folder.string(), error.message()));
+  claimFolder(lock, folder);
+  checkOutputFolder(folder, options.force); // another run may have been quicker
   for (const char* name : kFiles) fs::remove(folder / name, error);
   return folder;
 }
@@ -69,14 +72,26 @@ void checkOutputFolder(const fs::path& folder, bool force) {
   if (!fs::is_directory(folder, error))
     throw base::InputError(
         fmt::format("{}: is a file, where the results' folder should be; name another with --out", folder.string()));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw base::InputError(
+        fmt::format("{}: nothing may be written in this folder; name another with --out", folder.string()));
   if (!force && !fs::is_empty(folder, error))
     throw base::InputError(
         fmt::format("{}: the folder is not empty; name another with --out, {}or overwrite it with --force",
                     folder.string(), fs::exists(folder / kCheckpointName, error) ? "go on with --resume, " : ""));
 }
 
+void claimFolder(FileLock& lock, const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error) && !lock.take(folder))
+    throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
+                                       "folder with --out",
+                                       folder.string()));
+}
+
 /// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.
 struct RunWriter::Series {
+  FileLock lock; ///< of the folder, where the run begins in it; a resumed one holds it already
   fs::path folder;
   const Options& options;
   std::vector<Channel> channels;
@@ -91,7 +106,7 @@ struct RunWriter::Series {
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
   Series(const fs::path& where, const Scene& scene, std::vector<Channel> list, const Options& given)
-      : folder(prepared(where, given)), options(given), channels(std::move(list)),
+      : folder(prepared(where, given, lock)), options(given), channels(std::move(list)),
         results(Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
         manifest(folder, scene, options.metadata) {
     const std::string resolved = resolvedToml(scene);
@@ -196,17 +211,27 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::vector<Channel> c
   const bool begun = !options.former && options.comm.first();
   std::error_code unknown;
   const bool there = fs::exists(folder, unknown);
+  const auto takeBack = [&] {
+    std::error_code error;
+    for (const char* name : kFiles)
+      if (begun) fs::remove(folder / name, error);
+    if (begun && !there) fs::remove(folder, error);
+  };
   try {
     impl_ = std::make_unique<Impl>(folder, scene, std::move(channels), std::move(options));
   } catch (const base::InputError&) {
     throw; // before anything was touched
   } catch (...) {
-    // The disk is full: what was begun is of no use.
-    std::error_code error;
-    for (const char* name : kFiles)
-      if (begun) fs::remove(folder / name, error);
-    if (begun && !there) fs::remove(folder, error);
+    takeBack(); // the disk is full: what was begun is of no use
     throw;
+  }
+  if (const std::optional<int> rank = rankThatMisses(folder, impl_->options.comm); rank && *rank > 0) {
+    impl_.reset();
+    takeBack();
+    throw base::InputError(fmt::format(
+        "{}: rank {} does not see this folder of rank 0; start all ranks in the same folder, and where they "
+        "run on several hosts let --out name one that all of these share",
+        folder.string(), *rank));
   }
 }
 
@@ -273,6 +298,11 @@ void RunWriter::stop(const std::string& reason) {
 }
 
 std::int64_t RunWriter::rows() const { return impl_->rows; }
+
+std::int64_t RunWriter::keptUpTo() const {
+  const auto& former = impl_->options.former;
+  return former && !former->rows.empty() ? former->rows.back().step : -1;
+}
 
 std::int64_t RunWriter::frames() const { return impl_->framesAdded; }
 

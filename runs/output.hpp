@@ -4,6 +4,7 @@
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
+#include "runs/file_lock.hpp"
 #include "runs/scene.hpp"
 
 #include <array>
@@ -71,6 +72,10 @@ struct Summary {
 /// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
 void checkOutputFolder(const std::filesystem::path& folder, bool force);
 
+/// Takes the lock of the folder that a run writes in, if it is there. Throws base::InputError where another run holds
+/// it.
+void claimFolder(FileLock& lock, const std::filesystem::path& folder);
+
 /// What a resumed run keeps of the folder it goes on with; what came later is cut off.
 struct FormerOutput {
   std::vector<Row> rows;   ///< to begin the new files with
@@ -113,6 +118,8 @@ public:
 
   std::int64_t rows() const;   ///< written so far, former ones among them
   std::int64_t frames() const; ///< the same
+  /// Step of the last row that was kept of a former run; -1: none was. Of the first rank.
+  std::int64_t keptUpTo() const;
   /// Brings the rows to the disk, before a checkpoint counts on them.
   void sync();
 

@@ -162,9 +162,7 @@ void Recorder::begin(const Scene& scene, const RunOptions& options, const Checkp
   writer_.setParts(parts_, ground_);
   if (const auto& grains = simulation_.ground().grains;
       grains && GrainsCsv::isWanted(scene, static_cast<std::int64_t>(grains->count())))
-    grainsCsv_.emplace(options.folder,
-                       former ? std::optional(GrainsCsv::Former{former->state.steps, former->rows}) : std::nullopt,
-                       options.comm());
+    grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
 }
 
 void Recorder::row() {

@@ -25,12 +25,30 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// A signal that any rank has received; asked of all of them now and then only, since all must agree.
-int signalOf(const base::Comm& comm, std::int64_t step) {
-  constexpr std::int64_t kEvery = 100;
-  if (comm.alone()) return StopSignals::received();
-  return step % kEvery == 0 ? static_cast<int>(comm.maximumOf(static_cast<std::uint64_t>(StopSignals::received()))) : 0;
-}
+/// A signal that any rank has received. All must agree on the step at which they stop, so all are asked together: as
+/// often as answers within a fifth of a second take, since launchers that pass an interrupt on kill after one second.
+class SignalWatch {
+public:
+  explicit SignalWatch(const base::Comm& comm) : comm_(comm) {}
+
+  int receivedAt(std::int64_t step) {
+    if (comm_.alone()) return StopSignals::received();
+    if (step < next_) return 0;
+    const double perStep = since(asked_) / static_cast<double>(std::max<std::int64_t>(1, step - last_));
+    std::uint64_t all[] = {static_cast<std::uint64_t>(StopSignals::received()),
+                           static_cast<std::uint64_t>(1e9 * perStep) + 1};
+    comm_.maximum(all, 2);
+    constexpr std::uint64_t kWithin = 200'000'000, kMost = 100; // [ns], steps
+    last_ = step, next_ = step + static_cast<std::int64_t>(std::clamp<std::uint64_t>(kWithin / all[1], 1, kMost));
+    asked_ = Clock::now();
+    return static_cast<int>(all[0]);
+  }
+
+private:
+  base::Comm comm_;
+  std::int64_t last_ = 0, next_ = 0;
+  Clock::time_point asked_ = Clock::now();
+};
 
 /// How the grains are shared out.
 void describeRanks(const Simulation& simulation) {
@@ -129,7 +147,7 @@ std::unique_ptr<Simulation> makeSimulation(const Scene& scene, const base::Exec&
   if (former) return std::make_unique<Simulation>(scene, exec, former->state, comm);
   std::unique_ptr<Progress> settling;
   const auto settle = [&](double time, double agitation) {
-    if (const int signal = signalOf(comm, 0))
+    if (const int signal = SignalWatch(comm).receivedAt(0))
       throw Stopped(signal,
                     fmt::format("stopped by {} while the bed settled; nothing was written", StopSignals::name(signal)));
     if (!settling) settling = std::make_unique<Progress>("settling", comm.first());
@@ -149,6 +167,7 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
   const std::int64_t rowEvery = stepsOf(scene.run.outputInterval), frameEvery = stepsOf(scene.run.frameInterval);
   const std::int64_t saveEvery = scene.run.checkpointInterval > 0 ? stepsOf(scene.run.checkpointInterval) : total + 1;
   Progress progress("running", simulation.comm().first());
+  SignalWatch signals(simulation.comm());
   while (simulation.steps() < total) {
     const std::int64_t now = simulation.steps();
     simulation.advance(
@@ -156,7 +175,7 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
     if (simulation.steps() % rowEvery == 0) recorder.row();
     if (simulation.steps() % frameEvery == 0) recorder.frame();
     if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
-    if (const int signal = signalOf(simulation.comm(), simulation.steps())) {
+    if (const int signal = signals.receivedAt(simulation.steps())) {
       checkpoints.write(simulation, recorder.writer());
       throw Stopped(signal, fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
                                         StopSignals::name(signal), simulation.time(), checkpoints.last()));
@@ -178,11 +197,13 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
 Summary runScene(const Scene& scene, const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const StopSignals signals;
-  requireAlike(scene, options.comm());
+  requireAlike(scene, options.commandLine, options.comm());
   const base::Exec exec = chooseDevice(scene.run.device, scene.run.threads, options.ranks);
+  FileLock folder; // of a run that goes on; one that begins makes its folder later
+  if (options.resume && options.comm().first()) claimFolder(folder, options.folder);
   const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
   std::optional<BedCache> beds;
-  if (options.cache && scene.terrain && scene.terrain->cache) beds = BedCache::ofUser();
+  if (options.cache && scene.terrain && scene.terrain->cache) beds = BedCache::ofUser(options.comm());
   const std::unique_ptr<Simulation> made =
       makeSimulation(scene, exec, former.get(), options.comm(), beds ? &*beds : nullptr);
   Simulation& simulation = *made;

@@ -263,10 +263,15 @@ void readParallel(const Section& section, Scene& scene) {
     for (std::size_t k = 1; k < cuts[a]->size(); ++k)
       if (!((*cuts[a])[k] > (*cuts[a])[k - 1]))
         section.fail(std::string("cuts_") + "xyz"[a], "[m] does not increase; sort it, each plane once");
-  if (const auto& n = scene.parallel.subdomains)
-    for (int a = 0; a < 3; ++a)
-      if ((*n)[a] != std::floor((*n)[a]))
-        section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
+  const auto& n = scene.parallel.subdomains;
+  for (int a = 0; n && a < 3; ++a) {
+    if ((*n)[a] != std::floor((*n)[a])) section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
+    const auto slabs = static_cast<double>(cuts[a]->size() + 1);
+    if (slabs > 1 && (*n)[a] != 0 && (*n)[a] != slabs)
+      section.fail(std::string("cuts_") + "xyz"[a],
+                   fmt::format("[m] makes {} subdomains along {}, but subdomains says {}; make them agree", slabs,
+                               "xyz"[a], (*n)[a]));
+  }
 }
 
 /// What stands at one of two joined sides must stand at the other, too.

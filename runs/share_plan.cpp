@@ -4,6 +4,7 @@
 
 #include "runs/bed.hpp"
 #include "runs/grain_memory.hpp"
+#include "runs/lattice.hpp"
 #include "runs/placement.hpp"
 #include "terrain/partition.hpp"
 
@@ -41,10 +42,8 @@ std::string sharePlan(const Scene& scene, int ranks) {
     for (const Plane& p : scene.planes) include(p.point);
     for (int a = 0; a < 3; ++a) size[static_cast<std::size_t>(a)] = high[a] - low[a] + 2 * radius;
   }
-  std::array<int, 3> wanted{};
-  if (const auto& n = scene.parallel.subdomains)
-    for (int a = 0; a < 3; ++a) wanted[static_cast<std::size_t>(a)] = static_cast<int>((*n)[a]);
-  const std::array<int, 3> shape = terrain::latticeShape(ranks, size, wanted);
+  checkLattice(scene, ranks);
+  const std::array<int, 3> shape = terrain::latticeShape(ranks, size, wantedSubdomains(scene));
 
   // A slave lies within range beyond a border; an inner subdomain has two borders on each axis that is cut.
   const double range = (2 + scene.run.skin) * radius;

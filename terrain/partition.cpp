@@ -77,9 +77,9 @@ std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size, co
       if (best[0] == 0 || area < least) best = shape, least = area;
     }
   if (best[0] == 0)
-    throw base::InputError(fmt::format("parallel.subdomains = [{}, {}, {}] does not make {} subdomains, one for each "
-                                       "rank; change it, or start another number of ranks with mpirun -np",
-                                       wanted[0], wanted[1], wanted[2], ranks));
+    throw base::InputError(fmt::format("{} ranks make no lattice of [{}, {}, {}] subdomains (0: any number up to {}), "
+                                       "one each; change them, or start another number of ranks with mpirun -np",
+                                       ranks, wanted[0], wanted[1], wanted[2], kMostSubdomainsAnAxis));
   return best;
 }
 

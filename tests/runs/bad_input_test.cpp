@@ -392,7 +392,7 @@ std::vector<Mistake> mistakes() {
        "spheres idler.obj --radius 0.02 --csv s.csv",
        {"s.csv", "is the disk full?"},
        3,
-       "trap '' XFSZ; ulimit -f 1; "},
+       "ulimit -f 1; "},
       // Checkpoints.
       badCheckpoint("CheckpointMissing", [](const fs::path& c) { fs::remove(c); }, {"checkpoint.h5", "no such file"}),
       badCheckpoint("CheckpointCut", [](const fs::path& c) { fs::resize_file(c, fs::file_size(c) / 2); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `mpirun -np N grouser run`: the same bits on any number of ranks, and one clear end when something breaks.
-#include "program_fixture.hpp"
+#include "ranks_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,48 +29,6 @@ double lastOf(const std::string& csv, const std::string& column) {
   ADD_FAILURE() << "no column " << column;
   return 0;
 }
-
-class OnRanks : public ProgramTest {
-protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    if (std::system("mpirun --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no mpirun";
-    put(folder_ / "bed.toml", kBed);
-  }
-
-  Outcome shell(const std::string& commands) const {
-    return ProgramTest::shell("export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                              "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1; " +
-                              commands);
-  }
-  /// `grouser WORDS`, on 1 rank without a launcher.
-  Outcome run(int ranks, const std::string& words) const {
-    return shell((ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "") + "\"$grouser\" " + words);
-  }
-
-  /// A loose bed of 450 grains that falls and slides on its floor.
-  static constexpr const char* kBed = R"(version = 1
-[run]
-duration = 0.15
-time_step = 1e-4
-output_interval = 0.01
-frame_interval = 0.05
-checkpoint_interval = 0.05
-[material.soil]
-stiffness = 1e5
-[terrain]
-heightmap = "heightmaps/hills.png"
-size = [1.0, 1.0]
-height_range = [0, 0.05]
-material = "soil"
-grain_radius = 0.03
-layers = 2
-settle_time_limit = 0.0
-[output]
-picture = false
-plots = false
-)";
-};
 
 TEST_F(OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
   for (const char* scene : {"chute", "moving", "rain"}) {
