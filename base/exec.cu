@@ -131,7 +131,9 @@ void* allocateUnset(const Exec& exec, std::size_t bytes) {
   void* memory = nullptr;
   if (exec.onCpu()) {
     memory = std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
-    if (!memory) throw DeviceError("out of host memory: " + std::to_string(bytes) + " bytes asked for");
+    if (!memory)
+      throw DeviceError("out of host memory: " + std::to_string(bytes) +
+                        " bytes asked for; use larger or fewer grains, or more ranks on several hosts");
     return memory;
   }
 #if defined(__CUDACC__)

@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 
@@ -383,6 +384,9 @@ int main(int argc, char** argv) {
     return stop(kDevice, e.what());
   } catch (const std::runtime_error& e) {
     return stop(kSimulation, e.what()); // what could not be written
+  } catch (const std::bad_alloc&) {
+    return stop(kDevice, "out of host memory; use larger or fewer grains, or more ranks on "
+                         "several hosts (grouser plan says what a scene needs)");
   } catch (const std::exception& e) {
     return stop(kOther, e.what());
   }
