@@ -64,12 +64,12 @@ void describeRanks(const Simulation& simulation) {
              100 * ghosts / static_cast<double>(grains->count()));
 }
 
-/// How well the work was shared while driving.
-void describeSharing(const Simulation& simulation, double seconds, double waitedBefore, Summary& summary) {
+/// How well the work was shared while driving. `waiting`: this rank's share of that time that it waited [-].
+void describeSharing(const Simulation& simulation, double waiting, Summary& summary) {
   const auto& grains = simulation.ground().grains;
   const base::Comm& comm = simulation.comm();
   if (!grains || !grains->subdomain()) return;
-  const std::vector<double> waited = comm.gatherValue((comm.waited() - waitedBefore) / seconds);
+  const std::vector<double> waited = comm.gatherValue(waiting);
   const double least = *std::min_element(waited.begin(), waited.end()),
                most = *std::max_element(waited.begin(), waited.end());
   fmt::print("ranks     waited for others {:.1f} to {:.1f} % of the time; cuts moved {} times\n", 100 * least,
@@ -238,7 +238,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
     recorder.writer().abandon(error.what());
     throw;
   }
-  const double drove = since(driving);
+  const double drove = since(driving), waiting = (options.comm().waited() - waitedBefore) / drove;
   if (scene.output.picture) recorder.picture(scene.output.pictureWidth);
 
   Summary summary;
@@ -257,7 +257,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
                l.impulseResidual.z);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
              simulation.steps() - begin, simulation.timeStep(), summary.figures["microseconds_a_step"]);
-  describeSharing(simulation, drove, waitedBefore, summary);
+  describeSharing(simulation, waiting, summary);
   recorder.writer().finish(summary);
   return summary;
 }

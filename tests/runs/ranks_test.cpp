@@ -198,6 +198,15 @@ TEST_F(OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
   EXPECT_NE(o.errors.find("\"ranks\": 2"), std::string::npos) << "each rank has made the whole scene:\n" << o.errors;
 }
 
+TEST_F(OnRanks, WaitingIsAShareOfTheDriveAlone) {
+  // One rank draws the picture while the other waits; that takes longer than these steps.
+  const Outcome o = run(2, "run bed.toml --out o --steps 20 --set output.picture=true --set output.picture_width=4000");
+  std::smatch waited;
+  ASSERT_TRUE(std::regex_search(o.out, waited, std::regex("waited for others ([0-9.]+) to ([0-9.]+) % of the time")))
+      << o.out << o.errors;
+  EXPECT_LE(std::stod(waited[2]), 100);
+}
+
 TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
   std::ofstream(folder_ / "wrong.toml") << std::regex_replace(std::string(kBed), std::regex("layers = 2"),
                                                               "layers = -2");
