@@ -103,6 +103,10 @@ terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm
   partition.comm = comm;
   partition.rebalance = scene.parallel.rebalance;
   partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
+  // A plane beyond all places that a grain can have is as good at their end, which whole units reach.
+  const double end = base::positionScale(2 * grainKinds(scene).largest).limit();
+  for (std::vector<double>& planes : partition.cuts)
+    for (double& place : planes) place = std::clamp(place, -end, end);
   partition.subdomains = wantedSubdomains(scene);
   checkLattice(scene, comm.size());
   return partition;

@@ -85,13 +85,6 @@ public:
     add("plane", scene_.planes.size()), add("box", scene_.boxes.size()), add("cylinder", scene_.cylinders.size());
   }
 
-  void cuts() const {
-    const std::vector<double>* cuts[] = {&scene_.parallel.cutsX, &scene_.parallel.cutsY, &scene_.parallel.cutsZ};
-    for (int a = 0; a < 3; ++a)
-      for (const double cut : *cuts[a])
-        if (!(std::fabs(cut) < limit_)) scene_.fail("parallel", std::string("cuts_") + "xyz"[a], "[m]" + tooFar());
-  }
-
   /// Ids are 32-bit numbers.
   void ids() const {
     constexpr double kMostGrains = 4e9;
@@ -143,7 +136,7 @@ private:
 void checkGrainSpace(const Scene& scene) {
   if (!grainKinds(scene).any()) return;
   const SpaceCheck check(scene);
-  check.grains(), check.sides(), check.boundaries(), check.cuts(), check.ids();
+  check.grains(), check.sides(), check.boundaries(), check.ids();
 }
 
 } // namespace grouser::runs

@@ -66,10 +66,16 @@ TEST_F(OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
   EXPECT_EQ(run(1, "plan cut.toml --ranks 4").code, 2);
 }
 
-TEST_F(OnRanks, CutsWhereNoGrainCanBeAreRefused) {
-  const Outcome o = run(1, "run bed.toml --out o --set 'parallel.cuts_y=[1e30]'");
-  EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("parallel.cuts_y = [1e+30] [m] is farther than"), std::string::npos) << o.errors;
+TEST_F(OnRanks, CutsWhereNoGrainCanBeLeaveRanksEmptyAndStandAtTheEndOfAllPlaces) {
+  const std::string words = "run bed.toml --steps 50 --hash ", expected = run(1, words + "--out one").hash();
+  const Outcome o = run(3, words + "--out far --set 'parallel.cuts_y=[1e30, 1e31]' --set parallel.rebalance=false");
+  EXPECT_EQ(o.hash(), expected) << o.errors;
+  const Outcome ends = shell(R"(/usr/bin/python3 -c "
+import h5py
+y = h5py.File('far/frames.h5')['000000/partition/y'][:]
+assert (y > 10).all() and (y < 1e6).all(), y
+")");
+  EXPECT_EQ(ends.code, 0) << ends.errors;
 }
 
 TEST_F(OnRanks, MoreRanksThanALatticeHoldsSayHowMany) {
