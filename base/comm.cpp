@@ -203,6 +203,9 @@ Ranks::Ranks(int& argc, char**& argv) {
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, comm_.rank_, MPI_INFO_NULL, &host);
   MPI_Comm_rank(host, &rankOnHost_);
   MPI_Comm_size(host, &ranksOnHost_);
+  int firstOfHost = comm_.rank_;
+  MPI_Bcast(&firstOfHost, 1, MPI_INT, 0, host);
+  comm_.hosts_ = std::make_shared<const std::vector<int>>(comm_.gatherValue(firstOfHost));
   MPI_Comm_free(&host);
 }
 

@@ -41,6 +41,8 @@ public:
   /// What all lower ranks gave, added up.
   std::int64_t sumBelow(std::int64_t value) const;
   void wait() const; ///< for all ranks
+  /// The machine that a rank runs on, by the first rank there.
+  int hostOf(int rank) const { return hosts_ ? (*hosts_)[static_cast<std::size_t>(rank)] : 0; }
   /// Time that this rank has spent waiting for others since the start [s]; 0 where it is alone.
   double waited() const { return waited_ ? *waited_ : 0.0; }
 
@@ -83,7 +85,8 @@ private:
   friend class Ranks;
   friend class Messages;
   int rank_{0}, size_{1};
-  std::shared_ptr<double> waited_; ///< shared by all copies
+  std::shared_ptr<double> waited_;                ///< shared by all copies
+  std::shared_ptr<const std::vector<int>> hosts_; ///< hostOf() by rank; null where alone
 };
 
 /// Messages under way between ranks: posted without waiting, completed together.

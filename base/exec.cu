@@ -86,6 +86,21 @@ std::string describe(const Exec& exec) {
 #endif
 }
 
+std::uint64_t deviceId(const Exec& exec) {
+  if (exec.onCpu()) return 0;
+#if defined(__CUDACC__)
+  int index = 0;
+  cudaDeviceProp properties{};
+  checkCuda(cudaGetDevice(&index), "cudaGetDevice");
+  checkCuda(cudaGetDeviceProperties(&properties, index), "cudaGetDeviceProperties");
+  std::uint64_t id = 0;
+  for (const char byte : properties.uuid.bytes) id = id * 0x100000001b3u ^ static_cast<unsigned char>(byte); // as FNV
+  return id;
+#else
+  noCuda();
+#endif
+}
+
 std::size_t memoryTaken(const Exec& exec) {
   if (exec.onCpu()) {
     rusage usage{};

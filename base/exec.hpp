@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace grouser::base {
@@ -25,6 +26,8 @@ Exec cudaExec(int index = 0);
 bool cudaAvailable();
 /// Usable CUDA devices of this machine; 0 where there are none.
 int cudaDevices();
+/// Which GPU of the machine this is, whatever number this process knows it by; 0 on the CPU.
+std::uint64_t deviceId(const Exec& exec);
 /// One line about the device: cores and processor, or the GPU's name and memory.
 std::string describe(const Exec& exec);
 /// Memory taken on the device now, by all programs together [B]; on the CPU the most this process has held.

@@ -7,37 +7,35 @@
 
 namespace grouser::base {
 
-/// Words that go to other ranks or come from them: on the device in memory that MPI may pass on, and page-locked on the
-/// host for where it takes none of the device's.
-class MessageBuffer {
+/// Words that go to other ranks or come from them. Room grows with the largest message, and by a quarter more; what was
+/// held is lost then.
+template <void* (*kAllocate)(const Exec&, std::size_t), void (*kRelease)(const Exec&, void*) noexcept>
+class MessageWords {
 public:
-  explicit MessageBuffer(const Exec& exec) : exec_(exec) {}
-  MessageBuffer(const MessageBuffer&) = delete;
-  MessageBuffer& operator=(const MessageBuffer&) = delete;
-  ~MessageBuffer() { release(); }
+  explicit MessageWords(const Exec& exec) : exec_(exec) {}
+  MessageWords(const MessageWords&) = delete;
+  MessageWords& operator=(const MessageWords&) = delete;
+  ~MessageWords() { kRelease(exec_, data_); }
 
-  /// Room for `words`, and a quarter more where it has to grow; what was held is lost.
   void reserve(std::size_t words) {
     if (words <= size_) return;
-    release();
+    kRelease(exec_, data_);
+    data_ = nullptr, size_ = 0;
     const std::size_t size = words + words / 4;
-    device_ = static_cast<std::uint32_t*>(allocateForMessages(exec_, size * sizeof(std::uint32_t)));
-    host_ = static_cast<std::uint32_t*>(allocatePinned(exec_, size * sizeof(std::uint32_t)));
+    data_ = static_cast<std::uint32_t*>(kAllocate(exec_, size * sizeof(std::uint32_t)));
     size_ = size;
   }
-  std::uint32_t* device() { return device_; }
-  std::uint32_t* host() { return host_; }
+  std::uint32_t* data() { return data_; }
 
 private:
-  void release() noexcept {
-    releaseForMessages(exec_, device_);
-    releasePinned(exec_, host_);
-    device_ = host_ = nullptr;
-    size_ = 0;
-  }
   Exec exec_;
-  std::uint32_t *device_{nullptr}, *host_{nullptr};
+  std::uint32_t* data_{nullptr};
   std::size_t size_{0};
 };
+
+/// On the device, in memory that MPI may be given.
+using DeviceMessage = MessageWords<allocateForMessages, releaseForMessages>;
+/// Page-locked on the host, for where MPI takes none of the device's.
+using HostMessage = MessageWords<allocatePinned, releasePinned>;
 
 } // namespace grouser::base

@@ -59,10 +59,12 @@ void Replay::abandon() noexcept {
 
 void Replay::start() { checkCuda(cudaGraphLaunch(graphOf(graph_), streamOf(exec_)), "cudaGraphLaunch"); }
 
-SideStream::SideStream(const Exec& main) : main_(main), side_(main) {
+SideStream::SideStream(const Exec& main, bool first) : main_(main), side_(main) {
   if (main.onCpu()) return;
+  int last = 0, greatest = 0;
+  checkCuda(cudaDeviceGetStreamPriorityRange(&last, &greatest), "cudaDeviceGetStreamPriorityRange");
   cudaStream_t stream = nullptr;
-  checkCuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "cudaStreamCreate");
+  checkCuda(cudaStreamCreateWithPriority(&stream, cudaStreamNonBlocking, first ? greatest : last), "cudaStreamCreate");
   side_.stream = stream;
   forked_ = makeEvent(), joined_ = makeEvent();
 }
@@ -95,7 +97,7 @@ void Replay::begin() {}
 void Replay::end() {}
 void Replay::abandon() noexcept {}
 void Replay::start() {}
-SideStream::SideStream(const Exec& main) : main_(main), side_(main) {}
+SideStream::SideStream(const Exec& main, bool) : main_(main), side_(main) {}
 SideStream::~SideStream() = default;
 void SideStream::fork() {}
 void SideStream::join() {}

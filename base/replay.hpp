@@ -107,7 +107,8 @@ private:
 class SideStream {
 public:
   SideStream() = default;
-  explicit SideStream(const Exec& main);
+  /// `first`: where both have work, the device takes the side's before the main stream's.
+  explicit SideStream(const Exec& main, bool first = false);
   SideStream(SideStream&& other) noexcept { swap(other); }
   SideStream& operator=(SideStream&& other) noexcept {
     swap(other);

@@ -28,33 +28,34 @@ Fields collect(std::span<const ExchangeField> fields) {
 /// One word of one element between its field and the buffer, in which elements lie one after the other.
 template <bool kPack> struct MoveWord {
   Fields fields;
-  std::uint32_t first; ///< place of the first element of this launch
+  std::uint32_t first; ///< place on the route of the first element of this launch
   const std::uint32_t* slots;
-  std::uint32_t* buffer;
+  std::uint32_t* buffer; ///< from that element on
   GROUSER_HD void operator()(int i) const {
     const std::uint32_t place = first + static_cast<std::uint32_t>(i) / fields.words;
-    const std::uint64_t inBuffer = static_cast<std::uint64_t>(first) * fields.words + static_cast<std::uint32_t>(i);
     std::uint32_t word = static_cast<std::uint32_t>(i) % fields.words, f = 0;
     while (word >= fields.field[f].words) word -= fields.field[f++].words;
     const ExchangeField& field = fields.field[f];
     const std::uint64_t element = field.byPlace ? place : slots[place];
     std::uint32_t* at = static_cast<std::uint32_t*>(field.data) + element * field.words + word;
     if (kPack)
-      buffer[inBuffer] = *at;
+      buffer[i] = *at;
     else
-      *at = buffer[inBuffer];
+      *at = buffer[i];
   }
 };
 
-/// Launches count in int: elements go in groups of at most `wordsAtATime` words.
+/// Between fields and `buffer`, which begins with the element of the place `first`. Launches count in int: elements go
+/// in groups of at most `wordsAtATime` words.
 template <bool kPack> void moveWords(const base::Exec& exec, const Fields& fields, const std::uint32_t* slots,
-                                     std::size_t elements, std::uint32_t* buffer, std::size_t wordsAtATime) {
+                                     std::size_t first, std::size_t elements, std::uint32_t* buffer,
+                                     std::size_t wordsAtATime) {
   if (fields.words == 0) return;
   const std::size_t atATime = std::max<std::size_t>(1, wordsAtATime / fields.words);
-  for (std::size_t first = 0; first < elements; first += atATime)
-    base::forEach(exec, kPack ? "pack" : "unpack",
-                  static_cast<std::int64_t>(std::min(atATime, elements - first) * fields.words),
-                  MoveWord<kPack>{fields, static_cast<std::uint32_t>(first), slots, buffer});
+  for (std::size_t done = 0; done < elements; done += atATime)
+    base::forEach(
+        exec, kPack ? "pack" : "unpack", static_cast<std::int64_t>(std::min(atATime, elements - done) * fields.words),
+        MoveWord<kPack>{fields, static_cast<std::uint32_t>(first + done), slots, buffer + done * fields.words});
 }
 
 /// start[r] = first place whose rank is >= r, in sorted ranks.
@@ -89,13 +90,16 @@ struct Renumber {
 
 } // namespace
 
-Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, std::size_t wordsAtATime)
-    : exec_(exec), comm_(comm), wordsAtATime_(wordsAtATime),
+Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, const ExchangeOptions& options)
+    : exec_(exec), comm_(comm), wordsAtATime_(options.wordsAtATime),
       direct_(exec.onCpu() || base::Messages::deviceMemoryTravels()),
-      sendStart_(static_cast<std::size_t>(comm.size()) + 1), receiveStart_(sendStart_), sendSlots_(exec),
-      receiveSlots_(exec), sendBuffer_(exec), receiveBuffer_(exec), messages_(comm) {}
+      sendStart_(static_cast<std::size_t>(comm.size()) + 1), receiveStart_(sendStart_),
+      startAtSource_(static_cast<std::size_t>(comm.size())), sendSlots_(exec), receiveSlots_(exec),
+      packed_(exec, comm, options.peers), received_(exec), sendHost_(exec), receiveHost_(exec), messages_(comm),
+      wordOf_(static_cast<std::size_t>(comm.size())) {}
 
 void Exchange::route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count) {
+  if (underWay_) throw std::logic_error("a route is changed while elements are on it");
   const auto size = static_cast<std::size_t>(comm_.size());
   base::sortByKey(exec_, ranks.data(), slots.data(), count);
   base::Array<std::uint32_t> starts(exec_, size + 1);
@@ -106,12 +110,19 @@ void Exchange::route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_
   base::copyOnDevice(exec_, sendSlots_.data(), slots.data(), count * sizeof(std::uint32_t));
   base::synchronize(exec_);
 
-  std::vector<base::Bytes> counts(size);
+  // Each rank tells each other: from which place on, how many, and how many there are in all.
+  std::vector<base::Bytes> mine(size);
   for (std::size_t r = 0; r < size; ++r)
-    counts[r] = base::Comm::bytesOf(std::vector<std::uint32_t>{sendStart_[r + 1] - sendStart_[r]});
-  const std::vector<base::Bytes> back = comm_.allToAll(counts);
-  for (std::size_t r = 0; r < size; ++r)
-    receiveStart_[r + 1] = receiveStart_[r] + base::Comm::valuesOf<std::uint32_t>(back[r]).front();
+    mine[r] = base::Comm::bytesOf(std::vector<std::uint32_t>{sendStart_[r], sendStart_[r + 1] - sendStart_[r],
+                                                             static_cast<std::uint32_t>(count)});
+  const std::vector<base::Bytes> theirs = comm_.allToAll(mine);
+  mostLeaving_ = 0;
+  for (std::size_t r = 0; r < size; ++r) {
+    const std::vector<std::uint32_t> said = base::Comm::valuesOf<std::uint32_t>(theirs[r]);
+    startAtSource_[r] = said[0];
+    receiveStart_[r + 1] = receiveStart_[r] + said[1];
+    mostLeaving_ = std::max<std::size_t>(mostLeaving_, said[2]);
+  }
   coming_ = receiveStart_.back();
   putFrom(0);
 }
@@ -128,42 +139,91 @@ void Exchange::renumber(const std::uint32_t* newSlot) {
                   Renumber{newSlot, slots->data()});
 }
 
-void Exchange::reserve(std::size_t words) {
-  bufferWords_ = words;
-  sendBuffer_.reserve(leaving() * words);
-  receiveBuffer_.reserve(coming_ * words);
+/// What a rank has packed in this turn, as this rank sees it; null where it does not.
+std::uint32_t* Exchange::packedBy(int rank) const {
+  void* memory = rank == comm_.rank() ? packed_.own() : packed_.of(rank);
+  if (!memory) return nullptr;
+  return static_cast<std::uint32_t*>(memory) + (packed_.shares() ? turn_ * (packed_.size() / 8) : 0);
 }
 
-void Exchange::start(std::span<const ExchangeField> fields) {
+/// Calls `each(first, end, peer)` for ranks [first, end) that go the same way: one peer, or any number of others.
+template <class Each> void Exchange::forSources(const Each& each) const {
+  for (int first = 0, end = 0; first < comm_.size(); first = end) {
+    end = first + 1;
+    const bool peer = packed_.of(first);
+    while (!peer && end < comm_.size() && !packed_.of(end)) ++end;
+    each(first, end, peer);
+  }
+}
+
+void Exchange::pack(const base::Exec& exec, std::span<const ExchangeField> fields) {
+  if (underWay_) throw std::logic_error("elements are packed while others are under way");
   const Fields all = collect(fields);
-  reserve(all.words);
-  const std::size_t words = bufferWords_, sent = leaving() * words;
-  moveWords<true>(exec_, all, sendSlots_.data(), leaving(), sendBuffer_.device(), wordsAtATime_);
-  if (!direct_) base::copyToHostLater(exec_, sendBuffer_.host(), sendBuffer_.device(), sent * 4);
-  base::synchronize(exec_);
-  std::uint32_t* out = direct_ ? sendBuffer_.device() : sendBuffer_.host();
-  std::uint32_t* in = direct_ ? receiveBuffer_.device() : receiveBuffer_.host();
-  for (int r = 0; r < comm_.size(); ++r) {
-    const std::size_t first = receiveStart_[static_cast<std::size_t>(r)] * words;
-    messages_.receive(r, in + first, (receiveStart_[static_cast<std::size_t>(r) + 1] * words - first) * 4, kTag);
-  }
-  for (int r = 0; r < comm_.size(); ++r) {
-    const std::size_t first = sendStart_[static_cast<std::size_t>(r)] * words;
-    messages_.send(r, out + first, (sendStart_[static_cast<std::size_t>(r) + 1] * words - first) * 4, kTag);
-  }
-  bytesSent_ += static_cast<std::int64_t>(sent * 4);
-  ++runs_;
+  words_ = all.words;
+  turn_ ^= 1u;
+  packed_.reserve((packed_.shares() ? 2 : 1) * mostLeaving_ * words_ * sizeof(std::uint32_t));
+  std::uint32_t* const out = packedBy(comm_.rank());
+  moveWords<true>(exec, all, sendSlots_.data(), 0, leaving(), out, wordsAtATime_);
+  if (direct_) return;
+  forSources([&](int first, int end, bool peer) {
+    if (peer) return;
+    const std::size_t from = placeOf(sendStart_, first) * words_, count = placeOf(sendStart_, end) * words_ - from;
+    if (count == 0) return;
+    sendHost_.reserve(leaving() * words_);
+    base::copyToHostLater(exec, sendHost_.data() + from, out + from, count * sizeof(std::uint32_t));
+  });
+}
+
+void Exchange::send() {
+  std::uint32_t* const out = direct_ ? packedBy(comm_.rank()) : sendHost_.data();
+  forSources([&](int, int, bool peer) {
+    if (peer) return;
+    received_.reserve(coming_ * words_);
+    if (!direct_) receiveHost_.reserve(coming_ * words_);
+  });
+  std::uint32_t* const in = direct_ ? received_.data() : receiveHost_.data();
+  ++word_;
+  for (int r = 0; r < comm_.size(); ++r)
+    if (withPeer(r))
+      messages_.receive(r, &wordOf_[static_cast<std::size_t>(r)], sizeof word_, kTag);
+    else if (!packed_.of(r))
+      messages_.receive(r, in + placeOf(receiveStart_, r) * words_, placesFrom(r) * words_ * sizeof(std::uint32_t),
+                        kTag);
+  for (int r = 0; r < comm_.size(); ++r)
+    if (withPeer(r))
+      messages_.send(r, &word_, sizeof word_, kTag);
+    else if (!packed_.of(r))
+      messages_.send(r, out + placeOf(sendStart_, r) * words_, placesTo(r) * words_ * sizeof(std::uint32_t), kTag);
+  count(1);
   underWay_ = true;
 }
 
-void Exchange::finish(std::span<const ExchangeField> fields) {
-  const Fields all = collect(fields);
-  if (!underWay_ || all.words != bufferWords_) throw std::logic_error("an exchange is finished with other fields");
+void Exchange::count(std::int64_t runs) {
+  bytesSent_ += runs * static_cast<std::int64_t>(leaving() * words_ * sizeof(std::uint32_t));
+  runs_ += runs;
+}
+
+void Exchange::arrive() {
   messages_.waitAll();
+  for (int r = 0; r < comm_.size(); ++r)
+    if (withPeer(r) && wordOf_[static_cast<std::size_t>(r)] != word_)
+      throw std::logic_error("ranks exchange elements in different orders");
+}
+
+void Exchange::unpack(const base::Exec& exec, std::span<const ExchangeField> fields) {
+  const Fields all = collect(fields);
+  if (!underWay_ || all.words != words_) throw std::logic_error("an exchange is finished with other fields");
   underWay_ = false;
-  const std::size_t received = coming_ * bufferWords_;
-  if (!direct_) base::copyToDeviceLater(exec_, receiveBuffer_.device(), receiveBuffer_.host(), received * 4);
-  moveWords<false>(exec_, all, receiveSlots_.data(), coming_, receiveBuffer_.device(), wordsAtATime_);
+  forSources([&](int first, int end, bool peer) {
+    const std::size_t place = placeOf(receiveStart_, first), count = placeOf(receiveStart_, end) - place;
+    if (count == 0) return;
+    std::uint32_t* from = received_.data() + place * words_;
+    if (peer)
+      from = packedBy(first) + startAtSource_[static_cast<std::size_t>(first)] * words_;
+    else if (!direct_)
+      base::copyToDeviceLater(exec, from, receiveHost_.data() + place * words_, count * words_ * 4);
+    moveWords<false>(exec, all, receiveSlots_.data(), place, count, from, wordsAtATime_);
+  });
 }
 
 } // namespace grouser::contact

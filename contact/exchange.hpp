@@ -4,6 +4,7 @@
 #include "base/array.hpp"
 #include "base/comm.hpp"
 #include "base/message_buffer.hpp"
+#include "base/peer_memory.hpp"
 
 #include <cstdint>
 #include <span>
@@ -24,19 +25,25 @@ template <class T> ExchangeField fieldOf(base::Array<T>& array) {
   return {array.data(), sizeof(T) / 4};
 }
 
+/// How an exchange goes about it; no bit of what arrives depends on it.
+struct ExchangeOptions {
+  base::PeerUse peers = base::PeerUse::automatic;  ///< GPUs of one machine fetch what comes from each other
+  std::size_t wordsAtATime = std::size_t{1} << 30; ///< packed by one launch, at most
+};
+
 /// Moves elements between ranks. It knows nothing of what an element is: whoever owns the elements says which slots go
 /// to which ranks (a route) and names the fields that travel; what comes is put where they want it. Full state on a
 /// hand-over and less on a ghost update are two routes, or one route with two lists of fields.
 ///
-/// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device; their
-/// bytes go straight to MPI where it takes device memory, through pinned memory otherwise. All ranks call
-/// everything here, in the same order.
+/// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device. Where the
+/// GPU of the receiver sees the memory of the sender's, it unpacks from there, and MPI carries only the word that it
+/// may; else the bytes go straight to MPI where it takes device memory, and through pinned memory where it does not.
+/// All ranks call everything here, in the same order.
 class Exchange {
 public:
   static constexpr std::size_t kMaxFields = 12;
 
-  /// `wordsAtATime`: how many are packed by one launch, at most.
-  Exchange(const base::Exec& exec, const base::Comm& comm, std::size_t wordsAtATime = std::size_t{1} << 30);
+  Exchange(const base::Exec& exec, const base::Comm& comm, const ExchangeOptions& options = {});
 
   /// Sends `slots[k]` to rank `ranks[k]`, for k < count. Both are device arrays and are sorted by rank, stable, here.
   void route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count);
@@ -52,31 +59,69 @@ public:
   void renumber(const std::uint32_t* newSlot);
 
   /// Packs and sends. The fields may be overwritten as soon as this returns, but for the slots of what comes.
-  void start(std::span<const ExchangeField> fields);
+  void start(std::span<const ExchangeField> fields) {
+    pack(exec_, fields);
+    base::synchronize(exec_);
+    send();
+  }
   /// Waits for what comes and unpacks it into `fields`, which have as many words as those that were sent.
-  void finish(std::span<const ExchangeField> fields);
+  void finish(std::span<const ExchangeField> fields) {
+    arrive();
+    unpack(exec_, fields);
+  }
   bool underWay() const { return underWay_; }
   void run(std::span<const ExchangeField> fields) {
     start(fields);
     finish(fields);
   }
 
+  // The same in its parts, for those who have other work to do in between. `exec` is the exchange's own or a side
+  // stream of it; packing and unpacking wait for nothing. What was packed may be left unsent, by all ranks.
+  void pack(const base::Exec& exec, std::span<const ExchangeField> fields);
+  void send();   ///< what has been packed: that work has ended
+  void arrive(); ///< waits for what comes
+  void unpack(const base::Exec& exec, std::span<const ExchangeField> fields);
+
+  /// Every rank sees the memory of all others. Then GPUs that agree in their streams that all have packed
+  /// (base::PeerAgreement) need no message: passOn() takes the place of send() and arrive().
+  bool peersOnly() const { return packed_.allSeeAll(); }
+  void passOn() { underWay_ = true; }
+  void drop() { underWay_ = false; } ///< nobody wants what was passed on
+  void count(std::int64_t runs);     ///< of those that were passed on
+
   std::int64_t bytesSent() const { return bytesSent_; } ///< by this rank since the start
   std::int64_t runs() const { return runs_; }
 
 private:
-  void reserve(std::size_t words);
+  static std::size_t placeOf(const std::vector<std::uint32_t>& starts, int rank) {
+    return starts[static_cast<std::size_t>(rank)];
+  }
+  std::size_t placesTo(int rank) const { return placeOf(sendStart_, rank + 1) - placeOf(sendStart_, rank); }
+  std::size_t placesFrom(int rank) const { return placeOf(receiveStart_, rank + 1) - placeOf(receiveStart_, rank); }
+  /// A peer that something goes to or comes from: it is told when this rank has packed, and tells.
+  bool withPeer(int rank) const { return packed_.of(rank) && placesTo(rank) + placesFrom(rank) > 0; }
+  template <class Each> void forSources(const Each& each) const;
+  std::uint32_t* packedBy(int rank) const;
 
   base::Exec exec_;
   base::Comm comm_;
   std::size_t wordsAtATime_;
   bool direct_;                                         ///< MPI takes pointers to the buffers of the device
   std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] places on the route
+  std::vector<std::uint32_t> startAtSource_;            ///< [ranks] this rank's first place on the route of another
+  std::size_t mostLeaving_{0};                          ///< of all ranks
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
   std::size_t coming_{0};
-  base::MessageBuffer sendBuffer_, receiveBuffer_;
-  std::size_t bufferWords_{0}; ///< of one element in the buffers under way
+  /// Two runs take turns, each in its half: the peers may still read the last one while this one is packed. They have
+  /// read it when their next word, or what else they agree upon, comes.
+  base::PeerMemory packed_;
+  unsigned turn_{0};
+  base::DeviceMessage received_;
+  base::HostMessage sendHost_, receiveHost_;
+  std::size_t words_{0}; ///< of one element in the buffers
   base::Messages messages_;
+  std::uint32_t word_{0};             ///< what peers are told: the number of the run
+  std::vector<std::uint32_t> wordOf_; ///< what they tell
   bool underWay_{false};
   std::int64_t bytesSent_{0}, runs_{0};
 };

@@ -112,10 +112,10 @@ void benchBedCommand(const BenchCommand& command) {
   const int ranks = command.comm().size();
   if (ranks > 1)
     fmt::print(
-        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest; waiting "
+        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest ({}); waiting "
         "for others {:.1f} to {:.1f} % of the time\n",
-        ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, 100 * f.leastWait,
-        100 * f.mostWait);
+        ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, f.way,
+        100 * f.leastWait, 100 * f.mostWait);
   if (!f.stateHash.empty()) fmt::print("state-hash {} step {}\n", f.stateHash, f.stepsTaken);
 
   json["grains"] = b.grains;
@@ -141,6 +141,7 @@ void benchBedCommand(const BenchCommand& command) {
   json["steps_taken"] = f.stepsTaken;
   json["ranks"] = ranks;
   json["subdomains"] = f.subdomains;
+  json["way"] = f.way;
   json["ghost_share"] = f.ghostShare;
   json["bytes_a_step"] = f.bytesAStep;
   json["waiting_share"] = {{"least", f.leastWait}, {"most", f.mostWait}};

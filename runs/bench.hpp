@@ -37,8 +37,9 @@ struct BedBench {
   double settleTime = 0.5;  ///< [s]
   std::int64_t steps = 0;   ///< of one batch; 0: as many as take about a second
   int batches = 5;
-  bool ledger = false; ///< sum dissipation grain by grain, as a run does
-  bool hash = false;   ///< take the state hash at the end
+  bool ledger = false;             ///< sum dissipation grain by grain, as a run does
+  bool hash = false;               ///< take the state hash at the end
+  std::string peerMemory = "auto"; ///< Parallel::peerMemory
 };
 
 struct BedFigures {
@@ -54,6 +55,7 @@ struct BedFigures {
   std::string stateHash;           ///< empty where not taken
   // On several ranks.
   std::array<int, 3> subdomains{1, 1, 1};
+  std::string way;                    ///< how elements travel
   double ghostShare = 0;              ///< ghosts over grains [-]
   double bytesAStep = 0;              ///< sent by the busiest rank while timing [B]
   double leastWait = 0, mostWait = 0; ///< share of the timed steps that a rank waited for others [-]

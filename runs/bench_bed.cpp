@@ -116,7 +116,8 @@ double BatchTimes::most() const { return *std::max_element(microseconds.begin(),
 
 BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm& comm) {
   const terrain::GrainModel model = modelOf(b);
-  terrain::Grains grains(exec, model, box(b, model), lattice(b), {comm, {0, 0, 0}, {}, true});
+  terrain::Grains grains(exec, model, box(b, model), lattice(b),
+                         {comm, {0, 0, 0}, {}, true, base::peerUse(b.peerMemory)});
   BedFigures f;
   const Clock::time_point settling = Clock::now();
   advance(grains, std::llround(b.settleTime / b.timeStep));
@@ -132,7 +133,7 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   const std::int64_t before = grains.rebuilds();
   const terrain::Subdomain* subdomain = grains.subdomain();
   const std::int64_t sent = subdomain ? subdomain->bytesSent() : 0;
-  const double waited = comm.waited();
+  const double waited = subdomain ? subdomain->waited() : 0;
   const Clock::time_point start = Clock::now();
   for (int k = 0; k < b.batches; ++k) f.times.microseconds.push_back(timed(exec, grains, f.times.steps));
   const std::int64_t rebuilds = grains.rebuilds() - before, steps = f.times.steps * b.batches;
@@ -140,12 +141,12 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
                                         : std::numeric_limits<double>::infinity();
   f.stepsTaken = grains.steps();
   if (subdomain) {
-    f.subdomains = subdomain->partition().shape();
+    f.subdomains = subdomain->partition().shape(), f.way = subdomain->way();
     f.ghostShare =
         static_cast<double>(comm.sumOf(static_cast<std::int64_t>(subdomain->ghosts()))) / static_cast<double>(b.grains);
     const auto perStep = static_cast<std::uint64_t>((subdomain->bytesSent() - sent) / steps);
     f.bytesAStep = static_cast<double>(comm.maximumOf(perStep));
-    const double share = (comm.waited() - waited) / secondsSince(start);
+    const double share = (subdomain->waited() - waited) / secondsSince(start);
     double extremes[2] = {share, -share};
     comm.maximum(extremes, 2);
     f.mostWait = extremes[0], f.leastWait = -extremes[1];

@@ -188,6 +188,7 @@ struct Parallel {
   std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
   std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen
   bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than the others
+  std::string peerMemory = "auto";         ///< whether GPUs of one machine read each other's memory
   bool operator==(const Parallel&) const = default;
 };
 

@@ -286,6 +286,10 @@ Table<Parallel> parallelTable() {
   t.add("cuts_y", &S::cutsY, "m", "the same across y");
   t.add("cuts_z", &S::cutsZ, "m", "the same across z");
   t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
+  t.add("peer_memory", &S::peerMemory, "",
+        "GPUs of one machine read each other's memory instead of sending messages: where they can, never, or not "
+        "without")
+      .oneOf({"auto", "never", "always"});
   return t;
 }
 

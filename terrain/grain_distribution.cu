@@ -101,21 +101,21 @@ void Grains::shareOut() {
   origins_ = {nullptr, nullptr, rows};
 }
 
-/// The masters' new states set out; the ghosts elsewhere take them when completeGhosts() is called there.
-void Grains::sendGhosts() {
-  const ExchangeField fields[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0])};
-  subdomain_->ghostUpdate().start(fields);
+std::array<ExchangeField, 3> Grains::ghostFields(int buffer) {
+  return {fieldOf(position_[buffer]), fieldOf(velocity_[buffer]), fieldOf(spin_[buffer])};
 }
 
-void Grains::completeGhosts() {
+/// The ghosts take what their masters sent, where they have not yet.
+void Grains::completeGhosts(const base::Exec& exec) {
   if (!subdomain_ || !subdomain_->ghostUpdate().underWay()) return;
-  const ExchangeField fields[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0])};
-  subdomain_->ghostUpdate().finish(fields);
+  subdomain_->ghostUpdate().arrive();
+  subdomain_->ghostUpdate().unpack(exec, ghostFields(0));
 }
 
+/// The ghosts are made what their masters are now.
 void Grains::updateGhosts() {
-  sendGhosts();
-  completeGhosts();
+  subdomain_->ghostUpdate().run(ghostFields(0));
+  someSteps_.forget(); // the turns of steps and exchanges have been shifted against each other
 }
 
 /// Moves the cuts where one rank has had clearly more to do than the mean. Time is only measured, so no two runs cut
@@ -124,8 +124,9 @@ void Grains::rebalance() {
   const base::Comm& comm = subdomain_->comm();
   const Clock::time_point now = Clock::now();
   if (steps_ < balancedAt_ + kBalanceEvery) return;
+  const double waited = subdomain_->waited();
   const double busy =
-      std::chrono::duration<double>(now - measuredFrom_).count() - (comm.waited() - waitedBefore_) - replicatedSeconds_;
+      std::chrono::duration<double>(now - measuredFrom_).count() - (waited - waitedBefore_) - replicatedSeconds_;
   std::int64_t mine = std::max<std::int64_t>(1, static_cast<std::int64_t>(1e9 * busy));
   const auto most = static_cast<std::int64_t>(comm.maximumOf(static_cast<std::uint64_t>(mine)));
   const std::int64_t all = comm.sumOf(mine);
@@ -134,7 +135,7 @@ void Grains::rebalance() {
     subdomain_->setPartition(subdomain_->balanced(position_[0].data(), slots_, static_cast<double>(mine) / own));
     ++rebalancings_;
   }
-  balancedAt_ = steps_, measuredFrom_ = now, waitedBefore_ = comm.waited(), replicatedSeconds_ = 0;
+  balancedAt_ = steps_, measuredFrom_ = now, waitedBefore_ = subdomain_->waited(), replicatedSeconds_ = 0;
 }
 
 } // namespace grouser::terrain

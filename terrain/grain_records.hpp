@@ -32,6 +32,7 @@ struct StepFlags {
   std::uint32_t padding;
   bool raised() const { return stale != 0 || fault != kNoFault; }
 };
+static_assert(sizeof(StepFlags) == 16); // ranks agree on two words: the least fault, and whether any is stale
 inline constexpr StepFlags kNoFlags{kNoFault, 0, 0};
 
 } // namespace grouser::terrain

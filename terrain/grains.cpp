@@ -227,7 +227,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
   someSteps_ = base::AlternatingReplay(exec);
-  side_ = base::SideStream(exec);
+  side_ = base::SideStream(exec, true);
   walls_ = base::Array<Wall>(exec, boundaries.walls);
   std::vector<double> massPerCube;
   for (const double density : model.materials.density) massPerCube.push_back(density * (4.0 / 3 * base::kPi));
@@ -316,17 +316,24 @@ void Grains::setPartition(const Partition& partition) {
 void Grains::endStep() {
   readFlags(1);
   if (!geometries_.empty()) collectSurfaceLoads();
-  if (subdomain_ && !stale_) sendGhosts(); // a rebuild would fetch them anew
+  if (subdomain_ && !stale_) subdomain_->ghostUpdate().send(); // a rebuild would fetch them anew
+}
+
+/// Whether the next steps need no host in between. A CPU gains nothing by it, and its lanes do not ask whether an
+/// earlier step was the last; without them it can. The first step after a rebuild has no ghosts under way.
+bool Grains::goesAtOnce() const {
+  const bool lanes = exec_.onCpu() && model_.mostLanes > 1;
+  if (lanes || !geometries_.empty()) return false;
+  return !subdomain_ || (subdomain_->agreement().possible() && subdomain_->ghostUpdate().underWay());
 }
 
 std::int64_t Grains::advance(std::int64_t most) {
   if (refreshNeighbours()) slotsChanged_ = true; // nobody else has been told
-  // A CPU gains nothing by it, and its lanes do not ask whether an earlier step was the last; without them it can.
-  const bool lanes = exec_.onCpu() && model_.mostLanes > 1;
-  if (lanes || subdomain_ || !geometries_.empty() || most < kAtOnce) {
+  if (most < kAtOnce || !goesAtOnce()) {
     step();
     return 1;
   }
+  if (subdomain_) subdomain_->ghostUpdate().arrive();
   someSteps_.from(position_[0].data()).run([this] { launchSteps(); });
   return readFlags(kAtOnce);
 }
@@ -343,10 +350,13 @@ int Grains::readFlags(int steps) {
     std::fill_n(flags_.host(), flags_.size(), kNoFlags);
     flags_.upload();
   }
-  if (subdomain_) {
+  if (subdomain_ && steps == 1) {
     std::uint64_t all[] = {last.fault, last.stale ? 0u : 1u};
     comm_.minimum(all, 2);
     last.fault = all[0], last.stale = all[1] == 0;
+  } else if (subdomain_) { // the GPUs have agreed
+    subdomain_->ghostUpdate().count(taken);
+    if (last.stale) subdomain_->ghostUpdate().drop();
   }
   steps_ += taken;
   if ((steps - taken) % 2 != 0) swapBuffers(); // they have been swapped for all of the steps

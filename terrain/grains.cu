@@ -201,18 +201,20 @@ void Grains::permute() {
   gatherOwn(origin_);
 }
 
-template <class Real> void Grains::advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place,
+template <class Real> void Grains::advanceGrains(const base::Exec& exec, Forces<Real>& forces,
+                                                 const contact::GrainLoadsView* loads, int place,
                                                  const base::Array<std::uint32_t>* active) {
   GrainKernelData d = kernelData(loads, place);
   const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
   if (active) d.active = active->data();
-  runGrainStep(exec_, d, forceData(forces), count, model_.specialised);
+  runGrainStep(exec, d, forceData(forces), count, model_.specialised);
 }
 
 /// On a CPU by their list, in lanes. A GPU's threads would wait for the list before they could ask for anything.
-template <class Real> void Grains::advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads) {
-  if (exec_.onCpu()) return advanceGrains(forces, loads, 0, &subdomain_->uniques());
-  GrainKernelData d = kernelData(loads);
+template <class Real>
+void Grains::advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place) {
+  if (exec_.onCpu()) return advanceGrains(exec_, forces, loads, place, &subdomain_->uniques());
+  GrainKernelData d = kernelData(loads, place);
   d.role = subdomain_->roles();
   runGrainStep(exec_, d, forceData(forces), d.count, model_.specialised);
 }
@@ -239,14 +241,15 @@ template <class Real> void Grains::stepWith(Forces<Real>& forces, const contact:
     side_.join();
   else
     touchBoundaries(exec_, loads, place);
-  if (subdomain_) {
-    // Grains that need no ghost go first: meanwhile the ghosts are on their way.
-    advanceUniques(forces, loads);
-    completeGhosts();
-    advanceGrains(forces, loads, place, &subdomain_->masters());
-  } else {
-    advanceGrains(forces, loads, place, nullptr);
-  }
+  if (!subdomain_) return advanceGrains(exec_, forces, loads, place, nullptr);
+  // Uniques need no ghost, and go while the ghosts' new states are on their way. Beside them, and first where both
+  // could go, the masters, whose own new states others will need.
+  side_.fork();
+  advanceUniques(forces, loads, place);
+  completeGhosts(side_.exec());
+  advanceGrains(side_.exec(), forces, loads, place, &subdomain_->masters());
+  subdomain_->ghostUpdate().pack(side_.exec(), ghostFields(1));
+  side_.join();
 }
 
 void Grains::launchStep(const contact::GrainLoadsView* loads, int place) {
@@ -269,8 +272,14 @@ void Grains::beginStep(const contact::GrainLoadsView* loads) {
   if (!geometries_.empty()) surfaceSums_.download();
 }
 
+/// Without a host in between: it is the GPUs that agree after each step whether that was the last.
 void Grains::launchSteps() {
-  for (int place = 0; place < kAtOnce; ++place) launchStep(nullptr, place);
+  for (int place = 0; place < kAtOnce; ++place) {
+    launchStep(nullptr, place);
+    if (!subdomain_) continue;
+    subdomain_->agreement().run(exec_, &flags_.device().data()[place].fault);
+    subdomain_->ghostUpdate().passOn();
+  }
   flags_.download();
 }
 

@@ -119,8 +119,8 @@ public:
   void endStep();
 
   /// Steps of grains that nothing else acts on, each as refreshNeighbours() and step(): at least one, at most `most`.
-  /// On one GPU sixteen go as one where `most` allows, without the host in between; where a list ends, fewer. Returns
-  /// how many were taken.
+  /// On GPUs, one or those that see each other's memory, sixteen go as one where `most` allows, without the host in
+  /// between; where a list ends, fewer. Returns how many were taken.
   std::int64_t advance(std::int64_t most);
 
   // For those who compute loads on grains: device arrays by slot, valid until the next refresh; local.
@@ -177,13 +177,14 @@ private:
   GrainKernelData kernelData(const contact::GrainLoadsView* loads, int place = 0);
   template <class Real> ForceData<Real> forceData(Forces<Real>& forces);
   template <class Real> void makeForces(Forces<Real>& forces, const std::vector<contact::ContactLaw>& boundaries);
-  template <class Real> void advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads);
+  template <class Real> void advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place);
   void touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place);
   template <class Real> void stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place);
   void launchStep(const contact::GrainLoadsView* loads, int place);
   void launchSteps();
   void swapBuffers();
-  template <class Real> void advanceGrains(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place,
+  template <class Real> void advanceGrains(const base::Exec& exec, Forces<Real>& forces,
+                                           const contact::GrainLoadsView* loads, int place,
                                            const base::Array<std::uint32_t>* active);
   contact::RadiiInW radii() const;
   float radiusInW(const GrainStart& grain) const;
@@ -196,6 +197,7 @@ private:
   bool surfacesHaveLeft() const;
   double surfaceWay() const { return 0.5 * smallestRadius_; } ///< that they may move between two lists [m]
   void collectSurfaceLoads();
+  bool goesAtOnce() const;
   int readFlags(int steps);
   [[noreturn]] void stopFor(std::uint64_t fault) const;
   GrainLayout layout() const;
@@ -208,8 +210,9 @@ private:
   // On several ranks: grain_distribution.cu.
   template <class Each> void forOwnArrays(const Each& each);
   void shareOut();
-  void sendGhosts();
-  void completeGhosts();
+  std::array<contact::ExchangeField, 3> ghostFields(int buffer);
+  void completeGhosts() { completeGhosts(exec_); }
+  void completeGhosts(const base::Exec& exec);
   void updateGhosts();
   void rebalance();
 

@@ -195,6 +195,7 @@ void Grains::restore(const GrainState& saved, bool grows) {
       owner.push_back(subdomain_->partition().view().ownerOf(period_.wrapped(base::toUnits(placed(saved, k)))));
   const GrainState s = redistribute(comm_, saved, owner);
 
+  completeGhosts(); // those on their way are of the grains that go
   slots_ = s.rows(), count_ = static_cast<std::size_t>(saved.total);
   std::vector<Position> position(slots_);
   std::vector<Vec4f> velocity(slots_), spin(slots_);

@@ -156,8 +156,9 @@ struct FindExtent {
 Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
                      const base::Period& period)
     : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), period_(period),
-      handOver_(exec, options.comm), ghostUpdate_(exec, options.comm), role_(exec), ghostMark_(exec),
-      destination_(exec), kept_(exec), uniques_(exec), masters_(exec) {}
+      handOver_(exec, options.comm, {.peers = options.peers}),
+      ghostUpdate_(exec, options.comm, {.peers = options.peers}), agreement_(exec, options.comm, options.peers),
+      role_(exec), ghostMark_(exec), destination_(exec), kept_(exec), uniques_(exec), masters_(exec) {}
 
 void Subdomain::findLeaving(const Position* position, std::size_t slots) {
   base::Array<std::uint32_t> leaves(exec_, slots), stays(exec_, slots), leaving(exec_);
@@ -243,6 +244,11 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
     axes[a].assign(first, first + kPartitionBins);
   }
   return {partition_.shape(), low, high, axes};
+}
+
+const char* Subdomain::way() const {
+  if (agreement_.possible()) return "GPU to GPU, steps agreed upon by the GPUs";
+  return ghostUpdate_.peersOnly() ? "GPU to GPU" : "messages";
 }
 
 std::size_t Subdomain::bytes() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "base/peer_agreement.hpp"
 #include "base/period.hpp"
 #include "contact/exchange.hpp"
 #include "terrain/partition.hpp"
@@ -25,6 +26,7 @@ struct PartitionOptions {
   std::array<int, 3> subdomains{0, 0, 0};  ///< wanted along x, y, z; 0: automatic
   std::array<std::vector<double>, 3> cuts; ///< [m] planes across x, y, z at the start; empty: chosen
   bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than another
+  base::PeerUse peers = base::PeerUse::automatic;
 };
 
 /// One rank's subdomain of a bed on several ranks: which grains are its own, which of them others need, and the ghosts
@@ -52,6 +54,8 @@ public:
   void findMasters(const base::Position* position, std::size_t owned);
   std::size_t ghosts() const { return ghostUpdate_.coming(); }
   contact::Exchange& ghostUpdate() { return ghostUpdate_; }
+  /// Possible where GPUs can go through steps together without their hosts.
+  base::PeerAgreement& agreement() { return agreement_; }
 
   /// The grains were sorted: slot i now holds what was in slot order[i].
   void sorted(const std::uint32_t* order, std::size_t slots);
@@ -68,6 +72,10 @@ public:
   Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
   bool rebalances() const { return rebalance_; }
   std::size_t bytes() const;
+  /// Time that this rank or its GPU has spent waiting for others since the start [s].
+  double waited() const { return comm_.waited() + agreement_.waited(); }
+  /// How elements travel, for the reader.
+  const char* way() const;
   std::int64_t bytesSent() const { return handOver_.bytesSent() + ghostUpdate_.bytesSent(); }
 
 private:
@@ -78,6 +86,7 @@ private:
   base::Period period_;
   Partition partition_;
   contact::Exchange handOver_, ghostUpdate_;
+  base::PeerAgreement agreement_;
   bool haveRoles_{false};
   base::Array<std::uint32_t> role_, ghostMark_, destination_, kept_, uniques_, masters_;
 };

@@ -105,7 +105,7 @@ TEST(Exchange, PackedInManyLaunchesTheSameArrives) {
   // Elements of six words: 1, 2 and 3 of the 7 at a time.
   for (const std::size_t words : {1u, 12u, 19u}) {
     Tracers t = startingTracers();
-    Exchange handOver(t.exec, comm, words);
+    Exchange handOver(t.exec, comm, {.wordsAtATime = words});
     std::vector<std::pair<std::uint32_t, int>> leaving;
     for (std::uint32_t i = 0; i < 7; ++i) leaving.emplace_back(i, right);
     route(handOver, t, leaving);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/peer_agreement.hpp"
+
+#if defined(__CUDACC__)
+#include "base/cuda_check.cuh"
+#endif
+
+namespace grouser::base {
+
+namespace {
+
+constexpr int kMost = 32; // ranks: one lane of a warp each
+
+/// What one rank says in one run, in the memory of another.
+struct alignas(16) Word {
+  std::uint64_t least, bits;
+  std::uint32_t run; ///< written last: the others are there
+};
+
+/// The memory of one rank. Two runs take turns: a rank that is through with one may already speak in the next, but not
+/// in the one after, since for that it must have heard from all.
+struct Table {
+  Word said[2][kMost];  ///< by rank
+  std::uint64_t waited; ///< [ns]
+  std::uint32_t runs;   ///< that this rank is through with
+};
+
+#if defined(__CUDACC__)
+
+struct Tables {
+  Table* of[kMost];
+};
+
+__device__ std::uint64_t nanoseconds() {
+  std::uint64_t now;
+  asm volatile("mov.u64 %0, %globaltimer;" : "=l"(now));
+  return now;
+}
+
+__global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
+  const int lane = static_cast<int>(threadIdx.x);
+  Table& mine = *tables.of[me];
+  const std::uint32_t run = mine.runs + 1;
+  std::uint64_t least = words[0], bits = words[1], waited = 0;
+  if (lane < size && lane != me) {
+    volatile Word& out = tables.of[lane]->said[run & 1][me];
+    out.least = least, out.bits = bits;
+    __threadfence_system();
+    out.run = run;
+    const volatile Word& in = mine.said[run & 1][lane];
+    const std::uint64_t from = nanoseconds();
+    while (in.run != run) __nanosleep(20);
+    __threadfence_system();
+    least = in.least, bits = in.bits, waited = nanoseconds() - from;
+  }
+  for (int other = kMost / 2; other > 0; other /= 2) {
+    const std::uint64_t l = __shfl_xor_sync(~0u, least, other);
+    least = l < least ? l : least;
+    bits |= __shfl_xor_sync(~0u, bits, other);
+    const std::uint64_t w = __shfl_xor_sync(~0u, waited, other);
+    waited = w > waited ? w : waited;
+  }
+  if (lane == 0) words[0] = least, words[1] = bits, mine.waited += waited, mine.runs = run;
+}
+
+#endif
+
+} // namespace
+
+PeerAgreement::PeerAgreement(const Exec& exec, const Comm& comm, PeerUse use)
+    : exec_(exec), memory_(exec, comm, use), rank_(comm.rank()), size_(comm.size()) {
+  possible_ = memory_.allSeeAll() && size_ <= kMost && (use == PeerUse::always || !memory_.deviceShared());
+  if (possible_) memory_.reserve(sizeof(Table));
+}
+
+double PeerAgreement::waited() const {
+  if (!possible_) return 0;
+  std::uint64_t waited = 0;
+  copyToHost(exec_, &waited, &static_cast<const Table*>(memory_.own())->waited, sizeof waited);
+  return 1e-9 * static_cast<double>(waited);
+}
+
+#if defined(__CUDACC__)
+
+void PeerAgreement::run(const Exec& exec, std::uint64_t* words) {
+  Tables tables{};
+  for (int r = 0; r < size_; ++r) tables.of[r] = static_cast<Table*>(r == rank_ ? memory_.own() : memory_.of(r));
+  agree<<<1, kMost, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
+  checkCuda(cudaGetLastError(), "launch of an agreement");
+}
+
+#else
+
+void PeerAgreement::run(const Exec&, std::uint64_t*) {
+  throw DeviceError("ranks agree through their GPUs only in a build with CUDA");
+}
+
+#endif
+
+} // namespace grouser::base

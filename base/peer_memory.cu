@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/peer_memory.hpp"
+
+#include "base/array.hpp"
+#include "base/for_each.cuh"
+
+#include <exception>
+#include <set>
+#include <utility>
+
+namespace grouser::base {
+
+namespace {
+
+constexpr std::size_t kPage = std::size_t{2} << 20; // CUDA shares whole pages, with whatever else lies in them
+
+#if defined(__CUDACC__)
+using Handle = cudaIpcMemHandle_t;
+#else
+struct Handle {};
+#endif
+
+/// What a rank says of its memory.
+struct Offer {
+  std::uint64_t device;
+  std::uint32_t given;
+  Handle handle;
+};
+
+struct WriteWord {
+  std::uint32_t *at, value;
+  GROUSER_HD void operator()(int) const { *at = value; }
+};
+
+struct ReadWord {
+  const std::uint32_t* from;
+  std::uint32_t* to;
+  GROUSER_HD void operator()(int) const { *to = *from; }
+};
+
+std::uint32_t markOf(int rank) { return 0x67726f75u + static_cast<std::uint32_t>(rank); }
+
+} // namespace
+
+PeerUse peerUse(std::string_view word) {
+  return word == "never" ? PeerUse::never : word == "always" ? PeerUse::always : PeerUse::automatic;
+}
+
+PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use)
+    : exec_(exec), comm_(comm), shares_(use != PeerUse::never && !exec.onCpu() && !comm.alone()),
+      views_(static_cast<std::size_t>(comm.size()), nullptr) {
+  if (shares_) reserve(kPage);
+  if (use == PeerUse::always && !comm.alone() && !allSeeAll_)
+    throw InputError("parallel.peer_memory = \"always\", but not all ranks see each other's memory: that takes GPUs of "
+                     "one machine with a path between them (nvidia-smi topo -p2p r lists them); \"auto\" does without");
+}
+
+PeerMemory::~PeerMemory() {
+  // An error on its way out ends all ranks. Until then others may look at this memory, and will not come here.
+  if (shares_ && std::uncaught_exceptions() > 0) return;
+  closeAll();
+  releaseForMessages(exec_, own_);
+}
+
+void PeerMemory::reserve(std::size_t bytes) {
+  if (bytes <= size_) return;
+  const std::size_t more = bytes + bytes / 4;
+  closeAll();
+  releaseForMessages(exec_, own_);
+  own_ = nullptr, size_ = 0;
+  size_ = shares_ ? (more + kPage - 1) / kPage * kPage : more;
+  own_ = allocateForMessages(exec_, size_);
+  setZero(exec_, own_, size_);
+  synchronize(exec_);
+  if (shares_) share();
+}
+
+/// Shows this rank's memory to the others, and looks at theirs.
+void PeerMemory::share() {
+  Offer mine{};
+  mine.device = deviceId(exec_);
+#if defined(__CUDACC__)
+  mine.given = cudaIpcGetMemHandle(&mine.handle, own_) == cudaSuccess;
+  cudaGetLastError(); // a GPU that cannot show its memory is no error
+#endif
+  const std::vector<Offer> offers = comm_.gatherValue(mine);
+  std::set<std::pair<int, std::uint64_t>> devices;
+  for (int r = 0; r < comm_.size(); ++r) {
+    const Offer& offer = offers[static_cast<std::size_t>(r)];
+    devices.emplace(comm_.hostOf(r), offer.device);
+    const bool here = r != comm_.rank() && comm_.hostOf(r) == comm_.hostOf(comm_.rank());
+    if (here && offer.given) open(r, &offer.handle);
+  }
+  deviceShared_ = static_cast<int>(devices.size()) < comm_.size();
+
+  std::vector<Bytes> mineOf;
+  for (const bool good : tryViews()) mineOf.push_back(Comm::bytesOf(std::vector<std::uint8_t>{good}));
+  const std::vector<Bytes> theirs = comm_.allToAll(mineOf);
+  std::uint64_t missing = 0;
+  for (int r = 0; r < comm_.size(); ++r) {
+    const auto k = static_cast<std::size_t>(r);
+    if (!Comm::valuesOf<std::uint8_t>(mineOf[k]).front() || !Comm::valuesOf<std::uint8_t>(theirs[k]).front()) close(r);
+    if (r != comm_.rank() && !views_[k]) missing = 1;
+  }
+  allSeeAll_ = comm_.maximumOf(missing) == 0;
+  setZero(exec_, own_, views_.size() * sizeof(std::uint32_t));
+  synchronize(exec_);
+  comm_.wait();
+}
+
+/// By rank: what is written there arrives, both ways, and what is read there is what was written. A view may open and
+/// still lead elsewhere, as under some virtual machines.
+std::vector<bool> PeerMemory::tryViews() const {
+  const auto word = [](void* memory, int r) { return static_cast<std::uint32_t*>(memory) + r; };
+  const int me = comm_.rank();
+  for (int r = 0; r < comm_.size(); ++r)
+    if (of(r)) forEach(exec_, "write to a peer", 1, WriteWord{word(of(r), me), markOf(me)});
+  synchronize(exec_);
+  comm_.wait();
+  Array<std::uint32_t> readBack(exec_, views_.size());
+  for (int r = 0; r < comm_.size(); ++r)
+    if (of(r)) forEach(exec_, "read from a peer", 1, ReadWord{word(of(r), me), readBack.data() + r});
+  const std::vector<std::uint32_t> back = readBack.toHost();
+  const std::vector<std::uint32_t> arrived = toHost(exec_, static_cast<const std::uint32_t*>(own_), views_.size());
+  std::vector<bool> good;
+  for (int r = 0; r < comm_.size(); ++r) {
+    const auto k = static_cast<std::size_t>(r);
+    good.push_back(of(r) && back[k] == markOf(me) && arrived[k] == markOf(r));
+  }
+  return good;
+}
+
+void PeerMemory::open([[maybe_unused]] int rank, [[maybe_unused]] const void* handle) {
+#if defined(__CUDACC__)
+  void* view = nullptr;
+  const cudaError_t code =
+      cudaIpcOpenMemHandle(&view, *static_cast<const Handle*>(handle), cudaIpcMemLazyEnablePeerAccess);
+  cudaGetLastError(); // GPUs without a path between them are no error
+  views_[static_cast<std::size_t>(rank)] = code == cudaSuccess ? view : nullptr;
+#endif
+}
+
+void PeerMemory::close(int rank) noexcept {
+  void*& view = views_[static_cast<std::size_t>(rank)];
+#if defined(__CUDACC__)
+  if (view) cudaIpcCloseMemHandle(view);
+#endif
+  view = nullptr;
+}
+
+/// Afterwards nobody looks at this rank's memory, and it may go.
+void PeerMemory::closeAll() noexcept {
+  if (!shares_ || !own_) return;
+#if defined(__CUDACC__)
+  cudaDeviceSynchronize();
+#endif
+  for (int r = 0; r < comm_.size(); ++r) close(r);
+  comm_.wait();
+}
+
+} // namespace grouser::base

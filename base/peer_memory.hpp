@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+#include "base/exec.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace grouser::base {
+
+/// Whether GPUs of one machine look into each other's memory.
+enum class PeerUse {
+  never,
+  automatic, ///< where they can
+  always     ///< InputError where they cannot; also by ranks that share one GPU, which is slow
+};
+
+/// "never", "auto" or "always".
+PeerUse peerUse(std::string_view word);
+
+/// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
+/// memory (CUDA IPC), without the host and without MPI. Whether two of them can is tried, not assumed; where they
+/// cannot, and on CPUs, a rank has its own memory alone.
+///
+/// All ranks call everything that is not marked `local`, the destructor too, in the same order.
+class PeerMemory {
+public:
+  PeerMemory(const Exec& exec, const Comm& comm, PeerUse use);
+  PeerMemory(const PeerMemory&) = delete;
+  PeerMemory& operator=(const PeerMemory&) = delete;
+  ~PeerMemory();
+
+  /// Room for `bytes`, the same on all ranks, and a quarter more where it has to grow; it is zero then. Waits until all
+  /// devices have done their work, so that nobody looks any more at what goes.
+  void reserve(std::size_t bytes);
+
+  std::size_t size() const { return size_; } ///< bytes; local, on all ranks the same
+  void* own() const { return own_; }         ///< local
+  /// Ranks have been asked to look into each other's memory; local, on all ranks the same.
+  bool shares() const { return shares_; }
+  /// The memory of another rank, or null; local. If one rank sees another, that one sees it too.
+  void* of(int rank) const { return views_[static_cast<std::size_t>(rank)]; }
+  bool allSeeAll() const { return allSeeAll_; }       ///< local, on all ranks the same
+  bool deviceShared() const { return deviceShared_; } ///< some ranks have the same GPU; local, on all ranks the same
+
+private:
+  void share();
+  void open(int rank, const void* handle);
+  void close(int rank) noexcept;
+  void closeAll() noexcept;
+  std::vector<bool> tryViews() const;
+
+  Exec exec_;
+  Comm comm_;
+  bool shares_; ///< on all ranks the same
+  void* own_{nullptr};
+  std::size_t size_{0};
+  std::vector<void*> views_; ///< by rank
+  bool allSeeAll_{false}, deviceShared_{false};
+};
+
+} // namespace grouser::base
