@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/peer_agreement.hpp"
 
+#include "base/error.hpp"
+
 #if defined(__CUDACC__)
 #include "base/cuda_check.cuh"
 #endif
