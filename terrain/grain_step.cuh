@@ -49,53 +49,78 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3<std::uint32_t> reference;
   };
 
+  /// First which of the listed neighbours touch, then the contacts: the threads of a warp rarely touch at the same
+  /// places of their lists, and would each wait for the contacts of all others.
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Vec& v, const Vec& w, const GrainSize<Real>& own,
                                Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
-    const std::int64_t row = d.neighbours.start[i];
     // 64 neighbours a word; of equal spheres no more can be near.
     std::uint64_t* touching = d.neighbours.touching + (has(kManyRadii) ? i * d.neighbours.maskWords : i);
-    std::uint64_t before = *touching, now = 0;
-    // Asked for ahead: the slot after the next, and the place of the next.
-    const auto slotAt = [&](std::uint32_t k) { return d.neighbours.slot[row + k * d.neighbours.stride]; };
-    std::uint32_t j = 0, ahead = n > 0 ? slotAt(0) : 0, second = n > 1 ? slotAt(1) : 0;
-    base::Position place = n > 0 ? d.position[ahead] : base::Position{}, there{};
-    for (std::uint32_t k = 0; k < n; ++k) {
-      if (has(kManyRadii) && k > 0 && (k & 63u) == 0) {
-        *touching++ = now;
-        before = *touching, now = 0;
+    for (std::uint32_t first = 0; first == 0 || first < n; first += 64) {
+      const std::uint32_t count = has(kManyRadii) && n - first > 64 ? 64 : n - first;
+      const std::int64_t row = d.neighbours.at(i, first);
+      const std::uint64_t before = *touching, now = findTouching(p, row, count, own, sum);
+      for (std::uint64_t rest = now; rest != 0; rest &= rest - 1) {
+        const int k = base::lowestBit(rest);
+        touchNeighbour(row + k * d.neighbours.stride, before >> k & 1, p, v, w, own, sum);
       }
-      j = ahead, ahead = second, there = place;
-      if (k + 2 < n) second = slotAt(k + 2);
-      if (k + 1 < n) place = d.position[ahead];
-      const std::int64_t at = row + k * d.neighbours.stride;
-      const base::Vec3i apart = Kernel::apart(p, there);
-      const std::int64_t distance2 = base::squaredNorm(apart);
-      GrainSize<Real> other{};
-      std::int64_t reach2 = d.diameterUnits2;
-      Real reach = f.diameterUnits;
-      if (has(kManyRadii)) {
-        other = Kernel::sizeOf(static_cast<int>(j));
-        const std::int64_t units = own.units + other.units;
-        reach2 = units * units, reach = static_cast<Real>(units);
-      }
-      if (distance2 >= reach2) continue;
-      if (distance2 == 0) { // no direction to push in: the overlap alarm
-        sum.deepest = d.diameter;
-        continue;
-      }
-      now |= std::uint64_t{1} << (k & 63u);
-      const Vec vj = d.velocity[j].xyz().template as<Real>(), wj = d.spin[j].xyz().template as<Real>();
-      float* const history = Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
-      const bool held = Kernel::hasHistory() && (before >> (k & 63u) & 1);
-      const base::Vec3f spring = held ? loadVector(history) : base::Vec3f{};
-      // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
-      const Real distance = contact::squareRoot(static_cast<Real>(distance2));
-      const Real overlap = static_cast<Real>(reach2 - distance2) / (reach + distance) * f.unit;
-      const Vec normal = apart.as<Real>() * (Real(1) / distance);
-      touchGrain(history, held, spring, normal, overlap, distance * f.unit, own, other, v - vj, w, wj, sum);
+      *touching++ = now;
+      if (!has(kManyRadii)) break;
     }
-    *touching = now;
+  }
+
+  /// Which of `count` listed neighbours touch, a bit each.
+  GROUSER_HD std::uint64_t findTouching(const base::Position& p, std::int64_t row, std::uint32_t count,
+                                        const GrainSize<Real>& own, Sum& sum) const {
+    constexpr std::uint32_t kTogether = 4; // asked for before the first of them is looked at
+    std::uint64_t touching = 0;
+    for (std::uint32_t first = 0; first < count; first += kTogether) {
+      base::Position there[kTogether];
+      std::uint32_t j[kTogether];
+      for (std::uint32_t k = 0; k < kTogether; ++k)
+        j[k] = d.neighbours.slot[row + (first + k < count ? first + k : first) * d.neighbours.stride];
+      for (std::uint32_t k = 0; k < kTogether; ++k) there[k] = d.position[j[k]];
+      for (std::uint32_t k = 0; k < kTogether; ++k) {
+        const std::int64_t distance2 = base::squaredNorm(Kernel::apart(p, there[k]));
+        std::int64_t reach2 = d.diameterUnits2;
+        if (has(kManyRadii)) {
+          const std::int64_t units = own.units + Kernel::sizeOf(static_cast<int>(j[k])).units;
+          reach2 = units * units;
+        }
+        if (distance2 >= reach2 || first + k >= count) continue;
+        if (distance2 == 0) // no direction to push in: the overlap alarm
+          sum.deepest = d.diameter;
+        else
+          touching |= std::uint64_t{1} << (first + k);
+      }
+    }
+    return touching;
+  }
+
+  /// The contact with the neighbour at place `at` of the list. `held`: its history is that of this contact.
+  GROUSER_HD void touchNeighbour(std::int64_t at, bool heldBefore, const base::Position& p, const Vec& v, const Vec& w,
+                                 const GrainSize<Real>& own, Sum& sum) const {
+    const std::uint32_t j = d.neighbours.slot[at];
+    float* const history = Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
+    const bool held = Kernel::hasHistory() && heldBefore;
+    const base::Vec3f spring = held ? loadVector(history) : base::Vec3f{};
+    const Vec4f velocity = d.velocity[j], spin = d.spin[j];
+    const base::Vec3i apart = Kernel::apart(p, d.position[j]);
+    GrainSize<Real> other{};
+    std::int64_t reach2 = d.diameterUnits2;
+    Real reach = f.diameterUnits;
+    if (has(kManyRadii)) {
+      other = Kernel::sizeOf(velocity.w, spin.w);
+      const std::int64_t units = own.units + other.units;
+      reach2 = units * units, reach = static_cast<Real>(units);
+    }
+    const std::int64_t distance2 = base::squaredNorm(apart);
+    // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
+    const Real distance = contact::squareRoot(static_cast<Real>(distance2));
+    const Real overlap = static_cast<Real>(reach2 - distance2) / (reach + distance) * f.unit;
+    const Vec normal = apart.as<Real>() * (Real(1) / distance);
+    touchGrain(history, held, spring, normal, overlap, distance * f.unit, own, other,
+               v - velocity.xyz().template as<Real>(), w, spin.xyz().template as<Real>(), sum);
   }
 
   /// `held`: the history is that of this contact; `spring`: its first three numbers, or 0. `relative`: velocity of the
