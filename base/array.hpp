@@ -16,6 +16,13 @@ template <class T> class Array {
 public:
   Array() = default;
   explicit Array(const Exec& exec, std::size_t size = 0) : exec_(exec) { resize(size); }
+  /// Of `size` elements with undefined contents.
+  static Array unset(const Exec& exec, std::size_t size) {
+    Array array(exec);
+    array.data_ = static_cast<T*>(allocateUnset(exec, size * sizeof(T)));
+    array.size_ = array.capacity_ = size;
+    return array;
+  }
   Array(const Exec& exec, const std::vector<T>& values) : exec_(exec) { assign(values); }
   Array(Array&& other) noexcept { swap(other); }
   Array& operator=(Array&& other) noexcept {
@@ -48,7 +55,6 @@ public:
       Array larger(exec_);
       larger.resize(size + size / 8);
       copyOnDevice(exec_, larger.data_, data_, size_ * sizeof(T));
-      synchronize(exec_); // the old memory goes
       swap(larger);
     }
     size_ = size;

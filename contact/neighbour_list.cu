@@ -63,7 +63,6 @@ void NeighbourList::sort(const Position* position, std::size_t count) {
   const std::int64_t cells = static_cast<std::int64_t>(grid_.cells.x) * grid_.cells.y * grid_.cells.z;
   cellStart_.resize(static_cast<std::size_t>(cells) + 1);
   base::forEach(exec_, "mark cell starts", n + 1, MarkStarts{key.data(), n, cells, cellStart_.data()});
-  base::synchronize(exec_); // the keys go
 }
 
 TouchingRows NeighbourList::contacts() const {
@@ -85,7 +84,6 @@ std::uint32_t NeighbourList::layRows() {
                 LongestOfSlice{count_.data(), static_cast<std::int64_t>(n), longest.data()});
   const std::uint32_t places = base::exclusiveScan(exec_, longest.data(), longest.data(), slices);
   base::forEach(exec_, "lay rows", static_cast<std::int64_t>(n), StartInSlice{longest.data(), start_.data()});
-  base::synchronize(exec_); // the slices' starts go
   return places * kSlice;
 }
 
@@ -156,7 +154,6 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
                                former,
                                origins ? origins->arrived : TravellingRows{}});
   haveRows_ = true;
-  base::synchronize(exec_); // what was set aside goes
   cellStart_ = base::Array<std::uint32_t>(exec_);
 }
 

@@ -15,17 +15,34 @@ using contact::fieldOf;
 
 namespace {
 
-/// Where the row of each grain is found after the hand-over, before sorting.
+/// Where the row of each grain is found after the hand-over, before sorting; of those that have moved, see below.
 struct NoteOrigins {
-  const std::uint32_t* kept;
-  std::uint32_t keptCount, owned, former;
+  std::uint32_t kept, owned, former;
   std::uint32_t* origin;
   GROUSER_HD void operator()(int i) const {
     const auto slot = static_cast<std::uint32_t>(i);
-    if (slot < keptCount)
-      origin[i] = kept[slot] < former ? kept[slot] : contact::RowOrigins::kNone; // added since: no row yet
+    if (slot < kept)
+      origin[i] = slot < former ? slot : contact::RowOrigins::kNone; // added since: no row yet
     else
-      origin[i] = slot < owned ? former + (slot - keptCount) : contact::RowOrigins::kNone;
+      origin[i] = slot < owned ? former + (slot - kept) : contact::RowOrigins::kNone;
+  }
+};
+
+struct NoteMovedOrigins {
+  const std::uint32_t *from, *to;
+  std::uint32_t former;
+  std::uint32_t* origin;
+  GROUSER_HD void operator()(int k) const { origin[to[k]] = from[k] < former ? from[k] : contact::RowOrigins::kNone; }
+};
+
+/// Records of `width` elements go to places that nobody moves from.
+template <class T> struct Move {
+  const std::uint32_t *from, *to;
+  T* array;
+  std::uint32_t width;
+  GROUSER_HD void operator()(int k) const {
+    for (std::uint32_t w = 0; w < width; ++w)
+      array[std::int64_t{to[k]} * width + w] = array[std::int64_t{from[k]} * width + w];
   }
 };
 
@@ -55,7 +72,8 @@ void Grains::shareOut() {
 
   // The rows of the neighbour list travel with their grains, as ids and springs.
   Exchange& exchange = subdomain.handOver();
-  const std::size_t kept = subdomain.kept().size(), owned = kept + exchange.coming();
+  const std::size_t kept = subdomain.kept(), owned = kept + exchange.coming();
+  const auto moves = static_cast<std::int64_t>(subdomain.moves());
   contact::TravellingRows rows{nullptr, 0, static_cast<std::uint32_t>(historyWidth_)};
   rows.capacity = static_cast<std::uint32_t>(
       subdomain.comm().maximumOf(neighbours_.mostTouching(exchange.leavingSlots(), exchange.leaving())));
@@ -73,11 +91,9 @@ void Grains::shareOut() {
   exchange.start(fields);
   fields.clear();
   forOwnArrays([&]<class T>(base::Array<T>& array, std::uint32_t width) {
-    base::Array<T> to(exec_, owned * width);
-    base::forEach(exec_, "keep grains", static_cast<std::int64_t>(kept),
-                  base::Gather<T>{subdomain.kept().data(), array.data(), to.data(), static_cast<int>(width)});
-    base::synchronize(exec_);
-    array.swap(to);
+    base::forEach(exec_, "close ranks", moves,
+                  Move<T>{subdomain.movesFrom(), subdomain.movesTo(), array.data(), width});
+    if (owned > slots_) array.resizeKeeping(owned * width);
     const ExchangeField field = fieldOf(array);
     fields.push_back({field.data, field.words * width});
   });
@@ -90,14 +106,16 @@ void Grains::shareOut() {
   const std::uint32_t former = neighbours_.rows();
   slots_ = owned + subdomain.ghosts();
   forOwnArrays([&](auto& array, std::uint32_t width) { array.resizeKeeping(slots_ * width); });
-  position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
+  position_[1].resizeKeeping(slots_), velocity_[1].resizeKeeping(slots_), spin_[1].resizeKeeping(slots_);
   const ExchangeField ghosts[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0]), fieldOf(id_)};
   subdomain.ghostUpdate().run(ghosts);
 
   origin_.resize(slots_);
-  base::forEach(exec_, "note origins", static_cast<std::int64_t>(slots_),
-                NoteOrigins{subdomain.kept().data(), static_cast<std::uint32_t>(kept),
-                            static_cast<std::uint32_t>(owned), former, origin_.data()});
+  base::forEach(
+      exec_, "note origins", static_cast<std::int64_t>(slots_),
+      NoteOrigins{static_cast<std::uint32_t>(kept), static_cast<std::uint32_t>(owned), former, origin_.data()});
+  base::forEach(exec_, "note origins of the moved", moves,
+                NoteMovedOrigins{subdomain.movesFrom(), subdomain.movesTo(), former, origin_.data()});
   origins_ = {nullptr, nullptr, rows};
 }
 

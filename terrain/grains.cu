@@ -5,6 +5,8 @@
 #include "base/gather.cuh"
 #include "terrain/grain_kernels.cuh"
 
+#include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -172,7 +174,6 @@ void Grains::listNearBoundaries() {
   }
   base::forEach(exec_, "list grains near boundaries", n,
                 ListNearBoundary{before.data(), n, total, nearBoundary_.data(), boundaryOf_.data()});
-  base::synchronize(exec_);
 }
 
 void Grains::permute() {
@@ -185,12 +186,17 @@ void Grains::permute() {
   gather(position_[0], position_[1]);
   gather(velocity_[0], velocity_[1]);
   gather(spin_[0], spin_[1]);
+  // By way of one place for all, and back: an array that changed its memory at each rebuild would ask for more of it.
+  std::size_t most = 0;
+  const auto atMost = [&]<class T>(const base::Array<T>& array) { most = std::max(most, array.size() * sizeof(T)); };
+  atMost(remainders_), atMost(id_), atMost(wallHistory_), atMost(wallTouching_), atMost(dissipated_);
+  atMost(crossings_), atMost(origin_);
+  base::Array<std::byte> place = base::Array<std::byte>::unset(exec_, most);
   const auto gatherOwn = [&]<class T>(base::Array<T>& array, int width = 1) {
     if (array.empty()) return;
-    base::Array<T> to(exec_, array.size());
-    base::forEach(exec_, "permute grains", n, base::Gather<T>{order, array.data(), to.data(), width});
-    base::synchronize(exec_);
-    array.swap(to);
+    T* const to = reinterpret_cast<T*>(place.data());
+    base::forEach(exec_, "permute grains", n, base::Gather<T>{order, array.data(), to, width});
+    base::copyOnDevice(exec_, array.data(), to, array.size() * sizeof(T));
   };
   gatherOwn(remainders_);
   gatherOwn(id_);

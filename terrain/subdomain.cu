@@ -35,6 +35,18 @@ struct FindOwner {
   }
 };
 
+/// Pairs the places that are left, among the first `kept`, with the grains that stay behind them.
+struct PairMoves {
+  const std::uint32_t *stays, *staysBefore; ///< by slot: whether it stays; how many before it do
+  std::uint32_t kept;
+  std::uint32_t *from, *to;
+  GROUSER_HD void operator()(int i) const {
+    const auto slot = static_cast<std::uint32_t>(i);
+    if (slot < kept && !stays[i]) to[slot - staysBefore[i]] = slot;
+    if (slot >= kept && stays[i]) from[staysBefore[i] - staysBefore[kept]] = slot;
+  }
+};
+
 struct ReadRanks {
   const std::uint32_t *slots, *destination;
   std::uint64_t* ranks;
@@ -158,7 +170,8 @@ Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, st
     : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), period_(period),
       handOver_(exec, options.comm, {.peers = options.peers}),
       ghostUpdate_(exec, options.comm, {.peers = options.peers}), agreement_(exec, options.comm, options.peers),
-      role_(exec), ghostMark_(exec), destination_(exec), kept_(exec), uniques_(exec), masters_(exec) {}
+      role_(exec), ghostMark_(exec), destination_(exec), movesFrom_(exec), movesTo_(exec), uniques_(exec),
+      masters_(exec) {}
 
 void Subdomain::findLeaving(const Position* position, std::size_t slots) {
   base::Array<std::uint32_t> leaves(exec_, slots), stays(exec_, slots), leaving(exec_);
@@ -167,7 +180,13 @@ void Subdomain::findLeaving(const Position* position, std::size_t slots) {
                 FindOwner{partition_.view(), period_, position, haveRoles_ ? role_.data() : nullptr, comm_.rank(),
                           destination_.data(), leaves.data(), stays.data()});
   base::listMarked(exec_, leaves.data(), slots, leaving);
-  base::listMarked(exec_, stays.data(), slots, kept_);
+  base::Array<std::uint32_t> staysBefore(exec_, slots);
+  kept_ = base::exclusiveScan(exec_, stays.data(), staysBefore.data(), slots);
+  const std::size_t behind = kept_ < slots ? kept_ - staysBefore.at(kept_) : 0;
+  movesFrom_.resize(behind), movesTo_.resize(behind);
+  base::forEach(exec_, "pair moves", behind > 0 ? static_cast<std::int64_t>(slots) : 0,
+                PairMoves{stays.data(), staysBefore.data(), static_cast<std::uint32_t>(kept_), movesFrom_.data(),
+                          movesTo_.data()});
   base::Array<std::uint64_t> ranks(exec_, leaving.size());
   base::forEach(exec_, "read destinations", static_cast<std::int64_t>(leaving.size()),
                 ReadRanks{leaving.data(), destination_.data(), ranks.data()});
@@ -198,7 +217,6 @@ void Subdomain::findMasters(const Position* position, std::size_t owned) {
   role_.resize(owned + ghosts());
   base::forEach(exec_, "assign roles", static_cast<std::int64_t>(role_.size()),
                 AssignRoles{count.data(), static_cast<std::uint32_t>(owned), role_.data()});
-  base::synchronize(exec_); // `count` and its like go
 }
 
 void Subdomain::sorted(const std::uint32_t* order, std::size_t slots) {
@@ -212,7 +230,6 @@ void Subdomain::sorted(const std::uint32_t* order, std::size_t slots) {
   base::listMarked(exec_, unique.data(), slots, uniques_);
   base::listMarked(exec_, master.data(), slots, masters_);
   ghostUpdate_.renumber(newSlot.data());
-  base::synchronize(exec_);
 }
 
 Partition Subdomain::balanced(const Position* position, std::size_t slots, double costPerGrain) const {
@@ -252,8 +269,8 @@ const char* Subdomain::way() const {
 }
 
 std::size_t Subdomain::bytes() const {
-  return role_.bytes() + ghostMark_.bytes() + destination_.bytes() + kept_.bytes() + uniques_.bytes() +
-         masters_.bytes();
+  return role_.bytes() + ghostMark_.bytes() + destination_.bytes() + movesFrom_.bytes() + movesTo_.bytes() +
+         uniques_.bytes() + masters_.bytes();
 }
 
 } // namespace grouser::terrain

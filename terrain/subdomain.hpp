@@ -41,12 +41,17 @@ public:
   const Partition& partition() const { return partition_; }
   void setPartition(const Partition& partition) { partition_ = partition; }
 
-  /// Grains whose centre now lies in another subdomain: fills the route of the hand-over, and `kept()`.
+  /// Grains whose centre now lies in another subdomain: fills the route of the hand-over, and what is kept.
   void findLeaving(const base::Position* position, std::size_t slots);
   /// By slot, until the next hand-over: the rank that the grain of this slot now belongs to, or kNobody for a slave.
   static constexpr std::uint32_t kNobody = ~0u;
   const std::uint32_t* destination() const { return destination_.data(); }
-  const base::Array<std::uint32_t>& kept() const { return kept_; } ///< slots of the grains that stay, ascending
+  /// The grains that stay fill the first `kept()` slots when those of them that are farther back have moved to where
+  /// leaving grains and ghosts were: from slot movesFrom()[k] to movesTo()[k], for k < moves().
+  std::size_t kept() const { return kept_; }
+  std::size_t moves() const { return movesFrom_.size(); }
+  const std::uint32_t* movesFrom() const { return movesFrom_.data(); }
+  const std::uint32_t* movesTo() const { return movesTo_.data(); }
   contact::Exchange& handOver() { return handOver_; }
 
   /// Masters among the first `owned` grains: fills the route of the ghost updates; ghosts go to the slots from `owned`
@@ -88,7 +93,8 @@ private:
   contact::Exchange handOver_, ghostUpdate_;
   base::PeerAgreement agreement_;
   bool haveRoles_{false};
-  base::Array<std::uint32_t> role_, ghostMark_, destination_, kept_, uniques_, masters_;
+  std::size_t kept_{0};
+  base::Array<std::uint32_t> role_, ghostMark_, destination_, movesFrom_, movesTo_, uniques_, masters_;
 };
 
 } // namespace grouser::terrain
