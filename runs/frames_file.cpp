@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace grouser::runs {
 
@@ -100,17 +101,23 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
     frames.count_ = kept;
     return frames;
   }
+  std::set<std::string> counts; // numbers of grains of the kept frames
   for (std::int64_t i = 0; frames.file_->has(groupOf(i)); ++i) {
     const std::string group = groupOf(i);
     if (i >= kept) {
       frames.file_->remove(group);
       continue;
     }
-    const std::string grains = group + "/grains/position";
-    frames.describe(frames.file_->has(grains) ? frames.file_->shape(grains)[0] : 0,
-                    static_cast<std::int64_t>(frames.file_->number(group, "step")),
+    const std::string position = group + "/grains/position";
+    const std::uint64_t grains = frames.file_->has(position) ? frames.file_->shape(position)[0] : 0;
+    if (grains) counts.insert(std::to_string(grains));
+    frames.describe(grains, static_cast<std::int64_t>(frames.file_->number(group, "step")),
                     frames.file_->number(group, "time"));
   }
+  // Lists of vertices that removed frames alone have used; one that a kill has cut short is among them.
+  for (const std::string& list : frames.file_->members("/vertices"))
+    if (!counts.count(list)) frames.file_->remove("/vertices/" + list);
+  if (counts.empty() && frames.file_->has("/vertices")) frames.file_->remove("/vertices");
   frames.file_->flush();
   if (!frames.steps_.empty()) frames.writeXdmf();
   return frames;

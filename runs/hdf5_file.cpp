@@ -329,6 +329,18 @@ bool Hdf5File::has(const std::string& object) const {
   }
 }
 
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  std::vector<std::string> names;
+  if (!has(group)) return names;
+  const auto take = [](hid_t, const char* name, const H5L_info_t*, void* found) -> herr_t {
+    static_cast<std::vector<std::string>*>(found)->emplace_back(name);
+    return 0;
+  };
+  const Handle id(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  check(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names), "list a group");
+  return names;
+}
+
 std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
   const Handle id(has(dataset) ? H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT) : hid_t{-1}, H5Dclose);
   if (id < 0)

@@ -88,6 +88,8 @@ public:
   void flush();
 
   bool has(const std::string& object) const;
+  /// What a group holds, without the way to it; nothing where there is no such group.
+  std::vector<std::string> members(const std::string& group) const;
   /// Shape and numbers of a dataset, converted to double. Throws base::InputError where there is none.
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
   std::vector<double> numbers(const std::string& dataset) const;

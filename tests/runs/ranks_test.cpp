@@ -173,6 +173,51 @@ assert list(a['vertices']) == list(b['vertices']) and len(a['vertices']) == 1
   EXPECT_EQ(same.code, 0) << same.errors;
 }
 
+TEST_F(OnRanks, FramesOfAResumedRunAreAllThatTheStraightOneHasAndNoMore) {
+  // Grains enter between the frames: the last frame of the run that is stopped is of a number that no other frame has.
+  put(folder_ / "drip.toml", R"(version = 1
+[run]
+duration = 0.09
+time_step = 1e-4
+frame_interval = 0.03
+[material.glass]
+stiffness = 1e5
+[[source]]
+low = [-0.2, -0.1, 1.0]
+high = [0.2, 0.1, 1.1]
+radius = 0.02
+velocity = [0, 0, -5]
+material = "glass"
+number = 2
+every = 0.01
+start = 0.035
+total = 12
+[output]
+picture = false
+plots = false
+)");
+  for (const int ranks : {1, 2}) {
+    const std::string at = " --out of" + std::to_string(ranks);
+    ASSERT_EQ(run(ranks, "run drip.toml" + at + "straight").code, 0);
+    for (const char* stop : {" --steps 200", " --resume --steps 500", " --resume"}) {
+      const Outcome o = run(ranks, "run drip.toml" + at + "stopped" + stop);
+      ASSERT_EQ(o.code, 0) << o.errors;
+    }
+    const Outcome same = shell("/usr/bin/python3 -c \"\nimport h5py\ndef content(name):\n"
+                               "  found = {}\n"
+                               "  def take(path, it):\n"
+                               "    found[path] = it[:].tolist() if isinstance(it, h5py.Dataset) else dict(it.attrs)\n"
+                               "  h5py.File(name + '/frames.h5').visititems(take)\n"
+                               "  return {p: v for p, v in found.items() if 'partition' not in p}\n"
+                               "a, b = [content('of" +
+                               std::to_string(ranks) +
+                               "' + how) for how in ('straight', 'stopped')]\n"
+                               "assert len(a['vertices/12']) == 12\n"
+                               "assert a == b, set(a) ^ set(b)\n\"");
+    EXPECT_EQ(same.code, 0) << ranks << " ranks: " << same.errors;
+  }
+}
+
 TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
   const Outcome plan = run(1, "plan bed.toml --ranks 3 --set 'terrain.size=[1.5,1]'"),
                 done = run(3, "run bed.toml --steps 1 --out three --set 'terrain.size=[1.5,1]'");
