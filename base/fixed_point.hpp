@@ -4,8 +4,10 @@
 #include "base/error.hpp"
 #include "base/vec.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace grouser::base {
@@ -43,12 +45,18 @@ struct FixedPoint {
   GROUSER_HD Vec3d value(const Vec3l& q) const { return {value(q.x), value(q.y), value(q.z)}; }
 };
 
-/// The quantum under which `largest` takes at most 2^bits quanta: room for 2^(62 - bits) addends of that size.
+/// The quantum under which `largest` takes at most 2^bits quanta, and more than half as many but where it lies below
+/// 2^(bits - 1022), for quanta and their inverse are normal numbers: room for 2^(62 - bits) addends of that size.
+/// Throws SimulationError where `largest` is not above 0 and finite.
 inline FixedPoint fixedPointFor(double largest, int bits = 42) {
-  FixedPoint f;
-  while (largest * f.perUnit < std::ldexp(1.0, bits - 1)) f.perUnit *= 2, f.quantum /= 2;
-  while (largest * f.perUnit >= std::ldexp(1.0, bits)) f.perUnit /= 2, f.quantum *= 2;
-  return f;
+  if (!(largest > 0 && largest <= std::numeric_limits<double>::max()))
+    throw SimulationError("sums of numbers up to " + std::to_string(largest) +
+                          " have no scale: what they follow from (stiffness, mass, size, gravity) is too small or too "
+                          "large for one run");
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const int finer = std::clamp(bits - exponent, -1022, 1022);
+  return {std::ldexp(1.0, -finer), std::ldexp(1.0, finer)};
 }
 
 } // namespace grouser::base

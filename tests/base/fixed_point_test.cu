@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -58,6 +59,22 @@ TEST(FixedPoint, WhatLeavesTheRangeIsNoticed) {
   for (int k = 0; k < 3; ++k) sum += f.quantise(0.5e6);
   EXPECT_NO_THROW(f.checked(sum, "tests"));
   EXPECT_THROW(f.checked({0, 0, std::int64_t{1} << 62}, "tests"), SimulationError);
+}
+
+TEST(FixedPoint, EveryFiniteScaleHasItsQuantumAndNoOtherNumberHasOne) {
+  // From the least positive double on; quanta are normal numbers, so that both they and their inverse are exact.
+  for (const double largest : {5e-324, 1e-310, 1e-290, 1e-280, 1.0, 1e300, 1e307})
+    for (const int bits : {2, 42, 60}) {
+      const FixedPoint f = fixedPointFor(largest, bits);
+      EXPECT_EQ(f.quantum * f.perUnit, 1) << largest;
+      EXPECT_LT(largest * f.perUnit, std::ldexp(1.0, bits)) << largest;
+      if (largest >= 1e-280) {
+        EXPECT_GE(largest * f.perUnit, std::ldexp(1.0, bits - 1)) << largest;
+      }
+      EXPECT_NEAR(f.value(f.quantise(largest)), largest, f.quantum / 2) << bits;
+    }
+  for (const double none : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(fixedPointFor(none), SimulationError) << none;
 }
 
 /// Adds numbers of all sizes to one sum at once.
