@@ -7,6 +7,7 @@
 #include "runs/build_info.hpp"
 #include "runs/commands.hpp"
 #include "runs/option_checks.hpp"
+#include "runs/ranks_alike.hpp"
 #include "runs/render_command.hpp"
 #include "runs/scene.hpp"
 #include "runs/stop_signals.hpp"
@@ -296,6 +297,12 @@ bool isShared(const char* command) {
   return name == "run" || name == "bench" || name == "render";
 }
 
+/// "run", "bench bed": what ranks must do alike from the beginning.
+std::string commandOf(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  return command == "bench" && argc > 2 ? command + " " + argv[2] : command;
+}
+
 /// Says why, and ends the other ranks too. What all ranks find out alike is said by the first; the others wait a moment
 /// for it to end them.
 int fail(const base::Ranks& ranks, int code, const char* message) {
@@ -366,6 +373,11 @@ int main(int argc, char** argv) {
   addOthers(app, sinkage, plan, spheres);
   refuseRanks(app, "sweep", ranks.comm(), "; --jobs lets several runs go at the same time");
   refuseRanks(app, "study", ranks.comm(), "");
+  try {
+    runs::requireSameCommand(commandOf(argc, argv), ranks.comm());
+  } catch (const base::InputError& e) {
+    return stop(kInput, e.what());
+  }
   if (!ranks.comm().first() && argc > 1 && !isShared(argv[1])) return 0; // the first ends all where it fails
   if (const std::string unknown = runs::unknownCommand(app, argc, argv); !unknown.empty())
     return stop(kInput, unknown.c_str());

@@ -32,6 +32,16 @@ bool reads(const fs::path& file, const std::string& words) {
 
 } // namespace
 
+void requireSameCommand(const std::string& command, const base::Comm& comm) {
+  if (comm.alone()) return;
+  const auto all = comm.gatherAll(std::vector<char>(command.begin(), command.end()));
+  for (std::size_t r = 1; r < all.size(); ++r)
+    if (all[r] != all[0])
+      throw base::InputError(
+          fmt::format("rank {} was told to do \"{}\", rank 0 \"{}\"; start all ranks with the same words", r,
+                      std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
+}
+
 void requireAlike(const Scene& scene, const std::string& commandLine, const base::Comm& comm) {
   if (comm.alone()) return;
   const BuildInfo build = buildInfo();

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <tuple>
 #include <vector>
 
 namespace grouser::runs {
@@ -275,6 +276,19 @@ TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 1 has another scene than rank 0"), std::string::npos) << o.errors;
   EXPECT_LT(o.seconds, 60);
+}
+
+TEST_F(OnRanks, RanksThatAreToldOtherCommandsAreRefusedByName) {
+  const std::string plan = "-np 1 \"$grouser\" plan bed.toml", go = "-np 1 \"$grouser\" run bed.toml --out a",
+                    bench = "-np 1 \"$grouser\" bench bed --grains 1000";
+  for (const auto& [first, other, told] : {std::tuple{plan, go, "rank 1 was told to do \"run\", rank 0 \"plan\""},
+                                           {go, plan, "rank 1 was told to do \"plan\", rank 0 \"run\""},
+                                           {bench, go, "rank 1 was told to do \"run\", rank 0 \"bench bed\""}}) {
+    const Outcome o = shell("timeout 60 mpirun " + first + " : " + other);
+    EXPECT_EQ(o.code, 2) << told;
+    EXPECT_NE(o.errors.find(told), std::string::npos) << o.errors;
+    EXPECT_FALSE(fs::exists(folder_ / "a"));
+  }
 }
 
 TEST_F(OnRanks, AKilledRankEndsAllAndLeavesTheLastCheckpointWhole) {
