@@ -78,7 +78,7 @@ void Mechanism::watchPull() {
   for (const multibody::SpringReading& spring : state_.spring) pull = std::max(pull, std::fabs(spring.force));
   if (!(pull > boundedPull_)) return;
   std::string part;
-  const double most = solver_.stableTurn() / solver_.pullRate(state_, loads_, &part);
+  const double most = stableStepOnPull(&part);
   boundedPull_ = pull * std::clamp(kPullShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
   if (timeStep_ >= most)
     tooTaut_ =
@@ -116,6 +116,15 @@ double mechanismTimeStep(const Scene& scene) {
   // Rows fall on whole steps.
   const double row = scene.run.outputInterval;
   return row / std::ceil(kStepsPerPeriod * row / shortest);
+}
+
+std::string tautStartWarning(const Scene& scene, double timeStep) {
+  std::string part;
+  const double most = Mechanism(scene, timeStep).stableStepOnPull(&part);
+  if (timeStep < most) return "";
+  return fmt::format("{}: run.time_step = {:g} s: at the start {} bears so much that swings across it grow with steps "
+                     "above {:.2g} s, after the least push; choose a shorter step, or \"auto\"",
+                     scene.file.string(), timeStep, part, most);
 }
 
 std::vector<std::uint32_t> MechanismState::words() const {

@@ -7,6 +7,7 @@
 #include "runs/mechanism_state.hpp"
 #include "runs/scene.hpp"
 
+#include <string>
 #include <vector>
 
 namespace grouser::runs {
@@ -51,6 +52,11 @@ public:
   double shortestSwing() { return 2 * base::kPi / solver_.stableTurn() * solver_.stableStep(state_, loads_); }
   /// The same of bodies that hang on taut joints and springs (Solver::pullRate).
   double shortestSwingOnPull() { return 2 * base::kPi / solver_.pullRate(state_, loads_); }
+  /// Up to which step such a swing does not grow [s]; infinite where nothing pulls. `part`, if given, receives the name
+  /// of what has the greatest part in it.
+  double stableStepOnPull(std::string* part = nullptr) {
+    return solver_.stableTurn() / solver_.pullRate(state_, loads_, part);
+  }
   /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere.
   const std::string& tooTaut() const { return tooTaut_; }
 
@@ -88,5 +94,9 @@ multibody::SolverOptions solverOptions(const RunSettings& run);
 /// The step that "auto" stands for: at the start a hundredth of the shortest swing of the springs or turn of a body, a
 /// twentieth of the shortest swing on taut joints; at most 1 ms, and a whole share of the output interval.
 double mechanismTimeStep(const Scene& scene);
+
+/// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
+/// first push. Empty where the step is short enough.
+std::string tautStartWarning(const Scene& scene, double timeStep);
 
 } // namespace grouser::runs

@@ -162,6 +162,9 @@ std::string planText(const Scene& scene) {
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
                         contact / step, resolved);
+  if (!scene.mechanism.empty())
+    if (const std::string warning = tautStartWarning(scene, step); !warning.empty())
+      text += fmt::format("\nwarning: {}\n", warning);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "runs/build_info.hpp"
 #include "runs/checkpoint.hpp"
 #include "runs/device_choice.hpp"
+#include "runs/mechanism.hpp"
 #include "runs/mechanism_output.hpp"
 #include "runs/progress.hpp"
 #include "runs/ranks_alike.hpp"
@@ -214,6 +215,9 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
                                        options.resume->string(), begin, total));
   const double prepared = since(start);
   describeBuild(simulation, exec, beds ? &*beds : nullptr);
+  if (simulation.mechanism() && !former && options.comm().first())
+    if (const std::string warning = tautStartWarning(scene, simulation.timeStep()); !warning.empty())
+      fmt::print(stderr, "grouser: warning: {}\n", warning);
 
   Recorder recorder(simulation, scene, options, exec, former.get());
   Checkpoints checkpoints(scene, options);

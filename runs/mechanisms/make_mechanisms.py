@@ -149,8 +149,9 @@ def chain(n, tip):
     n, tip = int(n), float(tip)
     length, mass = .15, 1
     out = head(f"A hanging chain of {n} links with {tip:g} kg at its end, {tip / mass:g} times a link's mass. At rest the pin above link i carries\n"
-               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first {(n * mass + tip) * G:.6g} N.",
-               duration=1, time_step="1e-3", gravity=vector(0, 0, -G), output_interval=.01, frame_interval=.1)
+               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first {(n * mass + tip) * G:.6g} N. It hangs still, but the least push makes its links swing\n"
+               "across that pull: the step is one with which such swings do not grow.",
+               duration=1, time_step=f"{min(1e-3, .05 / math.sqrt(n + tip / mass)):.1g}", gravity=vector(0, 0, -G), output_interval=.01, frame_interval=.1)
     out += "\n[output]\nrecord = " + names("link 0", "tip", "pin 0", f"pin {n // 2}", "tip pin") + "\n"
     for i in range(n):
         out += section("body", name=text(f"link {i}"), mass=mass, inertia=vector(.002, .002, .0002), position=vector(0, 0, -(i + .5) * length))

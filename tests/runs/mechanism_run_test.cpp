@@ -143,6 +143,37 @@ TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCa
       << o.errors;
 }
 
+TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
+  // Straight and at rest, the chain would hang still at any step: until the first push.
+  std::ofstream(folder_ / "chain.toml") << chainScene(1e6);
+  const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
+                    warning = "at the start joint 'pin 5' bears so much that swings across it grow with steps above "
+                              "7.6e-05 s";
+  const Outcome plan = call("plan" + still + "2e-4"), run = call("run" + still + "2e-4 --steps 10 --out r" + kBare);
+  EXPECT_EQ(plan.code, 0) << plan.errors;
+  EXPECT_NE(plan.out.find("warning: chain.toml: run.time_step = 0.0002 s: " + warning), std::string::npos) << plan.out;
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_NE(run.errors.find(warning), std::string::npos) << run.errors;
+  for (const char* step : {"7e-5", "auto"}) {
+    EXPECT_EQ(call("plan" + still + step).out.find("warning"), std::string::npos) << step;
+    const Outcome quiet = call("run" + still + step + " --steps 10 --force --out r" + kBare);
+    EXPECT_EQ(quiet.code, 0) << quiet.errors;
+    EXPECT_EQ(quiet.errors.find("warning"), std::string::npos) << quiet.errors;
+  }
+}
+
+TEST_F(MechanismRun, NoShippedMechanismIsWarnedOf) {
+  int scenes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kMechanisms)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Outcome o = call("plan " + entry.path().string());
+    EXPECT_EQ(o.code, 0) << o.errors;
+    EXPECT_EQ(o.out.find("warning"), std::string::npos) << o.out;
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 20);
+}
+
 TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
   const Outcome o = call("sweep " + kMechanisms + "pendulum.toml --set body.0.mass=1,2 --out s" +
                          " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
