@@ -21,8 +21,9 @@ constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
 /// forty times the pull of the start [-].
 constexpr double kStepsPerSwingOnPull = 20;
 /// A stable step is inverse to the root of the pull. It is looked at again when this share of what the step bears is
-/// reached, but not before the pull has grown by the second, and when it has grown by the third: poses change too [-].
-constexpr double kPullShare = 0.5, kLeastGrowth = 1.5, kMostGrowth = 4;
+/// reached, but not before the pull has grown by the second, which a swing beyond it needs to make itself felt, and
+/// when it has grown by the third: poses change too [-].
+constexpr double kPullShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 /// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
 constexpr double kRoundedRate = 1e-12;
 
@@ -72,17 +73,29 @@ void Mechanism::advance() {
 }
 
 /// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
+/// The first that the step does not bear is kept, not the worst: what comes later holds the forces of the swing itself.
 void Mechanism::watchPull() {
   double pull = 0;
   for (const multibody::JointReading& joint : state_.joint) pull = std::max(pull, norm(joint.force));
   for (const multibody::SpringReading& spring : state_.spring) pull = std::max(pull, std::fabs(spring.force));
   if (!(pull > boundedPull_)) return;
+  const double most = lookAtPull();
+  boundedPull_ = pull * std::clamp(kPullShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
+}
+
+/// The longest step that bears the pull of now [s].
+double Mechanism::lookAtPull() {
   std::string part;
   const double most = stableStepOnPull(&part);
-  boundedPull_ = pull * std::clamp(kPullShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
   if (timeStep_ >= most)
     tooTaut_ =
         fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
+  return most;
+}
+
+const std::string& Mechanism::tooTaut() {
+  if (tooTaut_.empty()) lookAtPull();
+  return tooTaut_;
 }
 
 Mechanism::DriveReading Mechanism::drive(int index) const {

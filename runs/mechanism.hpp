@@ -57,8 +57,9 @@ public:
   double stableStepOnPull(std::string* part = nullptr) {
     return solver_.stableTurn() / solver_.pullRate(state_, loads_, part);
   }
-  /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere.
-  const std::string& tooTaut() const { return tooTaut_; }
+  /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere, nor
+  /// does it now.
+  const std::string& tooTaut();
 
   /// How well the joints are closed.
   struct Drift {
@@ -76,6 +77,7 @@ public:
 
 private:
   void watchPull();
+  double lookAtPull();
 
   const double timeStep_;
   const multibody::Model model_;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <utility>
 
@@ -141,6 +142,43 @@ TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCa
   EXPECT_NE(o.errors.find("at 0.0002 s joint 'pin 5' bore so much that only steps below 7.6e-05 s are stable"),
             std::string::npos)
       << o.errors;
+}
+
+TEST_F(MechanismRun, PullThatGrowsSlowlyBeyondWhatAStepBearsIsNamedToo) {
+  // A winch on a rail pulls the chain's end by 1e6 N/s. A run is at its end a few swings after the step's limit.
+  std::ofstream(folder_ / "winch.toml") << chainScene(1) << R"([[body]]
+name = "block"
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0, -1.5]
+[[joint]]
+name = "rail"
+type = "prismatic"
+bodies = ["world", "block"]
+point = [0, 0, -1.5]
+axis = [0, 0, 1]
+[[joint]]
+name = "hook"
+type = "spherical"
+bodies = ["weight", "block"]
+point = [0, 0, -1.5]
+[[drive]]
+name = "winch"
+joint = "rail"
+imposes = "torque"
+polynomial = [0, -1e6]
+)";
+  for (const auto& [step, limit] : {std::pair{"5e-4", 0.0005}, {"2.5e-4", 0.00025}}) {
+    const Outcome o =
+        call("run winch.toml --force --out r --set run.duration=2 --set run.time_step=" + std::string(step) + kBare);
+    EXPECT_EQ(o.code, 3) << step;
+    std::smatch named;
+    ASSERT_TRUE(std::regex_search(o.errors, named, std::regex("bore so much that only steps below ([0-9.e-]+) s")))
+        << o.errors;
+    // The pull is looked at when it has grown by a twentieth, and the root of that goes into the step; two digits.
+    EXPECT_LE(std::stod(named[1]), limit * 1.01) << step;
+    EXPECT_GE(std::stod(named[1]), limit * 0.93) << step;
+  }
 }
 
 TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
