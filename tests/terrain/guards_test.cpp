@@ -33,6 +33,22 @@ TEST(Guards, DeepOverlapStopsTheRun) {
   EXPECT_THROW(advance(grains, 1), base::SimulationError);
 }
 
+TEST(Guards, GrainsThatComeToOnePlaceStopTheRun) {
+  // They pass through each other, since hardly anything pushes them apart; no other alarm sees them at one place.
+  for (const int lanes : {16, 1}) {
+    GrainModel m = ball(0x1p-13);
+    m.law.stiffness = 1e-9, m.maxOverlap = 1.99, m.mostLanes = lanes;
+    const double way = 0x1p-13; // of a step, at 1 m/s; a whole number of units
+    const auto pass = [&](double offset) {
+      Grains grains(base::cpuExec(1), m, {},
+                    {{{-8 * way, 0, 0}, {1, 0, 0}, {}}, {{8 * way, offset, 0}, {-1, 0, 0}, {}}});
+      advance(grains, 16);
+    };
+    EXPECT_NO_THROW(pass(0.1 * m.radius)) << "beside each other they do pass, lanes " << lanes;
+    EXPECT_THROW(pass(0), base::SimulationError) << "lanes " << lanes;
+  }
+}
+
 TEST(Guards, GrainsFarApartDoNotFeelEachOther) {
   // 2^32 units apart the low words of the positions agree; far grains widen the cells until both share one.
   GrainModel m = ball(1e-6);

@@ -214,5 +214,32 @@ TEST(ManyKinds, RadiiTooUnlikeAreRefused) {
                base::InputError);
 }
 
+TEST(ManyKinds, OneGrainFeelsMoreNeighboursThanAWordHasBits) {
+  // A ball with 150 small ones pressed into it from all sides, evenly: each is a contact of it, and keeps its spring.
+  constexpr int kSmall = 150;
+  const Kind kind{.radii = true};
+  GrainModel m = bedOf(kind).model;
+  m.gravity = {}, m.timeStep = 1e-7; // the small ones weigh 0.3 mg
+  const double small = 0.06 * m.radius, reach = m.radius + 0.98 * small;
+  std::vector<GrainStart> start{{{}, {}, {0, 0, 5}, m.radius}};
+  for (int k = 0; k < kSmall; ++k) { // along a spiral from pole to pole
+    const double z = 1 - (2 * k + 1.0) / kSmall, across = std::sqrt(1 - z * z), angle = 2.399963 * k;
+    start.push_back({Vec3d{across * std::cos(angle), across * std::sin(angle), z} * reach, {}, {}, small});
+  }
+  Grains grains(testExec(), m, {}, start);
+  advance(grains, 2);
+  const GrainState state = grains.state();
+  ASSERT_EQ(state.contacts[0], kSmall);
+  for (int k = 0; k < kSmall; ++k) {
+    EXPECT_EQ(state.neighbour[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(k + 1));
+    EXPECT_NE(state.contactShear[static_cast<std::size_t>(k)], base::Vec3f{}) << "the ball turns under " << k + 1;
+  }
+  // A run that goes on from there has lost nothing.
+  Grains resumed(testExec(), m, {}, start);
+  resumed.restore(state);
+  advance(grains, 3), advance(resumed, 3);
+  EXPECT_EQ(grains.stateWords(), resumed.stateWords());
+}
+
 } // namespace
 } // namespace grouser::terrain::testing
