@@ -63,15 +63,6 @@ GROUSER_HD std::uint32_t atomicAdd32(std::uint32_t* target, std::uint32_t value)
 #endif
 }
 
-/// Place of the lowest bit that is set; `bits` is not 0.
-GROUSER_HD int lowestBit(std::uint64_t bits) {
-#if defined(__CUDA_ARCH__)
-  return __ffsll(static_cast<long long>(bits)) - 1;
-#else
-  return __builtin_ctzll(bits);
-#endif
-}
-
 /// Sets a shared flag word; every writer writes the same kind of value, so any order will do.
 GROUSER_HD void raise(std::uint32_t* flag) {
 #if defined(__CUDA_ARCH__)

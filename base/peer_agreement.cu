@@ -11,26 +11,27 @@ namespace grouser::base {
 
 namespace {
 
-constexpr int kMost = 32; // ranks: one lane of a warp each
+constexpr int kMostRanks = 32; // one lane of a warp each
 
-/// What one rank says in one run, in the memory of another.
+/// What one rank says in one run, in the memory of another: first what, then, behind a fence, in which run. The reader
+/// waits for the run, and reads what behind a fence of its own. What kernels before it have written is out with them.
 struct alignas(16) Word {
   std::uint64_t least, bits;
-  std::uint32_t run; ///< written last: the others are there
+  std::uint32_t run;
 };
 
 /// The memory of one rank. Two runs take turns: a rank that is through with one may already speak in the next, but not
 /// in the one after, since for that it must have heard from all.
 struct Table {
-  Word said[2][kMost];  ///< by rank
-  std::uint64_t waited; ///< [ns]
-  std::uint32_t runs;   ///< that this rank is through with
+  Word said[2][kMostRanks]; ///< by rank
+  std::uint64_t waited;     ///< [ns]
+  std::uint32_t runs;       ///< that this rank is through with
 };
 
 #if defined(__CUDACC__)
 
 struct Tables {
-  Table* of[kMost];
+  Table* of[kMostRanks];
 };
 
 __device__ std::uint64_t nanoseconds() {
@@ -55,7 +56,7 @@ __global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
     __threadfence_system();
     least = in.least, bits = in.bits, waited = nanoseconds() - from;
   }
-  for (int other = kMost / 2; other > 0; other /= 2) {
+  for (int other = kMostRanks / 2; other > 0; other /= 2) {
     const std::uint64_t l = __shfl_xor_sync(~0u, least, other);
     least = l < least ? l : least;
     bits |= __shfl_xor_sync(~0u, bits, other);
@@ -70,9 +71,8 @@ __global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
 } // namespace
 
 PeerAgreement::PeerAgreement(const Exec& exec, const Comm& comm, PeerUse use)
-    : exec_(exec), memory_(exec, comm, use), rank_(comm.rank()), size_(comm.size()) {
-  possible_ = memory_.allSeeAll() && size_ <= kMost && (use == PeerUse::always || !memory_.deviceShared());
-  if (possible_) memory_.reserve(sizeof(Table));
+    : exec_(exec), memory_(exec, comm, use, sizeof(Table)), rank_(comm.rank()), size_(comm.size()) {
+  possible_ = memory_.allSeeAll() && size_ <= kMostRanks && (use == PeerUse::always || !memory_.deviceShared());
 }
 
 double PeerAgreement::waited() const {
@@ -87,7 +87,7 @@ double PeerAgreement::waited() const {
 void PeerAgreement::run(const Exec& exec, std::uint64_t* words) {
   Tables tables{};
   for (int r = 0; r < size_; ++r) tables.of[r] = static_cast<Table*>(r == rank_ ? memory_.own() : memory_.of(r));
-  agree<<<1, kMost, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
+  agree<<<1, kMostRanks, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
   checkCuda(cudaGetLastError(), "launch of an agreement");
 }
 

@@ -4,8 +4,10 @@
 #include "base/array.hpp"
 #include "base/for_each.cuh"
 
+#include <algorithm>
 #include <exception>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace grouser::base {
@@ -43,33 +45,51 @@ std::uint32_t markOf(int rank) { return 0x67726f75u + static_cast<std::uint32_t>
 } // namespace
 
 PeerUse peerUse(std::string_view word) {
-  return word == "never" ? PeerUse::never : word == "always" ? PeerUse::always : PeerUse::automatic;
+  if (word == "never") return PeerUse::never;
+  if (word == "auto") return PeerUse::automatic;
+  if (word == "always") return PeerUse::always;
+  throw std::invalid_argument("peer memory: never, auto or always");
 }
 
-PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use)
-    : exec_(exec), comm_(comm), shares_(use != PeerUse::never && !exec.onCpu() && !comm.alone()),
+PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::size_t bytes)
+    : exec_(exec), comm_(comm), use_(use), shares_(use != PeerUse::never && !exec.onCpu() && !comm.alone()),
       views_(static_cast<std::size_t>(comm.size()), nullptr) {
-  if (shares_) reserve(kPage);
-  if (use == PeerUse::always && !comm.alone() && !allSeeAll_)
-    throw InputError("parallel.peer_memory = \"always\", but not all ranks see each other's memory: that takes GPUs of "
-                     "one machine with a path between them (nvidia-smi topo -p2p r lists them); \"auto\" does without");
+  // Who sees whom is known from the start: all have a page at least to look at.
+  if (shares_ || bytes > 0) allocate(bytes);
+  checkUse();
 }
 
 PeerMemory::~PeerMemory() {
   // An error on its way out ends all ranks. Until then others may look at this memory, and will not come here.
   if (shares_ && std::uncaught_exceptions() > 0) return;
-  closeAll();
-  releaseForMessages(exec_, own_);
+  release();
+}
+
+/// The same on all ranks.
+void PeerMemory::checkUse() {
+  if (use_ != PeerUse::always || comm_.alone() || allSeeAll_) return;
+  release();
+  throw InputError("peer memory \"always\", but not all ranks see each other's memory: that takes GPUs of one machine "
+                   "with a path between them (nvidia-smi topo -p2p r lists them); \"auto\" does without");
 }
 
 void PeerMemory::reserve(std::size_t bytes) {
   if (bytes <= size_) return;
-  const std::size_t more = bytes + bytes / 4;
+  release();
+  allocate(bytes + bytes / 4);
+  checkUse();
+}
+
+void PeerMemory::release() noexcept {
   closeAll();
   releaseForMessages(exec_, own_);
   own_ = nullptr, size_ = 0;
-  size_ = shares_ ? (more + kPage - 1) / kPage * kPage : more;
-  own_ = allocateForMessages(exec_, size_);
+}
+
+void PeerMemory::allocate(std::size_t bytes) {
+  const std::size_t size = shares_ ? std::max(kPage, (bytes + kPage - 1) / kPage * kPage) : bytes;
+  own_ = allocateForMessages(exec_, size);
+  size_ = size;
   setZero(exec_, own_, size_);
   synchronize(exec_);
   if (shares_) share();

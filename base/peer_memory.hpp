@@ -4,6 +4,7 @@
 #include "base/comm.hpp"
 #include "base/exec.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,7 @@ enum class PeerUse {
   always     ///< InputError where they cannot; also by ranks that share one GPU, which is slow
 };
 
-/// "never", "auto" or "always".
+/// Of "never", "auto" or "always"; throws std::invalid_argument for another word.
 PeerUse peerUse(std::string_view word);
 
 /// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
@@ -27,7 +28,8 @@ PeerUse peerUse(std::string_view word);
 /// All ranks call everything that is not marked `local`, the destructor too, in the same order.
 class PeerMemory {
 public:
-  PeerMemory(const Exec& exec, const Comm& comm, PeerUse use);
+  /// Room for `bytes`, the same on all ranks; zero.
+  PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::size_t bytes = 0);
   PeerMemory(const PeerMemory&) = delete;
   PeerMemory& operator=(const PeerMemory&) = delete;
   ~PeerMemory();
@@ -42,10 +44,16 @@ public:
   bool shares() const { return shares_; }
   /// The memory of another rank, or null; local. If one rank sees another, that one sees it too.
   void* of(int rank) const { return views_[static_cast<std::size_t>(rank)]; }
+  bool seesAny() const {
+    return std::any_of(views_.begin(), views_.end(), [](const void* view) { return view; });
+  }
   bool allSeeAll() const { return allSeeAll_; }       ///< local, on all ranks the same
   bool deviceShared() const { return deviceShared_; } ///< some ranks have the same GPU; local, on all ranks the same
 
 private:
+  void allocate(std::size_t bytes);
+  void release() noexcept;
+  void checkUse();
   void share();
   void open(int rank, const void* handle);
   void close(int rank) noexcept;
@@ -54,6 +62,7 @@ private:
 
   Exec exec_;
   Comm comm_;
+  PeerUse use_;
   bool shares_; ///< on all ranks the same
   void* own_{nullptr};
   std::size_t size_{0};

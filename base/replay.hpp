@@ -81,12 +81,13 @@ public:
   explicit AlternatingReplay(const Exec& exec) {
     for (Turn& turn : turns_) turn.replay = Replay(exec);
   }
-  /// The record of work that begins with `buffer`; a third buffer takes a former one's place.
-  Replay& from(const void* buffer) {
+  /// The record of work that begins with `buffer`, and with turn `other` of whatever else takes turns in it; a third
+  /// takes a former one's place.
+  Replay& from(const void* buffer, unsigned other = 0) {
     for (Turn& turn : turns_)
-      if (turn.taken && turn.buffer == buffer) return turn.replay;
+      if (turn.taken && turn.buffer == buffer && turn.other == other) return turn.replay;
     Turn& turn = turns_[turns_[0].taken ? 1 : 0];
-    turn.taken = true, turn.buffer = buffer;
+    turn.taken = true, turn.buffer = buffer, turn.other = other;
     turn.replay.forget();
     return turn.replay;
   }
@@ -98,6 +99,7 @@ private:
   struct Turn {
     bool taken{false};
     const void* buffer{nullptr};
+    unsigned other{0};
     Replay replay;
   };
   std::array<Turn, 2> turns_;

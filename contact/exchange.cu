@@ -95,11 +95,11 @@ Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, const Exchang
       direct_(exec.onCpu() || base::Messages::deviceMemoryTravels()),
       sendStart_(static_cast<std::size_t>(comm.size()) + 1), receiveStart_(sendStart_),
       startAtSource_(static_cast<std::size_t>(comm.size())), sendSlots_(exec), receiveSlots_(exec),
-      packed_(exec, comm, options.peers), received_(exec), sendHost_(exec), receiveHost_(exec), messages_(comm),
-      wordOf_(static_cast<std::size_t>(comm.size())) {}
+      packed_(exec, comm, options.peers), received_(exec), sendHost_(exec), receiveHost_(exec),
+      sentBy_(static_cast<std::size_t>(comm.size())), messages_(comm) {}
 
 void Exchange::route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count) {
-  if (underWay_) throw std::logic_error("a route is changed while elements are on it");
+  if (underWay()) throw std::logic_error("a route is changed while elements are on it");
   const auto size = static_cast<std::size_t>(comm_.size());
   base::sortByKey(exec_, ranks.data(), slots.data(), count);
   base::Array<std::uint32_t> starts(exec_, size + 1);
@@ -147,7 +147,7 @@ std::uint32_t* Exchange::packedBy(int rank) const {
 }
 
 /// Calls `each(first, end, peer)` for ranks [first, end) that go the same way: one peer, or any number of others.
-template <class Each> void Exchange::forSources(const Each& each) const {
+template <class Each> void Exchange::forWays(const Each& each) const {
   for (int first = 0, end = 0; first < comm_.size(); first = end) {
     end = first + 1;
     const bool peer = packed_.of(first);
@@ -157,71 +157,86 @@ template <class Each> void Exchange::forSources(const Each& each) const {
 }
 
 void Exchange::pack(const base::Exec& exec, std::span<const ExchangeField> fields) {
-  if (underWay_) throw std::logic_error("elements are packed while others are under way");
+  if (underWay()) throw std::logic_error("elements are packed while others are under way");
   const Fields all = collect(fields);
   words_ = all.words;
   turn_ ^= 1u;
-  packed_.reserve((packed_.shares() ? 2 : 1) * mostLeaving_ * words_ * sizeof(std::uint32_t));
+  packed_.reserve((packed_.shares() ? 2 * mostLeaving_ : leaving()) * words_ * sizeof(std::uint32_t));
   std::uint32_t* const out = packedBy(comm_.rank());
   moveWords<true>(exec, all, sendSlots_.data(), 0, leaving(), out, wordsAtATime_);
+  stage_ = Stage::packed;
   if (direct_) return;
-  forSources([&](int first, int end, bool peer) {
-    if (peer) return;
-    const std::size_t from = placeOf(sendStart_, first) * words_, count = placeOf(sendStart_, end) * words_ - from;
-    if (count == 0) return;
+  forWays([&](int first, int end, bool peer) {
+    const std::size_t from = placeOf(sendStart_, first) * words_, words = placeOf(sendStart_, end) * words_ - from;
+    if (peer || words == 0) return;
     sendHost_.reserve(leaving() * words_);
-    base::copyToHostLater(exec, sendHost_.data() + from, out + from, count * sizeof(std::uint32_t));
+    base::copyToHostLater(exec, sendHost_.data() + from, out + from, words * sizeof(std::uint32_t));
   });
 }
 
 void Exchange::send() {
-  std::uint32_t* const out = direct_ ? packedBy(comm_.rank()) : sendHost_.data();
-  forSources([&](int, int, bool peer) {
-    if (peer) return;
+  if (stage_ != Stage::packed) throw std::logic_error("elements are sent that have not been packed");
+  forWays([&](int first, int end, bool peer) {
+    if (peer || placeOf(receiveStart_, first) == placeOf(receiveStart_, end)) return;
     received_.reserve(coming_ * words_);
     if (!direct_) receiveHost_.reserve(coming_ * words_);
   });
+  std::uint32_t* const out = direct_ ? packedBy(comm_.rank()) : sendHost_.data();
   std::uint32_t* const in = direct_ ? received_.data() : receiveHost_.data();
-  ++word_;
+  ++sent_;
   for (int r = 0; r < comm_.size(); ++r)
     if (withPeer(r))
-      messages_.receive(r, &wordOf_[static_cast<std::size_t>(r)], sizeof word_, kTag);
-    else if (!packed_.of(r))
-      messages_.receive(r, in + placeOf(receiveStart_, r) * words_, placesFrom(r) * words_ * sizeof(std::uint32_t),
-                        kTag);
+      messages_.receive(r, &sentBy_[static_cast<std::size_t>(r)], sizeof sent_, kTag);
+    else if (!packed_.of(r) && placesFrom(r) > 0)
+      messages_.receive(r, in + placeOf(receiveStart_, r) * words_, placesFrom(r) * words_ * 4, kTag);
   for (int r = 0; r < comm_.size(); ++r)
     if (withPeer(r))
-      messages_.send(r, &word_, sizeof word_, kTag);
-    else if (!packed_.of(r))
-      messages_.send(r, out + placeOf(sendStart_, r) * words_, placesTo(r) * words_ * sizeof(std::uint32_t), kTag);
-  count(1);
-  underWay_ = true;
+      messages_.send(r, &sent_, sizeof sent_, kTag);
+    else if (!packed_.of(r) && placesTo(r) > 0)
+      messages_.send(r, out + placeOf(sendStart_, r) * words_, placesTo(r) * words_ * 4, kTag);
+  countRuns(1);
+  stage_ = Stage::sent;
 }
 
-void Exchange::count(std::int64_t runs) {
+void Exchange::arrive() {
+  if (stage_ != Stage::sent) return;
+  messages_.waitAll();
+  for (int r = 0; r < comm_.size(); ++r)
+    if (withPeer(r) && sentBy_[static_cast<std::size_t>(r)] != sent_)
+      throw std::logic_error("ranks exchange elements in different orders");
+  stage_ = Stage::arrived;
+}
+
+void Exchange::passOn() {
+  if (stage_ != Stage::packed || !peersOnly()) throw std::logic_error("elements are passed on that others cannot see");
+  stage_ = Stage::passedOn;
+}
+
+void Exchange::dropPassedOn() {
+  if (stage_ == Stage::sent) throw std::logic_error("elements that were sent are dropped");
+  stage_ = Stage::idle;
+}
+
+void Exchange::countRuns(std::int64_t runs) {
   bytesSent_ += runs * static_cast<std::int64_t>(leaving() * words_ * sizeof(std::uint32_t));
   runs_ += runs;
 }
 
-void Exchange::arrive() {
-  messages_.waitAll();
-  for (int r = 0; r < comm_.size(); ++r)
-    if (withPeer(r) && wordOf_[static_cast<std::size_t>(r)] != word_)
-      throw std::logic_error("ranks exchange elements in different orders");
-}
-
 void Exchange::unpack(const base::Exec& exec, std::span<const ExchangeField> fields) {
   const Fields all = collect(fields);
-  if (!underWay_ || all.words != words_) throw std::logic_error("an exchange is finished with other fields");
-  underWay_ = false;
-  forSources([&](int first, int end, bool peer) {
+  if (stage_ < Stage::arrived || all.words != words_)
+    throw std::logic_error("an exchange is finished that was not begun, or with other fields");
+  stage_ = Stage::idle;
+  forWays([&](int first, int end, bool peer) {
     const std::size_t place = placeOf(receiveStart_, first), count = placeOf(receiveStart_, end) - place;
     if (count == 0) return;
-    std::uint32_t* from = received_.data() + place * words_;
-    if (peer)
-      from = packedBy(first) + startAtSource_[static_cast<std::size_t>(first)] * words_;
-    else if (!direct_)
-      base::copyToDeviceLater(exec, from, receiveHost_.data() + place * words_, count * words_ * 4);
+    std::uint32_t* from = nullptr;
+    if (peer) {
+      from = packedBy(first) + std::size_t{startAtSource_[static_cast<std::size_t>(first)]} * words_;
+    } else {
+      from = received_.data() + place * words_;
+      if (!direct_) base::copyToDeviceLater(exec, from, receiveHost_.data() + place * words_, count * words_ * 4);
+    }
     moveWords<false>(exec, all, receiveSlots_.data(), place, count, from, wordsAtATime_);
   });
 }

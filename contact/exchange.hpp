@@ -27,7 +27,7 @@ template <class T> ExchangeField fieldOf(base::Array<T>& array) {
 
 /// How an exchange goes about it; no bit of what arrives depends on it.
 struct ExchangeOptions {
-  base::PeerUse peers = base::PeerUse::automatic;  ///< GPUs of one machine fetch what comes from each other
+  base::PeerUse peers;                             ///< GPUs of one machine fetch what comes from each other
   std::size_t wordsAtATime = std::size_t{1} << 30; ///< packed by one launch, at most
 };
 
@@ -43,7 +43,7 @@ class Exchange {
 public:
   static constexpr std::size_t kMaxFields = 12;
 
-  Exchange(const base::Exec& exec, const base::Comm& comm, const ExchangeOptions& options = {});
+  Exchange(const base::Exec& exec, const base::Comm& comm, const ExchangeOptions& options);
 
   /// Sends `slots[k]` to rank `ranks[k]`, for k < count. Both are device arrays and are sorted by rank, stable, here.
   void route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count);
@@ -69,25 +69,31 @@ public:
     arrive();
     unpack(exec_, fields);
   }
-  bool underWay() const { return underWay_; }
+  bool underWay() const { return stage_ > Stage::packed; }
   void run(std::span<const ExchangeField> fields) {
     start(fields);
     finish(fields);
   }
 
   // The same in its parts, for those who have other work to do in between. `exec` is the exchange's own or a side
-  // stream of it; packing and unpacking wait for nothing. What was packed may be left unsent, by all ranks.
+  // stream of it.
+
+  /// On the device, without waiting; only where memory has to grow it waits, for all ranks: not in the second of two
+  /// runs of as many words on one route. What was packed may be packed anew, by all ranks, and the former is forgotten.
   void pack(const base::Exec& exec, std::span<const ExchangeField> fields);
   void send();   ///< what has been packed: that work has ended
-  void arrive(); ///< waits for what comes
+  void arrive(); ///< waits for what comes, where it was sent
+  /// On the device, without waiting.
   void unpack(const base::Exec& exec, std::span<const ExchangeField> fields);
 
   /// Every rank sees the memory of all others. Then GPUs that agree in their streams that all have packed
   /// (base::PeerAgreement) need no message: passOn() takes the place of send() and arrive().
   bool peersOnly() const { return packed_.allSeeAll(); }
-  void passOn() { underWay_ = true; }
-  void drop() { underWay_ = false; } ///< nobody wants what was passed on
-  void count(std::int64_t runs);     ///< of those that were passed on
+  bool sharesMemory() const { return packed_.seesAny(); } ///< with one other rank at least
+  void passOn();
+  void dropPassedOn();                    ///< nobody wants it any more
+  void countRuns(std::int64_t runs);      ///< of those that were passed on
+  unsigned turn() const { return turn_; } ///< which half of the memory was packed last: what is recorded depends on it
 
   std::int64_t bytesSent() const { return bytesSent_; } ///< by this rank since the start
   std::int64_t runs() const { return runs_; }
@@ -100,7 +106,7 @@ private:
   std::size_t placesFrom(int rank) const { return placeOf(receiveStart_, rank + 1) - placeOf(receiveStart_, rank); }
   /// A peer that something goes to or comes from: it is told when this rank has packed, and tells.
   bool withPeer(int rank) const { return packed_.of(rank) && placesTo(rank) + placesFrom(rank) > 0; }
-  template <class Each> void forSources(const Each& each) const;
+  template <class Each> void forWays(const Each& each) const;
   std::uint32_t* packedBy(int rank) const;
 
   base::Exec exec_;
@@ -112,17 +118,18 @@ private:
   std::size_t mostLeaving_{0};                          ///< of all ranks
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
   std::size_t coming_{0};
-  /// Two runs take turns, each in its half: the peers may still read the last one while this one is packed. They have
-  /// read it when their next word, or what else they agree upon, comes.
+  /// Two runs take turns, each in its half. A rank packs run n + 2 into the half of run n only after every reader of n
+  /// has told it so: with its word of run n + 1, sent after its work on n had ended, or by what all ranks have agreed
+  /// upon in between. A new route ends with such an agreement.
   base::PeerMemory packed_;
   unsigned turn_{0};
   base::DeviceMessage received_;
   base::HostMessage sendHost_, receiveHost_;
-  std::size_t words_{0}; ///< of one element in the buffers
-  base::Messages messages_;
-  std::uint32_t word_{0};             ///< what peers are told: the number of the run
-  std::vector<std::uint32_t> wordOf_; ///< what they tell
-  bool underWay_{false};
+  std::size_t words_{0};              ///< of one element in the buffers
+  std::uint32_t sent_{0};             ///< runs sent: the word for peers
+  std::vector<std::uint32_t> sentBy_; ///< by rank: their word
+  base::Messages messages_;           ///< waits, at the latest when it goes, for what comes into all of the above
+  enum class Stage { idle, packed, sent, arrived, passedOn } stage_{Stage::idle};
   std::int64_t bytesSent_{0}, runs_{0};
 };
 

@@ -159,7 +159,8 @@ void GrainPartContacts::handOver(const std::uint32_t* destination) {
   if (held_ == Held::everywhere) return;
   // Twice between two steps: nobody knows slots any more, so all ranks take all pairs.
   if (held_ == Held::handedOver) return restore(save());
-  if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_);
+  // A few pairs at a rebuild: messages will do.
+  if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_, ExchangeOptions{.peers = base::PeerUse::never});
   const auto n = static_cast<std::int64_t>(pairs_);
   base::Array<std::uint32_t> leaves(exec_, pairs_), leaving(exec_);
   base::forEach(exec_, "find pairs that leave", n,

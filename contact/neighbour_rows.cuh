@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/bits.hpp"
 #include "base/for_each.cuh"
 #include "contact/neighbour_list.hpp"
 
@@ -30,12 +31,6 @@ struct StartInSlice {
   GROUSER_HD void operator()(int i) const { start[i] = sliceStart[i / kSlice] * kSlice + i % kSlice; }
 };
 
-GROUSER_HD std::uint32_t bitsSet(std::uint64_t mask) {
-  std::uint32_t bits = 0;
-  for (; mask; mask &= mask - 1) ++bits;
-  return bits;
-}
-
 /// A list's rows as those need them who read contacts only.
 struct TouchingRows {
   NeighbourRows rows;
@@ -48,7 +43,7 @@ struct TouchingRows {
 
   GROUSER_HD std::uint32_t contactsOf(std::uint32_t i) const {
     std::uint32_t bits = 0;
-    for (std::int64_t w = 0; i < rowCount && w < maskWords; ++w) bits += bitsSet(touching[i * maskWords + w]);
+    for (std::int64_t w = 0; i < rowCount && w < maskWords; ++w) bits += base::bitsSet(touching[i * maskWords + w]);
     return bits;
   }
   /// Ids of the neighbours in touch, ascending, and their histories. Returns how many.

@@ -15,7 +15,7 @@ using contact::fieldOf;
 
 namespace {
 
-/// Where the row of each grain is found after the hand-over, before sorting; of those that have moved, see below.
+/// Where the row of each grain is found after the hand-over, before sorting, as if none had moved.
 struct NoteOrigins {
   std::uint32_t kept, owned, former;
   std::uint32_t* origin;
@@ -28,6 +28,7 @@ struct NoteOrigins {
   }
 };
 
+/// The same of those that have moved.
 struct NoteMovedOrigins {
   const std::uint32_t *from, *to;
   std::uint32_t former;
@@ -106,7 +107,7 @@ void Grains::shareOut() {
   const std::uint32_t former = neighbours_.rows();
   slots_ = owned + subdomain.ghosts();
   forOwnArrays([&](auto& array, std::uint32_t width) { array.resizeKeeping(slots_ * width); });
-  position_[1].resizeKeeping(slots_), velocity_[1].resizeKeeping(slots_), spin_[1].resizeKeeping(slots_);
+  position_[1].resizeInLeaps(slots_), velocity_[1].resizeInLeaps(slots_), spin_[1].resizeInLeaps(slots_);
   const ExchangeField ghosts[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0]), fieldOf(id_)};
   subdomain.ghostUpdate().run(ghosts);
 
@@ -131,10 +132,7 @@ void Grains::completeGhosts(const base::Exec& exec) {
 }
 
 /// The ghosts are made what their masters are now.
-void Grains::updateGhosts() {
-  subdomain_->ghostUpdate().run(ghostFields(0));
-  someSteps_.forget(); // the turns of steps and exchanges have been shifted against each other
-}
+void Grains::updateGhosts() { subdomain_->ghostUpdate().run(ghostFields(0)); }
 
 /// Moves the cuts where one rank has had clearly more to do than the mean. Time is only measured, so no two runs cut
 /// alike; no bit of the answer depends on it.

@@ -3,6 +3,7 @@
 
 #include "terrain/kept_remainder.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace grouser::terrain {
@@ -32,7 +33,8 @@ struct StepFlags {
   std::uint32_t padding;
   bool raised() const { return stale != 0 || fault != kNoFault; }
 };
-static_assert(sizeof(StepFlags) == 16); // ranks agree on two words: the least fault, and whether any is stale
+// Ranks agree on two words of 64 bits: the least fault, and the bits of what follows it.
+static_assert(sizeof(StepFlags) == 16 && offsetof(StepFlags, fault) == 0 && offsetof(StepFlags, stale) == 8);
 inline constexpr StepFlags kNoFlags{kNoFault, 0, 0};
 
 } // namespace grouser::terrain

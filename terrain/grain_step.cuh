@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/bits.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 namespace grouser::terrain {

@@ -324,7 +324,7 @@ void Grains::endStep() {
 bool Grains::goesAtOnce() const {
   const bool lanes = exec_.onCpu() && model_.mostLanes > 1;
   if (lanes || !geometries_.empty()) return false;
-  return !subdomain_ || (subdomain_->agreement().possible() && subdomain_->ghostUpdate().underWay());
+  return !subdomain_ || (subdomain_->stepsTogether() && subdomain_->ghostUpdate().underWay());
 }
 
 std::int64_t Grains::advance(std::int64_t most) {
@@ -334,7 +334,8 @@ std::int64_t Grains::advance(std::int64_t most) {
     return 1;
   }
   if (subdomain_) subdomain_->ghostUpdate().arrive();
-  someSteps_.from(position_[0].data()).run([this] { launchSteps(); });
+  const unsigned turn = subdomain_ ? subdomain_->ghostUpdate().turn() : 0;
+  someSteps_.from(position_[0].data(), turn).run([this] { launchSteps(); });
   return readFlags(kAtOnce);
 }
 
@@ -355,8 +356,8 @@ int Grains::readFlags(int steps) {
     comm_.minimum(all, 2);
     last.fault = all[0], last.stale = all[1] == 0;
   } else if (subdomain_) { // the GPUs have agreed
-    subdomain_->ghostUpdate().count(taken);
-    if (last.stale) subdomain_->ghostUpdate().drop();
+    subdomain_->ghostUpdate().countRuns(taken - (last.stale ? 1 : 0));
+    if (last.stale) subdomain_->ghostUpdate().dropPassedOn();
   }
   steps_ += taken;
   if ((steps - taken) % 2 != 0) swapBuffers(); // they have been swapped for all of the steps

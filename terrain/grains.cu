@@ -283,7 +283,7 @@ void Grains::launchSteps() {
   for (int place = 0; place < kAtOnce; ++place) {
     launchStep(nullptr, place);
     if (!subdomain_) continue;
-    subdomain_->agreement().run(exec_, &flags_.device().data()[place].fault);
+    subdomain_->agreement().run(exec_, reinterpret_cast<std::uint64_t*>(flags_.device().data() + place));
     subdomain_->ghostUpdate().passOn();
   }
   flags_.download();

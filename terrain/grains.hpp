@@ -241,8 +241,9 @@ private:
   base::Array<double> massPerCube_;
   Forces<float> single_;
   Forces<double> double_;
-  static constexpr int kAtOnce = 16; ///< steps that go as one; even, so that the buffers end where they began
-  base::Mirrored<StepFlags> flags_;  ///< of each of them
+  static constexpr int kAtOnce = 16; ///< steps that go as one
+  static_assert(kAtOnce % 2 == 0); ///< so that the buffers, and the turns of the ghosts' exchange, end where they began
+  base::Mirrored<StepFlags> flags_; ///< of each of them
   base::AlternatingReplay someSteps_;
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;

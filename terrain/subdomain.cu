@@ -227,7 +227,7 @@ void Subdomain::sorted(const std::uint32_t* order, std::size_t slots) {
       Sorted{order, role_.data(), role.data(), ghostMark_.data(), unique.data(), master.data(), newSlot.data()});
   role_.swap(role);
   haveRoles_ = true;
-  base::listMarked(exec_, unique.data(), slots, uniques_);
+  if (exec_.onCpu()) base::listMarked(exec_, unique.data(), slots, uniques_);
   base::listMarked(exec_, master.data(), slots, masters_);
   ghostUpdate_.renumber(newSlot.data());
 }
@@ -264,8 +264,9 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
 }
 
 const char* Subdomain::way() const {
-  if (agreement_.possible()) return "GPU to GPU, steps agreed upon by the GPUs";
-  return ghostUpdate_.peersOnly() ? "GPU to GPU" : "messages";
+  if (stepsTogether()) return "GPU to GPU, steps agreed upon by the GPUs";
+  if (ghostUpdate_.peersOnly()) return "GPU to GPU";
+  return ghostUpdate_.sharesMemory() ? "GPU to GPU where they see each other, messages" : "messages";
 }
 
 std::size_t Subdomain::bytes() const {

@@ -59,8 +59,9 @@ public:
   void findMasters(const base::Position* position, std::size_t owned);
   std::size_t ghosts() const { return ghostUpdate_.coming(); }
   contact::Exchange& ghostUpdate() { return ghostUpdate_; }
-  /// Possible where GPUs can go through steps together without their hosts.
   base::PeerAgreement& agreement() { return agreement_; }
+  /// GPUs can go through steps together, without their hosts.
+  bool stepsTogether() const { return agreement_.possible() && ghostUpdate_.peersOnly(); }
 
   /// The grains were sorted: slot i now holds what was in slot order[i].
   void sorted(const std::uint32_t* order, std::size_t slots);
@@ -70,14 +71,14 @@ public:
   void forgetRoles() { haveRoles_ = false; }
   const std::uint32_t* ghostMarks() const { return ghostMark_.data(); }  ///< not 0 for slaves
   const std::uint32_t* roles() const { return role_.data(); }            ///< by slot, as Role
-  const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending
+  const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending; on a CPU
   const base::Array<std::uint32_t>& masters() const { return masters_; }
 
   /// Cuts that share out `costPerGrain` (of this rank, any unit) evenly.
   Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
   bool rebalances() const { return rebalance_; }
   std::size_t bytes() const;
-  /// Time that this rank or its GPU has spent waiting for others since the start [s].
+  /// Time that this rank or its GPU has spent waiting for others since the start [s]. Waits for the GPU's work.
   double waited() const { return comm_.waited() + agreement_.waited(); }
   /// How elements travel, for the reader.
   const char* way() const;

@@ -13,6 +13,7 @@
 namespace grouser::contact {
 namespace {
 
+constexpr ExchangeOptions kOnCpus{.peers = base::PeerUse::never};
 using Colour = std::array<std::uint32_t, 3>;
 
 /// Tracers on a line, one for each whole place; a place belongs to rank place / kEach.
@@ -64,7 +65,7 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   Tracers t = startingTracers();
 
   // Every rank hands its last two tracers to the right, with all they carry.
-  Exchange handOver(t.exec, comm);
+  Exchange handOver(t.exec, comm, kOnCpus);
   route(handOver, t, {{Tracers::kEach - 1, right}, {Tracers::kEach - 2, right}});
   ASSERT_EQ(handOver.coming(), 2u);
   t.resize(t.owned + 2);
@@ -79,7 +80,7 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   }
 
   // Ghosts: the first tracer is known to the left, with its concentration alone.
-  Exchange ghosts(t.exec, comm);
+  Exchange ghosts(t.exec, comm, kOnCpus);
   route(ghosts, t, {{0, left}});
   ASSERT_EQ(ghosts.coming(), 1u);
   const std::size_t ghost = t.owned + 2;
@@ -105,7 +106,7 @@ TEST(Exchange, PackedInManyLaunchesTheSameArrives) {
   // Elements of six words: 1, 2 and 3 of the 7 at a time.
   for (const std::size_t words : {1u, 12u, 19u}) {
     Tracers t = startingTracers();
-    Exchange handOver(t.exec, comm, {.wordsAtATime = words});
+    Exchange handOver(t.exec, comm, {.peers = base::PeerUse::never, .wordsAtATime = words});
     std::vector<std::pair<std::uint32_t, int>> leaving;
     for (std::uint32_t i = 0; i < 7; ++i) leaving.emplace_back(i, right);
     route(handOver, t, leaving);
@@ -126,7 +127,7 @@ TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
   if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
   const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
   Tracers t = startingTracers();
-  Exchange ghosts(t.exec, comm);
+  Exchange ghosts(t.exec, comm, kOnCpus);
   route(ghosts, t, {{3, right}});
   const std::size_t size = t.owned + 1;
   t.resize(size);
@@ -149,7 +150,7 @@ TEST(Exchange, OneElementMayGoToManyRanksAndNoneToOthers) {
   const base::Comm& comm = test::comm();
   if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
   Tracers t = startingTracers();
-  Exchange exchange(t.exec, comm);
+  Exchange exchange(t.exec, comm, kOnCpus);
   // Rank 0 sends its tracer 5 to all others; the others send nothing.
   std::vector<std::pair<std::uint32_t, int>> leaving;
   for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.push_back({5, r}); // not in the order of ranks
@@ -168,7 +169,7 @@ TEST(Exchange, RefusesToFinishWithOtherFields) {
   const base::Comm& comm = test::comm();
   if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
   Tracers t = startingTracers();
-  Exchange exchange(t.exec, comm);
+  Exchange exchange(t.exec, comm, kOnCpus);
   route(exchange, t, {});
   const ExchangeField wide = fieldOf(t.colour), narrow = fieldOf(t.place);
   EXPECT_THROW(exchange.finish({&wide, 1}), std::logic_error); // nothing was started
