@@ -3,6 +3,10 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
 #if defined(__CUDACC__)
 #include "base/cuda_check.cuh"
 #endif
@@ -28,11 +32,28 @@ struct Table {
   std::uint32_t runs;       ///< that this rank is through with
 };
 
-#if defined(__CUDACC__)
-
 struct Tables {
   Table* of[kMostRanks];
 };
+
+/// The same among processes.
+void agreeOnHost(const Tables& tables, int me, int size, std::uint64_t* words) {
+  Table& mine = *tables.of[me];
+  const std::uint32_t run = mine.runs + 1;
+  for (int r = 0; r < size; ++r) {
+    Word& out = tables.of[r]->said[run & 1][me];
+    out.least = words[0], out.bits = words[1];
+    __atomic_store_n(&out.run, run, __ATOMIC_RELEASE);
+  }
+  for (int r = 0; r < size; ++r) {
+    const Word& in = mine.said[run & 1][r];
+    while (__atomic_load_n(&in.run, __ATOMIC_ACQUIRE) != run) std::this_thread::yield();
+    words[0] = std::min(words[0], in.least), words[1] |= in.bits;
+  }
+  mine.runs = run;
+}
+
+#if defined(__CUDACC__)
 
 __device__ std::uint64_t nanoseconds() {
   std::uint64_t now;
@@ -82,21 +103,15 @@ double PeerAgreement::waited() const {
   return 1e-9 * static_cast<double>(waited);
 }
 
-#if defined(__CUDACC__)
-
 void PeerAgreement::run(const Exec& exec, std::uint64_t* words) {
+  if (!possible_) throw std::logic_error("ranks are to agree that do not see each other");
   Tables tables{};
   for (int r = 0; r < size_; ++r) tables.of[r] = static_cast<Table*>(r == rank_ ? memory_.own() : memory_.of(r));
+  if (exec.onCpu()) return agreeOnHost(tables, rank_, size_, words);
+#if defined(__CUDACC__)
   agree<<<1, kMostRanks, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
   checkCuda(cudaGetLastError(), "launch of an agreement");
-}
-
-#else
-
-void PeerAgreement::run(const Exec&, std::uint64_t*) {
-  throw DeviceError("ranks agree through their GPUs only in a build with CUDA");
-}
-
 #endif
+}
 
 } // namespace grouser::base

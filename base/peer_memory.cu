@@ -3,11 +3,13 @@
 
 #include "base/array.hpp"
 #include "base/for_each.cuh"
+#include "base/shared_memory.hpp"
 
 #include <algorithm>
 #include <exception>
 #include <set>
 #include <stdexcept>
+#include <unistd.h>
 #include <utility>
 
 namespace grouser::base {
@@ -26,6 +28,7 @@ struct Handle {};
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;
+  int process, serial; ///< of CPUs: for the name
   Handle handle;
 };
 
@@ -40,6 +43,8 @@ struct ReadWord {
   GROUSER_HD void operator()(int) const { *to = *from; }
 };
 
+int memories = 0; // of this process so far
+
 std::uint32_t markOf(int rank) { return 0x67726f75u + static_cast<std::uint32_t>(rank); }
 
 } // namespace
@@ -52,8 +57,9 @@ PeerUse peerUse(std::string_view word) {
 }
 
 PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::size_t bytes)
-    : exec_(exec), comm_(comm), use_(use), shares_(use != PeerUse::never && !exec.onCpu() && !comm.alone()),
-      views_(static_cast<std::size_t>(comm.size()), nullptr) {
+    : exec_(exec), comm_(comm), use_(use),
+      shares_(!comm.alone() && (use == PeerUse::always || (use == PeerUse::automatic && !exec.onCpu()))),
+      serial_(memories++), views_(static_cast<std::size_t>(comm.size()), nullptr) {
   // Who sees whom is known from the start: all have a page at least to look at.
   if (shares_ || bytes > 0) allocate(bytes);
   checkUse();
@@ -69,8 +75,10 @@ PeerMemory::~PeerMemory() {
 void PeerMemory::checkUse() {
   if (use_ != PeerUse::always || comm_.alone() || allSeeAll_) return;
   release();
-  throw InputError("peer memory \"always\", but not all ranks see each other's memory: that takes GPUs of one machine "
-                   "with a path between them (nvidia-smi topo -p2p r lists them); \"auto\" does without");
+  throw InputError(
+      "peer memory \"always\", but not all ranks see each other's memory: that takes GPUs of one machine "
+      "with a path between them (nvidia-smi topo -p2p r lists them), or of CPUs room in /dev/shm; \"auto\" does "
+      "without");
 }
 
 void PeerMemory::reserve(std::size_t bytes) {
@@ -82,13 +90,22 @@ void PeerMemory::reserve(std::size_t bytes) {
 
 void PeerMemory::release() noexcept {
   closeAll();
-  releaseForMessages(exec_, own_);
-  own_ = nullptr, size_ = 0;
+  if (ownIsShared_)
+    closeShared(own_, size_);
+  else
+    releaseForMessages(exec_, own_);
+  own_ = nullptr, size_ = 0, ownIsShared_ = false;
+}
+
+std::string PeerMemory::nameOf(int process) const {
+  return "/grouser-" + std::to_string(process) + "-" + std::to_string(serial_);
 }
 
 void PeerMemory::allocate(std::size_t bytes) {
   const std::size_t size = shares_ ? std::max(kPage, (bytes + kPage - 1) / kPage * kPage) : bytes;
-  own_ = allocateForMessages(exec_, size);
+  if (shares_ && exec_.onCpu()) own_ = createShared(nameOf(getpid()), size);
+  ownIsShared_ = own_ != nullptr;
+  if (!own_) own_ = allocateForMessages(exec_, size);
   size_ = size;
   setZero(exec_, own_, size_);
   synchronize(exec_);
@@ -99,9 +116,10 @@ void PeerMemory::allocate(std::size_t bytes) {
 void PeerMemory::share() {
   Offer mine{};
   mine.device = deviceId(exec_);
+  mine.given = ownIsShared_, mine.process = getpid();
 #if defined(__CUDACC__)
-  mine.given = cudaIpcGetMemHandle(&mine.handle, own_) == cudaSuccess;
-  cudaGetLastError(); // a GPU that cannot show its memory is no error
+  if (!exec_.onCpu()) mine.given = cudaIpcGetMemHandle(&mine.handle, own_) == cudaSuccess;
+  if (!exec_.onCpu()) cudaGetLastError(); // a GPU that cannot show its memory is no error
 #endif
   const std::vector<Offer> offers = comm_.gatherValue(mine);
   std::set<std::pair<int, std::uint64_t>> devices;
@@ -109,12 +127,16 @@ void PeerMemory::share() {
     const Offer& offer = offers[static_cast<std::size_t>(r)];
     devices.emplace(comm_.hostOf(r), offer.device);
     const bool here = r != comm_.rank() && comm_.hostOf(r) == comm_.hostOf(comm_.rank());
-    if (here && offer.given) open(r, &offer.handle);
+    if (!here || !offer.given) continue;
+    views_[static_cast<std::size_t>(r)] =
+        exec_.onCpu() ? openShared(nameOf(offer.process), size_) : opened(&offer.handle);
   }
   deviceShared_ = static_cast<int>(devices.size()) < comm_.size();
 
   std::vector<Bytes> mineOf;
-  for (const bool good : tryViews()) mineOf.push_back(Comm::bytesOf(std::vector<std::uint8_t>{good}));
+  const std::vector<bool> goodViews = tryViews();
+  if (ownIsShared_) forgetShared(nameOf(getpid())); // all have it who will
+  for (const bool good : goodViews) mineOf.push_back(Comm::bytesOf(std::vector<std::uint8_t>{good}));
   const std::vector<Bytes> theirs = comm_.allToAll(mineOf);
   std::uint64_t missing = 0;
   for (int r = 0; r < comm_.size(); ++r) {
@@ -150,20 +172,22 @@ std::vector<bool> PeerMemory::tryViews() const {
   return good;
 }
 
-void PeerMemory::open([[maybe_unused]] int rank, [[maybe_unused]] const void* handle) {
-#if defined(__CUDACC__)
+void* PeerMemory::opened([[maybe_unused]] const void* handle) {
   void* view = nullptr;
+#if defined(__CUDACC__)
   const cudaError_t code =
       cudaIpcOpenMemHandle(&view, *static_cast<const Handle*>(handle), cudaIpcMemLazyEnablePeerAccess);
   cudaGetLastError(); // GPUs without a path between them are no error
-  views_[static_cast<std::size_t>(rank)] = code == cudaSuccess ? view : nullptr;
+  if (code != cudaSuccess) view = nullptr;
 #endif
+  return view;
 }
 
 void PeerMemory::close(int rank) noexcept {
   void*& view = views_[static_cast<std::size_t>(rank)];
+  if (exec_.onCpu()) closeShared(view, size_);
 #if defined(__CUDACC__)
-  if (view) cudaIpcCloseMemHandle(view);
+  if (view && !exec_.onCpu()) cudaIpcCloseMemHandle(view);
 #endif
   view = nullptr;
 }
@@ -172,7 +196,7 @@ void PeerMemory::close(int rank) noexcept {
 void PeerMemory::closeAll() noexcept {
   if (!shares_ || !own_) return;
 #if defined(__CUDACC__)
-  cudaDeviceSynchronize();
+  if (!exec_.onCpu()) cudaDeviceSynchronize();
 #endif
   for (int r = 0; r < comm_.size(); ++r) close(r);
   comm_.wait();

@@ -6,16 +6,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace grouser::base {
 
-/// Whether GPUs of one machine look into each other's memory.
+/// Whether ranks of one machine look into each other's memory.
 enum class PeerUse {
   never,
-  automatic, ///< where they can
-  always     ///< InputError where they cannot; also by ranks that share one GPU, which is slow
+  automatic, ///< GPUs do where they can
+  always     ///< InputError where they cannot; CPUs do too, and ranks that share one GPU go through steps together
 };
 
 /// Of "never", "auto" or "always"; throws std::invalid_argument for another word.
@@ -23,7 +24,7 @@ PeerUse peerUse(std::string_view word);
 
 /// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
 /// memory (CUDA IPC), without the host and without MPI. Whether two of them can is tried, not assumed; where they
-/// cannot, and on CPUs, a rank has its own memory alone.
+/// cannot a rank has its own memory alone. CPUs share memory only if asked to: messages are as quick there.
 ///
 /// All ranks call everything that is not marked `local`, the destructor too, in the same order.
 class PeerMemory {
@@ -55,7 +56,8 @@ private:
   void release() noexcept;
   void checkUse();
   void share();
-  void open(int rank, const void* handle);
+  std::string nameOf(int process) const;
+  static void* opened(const void* handle);
   void close(int rank) noexcept;
   void closeAll() noexcept;
   std::vector<bool> tryViews() const;
@@ -64,6 +66,8 @@ private:
   Comm comm_;
   PeerUse use_;
   bool shares_; ///< on all ranks the same
+  int serial_;  ///< of this process' memories: for their names
+  bool ownIsShared_{false};
   void* own_{nullptr};
   std::size_t size_{0};
   std::vector<void*> views_; ///< by rank

@@ -98,11 +98,7 @@ void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
                            grains, grains * bytes / kGiB, memory / kGiB));
 }
 
-terrain::PartitionOptions partitionOf(const Scene& scene, const base::Exec& exec, const base::Comm& comm) {
-  if (scene.parallel.peerMemory == "always" && exec.onCpu() && !comm.alone())
-    scene.fail("parallel", "peer_memory",
-               "\"always\" is for ranks on GPUs of one machine, and these run on the CPU; take --device cuda, or "
-               "\"auto\"");
+terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {
   terrain::PartitionOptions partition;
   partition.comm = comm;
   partition.rebalance = scene.parallel.rebalance;
@@ -161,7 +157,7 @@ void layBed(const Scene& scene, const terrain::BedPlan& plan, const Surroundings
   }
   const std::size_t floor = boundaries.walls.size(); // behind the walls, before the surfaces
   ground.grains =
-      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, exec, comm));
+      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
   if (tiles) tiles->bringToRest(*ground.grains, floor);
 }
 
@@ -173,7 +169,7 @@ void placeGrains(const Scene& scene, const std::vector<Grain>& grains, const Sur
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   ground.grains =
-      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, exec, comm));
+      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
 }
 
 } // namespace

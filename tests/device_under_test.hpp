@@ -3,16 +3,18 @@
 
 #include "base/exec.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
 namespace grouser {
 
-/// Where the tests that take it compute: on `threads` CPU threads, or on CUDA where the environment says
-/// GROUSER_TEST_DEVICE=cuda (tests/gpu sets it). The claims are the same on both.
-inline base::Exec testExec(int threads = 1) {
+/// Where the tests that take it compute: on `threads` CPU threads, or on CUDA (ranks take its devices in turn) where
+/// the environment says GROUSER_TEST_DEVICE=cuda (tests/gpu sets it). The claims are the same on both.
+inline base::Exec testExec(int threads = 1, int rank = 0) {
   const char* device = std::getenv("GROUSER_TEST_DEVICE");
-  return device && std::string(device) == "cuda" ? base::cudaExec() : base::cpuExec(threads);
+  if (!device || std::string(device) != "cuda") return base::cpuExec(threads);
+  return base::cudaExec(rank % std::max(1, base::cudaDevices()));
 }
 
 #ifdef GROUSER_SOURCE_DIR

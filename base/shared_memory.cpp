@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/shared_memory.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace grouser::base {
+
+namespace {
+
+void* map(int file, std::size_t bytes) {
+  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  return memory == MAP_FAILED ? nullptr : memory;
+}
+
+} // namespace
+
+void* createShared(const std::string& name, std::size_t bytes) noexcept {
+  const int file = shm_open(name.c_str(), O_CREAT | O_EXCL | O_RDWR, S_IRUSR | S_IWUSR);
+  if (file < 0) return nullptr;
+  // Asked for now: a page that is missing when it is touched would end the program.
+  void* const memory = posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0 ? map(file, bytes) : nullptr;
+  ::close(file);
+  if (!memory) forgetShared(name);
+  return memory;
+}
+
+void* openShared(const std::string& name, std::size_t bytes) noexcept {
+  const int file = shm_open(name.c_str(), O_RDWR, 0);
+  if (file < 0) return nullptr;
+  struct stat is {};
+  void* const memory =
+      fstat(file, &is) == 0 && static_cast<std::size_t>(is.st_size) == bytes ? map(file, bytes) : nullptr;
+  ::close(file);
+  return memory;
+}
+
+void forgetShared(const std::string& name) noexcept { shm_unlink(name.c_str()); }
+
+void closeShared(void* memory, std::size_t bytes) noexcept {
+  if (memory) munmap(memory, bytes);
+}
+
+} // namespace grouser::base
