@@ -288,7 +288,7 @@ Table<Parallel> parallelTable() {
   t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
   t.add("peer_memory", &S::peerMemory, "",
         "GPUs of one machine read each other's memory instead of sending messages: where they can, never, or not "
-        "without")
+        "without (then ranks on CPUs share memory too)")
       .oneOf({"auto", "never", "always"});
   return t;
 }

@@ -264,6 +264,7 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
 }
 
 const char* Subdomain::way() const {
+  if (exec_.onCpu()) return ghostUpdate_.peersOnly() ? "shared memory" : "messages";
   if (stepsTogether()) return "GPU to GPU, steps agreed upon by the GPUs";
   if (ghostUpdate_.peersOnly()) return "GPU to GPU";
   return ghostUpdate_.sharesMemory() ? "GPU to GPU where they see each other, messages" : "messages";
