@@ -7,7 +7,7 @@
 // CORPUS: files, or folders whose *.toml are taken. The mutations follow from the seed and the number of the case, so
 // that `--seed S --first CASE --cases 1` repeats one. With clang and GROUSER_LIBFUZZER libFuzzer makes the inputs.
 #include "base/error.hpp"
-#include "runs/scene.hpp"
+#include "runs/scene/scene.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the benches print and write.
+#include "runs/bench/bench.hpp"
+
+#include "runs/bench/report.hpp"
+#include "runs/support/device_choice.hpp"
+#include "runs/support/progress.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+namespace grouser::runs {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr int kCountsTaken = 20; // how often contacts are counted in the instrumented pass
+
+Json jsonOf(const BatchTimes& times) {
+  return {{"steps_a_batch", times.steps},
+          {"batches", times.microseconds},
+          {"median", times.median()},
+          {"min", times.least()},
+          {"max", times.most()}};
+}
+
+/// Steps of the simulation, with progress.
+void advance(Simulation& simulation, std::int64_t steps, const char* what) {
+  Progress progress(what, simulation.comm().first());
+  for (std::int64_t i = 0; i < steps; ++i) {
+    simulation.step();
+    if (progress.due())
+      progress.update(static_cast<double>(i + 1) / static_cast<double>(steps),
+                      fmt::format("t {:.3f} s", simulation.time()));
+  }
+}
+
+/// Contacts a step, by kind, and what is listed as near: means over the instrumented pass.
+struct Contacts {
+  double grainGrain = 0, grainBoundary = 0, grainPart = 0, partPart = 0, pairsListed = 0, probesListed = 0;
+  int counts = 0;
+  void count(Simulation& simulation) {
+    const Simulation::Ledger l = simulation.ledger();
+    grainGrain += static_cast<double>(l.grainContacts), grainBoundary += static_cast<double>(l.boundaryContacts);
+    grainPart += static_cast<double>(l.partContacts), partPart += static_cast<double>(l.patches);
+    if (const VehicleRig* rig = simulation.vehicle()) {
+      pairsListed += static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->grainPairsListed())));
+      probesListed += static_cast<double>(rig->probesListed());
+    }
+    ++counts;
+  }
+  double mean(double sum) const { return counts ? sum / counts : 0; }
+};
+
+double defaultStart(const Scene& scene) {
+  return scene.vehicle ? scene.driver.driveBegins() + scene.driver.driveRamp : 0;
+}
+
+Json printParts(const StepBench& bench) {
+  const double n = static_cast<double>(bench.steps());
+  double sum = 0;
+  for (const StepBench::Part& part : bench.parts()) sum += part.microseconds / n;
+  fmt::print("\ninstrumented pass of {} steps: the device is waited for after every part, so that nothing overlaps and "
+             "the sum is larger than a step\n",
+             bench.steps());
+  Json json = Json::object();
+  for (const StepBench::Part& part : bench.parts()) {
+    const double each = part.microseconds / n;
+    fmt::print("  {:<18} {:10.2f} us  {:5.1f} %\n", part.name, each, 100 * each / sum);
+    json[part.name] = each;
+  }
+  fmt::print("  {:<18} {:10.2f} us\n", "sum", sum);
+  json["sum"] = sum;
+  return json;
+}
+
+} // namespace
+
+void benchBedCommand(const BenchCommand& command) {
+  const base::Exec exec =
+      chooseDevice(command.device.empty() ? "auto" : command.device, command.threads, command.ranks);
+  Json json = benchOrigin("bed", exec);
+  const BedBench& b = command.bed;
+  fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
+             "settled {:g} s\n",
+             b.grains, b.radius, b.friction, b.skin, b.timeStep, b.settleTime);
+  std::fflush(stdout);
+  const BedFigures f = benchBed(b, exec, command.comm());
+  const double n = static_cast<double>(b.grains);
+  const auto rate = [n](double microseconds) { return n / (1e-6 * microseconds); };
+  const double share = f.rebuildMicroseconds / f.stepsBetweenRebuilds;
+  fmt::print("settling  {:.2f} s wall; kinetic energy a grain {:.2g} of m g radius\n", f.settleSeconds,
+             f.kineticPerGrain);
+  fmt::print("speed     {:.3e} particle-steps/s (median of {} batches of {} steps; {:.3e} to {:.3e})\n",
+             rate(f.times.median()), f.times.microseconds.size(), f.times.steps, rate(f.times.most()),
+             rate(f.times.least()));
+  fmt::print("step      {:.2f} us (median; {:.2f} to {:.2f})\n", f.times.median(), f.times.least(), f.times.most());
+  fmt::print("contacts  {:.3f} a grain, each counted once; {:.2f} neighbours listed a grain\n", f.contactsPerGrain,
+             f.listLength);
+  fmt::print("rebuild   {:.1f} us, {}\n", f.rebuildMicroseconds,
+             std::isfinite(f.stepsBetweenRebuilds)
+                 ? fmt::format("one in {:.0f} steps: {:.2f} us a step", f.stepsBetweenRebuilds, share)
+                 : std::string("none was needed while timing"));
+  fmt::print("memory    {:.0f} bytes a grain\n", f.bytesPerGrain);
+  const int ranks = command.comm().size();
+  if (ranks > 1)
+    fmt::print(
+        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest ({}); waiting "
+        "for others {:.1f} to {:.1f} % of the time\n",
+        ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, f.way,
+        100 * f.leastWait, 100 * f.mostWait);
+  if (!f.stateHash.empty()) fmt::print("state-hash {} step {}\n", f.stateHash, f.stepsTaken);
+
+  json["grains"] = b.grains;
+  json["radius_m"] = b.radius;
+  json["jitter"] = b.jitter;
+  json["skin_radii"] = b.skin;
+  json["friction"] = b.friction;
+  json["restitution"] = b.restitution;
+  json["stiffness_N_m"] = b.stiffness;
+  json["time_step_s"] = b.timeStep;
+  json["settle_time_s"] = b.settleTime;
+  json["ledger"] = b.ledger;
+  json["settling_wall_s"] = f.settleSeconds;
+  json["kinetic_energy_a_grain_over_mgr"] = f.kineticPerGrain;
+  json["microseconds_a_step"] = jsonOf(f.times);
+  json["particle_steps_per_second"] = {
+      {"median", rate(f.times.median())}, {"min", rate(f.times.most())}, {"max", rate(f.times.least())}};
+  json["contacts_a_grain"] = f.contactsPerGrain;
+  json["neighbours_listed_a_grain"] = f.listLength;
+  json["steps_between_rebuilds"] = std::isfinite(f.stepsBetweenRebuilds) ? Json(f.stepsBetweenRebuilds) : Json(nullptr);
+  json["rebuild_microseconds"] = f.rebuildMicroseconds;
+  json["bytes_a_grain"] = f.bytesPerGrain;
+  json["steps_taken"] = f.stepsTaken;
+  json["ranks"] = ranks;
+  json["subdomains"] = f.subdomains;
+  json["way"] = f.way;
+  json["ghost_share"] = f.ghostShare;
+  json["bytes_a_step"] = f.bytesAStep;
+  json["waiting_share"] = {{"least", f.leastWait}, {"most", f.mostWait}};
+  if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
+  writeBench(json, command.json, command.comm());
+}
+
+void benchStepCommand(const BenchCommand& command) {
+  const Scene scene = loadScene(command.scene, command.overrides);
+  const std::string device = command.device.empty() ? scene.run.device : command.device;
+  const base::Exec exec = chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
+  const StepBenchOptions& o = command.step;
+  const base::Comm comm = command.comm();
+  Json json = benchOrigin("step", exec);
+
+  std::unique_ptr<Progress> settling;
+  const Clock::time_point start = Clock::now();
+  const auto settle = [&](double time, double) {
+    if (!settling) settling = std::make_unique<Progress>("settling", comm.first());
+    settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
+  };
+  Simulation simulation(scene, exec, settle, comm);
+  if (settling) settling->finish("at rest");
+  const double prepared = std::chrono::duration<double>(Clock::now() - start).count();
+  const std::size_t grains = simulation.ground().grains ? simulation.ground().grains->count() : 0;
+  const std::size_t spheres = simulation.vehicle() ? simulation.vehicle()->totalSpheres() : 0;
+  fmt::print("scene     {}: {} grains, {} spheres on the vehicle, step {:g} s; {:.1f} s preparation\n",
+             scene.file.string(), grains, spheres, simulation.timeStep(), prepared);
+  std::fflush(stdout);
+
+  const double from = o.after < 0 ? defaultStart(scene) : o.after;
+  advance(simulation, std::llround(from / simulation.timeStep()), "up to speed");
+
+  BatchTimes times;
+  times.steps = o.steps;
+  for (int k = 0; k < o.batches; ++k) {
+    base::synchronize(exec);
+    const Clock::time_point begin = Clock::now();
+    for (std::int64_t i = 0; i < o.steps; ++i) simulation.step();
+    base::synchronize(exec);
+    times.microseconds.push_back(1e6 * std::chrono::duration<double>(Clock::now() - begin).count() /
+                                 static_cast<double>(o.steps));
+  }
+  StepBench bench(simulation, exec);
+  Contacts contacts;
+  const std::int64_t countEvery = std::max<std::int64_t>(1, o.steps / kCountsTaken);
+  for (std::int64_t i = 0; i < o.steps; ++i) {
+    bench.step();
+    if ((i + 1) % countEvery == 0) contacts.count(simulation);
+  }
+
+  fmt::print("step      {:.2f} us (median of {} batches of {} steps without clocks inside; {:.2f} to {:.2f}), from t = "
+             "{:g} s on\n",
+             times.median(), o.batches, o.steps, times.least(), times.most(), from);
+  const double bytes = static_cast<double>(base::memoryTaken(exec));
+  const double host = static_cast<double>(base::memoryTaken(base::cpuExec()));
+  if (comm.size() > 1)
+    fmt::print("ranks     {}: the times are the first one's, with its waiting for the others\n", comm.size());
+  json["ranks"] = simulation.comm().size();
+  json["scene"] = scene.file.string();
+  json["overrides"] = scene.overrides;
+  json["grains"] = grains;
+  json["vehicle_spheres"] = spheres;
+  json["time_step_s"] = simulation.timeStep();
+  json["timed_from_s"] = from;
+  json["preparation_wall_s"] = prepared;
+  json["microseconds_a_step"] = jsonOf(times);
+  json["instrumented_microseconds_a_step"] = printParts(bench);
+  json["rebuilds_while_instrumented"] = bench.rebuilds();
+  const double rebuild = bench.parts()[StepBench::kNeighbours].microseconds;
+  fmt::print("  neighbour lists built {} times{}\n", bench.rebuilds(),
+             bench.rebuilds() ? fmt::format(", {:.1f} us each", rebuild / static_cast<double>(bench.rebuilds())) : "");
+  const struct {
+    const char *text, *key;
+    double sum;
+  } kinds[] = {{"grain on grain", "grain_grain", contacts.grainGrain},
+               {"grain on wall and floor", "grain_boundary", contacts.grainBoundary},
+               {"grain on part, patches", "grain_part_patches", contacts.grainPart},
+               {"part on part and ground, patches", "part_patches", contacts.partPart},
+               {"grain-part pairs listed", "grain_part_pairs_listed", contacts.pairsListed},
+               {"probes listed", "probes_listed", contacts.probesListed}};
+  fmt::print("\ncontacts a step (mean of {} counts)\n", contacts.counts);
+  for (const auto& kind : kinds) {
+    fmt::print("  {:<34} {:10.1f}\n", kind.text, contacts.mean(kind.sum));
+    json["contacts_a_step"][kind.key] = contacts.mean(kind.sum);
+  }
+  fmt::print("\nmemory    host {:.0f} MiB at most", host / 1048576);
+  if (!exec.onCpu()) fmt::print(", device {:.0f} MiB taken by all programs", bytes / 1048576);
+  fmt::print("\n");
+  json["host_peak_bytes"] = host;
+  if (!exec.onCpu()) json["device_bytes_taken"] = bytes;
+  writeBench(json, command.json, comm);
+}
+
+} // namespace grouser::runs

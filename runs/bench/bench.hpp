@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/simulation/simulation.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Speed figures, with the machine and the commit that gave them.
+namespace grouser::runs {
+
+/// Times of several equal batches of steps [us a step].
+struct BatchTimes {
+  std::int64_t steps = 0; ///< of one batch
+  std::vector<double> microseconds;
+  double median() const, least() const, most() const;
+};
+
+/// The bed that all figures of speed are compared on: a jittered cubic lattice of spacing 2.1 radii in five layers,
+/// in a square box with walls, settled under gravity.
+struct BedBench {
+  std::int64_t grains = 285000;
+  double radius = 0.027;    ///< [m]
+  double jitter = 0.9;      ///< of the lattice, as a share of its free gap [-], 0 to 1
+  double skin = 0.3;        ///< [-] of the radius
+  int lanes = 16;           ///< GrainModel::mostLanes
+  double friction = 0.5;    ///< [-]
+  double restitution = 0.5; ///< [-]
+  double stiffness = 1e6;   ///< [N/m]
+  double density = 2500;    ///< [kg/m3]
+  double timeStep = 5e-5;   ///< [s]
+  double settleTime = 0.5;  ///< [s]
+  std::int64_t steps = 0;   ///< of one batch; 0: as many as take about a second
+  int batches = 5;
+  bool ledger = false;             ///< sum dissipation grain by grain, as a run does
+  bool hash = false;               ///< take the state hash at the end
+  std::string peerMemory = "auto"; ///< Parallel::peerMemory
+};
+
+struct BedFigures {
+  BatchTimes times;
+  double contactsPerGrain = 0;     ///< pairs in touch, each counted once, and contacts with walls, over grains [-]
+  double listLength = 0;           ///< neighbours listed a grain, mean, each pair from both sides [-]
+  double stepsBetweenRebuilds = 0; ///< [-]; infinite where none was needed while timing
+  double rebuildMicroseconds = 0;  ///< of one rebuild, median
+  double bytesPerGrain = 0;        ///< on the device [B]
+  double settleSeconds = 0;        ///< wall time of settling [s]
+  double kineticPerGrain = 0;      ///< over m g radius [-]
+  std::int64_t stepsTaken = 0;     ///< settling and all batches
+  std::string stateHash;           ///< empty where not taken
+  // On several ranks.
+  std::array<int, 3> subdomains{1, 1, 1};
+  std::string way;                    ///< how elements travel
+  double ghostShare = 0;              ///< ghosts over grains [-]
+  double bytesAStep = 0;              ///< sent by the busiest rank while timing [B]
+  double leastWait = 0, mostWait = 0; ///< share of the timed steps that a rank waited for others [-]
+};
+/// On several ranks all of them call it; they share one bed.
+BedFigures benchBed(const BedBench& bench, const base::Exec& exec, const base::Comm& comm = {});
+
+/// Where the time of a step goes.
+struct StepBenchOptions {
+  std::int64_t steps = 1000; ///< of one batch, and of the instrumented pass
+  int batches = 5;
+  double after = -1; ///< simulated time before anything is timed [s]; negative: until the drive is up to speed
+};
+
+/// Calls the verbs of Simulation::step() one by one, with a clock and a device synchronisation after each: the same
+/// physics, slower. A friend of Simulation, so that the loop itself stays free of timers.
+class StepBench {
+public:
+  explicit StepBench(Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}
+  void step();
+
+  struct Part {
+    const char* name;
+    double microseconds = 0; ///< sum over all steps
+  };
+  enum { kPlace, kNeighbours, kLists, kUpload, kTrack, kGround, kCollect, kGrains, kMultibody, kFlags, kAlarm, kParts };
+  const std::array<Part, kParts>& parts() const { return parts_; }
+  std::int64_t steps() const { return steps_; }
+  std::int64_t rebuilds() const { return rebuilds_; }
+
+private:
+  /// The time since the last mark goes to a part.
+  void mark(int part);
+
+  Simulation& simulation_;
+  base::Exec exec_;
+  std::array<Part, kParts> parts_{{{"place surfaces"},
+                                   {"neighbours"},
+                                   {"lists of parts"},
+                                   {"poses to device"},
+                                   {"track contacts"},
+                                   {"ground contacts"},
+                                   {"loads to host"},
+                                   {"grain kernel"},
+                                   {"multibody"},
+                                   {"flags to host"},
+                                   {"alarm"}}};
+  std::int64_t steps_ = 0, rebuilds_ = 0;
+  std::int64_t last_ = 0; ///< clock at the last mark [ns]
+};
+
+/// `grouser bench bed` and `grouser bench step`: print the figures, and write them to `json` where it is not empty.
+struct BenchCommand {
+  BedBench bed;
+  StepBenchOptions step;
+  std::string scene;
+  std::vector<std::string> overrides;
+  std::string device; ///< auto | cpu | cuda; empty: auto, or as the scene says
+  int threads = 0;    ///< 0: all, or as the scene says
+  std::string json;
+  const base::Ranks* ranks = nullptr; ///< that run it together
+  base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
+};
+void benchBedCommand(const BenchCommand& command);
+void benchStepCommand(const BenchCommand& command);
+
+} // namespace grouser::runs

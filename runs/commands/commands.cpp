@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/commands.hpp"
+
+#include "base/error.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "runs/output/manifest.hpp"
+#include "runs/output/output.hpp"
+#include "runs/commands/plan.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/commands/run_scene.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/output/sinkage.hpp"
+#include "runs/commands/sweep.hpp"
+#include "runs/support/text_file.hpp"
+#include "spheredecomp/decompose.hpp"
+#include "spheredecomp/mesh.hpp"
+#include "spheredecomp/quality.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void drawAndName(const fs::path& results, const fs::path& folder, const std::vector<std::string>& names) {
+  std::string warning;
+  for (const fs::path& plot : drawPlots(results, folder, names, warning)) fmt::print("plot      {}\n", plot.string());
+  if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
+}
+
+void nameIfThere(const char* what, const fs::path& file) {
+  if (fs::exists(file)) fmt::print("{:<9} {}\n", what, file.string());
+}
+
+/// A run goes on in the folder of its checkpoint.
+void chooseCheckpoint(const RunCommand& command, RunOptions& options) {
+  if (command.checkpoint.empty()) {
+    options.resume = options.folder / kCheckpointName;
+    return;
+  }
+  options.resume = command.checkpoint;
+  const fs::path folder = fs::absolute(command.checkpoint).lexically_normal().parent_path();
+  if (command.folder.empty()) options.folder = folder;
+  std::error_code error;
+  if (!fs::equivalent(options.folder, folder, error))
+    throw base::InputError(fmt::format("--out {}: a run goes on in the folder of its checkpoint, {}; leave --out away, "
+                                       "or copy that folder first",
+                                       command.folder, folder.string()));
+}
+
+} // namespace
+
+void runCommand(const RunCommand& command) {
+  std::vector<std::string> overrides = command.overrides;
+  if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
+  if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
+  const Scene scene = loadScene(command.scene, overrides);
+
+  RunOptions options;
+  options.folder = !command.folder.empty()        ? fs::path(command.folder)
+                   : !scene.output.folder.empty() ? fs::path(scene.output.folder)
+                                                  : fs::path("out") / scene.name();
+  options.force = command.force, options.hash = command.hash, options.steps = command.steps;
+  options.cache = command.cache;
+  options.commandLine = command.commandLine;
+  options.ranks = command.ranks;
+  if (command.resume)
+    chooseCheckpoint(command, options);
+  else if (options.comm().first())
+    checkOutputFolder(options.folder, options.force);
+  const Summary summary = runScene(scene, options);
+  if (!options.comm().first()) return;
+
+  const fs::path results = options.folder / "results.h5";
+  nameIfThere("results", results);
+  nameIfThere("series", options.folder / "timeseries.csv");
+  nameIfThere("grains", options.folder / "grains.csv");
+  if (scene.vehicle) fmt::print("sinkage   {}\n", writeSinkageCsv(results, options.folder).string());
+  if (scene.output.plots) drawAndName(results, options.folder, kAllPlots);
+  nameIfThere("picture", options.folder / "picture.png");
+  nameIfThere("frames", options.folder / "frames.xdmf");
+  listFiles(options.folder);
+  if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
+}
+
+void sweepCommand(const SweepCommand& command) {
+  std::vector<std::string> fixed;
+  if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
+  if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  const SweepPlan plan = planSweep(command.scene, command.sets, fixed);
+  SweepOptions options;
+  options.program = fs::read_symlink("/proc/self/exe");
+  options.folder =
+      command.folder.empty() ? fs::path("out") / (plan.scene.stem().string() + "_sweep") : fs::path(command.folder);
+  options.jobs = command.jobs, options.force = command.force;
+  if (const int failed = runSweep(plan, options))
+    throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
+                                            plan.runs.size(), (options.folder / "summary.csv").string()));
+}
+
+void hashCommand(const HashCommand& command) {
+  const SimulationState state = readCheckpoint(command.checkpoint).state;
+  fmt::print("state-hash {} step {}\n", state.hash(), state.steps);
+}
+
+void sinkageCommand(const SinkageCommand& command) {
+  const fs::path results = command.results;
+  const fs::path folder = command.folder.empty() ? fs::absolute(results).parent_path() : fs::path(command.folder);
+  fmt::print("sinkage   {}\n", writeSinkageCsv(results, folder).string());
+  drawAndName(results, folder, {"sinkage"});
+}
+
+void planCommand(const PlanCommand& command) {
+  const Scene scene = loadScene(command.scene, command.overrides);
+  fmt::print("{}", planText(scene));
+  if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
+}
+
+void spheresCommand(const SpheresCommand& command) {
+  spheredecomp::DecompositionOptions options;
+  options.radius = command.radius, options.targetCount = command.count;
+  std::error_code error;
+  if (!command.csv.empty() && !command.force && fs::exists(command.csv, error))
+    throw base::InputError(
+        fmt::format("--csv {}: the file is there already; name another, or overwrite it with --force", command.csv));
+  const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
+  const base::SphereSet set = spheredecomp::decompose(mesh, fs::path(command.mesh).filename().string(), options);
+  fmt::print("{}", spheredecomp::report(set, spheredecomp::measure(mesh, set)));
+  if (command.csv.empty()) return;
+  std::string text = "x [m],y [m],z [m],radius [m]\n";
+  for (const base::SetSphere& s : set.spheres)
+    text += fmt::format("{},{},{},{}\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
+  writeTextFile(command.csv, text, "--csv");
+  fmt::print("spheres   {}\n", command.csv);
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/plan.hpp"
+
+#include "base/math.hpp"
+#include "runs/setup/bed.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_memory.hpp"
+#include "runs/setup/laws.hpp"
+#include "runs/simulation/mechanism.hpp"
+#include "runs/output/mechanism_output.hpp"
+#include "runs/setup/placement.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/simulation/surfaces.hpp"
+#include "terrain/layers.hpp"
+#include "vehicle/spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::runs {
+
+namespace {
+
+/// Grains of the bed; reads the height-map, for hills may need more.
+std::int64_t bedGrains(const Scene& scene) {
+  return terrain::planBed(readSurface(scene), layerOptions(scene)).grains;
+}
+
+std::string onOff(bool on, const std::string& what, const std::string& why) {
+  const std::string line = fmt::format("  {:<4} {}", on ? "on" : "off", what);
+  return why.empty() ? line + "\n" : fmt::format("{:<33} {}\n", line, why);
+}
+
+/// Memory of the grains, by what it is for.
+std::string memoryText(const Scene& scene, double grains) {
+  const GrainMemory m = grainMemory(scene);
+  std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes a grain:\n", "memory for grains",
+                                 grains * m.total() / 1048576.0, m.total());
+  const auto part = [&](const char* what, double bytes) { text += fmt::format("    {:<22} {:.0f}\n", what, bytes); };
+  part("state", m.state), part("neighbour lists", m.lists), part("contact history", m.history);
+  part("planes and floor", m.boundaries), part("ledger", m.ledger);
+  part("more while lists are made", m.rebuild);
+  return text;
+}
+
+/// What the grains' steps cost where they have been measured; parts and vehicle come on top. A core works on several
+/// contacts at once where grains have one radius, linear springs and nothing rarer.
+std::string costText(const Scene& scene, double grainSteps) {
+  const bool plain = scene.run.precision == "single" &&
+                     !(grainFeatures(scene, grainKinds(scene)) &
+                       ~(contact::kFriction | terrain::kBoundaries | terrain::kLoads | terrain::kLedger));
+  std::string text;
+  for (const RankSpeed& s : kRankSpeeds) {
+    const double speed = s.grainSteps * (plain ? 1.0 : s.shareOfOthers);
+    text += fmt::format("  {:<24} {} on {}, at {:.2g} grain steps/s (grouser bench bed), without vehicle and output\n",
+                        text.empty() ? "expected time" : "", Progress::duration(grainSteps / speed), s.name, speed);
+  }
+  return text;
+}
+
+/// "3: drum, lifter, lid; 2 move, 1 free".
+std::string surfacesLine(const Scene& scene) {
+  std::string names;
+  int moved = 0, freed = 0;
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    names += (names.empty() ? "" : ", ") + s.name;
+    s.section.free ? ++freed : moved += s.section.moves() ? 1 : 0;
+  }
+  if (names.empty())
+    return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no plane that moves or has a name");
+  return onOff(true, "surfaces", fmt::format("{}; {} moved, {} free", names, moved, freed));
+}
+
+std::string switches(const Scene& scene) {
+  const Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
+  const GrainKinds kinds = grainKinds(scene);
+  const bool bed = t && t->granular(), grains = kinds.any();
+  std::string text = "switched on and off\n";
+  text += onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
+  if (grains) {
+    const unsigned features = grainFeatures(scene, kinds);
+    const auto has = [&](unsigned feature) { return (features & feature) != 0; };
+    text += onOff(has(contact::kFriction), "friction history", has(contact::kFriction) ? "" : "friction is 0");
+    text += onOff(has(contact::kRollingFriction), "rolling history",
+                  has(contact::kRollingFriction) ? "" : "rolling_friction is 0");
+    text += onOff(has(contact::kCohesion), "cohesion", has(contact::kCohesion) ? "" : "cohesion is 0");
+    text += onOff(has(terrain::kManyRadii), "radius of each grain",
+                  kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
+                                    : fmt::format("all {:g} m", kinds.largest));
+    text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
+    const auto precision = scene.run.precision == "double" ? terrain::Precision::double_ : terrain::Precision::single;
+    text += fmt::format("       {:<22} {}: {}; {} precision\n", "kernel of the grains",
+                        terrain::hasOwnKernel(features, precision) ? "special" : "general",
+                        terrain::featureText(features), scene.run.precision);
+  }
+  text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
+  text += onOff(bed && t->settleTimeLimit > 0, "settling",
+                bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
+  const auto [alongX, alongY] = scene.run.periodic;
+  text += onOff(alongX || alongY, "joined sides",
+                alongX && alongY ? "x and y"
+                : alongX         ? "x"
+                : alongY         ? "y"
+                                 : "run.periodic is false");
+  text += onOff(!scene.sources.empty(), "sources", fmt::format("{}", scene.sources.size()));
+  text += onOff(!scene.planes.empty(), "planes", fmt::format("{}", scene.planes.size()));
+  text += surfacesLine(scene);
+  text += onOff(scene.vehicle.has_value(), "vehicle",
+                scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
+  const MechanismSections& m = scene.mechanism;
+  text += onOff(!m.empty(), "mechanism", m.empty() ? "no [[body]]" : integratorText(scene.run));
+  text += onOff(scene.output.frames, "frames",
+                scene.output.frames ? fmt::format("{:.0f}, one each {} s",
+                                                  std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,
+                                                  scene.run.frameInterval)
+                                    : "output.frames = false");
+  text += onOff(scene.output.picture, "picture", "");
+  text += onOff(scene.output.plots, "plots", "");
+  return text;
+}
+
+} // namespace
+
+std::int64_t plannedGrains(const Scene& scene) {
+  std::int64_t grains = placedCount(scene);
+  for (const Source& s : scene.sources) grains += s.total;
+  return grains + (scene.terrain && scene.terrain->granular() ? bedGrains(scene) : 0);
+}
+
+std::string planText(const Scene& scene) {
+  std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
+  const std::int64_t grains = plannedGrains(scene);
+  text += fmt::format("  {:<24} {}\n", "grains", grains);
+  if (grains) text += memoryText(scene, static_cast<double>(grains));
+  if (scene.vehicle) {
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    placeVehicle(scene, spec);
+    text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
+                        spec.shoe.count, spec.pitchRadius());
+  }
+  const double step = chooseTimeStep(scene);
+  checkGround(scene, step);
+  if (!scene.mechanism.empty()) text += mechanismSize(Mechanism(scene, step));
+  text += "\ntime\n";
+  const double contact = shortestContact(scene);
+  const double resolved = contact / kStepsPerContact;
+  if (contact > 0) {
+    text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
+    text +=
+        fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, kStepsPerContact);
+  }
+  const double steps = std::round(scene.run.duration / step);
+  text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
+                      contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
+  text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
+  if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
+  if (grains) text += costText(scene, steps * static_cast<double>(grains));
+  if (contact > 0 && step > resolved * 1.0000001)
+    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
+                        contact / step, resolved);
+  if (!scene.mechanism.empty())
+    if (const std::string warning = tautStartWarning(scene, step); !warning.empty())
+      text += fmt::format("\nwarning: {}\n", warning);
+  return text;
+}
+
+} // namespace grouser::runs

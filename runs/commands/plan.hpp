@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace grouser::runs {
+
+/// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
+std::string planText(const Scene& scene);
+
+/// What one rank does, from `grouser bench bed`: the figures that expectations rest on.
+struct RankSpeed {
+  const char* name;
+  double grainSteps;    ///< particle-steps a second of one rank alone, for grains of one radius and linear springs
+  double shareOfOthers; ///< of that speed, for other grains [-]
+  double latency;       ///< of one step's messages and sums [s]
+  double bytesPerSecond;
+};
+inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.3, 20e-6, 2e9},
+                                            {"an H200", 4.4e9, 1.0, 100e-6, 5e10}};
+
+/// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
+std::int64_t plannedGrains(const Scene& scene);
+
+/// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, and the efficiency to expect from the
+/// stated speeds. Empty for a scene without grains.
+std::string sharePlan(const Scene& scene, int ranks);
+
+} // namespace grouser::runs

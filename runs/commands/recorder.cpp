@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/recorder.hpp"
+
+#include "base/error.hpp"
+#include "runs/output/former_output.hpp"
+#include "runs/render/image.hpp"
+#include "runs/output/mechanism_output.hpp"
+#include "runs/render/picture.hpp"
+#include "runs/output/plane_mesh.hpp"
+#include "runs/output/surface_mesh.hpp"
+#include "vehicle/observation_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+namespace {
+
+const char* kindName(vehicle::PartKind kind) {
+  switch (kind) {
+  case vehicle::PartKind::kChassis:
+    return "chassis";
+  case vehicle::PartKind::kShoe:
+    return "shoe";
+  case vehicle::PartKind::kSprocket:
+    return "sprocket";
+  case vehicle::PartKind::kRoadWheel:
+    return "road_wheel";
+  case vehicle::PartKind::kRoller:
+    return "roller";
+  case vehicle::PartKind::kIdler:
+    return "idler";
+  }
+  return "part";
+}
+
+std::vector<FramePart> frameParts(const VehicleRig& rig) {
+  std::vector<FramePart> parts;
+  for (std::size_t p = 0; p < rig.assembly().parts.size(); ++p) {
+    const vehicle::Part& part = rig.assembly().parts[p];
+    parts.push_back({part.name, kindName(part.kind), rig.meshes()[rig.meshOfPart(p)]});
+  }
+  return parts;
+}
+
+/// The rigid surface as triangles, for pictures.
+base::TriangleMesh groundMesh(const terrain::HeightField& field) {
+  constexpr int kNodes = 160;
+  base::TriangleMesh mesh;
+  const terrain::Rectangle& a = field.area();
+  for (int j = 0; j < kNodes; ++j)
+    for (int i = 0; i < kNodes; ++i) {
+      const double x = a.xMin + a.width() * i / (kNodes - 1), y = a.yMin + a.length() * j / (kNodes - 1);
+      mesh.vertices.push_back({x, y, field.height(x, y)});
+    }
+  for (std::uint32_t j = 0; j + 1 < kNodes; ++j)
+    for (std::uint32_t i = 0; i + 1 < kNodes; ++i) {
+      const std::uint32_t v = j * kNodes + i;
+      for (const std::uint32_t k : {v, v + 1, v + kNodes + 1, v, v + kNodes + 1, v + kNodes}) mesh.indices.push_back(k);
+    }
+  return mesh;
+}
+
+std::vector<Channel> channelsOf(const Simulation& simulation, const Scene& scene) {
+  std::vector<Channel> channels;
+  if (simulation.mechanism()) channels = mechanismChannels(simulation.mechanism()->model(), scene.output.record);
+  if (simulation.vehicle())
+    for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
+      channels.push_back(channelOf(q));
+  if (simulation.ground().grains)
+    for (const Channel& c : terrainChannels()) channels.push_back(c);
+  if (const Surfaces* surfaces = simulation.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      for (const Channel& c : surfaceChannels(surfaces->surface(i).name)) channels.push_back(c);
+  for (const Channel& c : ledgerChannels()) channels.push_back(c);
+  if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
+  return channels;
+}
+RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, const base::Exec& exec,
+                                 const std::vector<Channel>& channels, const Checkpoint* former) {
+  RunWriter::Options w;
+  w.force = options.force;
+  w.frames = scene.output.frames;
+  w.comm = options.comm();
+  w.metadata = {{"command_line", options.commandLine}, {"device", base::describe(exec)}};
+  if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
+  if (!former) return w;
+  const std::int64_t step = former->state.steps;
+  w.metadata["resumed_from_step"] = std::to_string(step);
+  w.former = FormerOutput{};
+  // One rank reads and rewrites them; it tells the others what it keeps.
+  if (w.comm.first()) {
+    try {
+      FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames};
+      if (w.frames && kept.frames > 0) checkFrames(options.folder, step, former->frames);
+      w.former = std::move(kept);
+    } catch (const base::InputError& error) {
+      if (!options.force) throw;
+      fmt::print(stderr, "grouser: warning: {}\n", error.what());
+    }
+  }
+  w.former->frames = w.comm.gatherValue(w.former->frames).front();
+  return w;
+}
+
+/// Where the cuts between subdomains cross the axes [m].
+std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
+  std::array<std::vector<double>, 3> borders;
+  if (const terrain::Subdomain* subdomain = grains.subdomain())
+    for (int axis = 0; axis < 3; ++axis)
+      for (const std::int64_t cut : subdomain->partition().cuts(axis))
+        borders[static_cast<std::size_t>(axis)].push_back(static_cast<double>(cut) * grains.scale().unit);
+  return borders;
+}
+
+/// All grains, on the first rank.
+Frame gathered(const Frame& mine, const base::Comm& comm) {
+  if (comm.alone()) return mine;
+  Frame whole = mine;
+  const auto collect = [&comm](auto& values) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    std::vector<base::Bytes> to(static_cast<std::size_t>(comm.size()));
+    to.front() = base::Comm::bytesOf(values);
+    values.clear();
+    for (const base::Bytes& part : comm.allToAll(to)) {
+      const std::vector<T> more = base::Comm::valuesOf<T>(part);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+  };
+  collect(whole.positions), collect(whole.radii), collect(whole.speeds), collect(whole.ids);
+  return whole;
+}
+
+} // namespace
+
+Recorder::Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec,
+                   const Checkpoint* former)
+    : simulation_(simulation), channels_(channelsOf(simulation, scene)), row_(channels_), record_(scene.output.record),
+      frames_(scene.output.frames),
+      writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
+  try {
+    begin(scene, options, former);
+  } catch (const std::exception& error) {
+    writer_.abandon(error.what());
+    throw;
+  }
+}
+
+void Recorder::begin(const Scene& scene, const RunOptions& options, const Checkpoint* former) {
+  if (const VehicleRig* rig = simulation_.vehicle()) {
+    parts_ = frameParts(*rig);
+    writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
+    writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
+  }
+  if (const Mechanism* mechanism = simulation_.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
+  if (const Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      parts_.push_back({surfaces->surface(i).name, kSurfaceKind, surfaceMesh(scene, surfaces->surface(i))});
+  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : planeMesh(scene);
+  writer_.setParts(parts_, ground_);
+  if (const auto& grains = simulation_.ground().grains;
+      grains && GrainsCsv::isWanted(scene, static_cast<std::int64_t>(grains->count())))
+    grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
+}
+
+void Recorder::row() {
+  row_.begin(simulation_.steps(), simulation_.time());
+  if (const VehicleRig* rig = simulation_.vehicle()) row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
+  const Simulation::Ledger l = simulation_.ledger();
+  simulation_.checkEnergy(l);
+  if (const auto& grains = simulation_.ground().grains) {
+    row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
+    row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
+    row_.set("terrain/max_speed", l.fastestGrain);
+    row_.set("terrain/rebuilds", static_cast<double>(grains->rebuilds()));
+  }
+  if (const Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i) {
+      const Surfaces::Observation o = surfaces->observe(i, simulation_.steps());
+      const std::string group = "surfaces/" + surfaces->surface(i).name + "/";
+      row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
+      row_.set(group + "power", o.power), row_.set(group + "position", o.position);
+    }
+  if (const Mechanism* mechanism = simulation_.mechanism()) setMechanismRow(row_, *mechanism, record_);
+  row_.set("ledger/drive_work", l.driveWork);
+  row_.set("ledger/kinetic", l.kinetic);
+  row_.set("ledger/potential", l.potential);
+  row_.set("ledger/elastic", l.elastic);
+  row_.set("ledger/dissipated", l.dissipated);
+  row_.set("ledger/residual", l.residual);
+  if (!simulation_.mechanism()) row_.set("ledger/impulse_residual", l.impulseResidual);
+  writer_.row(row_.row());
+  if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
+  simulation_.restartMeans();
+}
+
+void Recorder::frame() {
+  if (frames_) writer_.frame(currentFrame());
+}
+
+Frame Recorder::currentFrame() const {
+  Frame frame;
+  frame.step = simulation_.steps(), frame.time = simulation_.time();
+  if (const auto& grains = simulation_.ground().grains) {
+    const terrain::GrainSnapshot s = grains->snapshot();
+    for (std::size_t i = 0; i < s.position.size(); ++i) {
+      frame.positions.push_back(s.position[i].as<float>());
+      frame.speeds.push_back(norm(s.velocity[i]));
+      frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
+    }
+    frame.borders = bordersOf(*grains);
+    frame.radii = s.radius;
+    if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
+  }
+  if (const VehicleRig* rig = simulation_.vehicle())
+    for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
+  if (const Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
+  if (const Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
+  return frame;
+}
+
+void Recorder::picture(int width) {
+  const Frame whole = gathered(currentFrame(), simulation_.comm());
+  if (!simulation_.comm().first()) return;
+  writePng(drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
+           writer_.folder() / "picture.png");
+}
+
+} // namespace grouser::runs

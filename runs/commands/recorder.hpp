@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/output/channels.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "runs/output/grains_csv.hpp"
+#include "runs/output/output.hpp"
+#include "runs/commands/run_scene.hpp"
+#include "runs/simulation/simulation.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// What a run writes: channels, rows and frames of one simulation. On several ranks all of them have one.
+class Recorder {
+public:
+  /// `former`: the checkpoint that the run goes on from, or null.
+  Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec,
+           const Checkpoint* former);
+
+  void row();
+  void frame();
+  /// picture.png of the present state.
+  void picture(int width);
+
+  RunWriter& writer() { return writer_; }
+
+private:
+  void begin(const Scene& scene, const RunOptions& options, const Checkpoint* former);
+  Frame currentFrame() const;
+
+  Simulation& simulation_;
+  std::vector<Channel> channels_;
+  RowBuilder row_;
+  const std::vector<std::string> record_;
+  bool frames_;
+  std::vector<FramePart> parts_;
+  base::TriangleMesh ground_;
+  RunWriter writer_;
+  std::optional<GrainsCsv> grainsCsv_;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/render_command.hpp"
+
+#include "base/error.hpp"
+#include "runs/render/film.hpp"
+#include "runs/render/frame_painter.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/shared_work.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kSmallest = 16, kLargest = 16384; ///< width and height of a picture [pixels]
+
+/// Frames to paint, ascending.
+std::vector<std::size_t> chosenFrames(const FramesReader& reader, const RenderCommand& c) {
+  const std::size_t count = reader.count();
+  const std::string held = fmt::format("{} holds frames 0 to {}, from t = {:g} s to {:g} s", reader.path().string(),
+                                       count - 1, reader.time(0), reader.time(count - 1));
+  std::vector<std::size_t> frames = c.frame;
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  if (!frames.empty() && frames.back() >= count)
+    throw base::InputError(fmt::format("--frame {}: {}", frames.back(), held));
+  if (!frames.empty()) return frames;
+  // Output times are sums of steps: a hair's breadth on either side belongs to the range.
+  const double hair = 1e-9 * std::max(1.0, std::fabs(reader.time(count - 1)));
+  std::size_t inRange = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (reader.time(i) < c.from - hair || (c.to && reader.time(i) > *c.to + hair)) continue;
+    if (inRange++ % c.every == 0) frames.push_back(i);
+  }
+  if (frames.empty()) throw base::InputError(fmt::format("--from and --to leave no frame: {}", held));
+  return frames;
+}
+
+LookAt lookAtOf(const std::string& text, bool hasVehicle, base::Vec3d& point) {
+  if (text.empty()) return hasVehicle ? LookAt::Vehicle : LookAt::All;
+  if (text == "vehicle") return LookAt::Vehicle;
+  if (text == "all") return LookAt::All;
+  const char *at = text.data(), *end = at + text.size();
+  for (int k = 0; k < 3; ++k) {
+    const auto [stop, error] = std::from_chars(at, end, point[k]);
+    const bool isLast = k == 2;
+    if (error != std::errc{} || !std::isfinite(point[k]) || (isLast ? stop != end : stop == end || *stop != ','))
+      throw base::InputError(
+          fmt::format("--look-at {}: is none of vehicle, all and a place X,Y,Z in metres, e.g. 1.5,0,0.2", text));
+    at = stop + 1;
+  }
+  return LookAt::Point;
+}
+
+PaintOptions paintOptions(const RenderCommand& c, bool hasVehicle) {
+  PaintOptions o;
+  FrameView& v = o.view;
+  v.lookAt = lookAtOf(c.lookAt, hasVehicle, v.point);
+  v.azimuth = c.azimuth, v.elevation = c.elevation, v.distance = c.distance;
+  std::tie(v.width, v.height) = pictureSize(c.size);
+  o.quantity = grainQuantity(c.color);
+  if (!c.range.empty()) {
+    if (o.quantity != GrainQuantity::Depth && o.quantity != GrainQuantity::Speed)
+      throw base::InputError(fmt::format("--range: is for the colours depth and speed, not for {}", c.color));
+    if (!(c.range[0] < c.range[1]))
+      throw base::InputError(fmt::format("--range {:g} {:g}: give the lower end first", c.range[0], c.range[1]));
+    o.range = ValueRange{c.range[0], c.range[1]};
+  }
+  o.borders = bordersOf(c.borders);
+  o.labels = c.labels;
+  return o;
+}
+
+fs::path picturePath(const fs::path& folder, std::size_t frame) {
+  return folder / fmt::format("frame_{:06}.png", frame);
+}
+
+fs::path unfinished(const fs::path& picture) {
+  return picture.parent_path() / fmt::format(".{}.part", picture.filename().string());
+}
+
+/// The number of cores this rank may use.
+int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c.comm.size()); }
+
+/// Throws where something would be overwritten, or cannot be.
+void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vector<std::size_t>& frames) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw base::InputError(fmt::format("--out {}: is a file; name a folder for the pictures", folder.string()));
+  if (!c.film.empty()) checkFilm(c.film);
+  if (c.force) return;
+  for (const std::size_t frame : frames)
+    if (const fs::path file = picturePath(folder, frame); fs::exists(file, error))
+      throw base::InputError(fmt::format("{}: is there already; overwrite it with --force, or name another folder with "
+                                         "--out",
+                                         file.string()));
+  if (!c.film.empty() && fs::exists(c.film, error))
+    throw base::InputError(
+        fmt::format("--film {}: is there already; overwrite it with --force, or name another file", c.film));
+}
+
+/// Removes what an error or a signal has left unfinished.
+class Sweeper {
+public:
+  explicit Sweeper(std::vector<fs::path> pictures) : pictures_(std::move(pictures)) {}
+  ~Sweeper() {
+    std::error_code error;
+    for (const fs::path& picture : pictures_) fs::remove(unfinished(picture), error);
+  }
+  Sweeper(const Sweeper&) = delete;
+  Sweeper& operator=(const Sweeper&) = delete;
+
+private:
+  std::vector<fs::path> pictures_;
+};
+
+/// Paints the share of this rank; its processes share it in turn.
+void paintShare(const RenderCommand& c, const FramePainter& painter, const std::vector<std::size_t>& frames,
+                const fs::path& folder) {
+  std::vector<std::size_t> mine;
+  std::vector<fs::path> pictures;
+  for (std::size_t i = static_cast<std::size_t>(c.comm.rank()); i < frames.size();
+       i += static_cast<std::size_t>(c.comm.size()))
+    mine.push_back(frames[i]), pictures.push_back(picturePath(folder, frames[i]));
+  const Sweeper sweeper(pictures);
+  const int processes = std::max(1, std::min(c.processes, static_cast<int>(mine.size())));
+  const int threads = c.threads > 0 ? c.threads : std::max(1, coresOf(c) / processes);
+  Progress progress("pictures", c.comm.first());
+  std::size_t done = 0;
+  const auto paint = [&](std::size_t i) {
+    omp_set_num_threads(threads);
+    writePng(painter.paint(mine[i]), unfinished(pictures[i]));
+    fs::rename(unfinished(pictures[i]), pictures[i]);
+  };
+  shareWork(processes, mine.size(), paint, [&] {
+    ++done;
+    progress.update(static_cast<double>(done) / static_cast<double>(mine.size()),
+                    fmt::format("{} of {}", done, mine.size()));
+  });
+}
+
+} // namespace
+
+std::pair<int, int> pictureSize(const std::string& text) {
+  int width = 0, height = 0;
+  const char* end = text.data() + text.size();
+  const auto [middle, error] = std::from_chars(text.data(), end, width);
+  bool isGood = error == std::errc{} && middle != end && *middle == 'x';
+  if (isGood) {
+    const auto [stop, fault] = std::from_chars(middle + 1, end, height);
+    isGood = fault == std::errc{} && stop == end;
+  }
+  if (!isGood || std::min(width, height) < kSmallest || std::max(width, height) > kLargest)
+    throw base::InputError(fmt::format("--size {}: is not WIDTHxHEIGHT in pixels, each from {} to {}, e.g. 1600x900",
+                                       text, kSmallest, kLargest));
+  return {width, height};
+}
+
+void renderCommand(const RenderCommand& c) {
+  const FramesReader reader(c.frames);
+  const PaintOptions options = paintOptions(c, reader.hasVehicle());
+  const std::vector<std::size_t> frames = chosenFrames(reader, c);
+  const fs::path folder =
+      c.folder.empty() ? fs::absolute(c.frames).lexically_normal().parent_path() / "pictures" : fs::path(c.folder);
+  checkTargets(c, folder, frames);
+  const FramePainter painter(reader, options);
+  c.comm.wait(); // all have looked at what is there before the first of them writes
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error))
+    throw base::InputError(fmt::format("--out {}: the folder cannot be made: {}", folder.string(), error.message()));
+
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  paintShare(c, painter, frames, folder);
+  c.comm.wait();
+  if (!c.comm.first()) return;
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const int workers = std::min<int>(c.comm.size() * c.processes, static_cast<int>(frames.size()));
+  fmt::print("pictures  {} of {} x {} in {}\n", frames.size(), options.view.width, options.view.height,
+             folder.string());
+  fmt::print("speed     {:.2f} frames/s: {:.2f} s by {} process{}\n", static_cast<double>(frames.size()) / seconds,
+             seconds, workers, workers == 1 ? "" : "es");
+  if (c.film.empty()) return;
+  std::vector<fs::path> pictures;
+  for (const std::size_t frame : frames) pictures.push_back(picturePath(folder, frame));
+  makeFilm(pictures, c.framesPerSecond, c.film);
+  fmt::print("film      {}: {:g} frames/s, {:.2f} s\n", c.film, c.framesPerSecond,
+             static_cast<double>(frames.size()) / c.framesPerSecond);
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/run_scene.hpp"
+
+#include "base/error.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "runs/support/device_choice.hpp"
+#include "runs/simulation/mechanism.hpp"
+#include "runs/output/mechanism_output.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/commands/ranks_alike.hpp"
+#include "runs/commands/recorder.hpp"
+#include "runs/simulation/simulation.hpp"
+#include "runs/support/stop_signals.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A signal that any rank has received. All must agree on the step at which they stop, so all are asked together: as
+/// often as answers within a fifth of a second take, since launchers that pass an interrupt on kill after one second.
+class SignalWatch {
+public:
+  explicit SignalWatch(const base::Comm& comm) : comm_(comm) {}
+
+  int receivedAt(std::int64_t step) {
+    if (comm_.alone()) return StopSignals::received();
+    if (step < next_) return 0;
+    const double perStep = since(asked_) / static_cast<double>(std::max<std::int64_t>(1, step - last_));
+    std::uint64_t all[] = {static_cast<std::uint64_t>(StopSignals::received()),
+                           static_cast<std::uint64_t>(1e9 * perStep) + 1};
+    comm_.maximum(all, 2);
+    constexpr std::uint64_t kWithin = 200'000'000, kMost = 100; // [ns], steps
+    last_ = step, next_ = step + static_cast<std::int64_t>(std::clamp<std::uint64_t>(kWithin / all[1], 1, kMost));
+    asked_ = Clock::now();
+    return static_cast<int>(all[0]);
+  }
+
+private:
+  base::Comm comm_;
+  std::int64_t last_ = 0, next_ = 0;
+  Clock::time_point asked_ = Clock::now();
+};
+
+/// How the grains are shared out.
+void describeRanks(const Simulation& simulation) {
+  const auto& grains = simulation.ground().grains;
+  if (!grains || !grains->subdomain()) return;
+  const terrain::Subdomain& mine = *grains->subdomain();
+  const base::Comm& comm = simulation.comm();
+  const auto own = comm.gatherValue(static_cast<std::int64_t>(grains->slots() - mine.ghosts()));
+  const auto ghosts = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(mine.ghosts())));
+  const auto& shape = mine.partition().shape();
+  fmt::print("ranks     {}: subdomains {} x {} x {}, {} to {} grains each, {:.1f} % ghosts\n", comm.size(), shape[0],
+             shape[1], shape[2], *std::min_element(own.begin(), own.end()), *std::max_element(own.begin(), own.end()),
+             100 * ghosts / static_cast<double>(grains->count()));
+}
+
+/// How well the work was shared while driving. `waiting`: this rank's share of that time that it waited [-].
+void describeSharing(const Simulation& simulation, double waiting, Summary& summary) {
+  const auto& grains = simulation.ground().grains;
+  const base::Comm& comm = simulation.comm();
+  if (!grains || !grains->subdomain()) return;
+  const std::vector<double> waited = comm.gatherValue(waiting);
+  const double least = *std::min_element(waited.begin(), waited.end()),
+               most = *std::max_element(waited.begin(), waited.end());
+  fmt::print("ranks     waited for others {:.1f} to {:.1f} % of the time; cuts moved {} times\n", 100 * least,
+             100 * most, grains->rebalancings());
+  summary.figures["rank_waiting_least"] = least;
+  summary.figures["rank_waiting_most"] = most;
+  summary.figures["rebalancings"] = static_cast<double>(grains->rebalancings());
+}
+
+void describeBuild(const Simulation& simulation, const base::Exec& exec, const BedCache* beds) {
+  fmt::print("device    {}\n", base::describe(exec));
+  if (const auto& grains = simulation.ground().grains)
+    fmt::print("grains    {} of radius {:g} m, {:.0f} bytes each\n", grains->count(), grains->model().radius,
+               static_cast<double>(grains->deviceBytes()) /
+                   static_cast<double>(std::max<std::size_t>(1, grains->slots())));
+  describeRanks(simulation);
+  if (simulation.settled().steps > 0)
+    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",
+               simulation.settled().time, simulation.settled().agitation);
+  if (beds && !beds->story().empty()) fmt::print("bed       {}\n", beds->story());
+  if (const VehicleRig* rig = simulation.vehicle()) {
+    fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
+               rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
+  }
+  if (const Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", mechanismSize(*mechanism));
+  std::fflush(stdout);
+}
+
+/// The checkpoint of a run, written again and again.
+class Checkpoints {
+public:
+  Checkpoints(const Scene& scene, const RunOptions& options) : path_(options.folder / kCheckpointName) {
+    checkpoint_.scene = resolvedToml(scene);
+    checkpoint_.inputs = inputsOf(scene);
+    checkpoint_.commit = buildInfo().commit;
+  }
+
+  void write(const Simulation& simulation, RunWriter& writer) {
+    if (writtenAt_ == simulation.steps()) return;
+    writer.sync();
+    checkpoint_.timeStep = simulation.timeStep();
+    checkpoint_.rows = writer.rows(), checkpoint_.frames = writer.frames();
+    checkpoint_.state = simulation.save();
+    writeCheckpoint(path_, checkpoint_, simulation.comm());
+    checkpoint_.state = {};
+    writtenAt_ = simulation.steps();
+  }
+  /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
+  std::string last() const { return writtenAt_ < 0 ? "" : fmt::format("{}, step {}", path_.string(), writtenAt_); }
+  /// The run goes on from one of this step.
+  void begunAt(std::int64_t step) { writtenAt_ = step; }
+
+private:
+  std::filesystem::path path_;
+  Checkpoint checkpoint_;
+  std::int64_t writtenAt_ = -1;
+};
+
+/// Reads the checkpoint of a run to be resumed; null for one from the start.
+std::unique_ptr<Checkpoint> formerRun(const Scene& scene, const RunOptions& options) {
+  if (!options.resume) return nullptr;
+  auto former = std::make_unique<Checkpoint>(readCheckpoint(*options.resume, options.comm()));
+  checkSameScene(*former, *options.resume, scene);
+  if (former->commit != buildInfo().commit && options.comm().first())
+    fmt::print(stderr,
+               "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
+               "are\n",
+               options.resume->string(), former->commit, buildInfo().commit);
+  return former;
+}
+
+/// At the checkpoint, or at the start: then the bed is settled first.
+std::unique_ptr<Simulation> makeSimulation(const Scene& scene, const base::Exec& exec, const Checkpoint* former,
+                                           const base::Comm& comm, BedCache* beds) {
+  if (former) return std::make_unique<Simulation>(scene, exec, former->state, comm);
+  std::unique_ptr<Progress> settling;
+  const auto settle = [&](double time, double agitation) {
+    if (const int signal = SignalWatch(comm).receivedAt(0))
+      throw Stopped(signal,
+                    fmt::format("stopped by {} while the bed settled; nothing was written", StopSignals::name(signal)));
+    if (!settling) settling = std::make_unique<Progress>("settling", comm.first());
+    settling->update(time / scene.terrain->settleTimeLimit,
+                     fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
+  };
+  auto simulation = std::make_unique<Simulation>(scene, exec, settle, comm, beds);
+  if (settling) settling->finish("at rest");
+  return simulation;
+}
+
+/// Steps to the end, with rows, frames and checkpoints on the way. Throws Stopped where a signal came.
+void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const Scene& scene,
+           std::int64_t total) {
+  const double dt = simulation.timeStep();
+  const auto stepsOf = [dt](double interval) { return std::max<std::int64_t>(1, std::llround(interval / dt)); };
+  const std::int64_t rowEvery = stepsOf(scene.run.outputInterval), frameEvery = stepsOf(scene.run.frameInterval);
+  const std::int64_t saveEvery = scene.run.checkpointInterval > 0 ? stepsOf(scene.run.checkpointInterval) : total + 1;
+  Progress progress("running", simulation.comm().first());
+  SignalWatch signals(simulation.comm());
+  while (simulation.steps() < total) {
+    const std::int64_t now = simulation.steps();
+    simulation.advance(
+        std::min({total - now, rowEvery - now % rowEvery, frameEvery - now % frameEvery, saveEvery - now % saveEvery}));
+    if (simulation.steps() % rowEvery == 0) recorder.row();
+    if (simulation.steps() % frameEvery == 0) recorder.frame();
+    if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
+    if (const int signal = signals.receivedAt(simulation.steps())) {
+      checkpoints.write(simulation, recorder.writer());
+      throw Stopped(signal, fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
+                                        StopSignals::name(signal), simulation.time(), checkpoints.last()));
+    }
+    if (progress.due())
+      progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
+                      fmt::format("t {:.3f} of {:g} s", simulation.time(), static_cast<double>(total) * dt));
+  }
+  // Before the last row: a run that goes on from here does not have it.
+  checkpoints.write(simulation, recorder.writer());
+  // The end is always written, whether or not the intervals meet it.
+  if (simulation.steps() % rowEvery != 0) recorder.row();
+  if (simulation.steps() % frameEvery != 0) recorder.frame();
+  progress.finish(fmt::format("{} steps", simulation.steps()));
+}
+
+} // namespace
+
+Summary runScene(const Scene& scene, const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const StopSignals signals;
+  requireAlike(scene, options.commandLine, options.comm());
+  const base::Exec exec = chooseDevice(scene.run.device, scene.run.threads, options.ranks);
+  FileLock folder; // of a run that goes on; one that begins makes its folder later
+  if (options.resume && options.comm().first()) claimFolder(folder, options.folder);
+  const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
+  std::optional<BedCache> beds;
+  if (options.cache && scene.terrain && scene.terrain->cache) beds = BedCache::ofUser(options.comm());
+  const std::unique_ptr<Simulation> made =
+      makeSimulation(scene, exec, former.get(), options.comm(), beds ? &*beds : nullptr);
+  Simulation& simulation = *made;
+  const std::int64_t whole = std::llround(scene.run.duration / simulation.timeStep()), begin = simulation.steps(),
+                     total = std::min(whole, options.steps.value_or(whole));
+  if (begin > total)
+    throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
+                                       options.resume->string(), begin, total));
+  const double prepared = since(start);
+  describeBuild(simulation, exec, beds ? &*beds : nullptr);
+  if (simulation.mechanism() && !former && options.comm().first())
+    if (const std::string warning = tautStartWarning(scene, simulation.timeStep()); !warning.empty())
+      fmt::print(stderr, "grouser: warning: {}\n", warning);
+
+  Recorder recorder(simulation, scene, options, exec, former.get());
+  Checkpoints checkpoints(scene, options);
+  const Clock::time_point driving = Clock::now();
+  const double waitedBefore = options.comm().waited();
+  if (former) {
+    checkpoints.begunAt(begin);
+    fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
+  }
+  try {
+    if (!former) recorder.row(), recorder.frame();
+    drive(simulation, recorder, checkpoints, scene, total);
+  } catch (const Stopped& stopped) {
+    recorder.writer().stop(stopped.what());
+    throw;
+  } catch (const base::SimulationError& error) {
+    const std::string last = checkpoints.last();
+    const std::string message = error.what() + (last.empty() ? "" : fmt::format(" (last checkpoint: {})", last));
+    recorder.writer().abandon(message);
+    throw base::SimulationError(message);
+  } catch (const std::exception& error) {
+    recorder.writer().abandon(error.what());
+    throw;
+  }
+  const double drove = since(driving), waiting = (options.comm().waited() - waitedBefore) / drove;
+  if (scene.output.picture) recorder.picture(scene.output.pictureWidth);
+
+  Summary summary;
+  summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
+  summary.wallTime = since(start);
+  summary.figures["wall_preparation_s"] = prepared;
+  summary.figures["wall_steps_s"] = drove;
+  summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
+  if (options.hash) summary.stateHash = simulation.stateHash();
+  const Simulation::Ledger l = simulation.ledger();
+  fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
+             "dissipated {:+.4g}; left over {:.3g}\n",
+             l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
+  if (!simulation.mechanism())
+    fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
+               l.impulseResidual.z);
+  fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
+             simulation.steps() - begin, simulation.timeStep(), summary.figures["microseconds_a_step"]);
+  describeSharing(simulation, waiting, summary);
+  recorder.writer().finish(summary);
+  return summary;
+}
+
+} // namespace grouser::runs

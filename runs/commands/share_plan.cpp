@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a scene would be shared out among ranks, before it is run.
+#include "runs/commands/plan.hpp"
+
+#include "runs/setup/bed.hpp"
+#include "runs/setup/grain_memory.hpp"
+#include "runs/setup/lattice.hpp"
+#include "runs/setup/placement.hpp"
+#include "terrain/partition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::runs {
+
+namespace {
+
+constexpr double kBytesPerGhost = 48; // position, velocity and spin
+
+} // namespace
+
+std::string sharePlan(const Scene& scene, int ranks) {
+  const bool bed = scene.terrain && scene.terrain->granular();
+  const double grains = static_cast<double>(plannedGrains(scene));
+  if (grains == 0) return "";
+  const double radius = grainKinds(scene).largest;
+  std::array<double, 3> size{};
+  if (bed) {
+    const double volume = grains * (4.0 / 3.0) * 3.14159265 * radius * radius * radius / scene.terrain->packing;
+    size = {scene.terrain->size[0], scene.terrain->size[1], volume / (scene.terrain->size[0] * scene.terrain->size[1])};
+  } else {
+    base::Vec3d low{1e300, 1e300, 1e300}, high = -low;
+    const auto include = [&](const base::Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
+    for (const Grain& g : scene.grains) include(g.position);
+    for (const GrainBlock& b : scene.blocks) {
+      for (const Grain& g : b.fromFile) include(g.position);
+      if (b.low) include(*b.low), include(*b.high);
+    }
+    for (const Source& s : scene.sources) include(s.low), include(s.high);
+    for (const Plane& p : scene.planes) include(p.point);
+    for (int a = 0; a < 3; ++a) size[static_cast<std::size_t>(a)] = high[a] - low[a] + 2 * radius;
+  }
+  checkLattice(scene, ranks);
+  const std::array<int, 3> shape = terrain::latticeShape(ranks, size, wantedSubdomains(scene));
+
+  // A slave lies within range beyond a border; an inner subdomain has two borders on each axis that is cut.
+  const double range = (2 + scene.run.skin) * radius;
+  double grown = 1, all = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double width = size[a] / shape[a];
+    grown *= 1 + (shape[a] > 2 ? 2 : shape[a] - 1) * std::min(range, size[a]) / width;
+    all *= 1 + 2 * (shape[a] - 1) * range / size[a];
+  }
+  const double each = grains / ranks, ghosts = each * (grown - 1);
+  std::string text = fmt::format("\n{} ranks\n", ranks);
+  text += fmt::format("  {:<24} {} x {} x {}\n", "subdomains", shape[0], shape[1], shape[2]);
+  text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains a rank", each, ghosts);
+  text += fmt::format("  {:<24} {:.2f} % of the grains\n", "ghosts in all", 100 * (all - 1));
+  text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
+                      (each + ghosts) * grainMemory(scene).most() / 1048576.0);
+  text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
+  for (const RankSpeed& s : kRankSpeeds) {
+    // Messages travel beside the work on grains that need none.
+    const double work = each / s.grainSteps, messages = ghosts * kBytesPerGhost / s.bytesPerSecond;
+    const double step = std::max(work, messages) + s.latency;
+    text +=
+        fmt::format("  {:<24} {:.0f} % where a rank is {} ({:.2g} particle-steps/s, {:.0f} us a step for messages), "
+                    "with work evenly spread\n",
+                    "efficiency to expect", 100 * work / step, s.name, s.grainSteps, 1e6 * s.latency);
+  }
+  return text;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/sweep.hpp"
+
+#include "base/error.hpp"
+#include "base/exec.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/commands/sweep_summary.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <thread>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kLog = "log.txt"; // what a run printed
+
+/// What decides the result of a run, as text.
+std::string identity(Scene scene) {
+  scene.run.device = "auto", scene.run.threads = 0;
+  scene.output.folder.clear();
+  return resolvedToml(scene);
+}
+
+std::string manifestStatus(const fs::path& folder) {
+  std::ifstream file(folder / "manifest.json");
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() ? json.value("status", "") : "";
+}
+
+bool isFinished(const fs::path& folder, const Scene& scene) {
+  if (manifestStatus(folder) != "finished") return false;
+  try {
+    return identity(loadScene(folder / "scene.toml")) == identity(scene);
+  } catch (const base::InputError&) {
+    return false; // of another version of the program, or damaged
+  }
+}
+
+/// Throws where the folder holds something that no run has left there.
+void checkRunFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  const bool isOurs = fs::exists(folder / "manifest.json", error) || fs::exists(folder / kLog, error);
+  if (!fs::is_directory(folder, error) || (!isOurs && !fs::is_empty(folder, error)))
+    throw base::InputError(fmt::format(
+        "{}: stands where a run's folder should be; name another with --out, or use it with --force", folder.string()));
+}
+
+/// Starts the program with its output in the log. Returns the process.
+pid_t start(std::vector<std::string> words, const fs::path& log) {
+  std::vector<char*> arguments;
+  for (std::string& w : words) arguments.push_back(w.data());
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(fmt::format("no process could be started: {}", std::strerror(errno)));
+  if (child > 0) return child;
+  prctl(PR_SET_PDEATHSIG, SIGTERM); // a killed sweep leaves no runs behind
+  if (getppid() != parent) _exit(1);
+  const int file = open(log.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+  dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
+  close(file);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+/// Why a run failed: its own error message where it printed one.
+std::string reason(int status, const fs::path& log) {
+  const std::string mark = "grouser: error: ";
+  std::string message;
+  std::ifstream file(log);
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind(mark, 0) == 0) message = line.substr(mark.size());
+  if (WIFSIGNALED(status)) return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  if (!message.empty()) return message;
+  return fmt::format("ended with exit code {}; see {}", WEXITSTATUS(status), log.string());
+}
+
+/// Share of the simulated time a run has behind it, from the last row it wrote.
+double shareDone(const fs::path& folder, double duration) {
+  std::ifstream file(folder / "timeseries.csv", std::ios::binary | std::ios::ate);
+  if (!file) return 0;
+  const std::streamoff size = file.tellg(), tail = std::min<std::streamoff>(size, 1 << 16);
+  file.seekg(size - tail);
+  std::string text(static_cast<std::size_t>(tail), '\0');
+  file.read(text.data(), tail);
+  const std::size_t end = text.rfind('\n');
+  if (end == std::string::npos) return 0;
+  const std::size_t begin = text.rfind('\n', end - 1), comma = text.find(',', begin == std::string::npos ? 0 : begin);
+  if (begin == std::string::npos || comma >= end) return 0;
+  return std::clamp(std::strtod(text.c_str() + comma + 1, nullptr) / duration, 0.0, 1.0);
+}
+
+/// The runs of a sweep as processes, at most `jobs` at a time.
+class Runner {
+public:
+  Runner(const SweepPlan& plan, const SweepOptions& options)
+      : plan_(plan), options_(options), outcomes_(plan.runs.size()), progress_("sweep") {
+    for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+      if (!options.force && isFinished(folder(i), plan.runs[i].scene)) {
+        outcomes_[i].status = "finished";
+        progress_.note(fmt::format("{} finished already", title(i)));
+      } else {
+        waiting_.push_back(i);
+      }
+    }
+    todo_ = waiting_.size();
+  }
+
+  int run() {
+    summarise();
+    std::size_t next = 0;
+    while (next < waiting_.size() || !running_.empty()) {
+      while (next < waiting_.size() && running_.size() < static_cast<std::size_t>(options_.jobs))
+        launch(waiting_[next++]);
+      reap();
+      if (progress_.due()) report();
+    }
+    const auto failed =
+        std::count_if(outcomes_.begin(), outcomes_.end(), [](const SweepOutcome& o) { return o.status == "failed"; });
+    if (todo_ > 0)
+      progress_.finish(
+          fmt::format("{} of {} runs finished", outcomes_.size() - static_cast<std::size_t>(failed), outcomes_.size()));
+    return static_cast<int>(failed);
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    std::size_t index;
+    Clock::time_point since;
+  };
+
+  fs::path folder(std::size_t i) const { return options_.folder / plan_.runs[i].name; }
+  std::string title(std::size_t i) const {
+    return fmt::format("run {} of {}  {:<28}", i + 1, plan_.runs.size(), plan_.runs[i].name);
+  }
+  void summarise() const { writeSummary(plan_, outcomes_, options_.folder); }
+
+  void launch(std::size_t i) {
+    fs::create_directories(folder(i));
+    // What an earlier run left must not be taken for what this one does.
+    for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
+    std::vector<std::string> words = {options_.program.string(), "run", plan_.scene.string()};
+    for (const std::string& o : plan_.runs[i].overrides) words.insert(words.end(), {"--set", o});
+    if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
+      words.insert(words.end(), {"--threads", fmt::format("{}", std::max(1, base::cpuExec().threads / options_.jobs))});
+    words.insert(words.end(), {"--out", folder(i).string(), "--force", "--hash"});
+    running_[start(std::move(words), folder(i) / kLog)] = {i, Clock::now()};
+    outcomes_[i].status = "running";
+    summarise();
+  }
+
+  /// Waits a moment, and takes the results of the runs that have ended.
+  void reap() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (auto it = running_.begin(); it != running_.end();) {
+      int status = 0;
+      if (waitpid(it->first, &status, WNOHANG) != it->first) {
+        ++it;
+        continue;
+      }
+      const auto [i, since] = it->second;
+      it = running_.erase(it);
+      finish(i, status, std::chrono::duration<double>(Clock::now() - since).count());
+    }
+  }
+
+  void finish(std::size_t i, int status, double seconds) {
+    ++ended_;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+      outcomes_[i].status = "finished";
+      progress_.note(fmt::format("{} finished in {}", title(i), Progress::duration(seconds)));
+    } else {
+      outcomes_[i] = {"failed", reason(status, folder(i) / kLog)};
+      progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
+    }
+    summarise();
+  }
+
+  void report() {
+    double done = static_cast<double>(ended_);
+    std::string names;
+    for (const auto& [process, run] : running_) {
+      done += shareDone(folder(run.index), plan_.runs[run.index].scene.run.duration);
+      names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
+    }
+    progress_.update(done / static_cast<double>(todo_),
+                     fmt::format("{} of {} runs to do ended, now {}", ended_, todo_, names));
+  }
+
+  const SweepPlan& plan_;
+  const SweepOptions& options_;
+  std::vector<SweepOutcome> outcomes_;
+  std::vector<std::size_t> waiting_;
+  std::map<pid_t, Running> running_;
+  std::size_t todo_ = 0, ended_ = 0;
+  Progress progress_;
+};
+
+} // namespace
+
+int runSweep(const SweepPlan& plan, const SweepOptions& options) {
+  for (const SweepRun& run : plan.runs) {
+    if (!options.force) checkRunFolder(options.folder / run.name);
+    if (run.scene.run.device == "cuda" && !base::cudaAvailable()) base::cudaExec(); // throws, and says why
+  }
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error || !fs::is_directory(options.folder))
+    throw base::InputError(
+        fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
+  const int failed = Runner(plan, options).run();
+  const fs::path summary = options.folder / "summary.csv";
+  fmt::print("summary   {}\n", summary.string());
+  if (options.plot) drawPicture("sweep.py", {summary}, options.folder / "summary.png");
+  return failed;
+}
+
+} // namespace grouser::runs

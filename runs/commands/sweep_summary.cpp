@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/sweep_summary.hpp"
+
+#include "runs/output/channels.hpp"
+#include "runs/support/hdf5_file.hpp"
+#include "runs/simulation/surfaces.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean and largest of the numbers that are there.
+struct Spread {
+  double sum = 0, most = kNone;
+  std::size_t count = 0;
+  void add(double v) {
+    if (std::isnan(v)) return;
+    sum += v, ++count;
+    most = std::isnan(most) ? v : std::max(most, v);
+  }
+  double mean() const { return count ? sum / static_cast<double>(count) : kNone; }
+};
+
+/// The steady rows of a run's series. Without a file everything is NaN.
+class Steady {
+public:
+  Steady(const Hdf5File* file, double from) : file_(file) {
+    if (file) times_ = file->numbers("/series/time");
+    while (first_ < times_.size() && !(times_[first_] >= from)) ++first_;
+  }
+  Spread of(const std::string& path) const {
+    Spread spread;
+    for (const double v : rows(path)) spread.add(v);
+    return spread;
+  }
+  /// Sum over the tracks of the mean product of two quantities of one number a row.
+  double meanProduct(const std::string& a, const std::string& b) const {
+    double sum = 0;
+    for (const std::string side : {"left", "right"}) {
+      const std::vector<double> x = rows("vehicle/" + side + "/" + a), y = rows("vehicle/" + side + "/" + b);
+      Spread spread;
+      for (std::size_t i = 0; i < x.size(); ++i) spread.add(x[i] * y[i]);
+      sum += spread.mean();
+    }
+    return sum;
+  }
+  /// Over both tracks and all shoes.
+  Spread ofTracks(const std::string& name) const {
+    Spread spread;
+    for (const std::string side : {"left", "right"})
+      for (const double v : rows("vehicle/" + side + "/" + name)) spread.add(v);
+    return spread;
+  }
+  /// Mean of entry `k` of a vector.
+  double meanOf(const std::string& path, std::size_t k) const {
+    const std::vector<double> all = rows(path);
+    Spread spread;
+    for (std::size_t i = k; i < all.size(); i += 3) spread.add(all[i]);
+    return spread.mean();
+  }
+  /// From the first steady row to the last, of one number a row.
+  double change(const std::string& path) const {
+    const std::vector<double> all = rows(path);
+    return all.empty() ? kNone : all.back() - all.front();
+  }
+  double last(const std::string& path) const {
+    const std::vector<double> all = numbers(path);
+    return all.empty() ? kNone : all.back();
+  }
+  double last(const std::string& path, std::size_t k) const {
+    const std::vector<double> all = numbers(path);
+    return all.size() < 3 ? kNone : all[all.size() - 3 + k];
+  }
+  double lastNorm(const std::string& path) const {
+    const double x = last(path, 0), y = last(path, 1), z = last(path, 2);
+    return std::sqrt(x * x + y * y + z * z);
+  }
+  double constant(const std::string& path) const {
+    return file_ && file_->has("/" + path) ? file_->numbers("/" + path).front() : kNone;
+  }
+
+private:
+  std::vector<double> numbers(const std::string& path) const {
+    const std::string dataset = "/" + path + "/value";
+    return file_ && file_->has(dataset) ? file_->numbers(dataset) : std::vector<double>{};
+  }
+  std::vector<double> rows(const std::string& path) const {
+    std::vector<double> all = numbers(path);
+    const std::size_t width = times_.empty() ? 0 : all.size() / times_.size();
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), first_ * width)));
+    return all;
+  }
+
+  const Hdf5File* file_;
+  std::vector<double> times_;
+  std::size_t first_ = 0;
+};
+
+struct Figure {
+  std::string column;
+  double value;
+};
+
+/// What all runs of a sweep have columns for, where only some of them have it, too.
+struct Columns {
+  bool vehicle = false;
+  std::vector<std::string> surfaces; ///< their names
+
+  explicit Columns(const SweepPlan& plan) {
+    for (const SweepRun& run : plan.runs) {
+      vehicle = vehicle || run.scene.vehicle;
+      for (const SceneSurface& s : surfacesOf(run.scene))
+        if (std::find(surfaces.begin(), surfaces.end(), s.name) == surfaces.end()) surfaces.push_back(s.name);
+    }
+  }
+};
+
+/// Loads on the surfaces, and where they are at the end.
+void addSurfaces(const Steady& steady, const std::vector<std::string>& names, std::vector<Figure>& figures) {
+  for (const std::string& name : names) {
+    const std::string group = "surfaces/" + name + "/";
+    for (std::size_t k = 0; k < 3; ++k)
+      figures.push_back({fmt::format("{} force {} [N]", name, "xyz"[k]), steady.meanOf(group + "force", k)});
+    for (std::size_t k = 0; k < 3; ++k)
+      figures.push_back({fmt::format("{} torque {} [N m]", name, "xyz"[k]), steady.meanOf(group + "torque", k)});
+    figures.push_back({name + " power [W]", steady.of(group + "power").mean()});
+    for (std::size_t k = 0; k < 3; ++k)
+      figures.push_back(
+          {fmt::format("{} position {} at the end [m]", name, "xyz"[k]), steady.last(group + "position", k)});
+  }
+}
+
+/// The figures of one run, all NaN where `file` is null: one list for header and rows.
+std::vector<Figure> figuresOf(const Hdf5File* file, double from, const Columns& columns) {
+  const Steady steady(file, from);
+  std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
+                              {"energy residual [J]", steady.last("ledger/residual")}};
+  if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : kNone});
+  addSurfaces(steady, columns.surfaces, figures);
+  if (!columns.vehicle) return figures;
+  // Both tracks together: what the hull did against what the sprockets asked for.
+  const double speed = steady.ofTracks("speed").mean();
+  const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
+  const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
+  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : kNone},
+                                      {"teeth passed [-]", 0.5 * (steady.change("vehicle/left/teeth_passed") +
+                                                                  steady.change("vehicle/right/teeth_passed"))},
+                                      {"speed [m/s]", speed},
+                                      {"slip [-]", asked != 0 ? 1 - speed / asked : kNone},
+                                      {"sinkage mean [m]", sinkage.mean()},
+                                      {"sinkage max [m]", sinkage.most},
+                                      {"drive torque [N m]", steady.of("vehicle/left/drive_torque").mean() +
+                                                                 steady.of("vehicle/right/drive_torque").mean()},
+                                      {"drive power [W]", steady.meanProduct("drive_torque", "sprocket_speed")},
+                                      {"tension mean [N]", tension.mean()},
+                                      {"tension peak [N]", tension.most},
+                                      {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
+                                      {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
+                                      {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()}};
+  figures.insert(figures.begin(), ofVehicle.begin(), ofVehicle.end());
+  figures.push_back({"impulse residual [N s]", steady.lastNorm("ledger/impulse_residual")});
+  return figures;
+}
+
+/// A cell that any reader of CSV takes whole.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  return cell + "\"";
+}
+
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
+
+/// A number of the manifest, or NaN.
+double numberOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : kNone;
+}
+
+nlohmann::json readManifest(const fs::path& folder) {
+  std::ifstream file(folder / "manifest.json");
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
+/// The cells of one run, in the order of the header.
+std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
+                             const Columns& columns) {
+  std::vector<std::string> cells = {quoted(run.name)};
+  for (const std::string& value : run.values) cells.push_back(quoted(value));
+  cells.push_back(outcome.status);
+  cells.push_back(quoted(outcome.message));
+  const bool isFinished = outcome.status == "finished";
+  const nlohmann::json manifest = isFinished ? readManifest(folder / run.name) : nlohmann::json::object();
+  for (const char* key : {"wall_time_s", "steps", "simulated_time_s"}) cells.push_back(cell(numberOf(manifest, key)));
+  std::optional<Hdf5File> file;
+  if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
+    file.emplace(Hdf5File::open(results));
+  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene), columns))
+    cells.push_back(cell(f.value));
+  cells.push_back(manifest.value("state_hash", ""));
+  cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
+  return cells;
+}
+
+} // namespace
+
+double steadyFrom(const Scene& scene) {
+  if (!scene.vehicle) return 0.5 * scene.run.duration;
+  double ramped = scene.driver.driveBegins() + scene.driver.driveRamp;
+  if (scene.driver.table) ramped = std::max(ramped, scene.driver.driveBegins() + scene.driver.table->time.back());
+  return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
+}
+
+fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
+  const Columns columns(plan);
+  std::vector<std::string> header = {"run"};
+  for (const std::string& key : plan.keys) header.push_back(quoted(key));
+  for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
+    header.push_back(column);
+  for (const Figure& f : figuresOf(nullptr, kNone, columns)) header.push_back(f.column);
+  header.insert(header.end(), {"state hash", "commit"});
+  std::string text = fmt::format("{}\n", fmt::join(header, ","));
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, columns), ","));
+
+  const fs::path path = folder / "summary.csv";
+  replaceTextFile(path, text);
+  return path;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/channels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace grouser::runs {
+
+namespace {
+const std::vector<std::string> kAxes = {"x", "y", "z"};
+} // namespace
+
+std::vector<Channel> terrainChannels() {
+  return {
+      {"terrain/contacts", "-", "pairs of grains in touch", 1, {}},
+      {"terrain/max_overlap", "-", "largest overlap in grain radii", 1, {}},
+      {"terrain/max_speed", "m/s", "fastest grain", 1, {}},
+      {"terrain/rebuilds", "-", "neighbour lists built so far", 1, {}},
+  };
+}
+
+std::vector<Channel> surfaceChannels(const std::string& name) {
+  const std::string group = "surfaces/" + name + "/";
+  return {
+      {group + "force", "N", "of the grains on it, mean since the last row", 3, kAxes},
+      {group + "torque", "N m", "of the grains on it about its centre, mean since the last row", 3, kAxes},
+      {group + "power", "W", "of what moves it, mean since the last row", 1, {}},
+      {group + "position", "m", "of its centre", 3, kAxes},
+  };
+}
+
+std::vector<Channel> ledgerChannels() {
+  return {
+      {"ledger/drive_work", "J", "done by drives and moving surfaces", 1, {}},
+      {"ledger/kinetic", "J", "of grains, vehicle and bodies", 1, {}},
+      {"ledger/potential", "J", "in the field of gravity", 1, {}},
+      {"ledger/elastic", "J", "in contacts and springs", 1, {}},
+      {"ledger/dissipated", "J", "by friction and damping", 1, {}},
+      {"ledger/residual", "J", "what does not balance", 1, {}},
+      {"ledger/impulse_residual", "N s", "impulse on vehicle plus impulse on bed", 3, kAxes},
+  };
+}
+
+RowBuilder::RowBuilder(const std::vector<Channel>& channels) {
+  std::size_t first = 0;
+  for (const Channel& c : channels) {
+    slots_[c.path] = {first, static_cast<std::size_t>(c.width)};
+    first += static_cast<std::size_t>(c.width);
+  }
+  row_.values.resize(first);
+}
+
+void RowBuilder::begin(std::int64_t step, double time) {
+  row_.step = step, row_.time = time;
+  std::fill(row_.values.begin(), row_.values.end(), std::numeric_limits<double>::quiet_NaN());
+}
+
+void RowBuilder::set(const std::string& path, const double* values, std::size_t count) {
+  const auto slot = slots_.find(path);
+  if (slot == slots_.end()) throw std::logic_error("no channel " + path);
+  if (slot->second.width != count)
+    throw std::logic_error(fmt::format("channel {} takes {} numbers, not {}", path, slot->second.width, count));
+  std::copy(values, values + count, row_.values.begin() + static_cast<std::ptrdiff_t>(slot->second.first));
+}
+
+void RowBuilder::setFrom(const std::string& first, const std::vector<double>& values) {
+  const auto slot = slots_.find(first);
+  if (slot == slots_.end()) throw std::logic_error("no channel " + first);
+  if (slot->second.first + values.size() > row_.values.size())
+    throw std::logic_error("more numbers than channels from " + first);
+  std::copy(values.begin(), values.end(), row_.values.begin() + static_cast<std::ptrdiff_t>(slot->second.first));
+}
+
+} // namespace grouser::runs

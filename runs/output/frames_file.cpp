@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/frames_file.hpp"
+
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace grouser::runs {
+
+namespace {
+
+/// Numbers of vertices that are written at a time.
+constexpr std::size_t kVertexBlock = std::size_t{1} << 20;
+
+/// A <DataItem> that points into frames.h5.
+std::string item(const std::string& shape, const char* type, int bytes, const std::string& dataset) {
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Endian=\"Little\" Format=\"HDF\">"
+                     "frames.h5:{}</DataItem>",
+                     shape, type, bytes, dataset);
+}
+
+std::string geometry(std::size_t vertices, const std::string& dataset) {
+  return fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                     item(fmt::format("{} 3", vertices), "Float", 4, dataset));
+}
+
+std::string attribute(const char* name, const char* centre, std::size_t count, const char* type,
+                      const std::string& dataset) {
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">{}</Attribute>\n", name,
+                     centre, item(fmt::format("{}", count), type, 4, dataset));
+}
+
+std::string triangles(std::size_t count, const std::string& dataset) {
+  return fmt::format("        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", count,
+                     item(fmt::format("{} 3", count), "UInt", 4, dataset));
+}
+
+std::string grid(const char* name, const std::string& content) {
+  return content.empty()
+             ? ""
+             : fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n{}      </Grid>\n", name, content);
+}
+
+std::vector<float> flat(const std::vector<base::Vec3d>& points) {
+  std::vector<float> out;
+  out.reserve(3 * points.size());
+  for (const base::Vec3d& p : points)
+    for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
+  return out;
+}
+
+std::string groupOf(std::int64_t frame) { return fmt::format("/{:06}", frame); }
+
+} // namespace
+
+FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts,
+                       const base::TriangleMesh& ground, const base::Comm& comm)
+    : FramesFile(folder, comm.first() ? std::optional(Hdf5File::create(folder / "frames.h5")) : std::nullopt,
+                 std::move(parts), ground, comm) {}
+
+FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<Hdf5File> file, std::vector<FramePart> parts,
+                       const base::TriangleMesh& ground, const base::Comm& comm)
+    : folder_(folder), comm_(comm), file_(std::move(file)), parts_(std::move(parts)) {
+  if (!file_) return;
+  std::vector<std::uint32_t> corners, partOf, kindOf;
+  std::vector<std::string> names, kinds;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const FramePart& part = parts_[p];
+    const auto kind = std::find(kinds.begin(), kinds.end(), part.kind) - kinds.begin();
+    if (kind == static_cast<std::ptrdiff_t>(kinds.size())) kinds.push_back(part.kind);
+    names.push_back(part.name);
+    for (const std::uint32_t i : part.mesh.indices) corners.push_back(static_cast<std::uint32_t>(partVertices_) + i);
+    partOf.insert(partOf.end(), part.mesh.indices.size() / 3, static_cast<std::uint32_t>(p));
+    kindOf.insert(kindOf.end(), part.mesh.indices.size() / 3, static_cast<std::uint32_t>(kind));
+    partVertices_ += part.mesh.vertices.size();
+  }
+  partTriangles_ = corners.size() / 3;
+  if (partTriangles_ && !file_->has("/parts/triangles")) {
+    file_->write("/parts/triangles", corners, {partTriangles_, 3});
+    file_->write("/parts/part", partOf, {partTriangles_});
+    file_->write("/parts/kind", kindOf, {partTriangles_});
+    file_->attribute("/parts/part", "names", names);
+    file_->attribute("/parts/kind", "names", kinds);
+  }
+  groundVertices_ = ground.vertices.size(), groundTriangles_ = ground.indices.size() / 3;
+  if (groundTriangles_ && !file_->has("/ground/position")) {
+    file_->write("/ground/position", flat(ground.vertices), {groundVertices_, 3});
+    file_->write("/ground/triangles", ground.indices, {groundTriangles_, 3});
+  }
+}
+
+FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
+                            const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm) {
+  FramesFile frames(folder, comm.first() ? std::optional(Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
+                    std::move(parts), ground, comm);
+  if (!frames.file_) {
+    frames.count_ = kept;
+    return frames;
+  }
+  std::set<std::string> counts; // numbers of grains of the kept frames
+  for (std::int64_t i = 0; frames.file_->has(groupOf(i)); ++i) {
+    const std::string group = groupOf(i);
+    if (i >= kept) {
+      frames.file_->remove(group);
+      continue;
+    }
+    const std::string position = group + "/grains/position";
+    const std::uint64_t grains = frames.file_->has(position) ? frames.file_->shape(position)[0] : 0;
+    if (grains) counts.insert(std::to_string(grains));
+    frames.describe(grains, static_cast<std::int64_t>(frames.file_->number(group, "step")),
+                    frames.file_->number(group, "time"));
+  }
+  // Lists of vertices that removed frames alone have used; one that a kill has cut short is among them.
+  for (const std::string& list : frames.file_->members("/vertices"))
+    if (!counts.count(list)) frames.file_->remove("/vertices/" + list);
+  if (counts.empty() && frames.file_->has("/vertices")) frames.file_->remove("/vertices");
+  frames.file_->flush();
+  if (!frames.steps_.empty()) frames.writeXdmf();
+  return frames;
+}
+
+std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep) {
+  const Hdf5File file = Hdf5File::open(folder / "frames.h5");
+  std::int64_t count = 0;
+  while (file.has(groupOf(count)) && file.number(groupOf(count), "step") <= static_cast<double>(lastStep)) ++count;
+  return count;
+}
+
+void FramesFile::add(const Frame& frame) {
+  const std::size_t grains = frame.positions.size();
+  if (frame.radii.size() != grains || frame.speeds.size() != grains || frame.ids.size() != grains ||
+      frame.partPoses.size() != parts_.size())
+    throw std::logic_error("a frame's arrays differ in length");
+  const std::string group = groupOf(count_);
+  const auto total = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(grains)));
+  if (file_) writeAllButGrains(frame, group, total);
+  if (total > 0 && comm_.alone()) writeGrains(*file_, frame, group);
+  if (total > 0 && !comm_.alone()) {
+    file_.reset(); // closed by one, opened by all
+    comm_.wait();
+    std::optional<Hdf5File> shared = Hdf5File::openShared(folder_ / "frames.h5", comm_);
+    writeGrains(*shared, frame, group);
+    shared.reset();
+    comm_.wait();
+    if (comm_.first()) file_ = Hdf5File::openToChange(folder_ / "frames.h5");
+  }
+  if (!file_) {
+    ++count_;
+    return;
+  }
+  describe(total, frame.step, frame.time);
+  file_->flush();
+  if (!steps_.empty()) writeXdmf();
+}
+
+void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {
+  file_->makeGroup(group);
+  file_->attribute(group, "time", frame.time);
+  file_->attribute(group, "step", static_cast<double>(frame.step));
+  if (grains > 0) {
+    const std::string at = group + "/grains";
+    file_->reserve<float>(at + "/position", {grains, 3});
+    file_->reserve<float>(at + "/radius", {grains});
+    file_->reserve<float>(at + "/speed", {grains});
+    file_->reserve<std::uint32_t>(at + "/id", {grains});
+  }
+  if (partTriangles_) {
+    std::vector<base::Vec3d> world;
+    world.reserve(partVertices_);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
+    file_->write(group + "/parts/position", flat(world), {partVertices_, 3});
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const std::vector<double>& places = frame.borders[axis]; !places.empty())
+      file_->write(group + "/partition/" + "xyz" [axis], places, { places.size() });
+}
+
+/// The rows of this rank's grains.
+void FramesFile::writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const {
+  const std::size_t grains = frame.positions.size();
+  const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(grains)));
+  std::vector<float> positions(3 * grains);
+  for (std::size_t i = 0; i < grains; ++i)
+    for (int k = 0; k < 3; ++k) positions[3 * i + static_cast<std::size_t>(k)] = frame.positions[i][k];
+  const std::string at = group + "/grains";
+  file.writeRows(at + "/position", first, positions);
+  file.writeRows(at + "/radius", first, frame.radii);
+  file.writeRows(at + "/speed", first, frame.speeds);
+  file.writeRows(at + "/id", first, frame.ids);
+}
+
+/// The list of `grains` vertices, which frames of as many grains share. They are just 0, 1, 2..., but not every reader
+/// makes them up.
+std::string FramesFile::listVertices(std::size_t grains) {
+  const std::string list = fmt::format("/vertices/{}", grains);
+  if (file_->has(list)) return list;
+  file_->reserve<std::uint32_t>(list, {grains, 1});
+  std::vector<std::uint32_t> block;
+  for (std::size_t first = 0; first < grains; first += block.size()) {
+    block.resize(std::min(kVertexBlock, grains - first));
+    std::iota(block.begin(), block.end(), static_cast<std::uint32_t>(first));
+    file_->writeRows(list, first, block);
+  }
+  return list;
+}
+
+void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
+  const std::string group = groupOf(count_++);
+  std::string grids;
+  if (grains) {
+    const std::string at = group + "/grains";
+    const std::string vertices = fmt::format(
+        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
+        grains, item(fmt::format("{} 1", grains), "UInt", 4, listVertices(grains)));
+    grids += grid("grains", vertices + geometry(grains, at + "/position") +
+                                attribute("radius", "Node", grains, "Float", at + "/radius") +
+                                attribute("speed", "Node", grains, "Float", at + "/speed") +
+                                attribute("id", "Node", grains, "UInt", at + "/id"));
+  }
+  if (partTriangles_)
+    grids += grid("parts", triangles(partTriangles_, "/parts/triangles") +
+                               geometry(partVertices_, group + "/parts/position") +
+                               attribute("part", "Cell", partTriangles_, "UInt", "/parts/part") +
+                               attribute("kind", "Cell", partTriangles_, "UInt", "/parts/kind"));
+  if (groundTriangles_)
+    grids += grid("ground",
+                  triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));
+  if (grids.empty()) return;
+  steps_ += fmt::format("    <Grid Name=\"step {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n      <Time "
+                        "Value=\"{}\"/>\n{}    </Grid>\n",
+                        step, time, grids);
+}
+
+void FramesFile::writeXdmf() const {
+  constexpr const char* kHead =
+      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n  <Grid Name=\"run\" GridType=\"Collection\" "
+      "CollectionType=\"Temporal\">\n";
+  replaceTextFile(folder_ / "frames.xdmf", kHead + steps_ + "  </Grid>\n</Domain>\n</Xdmf>\n");
+}
+
+} // namespace grouser::runs

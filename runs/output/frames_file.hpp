@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/support/hdf5_file.hpp"
+#include "runs/output/output.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// Grains, parts and ground over time for ParaView: numbers in frames.h5, their meaning in frames.xdmf beside it.
+///
+/// frames.h5:  /parts/triangles [t, 3], /parts/part [t], /parts/kind [t];  /ground/position [v, 3], /ground/triangles;
+///             /vertices/1000 [1000, 1]: 0, 1, 2... for frames of as many grains;
+///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3],
+///             /000012/partition/{x, y, z} [b]: where borders of subdomains cross that axis [m]; absent where none does
+/// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground". It is written anew after each
+/// frame and put in place by renaming, so that it always names complete frames only.
+class FramesFile {
+public:
+  /// On several ranks all of them call everything here; each gives its own grains.
+  FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground,
+             const base::Comm& comm = {});
+  /// Goes on with the files of a stopped run of the same parts and ground: all but the first `kept` frames are removed.
+  static FramesFile goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
+                         const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm = {});
+  /// How many frames the folder holds up to and with `lastStep`. Throws base::InputError where there is no such file.
+  static std::int64_t framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep);
+
+  /// Throws std::logic_error where the arrays' lengths do not agree.
+  void add(const Frame& frame);
+
+private:
+  FramesFile(const std::filesystem::path& folder, std::optional<Hdf5File> file, std::vector<FramePart> parts,
+             const base::TriangleMesh& ground, const base::Comm& comm);
+  void writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains);
+  void writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const;
+  std::string listVertices(std::size_t grains);
+  /// Adds the XML of the next frame, which is in the file.
+  void describe(std::size_t grains, std::int64_t step, double time);
+  void writeXdmf() const;
+
+  std::filesystem::path folder_;
+  base::Comm comm_;
+  std::optional<Hdf5File> file_; ///< on the first rank
+  std::vector<FramePart> parts_;
+  std::size_t partVertices_ = 0, partTriangles_ = 0, groundVertices_ = 0, groundTriangles_ = 0;
+  std::string steps_; ///< the frames so far, as XML
+  std::int64_t count_ = 0;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/frames_reader.hpp"
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::runs {
+
+namespace {
+
+std::string groupOf(std::size_t frame) { return fmt::format("/{:06}", frame); }
+
+/// Opens the file, with what to do about it where it cannot be opened.
+Hdf5File opened(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw base::InputError(fmt::format("{}: there is no such file; give the frames.h5 of a run", path.string()));
+  try {
+    return Hdf5File::open(path);
+  } catch (const base::InputError&) {
+    throw base::InputError(fmt::format(
+        "{}: is no HDF5 file, was cut short, or a run is still writing it; give the frames.h5 of a run that has ended",
+        path.string()));
+  }
+}
+
+} // namespace
+
+FramesReader::FramesReader(const std::filesystem::path& path) : file_(opened(path)) {
+  while (file_.has(groupOf(times_.size()))) {
+    const double time = file_.number(groupOf(times_.size()), "time");
+    if (!std::isfinite(time)) damaged(fmt::format("frame {} has no time", times_.size()));
+    times_.push_back(time);
+  }
+  if (times_.empty())
+    throw base::InputError(
+        fmt::format("{}: holds no frames; give the frames.h5 of a run with output.frames = true", path.string()));
+  readParts();
+  readGround();
+}
+
+bool FramesReader::hasVehicle() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const StoredPart& p) { return p.kind == kHullKind; });
+}
+
+void FramesReader::damaged(const std::string& what) const {
+  throw base::InputError(fmt::format("{}: {}; the file is damaged, or of another program", path().string(), what));
+}
+
+std::vector<base::Vec3f> FramesReader::points(const std::string& dataset) const {
+  const std::vector<std::uint64_t> shape = file_.shape(dataset);
+  if (shape.size() != 2 || shape[1] != 3) damaged(dataset + " is not of shape [n, 3]");
+  const std::vector<float> numbers = file_.read<float>(dataset);
+  std::vector<base::Vec3f> points(shape[0]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
+      damaged(fmt::format("row {} of {} is no place", i, dataset));
+  }
+  return points;
+}
+
+std::vector<float> FramesReader::perGrain(const std::string& dataset, std::size_t count) const {
+  if (file_.shape(dataset) != std::vector<std::uint64_t>{count})
+    damaged(fmt::format("{} does not have a number for each of the {} grains", dataset, count));
+  std::vector<float> numbers = file_.read<float>(dataset);
+  for (const float x : numbers)
+    if (!std::isfinite(x) || x < 0) damaged(fmt::format("{} has a number that is negative or not finite", dataset));
+  return numbers;
+}
+
+void FramesReader::readParts() {
+  if (!file_.has("/parts/triangles")) return;
+  const auto corners = file_.read<std::uint32_t>("/parts/triangles");
+  const auto partOf = file_.read<std::uint32_t>("/parts/part"), kindOf = file_.read<std::uint32_t>("/parts/kind");
+  const std::vector<std::string> names = file_.texts("/parts/part", "names"),
+                                 kinds = file_.texts("/parts/kind", "names");
+  if (corners.size() != 3 * partOf.size() || kindOf.size() != partOf.size()) damaged("/parts/triangles has no parts");
+  parts_.resize(names.size());
+  for (std::size_t t = 0; t < partOf.size(); ++t) {
+    if (partOf[t] >= names.size() || kindOf[t] >= kinds.size()) damaged("a triangle of /parts is of no part");
+    StoredPart& part = parts_[partOf[t]];
+    part.name = names[partOf[t]], part.kind = kinds[kindOf[t]];
+    part.triangles.insert(part.triangles.end(), &corners[3 * t], &corners[3 * t] + 3);
+  }
+  for (StoredPart& part : parts_) {
+    if (part.triangles.empty()) continue;
+    const auto [low, high] = std::minmax_element(part.triangles.begin(), part.triangles.end());
+    part.first = *low, part.count = *high - *low + 1;
+    for (std::uint32_t& v : part.triangles) v -= part.first;
+  }
+}
+
+void FramesReader::readGround() {
+  if (!file_.has("/ground/triangles")) return;
+  for (const base::Vec3f& p : points("/ground/position")) ground_.vertices.push_back(p.as<double>());
+  ground_.indices = file_.read<std::uint32_t>("/ground/triangles");
+  for (const std::uint32_t v : ground_.indices)
+    if (v >= ground_.vertices.size()) damaged("a triangle of /ground has a corner that is not there");
+}
+
+StoredFrame FramesReader::read(std::size_t frame) const {
+  const std::string group = groupOf(frame);
+  StoredFrame f;
+  f.time = times_[frame];
+  if (const std::string at = group + "/grains"; file_.has(at + "/position")) {
+    f.positions = points(at + "/position");
+    f.radii = perGrain(at + "/radius", f.positions.size());
+    f.speeds = perGrain(at + "/speed", f.positions.size());
+  }
+  if (!parts_.empty()) {
+    f.partVertices = points(group + "/parts/position");
+    for (const StoredPart& part : parts_)
+      if (part.first + std::size_t{part.count} > f.partVertices.size())
+        damaged(fmt::format("frame {} lacks vertices of {}", frame, part.name));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const std::string places = group + "/partition/" + "xyz"[axis]; file_.has(places)) {
+      f.borders[axis] = file_.read<double>(places);
+      if (!std::is_sorted(f.borders[axis].begin(), f.borders[axis].end())) damaged(places + " does not ascend");
+    }
+  return f;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/grains_csv.hpp"
+
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kHead = "step,time [s],id,position.x [m],position.y [m],position.z [m],velocity.x [m/s],"
+                              "velocity.y [m/s],velocity.z [m/s],spin.x [rad/s],spin.y [rad/s],spin.z [rad/s],"
+                              "radius [m]\n";
+
+/// The lines up to this step, without the header. A line that was cut short has no end.
+std::string linesUpTo(std::int64_t last, const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text, line;
+  std::getline(file, line);
+  while (std::getline(file, line) && !file.eof()) {
+    if (std::strtoll(line.c_str(), nullptr, 10) > last) break;
+    text += line + '\n';
+  }
+  return text;
+}
+
+/// Rows of all ranks in the order of the ids, on the first.
+template <class T> std::vector<T> onFirst(const std::vector<T>& mine, const base::Comm& comm) {
+  if (comm.alone()) return mine;
+  std::vector<base::Bytes> to(static_cast<std::size_t>(comm.size()));
+  to.front() = base::Comm::bytesOf(mine);
+  std::vector<T> all;
+  for (const base::Bytes& part : comm.allToAll(to)) {
+    const std::vector<T> more = base::Comm::valuesOf<T>(part);
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+} // namespace
+
+bool GrainsCsv::isWanted(const Scene& scene, std::int64_t grains) {
+  if (scene.output.grainsCsv)
+    return *scene.output.grainsCsv && grains + static_cast<std::int64_t>(scene.sources.size()) > 0;
+  for (const Source& s : scene.sources) grains += s.total;
+  const double rows = std::floor(scene.run.duration / scene.run.outputInterval) + 2;
+  return grains > 0 && grains <= kMostGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMostLines);
+}
+
+GrainsCsv::GrainsCsv(const fs::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm)
+    : path_(folder / kGrainsCsvName), comm_(comm) {
+  if (!comm_.first()) return;
+  replaceTextFile(path_, kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
+  file_.open(path_, std::ios::binary | std::ios::app);
+  check();
+}
+
+void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grains) {
+  const terrain::GrainSnapshot mine = grains.snapshot();
+  const auto position = onFirst(mine.position, comm_);
+  const auto velocity = onFirst(mine.velocity, comm_), spin = onFirst(mine.spin, comm_);
+  const auto radius = onFirst(mine.radius, comm_); // empty where all are alike
+  if (!comm_.first()) return;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const auto& p = position[i];
+    const auto &v = velocity[i], &w = spin[i];
+    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", step, time, i, p.x, p.y, p.z, v.x, v.y, v.z, w.x,
+                         w.y, w.z, radius.empty() ? grains.model().radius : static_cast<double>(radius[i]));
+  }
+  file_.flush();
+  check();
+}
+
+void GrainsCsv::check() {
+  if (!file_) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path_.string()));
+}
+
+} // namespace grouser::runs

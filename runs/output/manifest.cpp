@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/manifest.hpp"
+
+#include "runs/support/build_info.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <fmt/chrono.h>
+#include <fstream>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kName = "manifest.json";
+
+std::string now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+nlohmann::ordered_json filesIn(const fs::path& folder) {
+  std::map<std::string, std::uintmax_t> sizes;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != kName)
+      sizes[entry.path().filename().string()] = entry.file_size();
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  for (const auto& [name, bytes] : sizes) files[name] = {{"bytes", bytes}};
+  return files;
+}
+
+} // namespace
+
+Manifest::Manifest(const fs::path& folder, const Scene& scene, const std::map<std::string, std::string>& metadata)
+    : path_(folder / kName), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
+      overrides_(scene.overrides), notes_(metadata) {}
+
+void Manifest::write(const std::string& status) const {
+  const BuildInfo build = buildInfo();
+  nlohmann::ordered_json json;
+  json["status"] = status;
+  json["scene"] = scene_;
+  json["overrides"] = overrides_;
+  json["program"] = {{"name", "grouser"},
+                     {"version", build.version},
+                     {"commit", build.commit},
+                     {"compiler", build.compiler},
+                     {"cuda", build.cuda}};
+  json["machine"] = machineText();
+  json["started"] = started_;
+  for (const auto& [key, text] : notes_) json[key] = text;
+  if (status == "finished") {
+    json["ended"] = now();
+    json["steps"] = summary_.steps;
+    json["simulated_time_s"] = summary_.simulatedTime;
+    json["wall_time_s"] = summary_.wallTime;
+    if (!summary_.stateHash.empty()) json["state_hash"] = summary_.stateHash;
+    for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
+  }
+  json["files"] = filesIn(path_.parent_path());
+  replaceTextFile(path_, json.dump(2) + "\n");
+}
+
+void listFiles(const fs::path& folder) {
+  std::ifstream file(folder / kName);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (json.is_discarded()) return;
+  json["files"] = filesIn(folder);
+  replaceTextFile(folder / kName, json.dump(2) + "\n");
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/output/output.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace grouser::runs {
+
+/// manifest.json: what was run, by which program, on which machine, and what came of it.
+class Manifest {
+public:
+  Manifest(const std::filesystem::path& folder, const Scene& scene, const std::map<std::string, std::string>& metadata);
+
+  void note(const std::string& key, const std::string& text) { notes_[key] = text; }
+  void add(const Summary& summary) { summary_ = summary; }
+
+  /// Writes the file with the folder's files of this moment, by renaming. `status`: running, finished or failed.
+  void write(const std::string& status) const;
+
+private:
+  std::filesystem::path path_;
+  std::string scene_, started_;
+  std::vector<std::string> overrides_;
+  std::map<std::string, std::string> notes_;
+  Summary summary_;
+};
+
+/// Brings the list of files in the manifest of `folder` up to date, after plots have been drawn.
+void listFiles(const std::filesystem::path& folder);
+
+} // namespace grouser::runs

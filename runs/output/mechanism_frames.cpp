@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/mechanism_frames.hpp"
+
+#include "runs/setup/mechanism_model.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grouser::runs {
+
+using base::Pose;
+using base::Vec3d;
+
+namespace {
+
+/// Frames given twice, once a body, must meet this well at the start [m, rad].
+constexpr double kStartGap = 1e-6;
+std::string text(const Vec3d& v) { return fmt::format("({:.7g}, {:.7g}, {:.7g})", v.x, v.y, v.z); }
+
+/// Direction given for a key, not zero.
+Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
+  if (!v) throw SectionFault(key, "[-] is missing, which this type of joint needs; add it, e.g. [0, 0, 1]");
+  if (norm2(*v) == 0) throw SectionFault(key, "[-] is zero; give a direction, e.g. [0, 0, 1]");
+  return normalized(*v);
+}
+
+bool hasAxis(const std::string& type) { return type != "spherical" && type != "fixed" && type != "distance"; }
+
+/// Both frames from what is said in the world.
+JointFrames placedInWorld(const JointSection& j) {
+  for (const auto& [key, given] : {std::pair{"point_a", j.pointA.has_value()},
+                                   {"point_b", j.pointB.has_value()},
+                                   {"axis_a", j.axisA.has_value()},
+                                   {"axis_b", j.axisB.has_value()}})
+    if (given)
+      throw SectionFault(key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
+  if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
+  const Vec3d z = direction("axis", j.axis);
+  Pose X = multibody::frameWithZ(*j.point, z);
+  if (j.type == "universal") {
+    const Vec3d x = direction("second_axis", j.secondAxis);
+    if (std::fabs(dot(x, z)) > kStartGap)
+      throw SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
+                                                    "perpendicular at the start",
+                                                    std::fabs(dot(x, z))));
+    X = multibody::frameWithZX(*j.point, z, x);
+  }
+  return {X, X};
+}
+
+/// Both frames from what is said in the bodies; they must meet.
+JointFrames placedInBodies(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
+  if (!j.pointA) throw SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
+  if (!j.pointB) throw SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
+  const Vec3d p_A = X_WA.toWorld(*j.pointA), p_B = X_WB.toWorld(*j.pointB);
+  const auto apart = [&](const Vec3d& gap, const char* where) {
+    if (!(norm(gap) <= kStartGap))
+      throw SectionFault("point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
+                                                "at {}; allowed are {:g} m: correct the points or the bodies' places",
+                                                text(p_B), norm(gap), where, text(p_A), kStartGap));
+  };
+  if (!hasAxis(j.type)) {
+    apart(p_B - p_A, "");
+    return {{p_A, X_WA.orientation}, {p_A, X_WA.orientation}};
+  }
+  const Vec3d z = rotate(X_WA.orientation, direction("axis_a", j.axisA));
+  const Vec3d b = rotate(X_WB.orientation, direction("axis_b", j.axisB));
+  if (j.type == "universal") {
+    apart(p_B - p_A, "");
+    if (std::fabs(dot(z, b)) > kStartGap)
+      throw SectionFault("axis_b", fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
+                                               "them perpendicular",
+                                               std::fabs(dot(z, b))));
+    const Pose X = multibody::frameWithZX(p_A, z, b);
+    return {X, X};
+  }
+  if (!(norm(cross(z, b)) <= kStartGap && dot(z, b) > 0))
+    throw SectionFault("axis_b", fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
+                                             "apart; turn a body or an axis so that they are parallel",
+                                             text(b), text(z), norm(b - z)));
+  const bool slides = j.type == "prismatic" || j.type == "cylindrical";
+  const double slide = slides ? dot(p_B - p_A, z) : 0;
+  apart(p_B - p_A - slide * z, slides ? " beside the axis" : "");
+  const Pose X = multibody::frameWithZ(p_A, z);
+  return {X, {p_A + slide * z, X.orientation}};
+}
+
+/// Of a distance joint: two points, and no directions.
+JointFrames placedAtEnds(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
+  if (j.point)
+    throw SectionFault("point", "[m] has no meaning for a distance joint; give point_a and point_b in the bodies");
+  const JointFrames ends{{X_WA.toWorld(j.pointA.value_or(Vec3d{})), X_WA.orientation},
+                         {X_WB.toWorld(j.pointB.value_or(Vec3d{})), X_WB.orientation}};
+  if (!(norm(ends.B.position - ends.A.position) > 0))
+    throw SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the joint has no length; "
+                                  "move one, or use a spherical joint");
+  return ends;
+}
+
+} // namespace
+
+JointFrames placeJoint(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
+  if (j.secondAxis && j.type != "universal")
+    throw SectionFault("second_axis", "has a meaning for a universal joint only; remove it");
+  if (j.type == "distance") return placedAtEnds(j, X_WA, X_WB);
+  if (!j.point && !j.pointA && !j.pointB)
+    throw SectionFault("point", "[m] is missing; add where the joint is at the start, or point_a and point_b");
+  return j.point ? placedInWorld(j) : placedInBodies(j, X_WA, X_WB);
+}
+
+} // namespace grouser::runs

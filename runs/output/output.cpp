@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/output.hpp"
+
+#include "base/error.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "runs/output/frames_file.hpp"
+#include "runs/support/hdf5_file.hpp"
+#include "runs/output/manifest.hpp"
+#include "runs/commands/ranks_alike.hpp"
+#include "runs/support/sealed_file.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Rows of a channel that are allotted at a time: enough that a long run does not scatter, small enough for short ones.
+constexpr int kChunkRows = 64;
+
+/// The files of a run; what else lies in its folder is not ours.
+constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.h5",    "frames.xdmf",
+                                  "scene.toml",       "manifest.json",  "sinkage.csv",  "sinkage.png",
+                                  "shoe_heights.png", "drive.png",      "ledger.png",   "mechanism.png",
+                                  "picture.png",      "grains.csv",     kCheckpointName};
+
+fs::path prepared(fs::path folder, const RunWriter::Options& options, FileLock& lock) {
+  if (options.former) return folder;
+  checkOutputFolder(folder, options.force);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw base::InputError(
+        fmt::format("{}: the folder cannot be made ({}); name another with --out", folder.string(), error.message()));
+  claimFolder(lock, folder);
+  checkOutputFolder(folder, options.force); // another run may have been quicker
+  for (const char* name : kFiles) fs::remove(folder / name, error);
+  return folder;
+}
+
+/// "vehicle/body/position" as the start of a column's name.
+std::string dotted(std::string path) {
+  for (char& c : path)
+    if (c == '/') c = '.';
+  return path;
+}
+
+} // namespace
+
+void checkOutputFolder(const fs::path& folder, bool force) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) {
+    // It will be made when the results begin; find out now whether it can be.
+    fs::path above = fs::absolute(folder, error).parent_path();
+    while (!above.empty() && above != above.root_path() && !fs::exists(above, error)) above = above.parent_path();
+    if (!fs::is_directory(above, error) || access(above.c_str(), W_OK) != 0)
+      throw base::InputError(
+          fmt::format("{}: cannot be made, since nothing may be written in {}; name another with --out",
+                      folder.string(), above.string()));
+    return;
+  }
+  if (!fs::is_directory(folder, error))
+    throw base::InputError(
+        fmt::format("{}: is a file, where the results' folder should be; name another with --out", folder.string()));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw base::InputError(
+        fmt::format("{}: nothing may be written in this folder; name another with --out", folder.string()));
+  if (!force && !fs::is_empty(folder, error))
+    throw base::InputError(
+        fmt::format("{}: the folder is not empty; name another with --out, {}or overwrite it with --force",
+                    folder.string(), fs::exists(folder / kCheckpointName, error) ? "go on with --resume, " : ""));
+}
+
+void claimFolder(FileLock& lock, const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error) && !lock.take(folder))
+    throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
+                                       "folder with --out",
+                                       folder.string()));
+}
+
+/// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.
+struct RunWriter::Series {
+  FileLock lock; ///< of the folder, where the run begins in it; a resumed one holds it already
+  fs::path folder;
+  const Options& options;
+  std::vector<Channel> channels;
+  Hdf5File results;
+  std::vector<GrowingDataset> values;
+  GrowingDataset steps, times;
+  std::ofstream csv;
+  Manifest manifest;
+  std::size_t width = 0;
+
+  /// While former rows are copied the new files have another name, so that a kill loses none.
+  fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
+
+  Series(const fs::path& where, const Scene& scene, std::vector<Channel> list, const Options& given)
+      : folder(prepared(where, given, lock)), options(given), channels(std::move(list)),
+        results(Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
+        manifest(folder, scene, options.metadata) {
+    const std::string resolved = resolvedToml(scene);
+    replaceTextFile(folder / "scene.toml", resolved);
+    const BuildInfo build = buildInfo();
+    results.attribute("/", "creator", std::string("grouser"));
+    results.attribute("/", "version", build.version);
+    results.attribute("/", "commit", build.commit);
+    results.attribute("/", "machine", machineText());
+    results.attribute("/", "scene", resolved);
+    makeSeries();
+    writeHeader();
+    if (options.former) takeOver();
+    manifest.write("running");
+  }
+
+  void takeOver() {
+    for (const Row& row : options.former->rows) append(row);
+    flush();
+    for (const char* name : {"results.h5", "timeseries.csv"}) fs::rename(atFirst(name), folder / name);
+  }
+
+  void append(const Row& row) {
+    if (row.values.size() != width) throw std::logic_error("a row has another length than its channels");
+    steps.append(&row.step);
+    times.append(&row.time);
+    const double* number = row.values.data();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      values[c].append(number);
+      number += channels[c].width;
+    }
+    writeCsvRow(row);
+  }
+
+  /// H5MD's layout: each quantity is a group of step, time and value; step and time are one dataset under many names.
+  void makeSeries() {
+    steps = results.growing("/series/step", NumberType::Int64, 0, kChunkRows);
+    times = results.growing("/series/time", NumberType::Float64, 0, kChunkRows);
+    results.attribute("/series/time", "unit", std::string("s"));
+    for (const Channel& c : channels) {
+      const std::string group = "/" + c.path;
+      values.push_back(results.growing(group + "/value", NumberType::Float64, c.width == 1 ? 0 : c.width, kChunkRows));
+      results.link("/series/step", group + "/step");
+      results.link("/series/time", group + "/time");
+      results.attribute(group + "/value", "unit", c.unit);
+      results.attribute(group + "/value", "help", c.help);
+      if (!c.columns.empty()) results.attribute(group + "/value", "labels", c.columns);
+      width += static_cast<std::size_t>(c.width);
+    }
+    results.flush();
+  }
+
+  void writeHeader() {
+    csv << "step,time [s]";
+    for (const Channel& c : channels) {
+      if (c.width == 1) csv << ',' << dotted(c.path) << " [" << c.unit << ']';
+      for (const std::string& column : c.columns)
+        csv << ',' << dotted(c.path) << '.' << column << " [" << c.unit << ']';
+    }
+    csv << '\n' << std::flush;
+  }
+
+  void writeCsvRow(const Row& row) {
+    std::string line = fmt::format("{},{}", row.step, row.time);
+    const double* number = row.values.data();
+    for (const Channel& c : channels) {
+      if (c.width == 1 || !c.columns.empty())
+        for (int i = 0; i < c.width; ++i) line += fmt::format(",{}", number[i]);
+      number += c.width;
+    }
+    csv << line << '\n';
+  }
+
+  void flush() {
+    results.flush();
+    csv.flush();
+    if (!csv)
+      throw std::runtime_error(
+          fmt::format("{}: could not be written; is the disk full?", (folder / "timeseries.csv").string()));
+  }
+};
+
+struct RunWriter::Impl {
+  fs::path folder;
+  Options options;
+  std::unique_ptr<Series> series; ///< on the first rank
+  std::optional<FramesFile> frames;
+  std::int64_t rows = 0, framesAdded = 0;
+
+  Impl(const fs::path& where, const Scene& scene, std::vector<Channel> channels, Options given)
+      : folder(where), options(std::move(given)) {
+    if (options.comm.first()) series = std::make_unique<Series>(where, scene, std::move(channels), options);
+    options.comm.wait(); // the folder is there now
+    if (options.former) rows = static_cast<std::int64_t>(options.former->rows.size());
+  }
+};
+
+RunWriter::RunWriter(fs::path folder, const Scene& scene, std::vector<Channel> channels, Options options) {
+  for (const Channel& c : channels)
+    if (!c.columns.empty() && c.columns.size() != static_cast<std::size_t>(c.width))
+      throw std::logic_error("channel " + c.path + ": as many columns as numbers");
+  const bool begun = !options.former && options.comm.first();
+  std::error_code unknown;
+  const bool there = fs::exists(folder, unknown);
+  const auto takeBack = [&] {
+    std::error_code error;
+    for (const char* name : kFiles)
+      if (begun) fs::remove(folder / name, error);
+    if (begun && !there) fs::remove(folder, error);
+  };
+  try {
+    impl_ = std::make_unique<Impl>(folder, scene, std::move(channels), std::move(options));
+  } catch (const base::InputError&) {
+    throw; // before anything was touched
+  } catch (...) {
+    takeBack(); // the disk is full: what was begun is of no use
+    throw;
+  }
+  if (const std::optional<int> rank = rankThatMisses(folder, impl_->options.comm); rank && *rank > 0) {
+    impl_.reset();
+    takeBack();
+    throw base::InputError(fmt::format(
+        "{}: rank {} does not see this folder of rank 0; start all ranks in the same folder, and where they "
+        "run on several hosts let --out name one that all of these share",
+        folder.string(), *rank));
+  }
+}
+
+RunWriter::~RunWriter() = default;
+
+const fs::path& RunWriter::folder() const { return impl_->folder; }
+
+void RunWriter::constant(const std::string& path, const std::string& unit, double value) {
+  if (!impl_->series) return;
+  impl_->series->results.write("/" + path, std::vector<double>{value}, {1});
+  impl_->series->results.attribute("/" + path, "unit", unit);
+}
+
+void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground) {
+  Impl& w = *impl_;
+  if (!w.options.frames) return;
+  if (w.options.former && w.options.former->frames > 0) {
+    w.framesAdded = w.options.former->frames;
+    w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, w.framesAdded, w.options.comm));
+  } else {
+    w.frames.emplace(w.folder, std::move(parts), ground, w.options.comm);
+  }
+}
+
+void RunWriter::row(const Row& row) {
+  ++impl_->rows;
+  if (!impl_->series) return;
+  impl_->series->append(row);
+  impl_->series->flush();
+}
+
+void RunWriter::frame(const Frame& frame) {
+  Impl& w = *impl_;
+  if (w.options.frames && !w.frames) setParts({}, {});
+  if (!w.frames) return;
+  w.frames->add(frame);
+  ++w.framesAdded;
+}
+
+void RunWriter::finish(const Summary& summary) {
+  Impl& w = *impl_;
+  w.frames.reset();
+  if (!w.series) return;
+  w.series->results.attribute("/", "state_hash", summary.stateHash);
+  w.series->results.flush();
+  w.series->manifest.add(summary);
+  w.series->manifest.write("finished");
+}
+
+void RunWriter::abandon(const std::string& reason) {
+  if (!impl_->series) return;
+  impl_->series->manifest.note("error", reason);
+  try {
+    impl_->series->manifest.write("failed");
+  } catch (const std::exception&) {
+    // The disk may be full. What is told is why the run ended.
+  }
+}
+
+void RunWriter::stop(const std::string& reason) {
+  if (!impl_->series) return;
+  impl_->series->manifest.note("stopped", reason);
+  impl_->series->manifest.write("stopped");
+}
+
+std::int64_t RunWriter::rows() const { return impl_->rows; }
+
+std::int64_t RunWriter::keptUpTo() const {
+  const auto& former = impl_->options.former;
+  return former && !former->rows.empty() ? former->rows.back().step : -1;
+}
+
+std::int64_t RunWriter::frames() const { return impl_->framesAdded; }
+
+void RunWriter::sync() {
+  if (!impl_->series) return;
+  impl_->series->flush();
+  for (const char* name : {"results.h5", "timeseries.csv"}) syncFile(impl_->folder / name);
+}
+
+} // namespace grouser::runs

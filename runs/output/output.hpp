@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+#include "base/sphere_set.hpp"
+#include "base/vec.hpp"
+#include "runs/support/file_lock.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a run leaves in its folder: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
+/// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
+/// of how a simulation computes it.
+namespace grouser::runs {
+
+/// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
+/// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
+struct Channel {
+  std::string path; ///< "vehicle/shoes/sinkage"
+  std::string unit; ///< "m"; "-" where dimensionless
+  std::string help;
+  int width = 1;
+  /// Names of the columns in timeseries.csv: "x","y","z". Empty: a wide channel is in results.h5 only.
+  std::vector<std::string> columns;
+};
+
+/// The numbers of one output time, in the order of the channels, each channel's `width` numbers in turn.
+struct Row {
+  std::int64_t step{};
+  double time{}; ///< [s]
+  std::vector<double> values;
+};
+
+/// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
+struct FramePart {
+  std::string name; ///< "left shoe 12"
+  std::string kind; ///< "chassis", "shoe", "sprocket", "road_wheel", "roller", "idler", "surface": decides the colour
+  base::TriangleMesh mesh; ///< body frame
+};
+
+/// The grains and parts at one time; on several ranks this rank's block of the grains. All arrays of grains have the
+/// same length.
+struct Frame {
+  std::int64_t step{};
+  double time{};                      ///< [s]
+  std::vector<base::Vec3f> positions; ///< [m]
+  std::vector<float> radii;           ///< [m]
+  std::vector<float> speeds;          ///< [m/s]
+  std::vector<std::uint32_t> ids;
+  std::vector<base::Pose> partPoses; ///< one a part
+  /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
+  std::array<std::vector<double>, 3> borders;
+};
+
+/// What is known when a run ends.
+struct Summary {
+  std::int64_t steps{};
+  double simulatedTime{};                ///< [s]
+  double wallTime{};                     ///< [s]
+  std::string stateHash;                 ///< hexadecimal; empty where not taken
+  std::map<std::string, double> figures; ///< anything else worth keeping: "particle steps per second"
+};
+
+/// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
+void checkOutputFolder(const std::filesystem::path& folder, bool force);
+
+/// Takes the lock of the folder that a run writes in, if it is there. Throws base::InputError where another run holds
+/// it.
+void claimFolder(FileLock& lock, const std::filesystem::path& folder);
+
+/// What a resumed run keeps of the folder it goes on with; what came later is cut off.
+struct FormerOutput {
+  std::vector<Row> rows;   ///< to begin the new files with
+  std::int64_t frames = 0; ///< kept of frames.h5; 0: it is begun anew
+};
+
+/// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.
+/// On several ranks all of them have one and call the same; each gives its own grains to frame().
+/// With `force` the files of a former run are removed first; other files stay.
+/// Calls that fail (disk full) throw std::runtime_error with the file's name.
+class RunWriter {
+public:
+  struct Options {
+    bool force = false;
+    bool frames = true;                          ///< frames.h5 and frames.xdmf
+    std::optional<FormerOutput> former;          ///< go on with the folder of a stopped run
+    base::Comm comm;                             ///< one rank writes rows, all of them frames
+    std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
+  };
+  RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
+  ~RunWriter();
+  RunWriter(const RunWriter&) = delete;
+  RunWriter& operator=(const RunWriter&) = delete;
+
+  /// A constant of the run in results.h5, e.g. "vehicle/pitch_radius" [m].
+  void constant(const std::string& path, const std::string& unit, double value);
+
+  /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
+  void setParts(std::vector<FramePart> parts, base::TriangleMesh ground);
+
+  void row(const Row& row);
+  void frame(const Frame& frame);
+  /// Closes the files and completes the manifest. Without it the manifest says
+  /// that the run did not end.
+  void finish(const Summary& summary);
+  /// Instead of finish: the run was stopped by an error, whose message goes into the manifest, if that can be written.
+  void abandon(const std::string& reason);
+  /// Instead of finish: the run was stopped and may be resumed.
+  void stop(const std::string& reason);
+
+  std::int64_t rows() const;   ///< written so far, former ones among them
+  std::int64_t frames() const; ///< the same
+  /// Step of the last row that was kept of a former run; -1: none was. Of the first rank.
+  std::int64_t keptUpTo() const;
+  /// Brings the rows to the disk, before a checkpoint counts on them.
+  void sync();
+
+  const std::filesystem::path& folder() const;
+
+private:
+  struct Series;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/plots.hpp"
+
+#include "runs/support/locations.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace grouser::runs {
+
+namespace {
+
+// Debian's, for which python3-matplotlib and python3-h5py are packaged; another may stand before it on the PATH.
+constexpr const char* kPython = "/usr/bin/python3";
+
+struct Outcome {
+  int status = -1;    ///< exit status; -1: could not be started
+  std::string output; ///< stdout and stderr together
+};
+
+Outcome call(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& w : words) arguments.push_back(w.data());
+  arguments.push_back(nullptr);
+  int ends[2];
+  if (pipe(ends) != 0) return {};
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(ends[1], STDOUT_FILENO), dup2(ends[1], STDERR_FILENO);
+    close(ends[0]), close(ends[1]);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  close(ends[1]);
+  Outcome outcome;
+  std::array<char, 4096> buffer;
+  for (ssize_t n; child > 0 && (n = read(ends[0], buffer.data(), buffer.size())) > 0;)
+    outcome.output.append(buffer.data(), static_cast<std::size_t>(n));
+  close(ends[0]);
+  int status = 0;
+  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
+  return outcome;
+}
+
+std::string lastLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+/// Runs a script of runs/plots/. False, with a `warning`, where it does not end well.
+bool draw(const std::string& name, const std::vector<std::string>& arguments, std::string& warning) {
+  const std::filesystem::path script = shareFolder() / "runs" / "plots" / name;
+  warning.clear();
+  if (!std::filesystem::exists(script)) {
+    warning =
+        fmt::format("no plots: {} is missing; set GROUSER_SHARE to the folder that holds runs/plots", script.string());
+    return false;
+  }
+  std::vector<std::string> words = {kPython, script.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = call(words);
+  constexpr int kMissingPackage = 3; // what the scripts end with
+  if (outcome.status == 127 || outcome.status == -1)
+    warning = fmt::format("no plots: {} is missing; install python3, python3-matplotlib and python3-h5py", kPython);
+  else if (outcome.status != 0)
+    warning = fmt::format("no plots: {}", outcome.status == kMissingPackage
+                                              ? lastLine(outcome.output)
+                                              : script.string() + ": " + lastLine(outcome.output));
+  return outcome.status == 0;
+}
+
+} // namespace
+
+std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
+                                             const std::vector<std::string>& names, std::string& warning) {
+  std::vector<std::string> words = {results.string(), folder.string()};
+  words.insert(words.end(), names.begin(), names.end());
+  std::vector<std::filesystem::path> drawn;
+  if (!draw("plot.py", words, warning)) return drawn;
+  for (const std::string& name : names)
+    if (const auto file = folder / (name + ".png"); std::filesystem::exists(file)) drawn.push_back(file);
+  return drawn;
+}
+
+void drawPicture(const std::string& script, const std::vector<std::filesystem::path>& inputs,
+                 const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
+  std::vector<std::string> words;
+  for (const std::filesystem::path& input : inputs) words.push_back(input.string());
+  words.push_back(file.string());
+  std::string warning;
+  if (!draw(script, words, warning))
+    fmt::print(stderr, "grouser: warning: {}\n", warning);
+  else if (std::filesystem::exists(file, error))
+    fmt::print("plot      {}\n", file.string());
+}
+
+bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {
+  std::vector<std::string> words = {kPython, script.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = call(words);
+  if (outcome.status != 0) warning = fmt::format("{} {}: {}", kPython, script.string(), lastLine(outcome.output));
+  return outcome.status == 0;
+}
+
+} // namespace grouser::runs

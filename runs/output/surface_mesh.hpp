@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+#include "runs/simulation/surfaces.hpp"
+
+namespace grouser::runs {
+
+/// Kind of a frame's part that is a rigid surface of the scene.
+inline constexpr const char* kSurfaceKind = "surface";
+
+/// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
+/// cylinder shows its inside.
+base::TriangleMesh surfaceMesh(const Scene& scene, const SceneSurface& surface);
+
+} // namespace grouser::runs

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/render/render.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace grouser::runs::detail {
+
+using base::Vec3f;
+
+/// A camera as the rasteriser wants it. Camera frame C: x right, y up, z into the picture.
+struct View {
+  Vec3f eye, right, up, forward;
+  bool perspective = true;
+  float halfHeight = 1; ///< of the picture at depth 1 (perspective), or anywhere (parallel)
+  float near = 0.01f;   ///< what is nearer is not seen (perspective) [m]
+  int width = 0, height = 0;
+
+  Vec3f toCamera(const Vec3f& p_W) const {
+    const Vec3f d = p_W - eye;
+    return {dot(d, right), dot(d, up), dot(d, forward)};
+  }
+  Vec3f toWorld(const Vec3f& p_C) const { return eye + turn(p_C); }
+  Vec3f turn(const Vec3f& v_C) const { return right * v_C.x + up * v_C.y + forward * v_C.z; }
+  Vec3f toCameraFrame(const Vec3f& v_W) const { return {dot(v_W, right), dot(v_W, up), dot(v_W, forward)}; }
+  float pixelsPerUnit() const { return 0.5f * static_cast<float>(height) / halfHeight; }
+  /// Camera-frame coordinates (x, y) at depth 1 of a pixel's middle; for a parallel view at any depth.
+  float planeX(int column) const {
+    return (static_cast<float>(column) + 0.5f - 0.5f * static_cast<float>(width)) / pixelsPerUnit();
+  }
+  float planeY(int row) const {
+    return (0.5f * static_cast<float>(height) - static_cast<float>(row) - 0.5f) / pixelsPerUnit();
+  }
+  /// Point in the camera frame of a pixel at a depth.
+  Vec3f at(int column, int row, float depth) const {
+    const float s = perspective ? depth : 1.0f;
+    return {planeX(column) * s, planeY(row) * s, depth};
+  }
+};
+
+/// Looks from `eye` to `target`.
+View viewTowards(const base::Vec3d& eye, const base::Vec3d& target, const base::Vec3d& up);
+
+/// What is seen at each pixel.
+struct Surfaces {
+  explicit Surfaces(const View& v)
+      : view(v), depth(static_cast<std::size_t>(v.width) * v.height, std::numeric_limits<float>::infinity()),
+        normal(depth.size()), object(depth.size(), -1) {}
+
+  View view;
+  std::vector<float> depth;                        ///< along z of the camera; infinite where nothing is
+  std::vector<std::array<std::int16_t, 3>> normal; ///< world, times 32767
+  std::vector<std::int32_t> object;                ///< sphere i, or spheres + mesh j; -1 where nothing is
+
+  std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * view.width + column; }
+  Vec3f normalAt(std::size_t i) const {
+    return Vec3f{float(normal[i][0]), float(normal[i][1]), float(normal[i][2])} * (1.0f / 32767.0f);
+  }
+};
+
+/// A triangle in the world with the normal at each corner.
+struct Facet {
+  std::array<Vec3f, 3> corner, normal;
+  std::int32_t object{};
+  bool oneSided{};
+};
+
+/// All triangles of a scene; corners are smooth where neighbouring faces differ by less than 35 degrees.
+std::vector<Facet> facetsOf(const RenderScene& scene);
+
+/// Fills the depth buffer with everything.
+void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, Surfaces& surfaces);
+
+} // namespace grouser::runs::detail

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/render/frame_painter.hpp"
+
+#include "base/error.hpp"
+#include "runs/render/picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr std::size_t kSamples = 8; ///< frames that colours and camera are taken from
+constexpr double kSteepest = 89.99; ///< elevation [deg]: straight from above there would be no upwards
+
+/// Frames evenly over the file, first and last among them.
+std::vector<StoredFrame> samplesOf(const FramesReader& reader) {
+  const std::size_t count = std::min(kSamples, reader.count());
+  std::vector<StoredFrame> samples;
+  for (std::size_t k = 0; k < count; ++k)
+    samples.push_back(reader.read(count == 1 ? 0 : k * (reader.count() - 1) / (count - 1)));
+  return samples;
+}
+
+} // namespace
+
+FramePainter::FramePainter(const FramesReader& reader, const PaintOptions& options)
+    : reader_(reader), options_(options) {
+  if (options.labels) font_ = std::make_unique<Font>();
+  const std::vector<StoredFrame> samples = samplesOf(reader);
+  colours_ = std::make_unique<GrainColours>(options.quantity, samples.front(), samples, options.range);
+  const bool needsBorders = options.quantity == GrainQuantity::Subdomain || options.quantity == GrainQuantity::Role;
+  const auto hasBorders = [](const Borders& b) { return !b[0].empty() || !b[1].empty() || !b[2].empty(); };
+  if (needsBorders && !hasBorders(options.borders) &&
+      std::none_of(samples.begin(), samples.end(), [&](const StoredFrame& f) { return hasBorders(f.borders); }))
+    throw base::InputError(fmt::format("{}: was written by a run of one subdomain; give --borders AXIS=PLACES, e.g. "
+                                       "x=0.5, or another --color",
+                                       reader.path().string()));
+  placeCamera(samples);
+}
+
+Vec3d FramePainter::hull(const StoredFrame& frame) const {
+  Vec3d sum;
+  double count = 0;
+  for (const StoredPart& part : reader_.parts()) {
+    if (part.kind != kHullKind) continue;
+    for (std::uint32_t v = 0; v < part.count; ++v) sum += frame.partVertices[part.first + v].as<double>(), count += 1;
+  }
+  return count > 0 ? sum * (1 / count) : sum;
+}
+
+void FramePainter::placeCamera(const std::vector<StoredFrame>& samples) {
+  const FrameView& view = options_.view;
+  const double aspect = static_cast<double>(view.width) / view.height;
+  const bool isClose = view.lookAt == LookAt::Vehicle;
+  std::vector<Ball> all;
+  for (const StoredFrame& frame : samples) {
+    for (const base::Vec3f& v : frame.partVertices) all.push_back({v.as<double>(), 0});
+    if (!frame.positions.empty())
+      for (const Ball& ball : seenGrains(frame.positions, frame.radii)) all.push_back(ball);
+  }
+  for (const Vec3d& v : reader_.ground().vertices) all.push_back({v, 0});
+  const bool isMechanism = !samples.front().partVertices.empty() && samples.front().positions.empty();
+  const double usual = isMechanism && liesFlat(samples.front().partVertices) ? kFlatElevation
+                       : isClose || isMechanism                              ? kVehicleElevation
+                                                                             : kBedElevation;
+  const double elevation = std::clamp(view.elevation.value_or(usual), -kSteepest, kSteepest);
+  if (isClose) {
+    if (!reader_.hasVehicle())
+      throw base::InputError(
+          fmt::format("{}: holds no vehicle to look at; give --look-at all", reader_.path().string()));
+    camera_ = cameraOnParts(samples.front().partVertices, view.azimuth, elevation, aspect);
+    hullAtCamera_ = hull(samples.front());
+  } else if (!all.empty()) {
+    camera_ = cameraAround(all, view.azimuth, elevation, aspect);
+  }
+  Vec3d towardsEye = camera_.eye - camera_.target;
+  if (view.distance) towardsEye = normalized(towardsEye) * *view.distance;
+  if (view.lookAt == LookAt::Point) camera_.target = view.point;
+  camera_.eye = camera_.target + towardsEye;
+}
+
+Camera FramePainter::cameraOf(const StoredFrame& frame) const {
+  Camera camera = camera_;
+  if (hullAtCamera_) {
+    const Vec3d moved = hull(frame) - *hullAtCamera_;
+    camera.eye += moved, camera.target += moved;
+  }
+  return camera;
+}
+
+const Borders& FramePainter::bordersOf(const StoredFrame& frame) const {
+  for (const std::vector<double>& places : options_.borders)
+    if (!places.empty()) return options_.borders;
+  return frame.borders;
+}
+
+Image FramePainter::paint(std::size_t index) const {
+  const StoredFrame frame = reader_.read(index);
+  const Borders& borders = bordersOf(frame);
+  const std::vector<Colour> colours = colours_->of(frame, borders);
+  RenderScene scene;
+  scene.spheres.reserve(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    scene.spheres.push_back({frame.positions[i], frame.radii[i], colours[i]});
+  for (const StoredPart& part : reader_.parts()) {
+    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), isSurface(part.kind)};
+    for (std::uint32_t v = 0; v < part.count; ++v)
+      mesh.mesh.vertices.push_back(frame.partVertices[part.first + v].as<double>());
+    scene.meshes.push_back(std::move(mesh));
+  }
+  if (!reader_.ground().indices.empty()) scene.meshes.push_back({reader_.ground(), {}, groundColour(), true});
+
+  Image image = render(scene, cameraOf(frame), options_.view.width, options_.view.height);
+  if (!font_) return image;
+  drawCaption(image, *font_, fmt::format("t = {:.3f} s", frame.time));
+  if (colours.empty()) return image;
+  if (colours_->hasRange()) {
+    std::vector<Colour> scale;
+    for (int i = 0; i < 256; ++i) scale.push_back(colours_->scaleColour(i / 255.0));
+    ValueRange ends = colours_->range();
+    // Depth grows downwards.
+    if (options_.quantity == GrainQuantity::Depth)
+      std::reverse(scale.begin(), scale.end()), std::swap(ends.low, ends.high);
+    drawScale(image, *font_, colours_->title(), ends.low, ends.high, scale);
+  } else if (const auto legend = colours_->legend(borders); !legend.empty()) {
+    drawLegend(image, *font_, colours_->title(), legend);
+  }
+  return image;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/render/picture.hpp"
+
+#include "runs/output/surface_mesh.hpp"
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr double kAzimuth = -55;      ///< [deg] of the camera
+constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
+constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
+constexpr double kAspect = 16.0 / 9;
+
+struct Box {
+  Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  void take(const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); }
+  Vec3d middle() const { return (low + high) * 0.5; }
+  double radius() const { return 0.5 * norm(high - low); }
+};
+
+} // namespace
+
+Colour groundColour() { return srgb(168, 152, 128); }
+
+bool isSurface(const std::string& kind) { return kind == kSurfaceKind; }
+
+Colour partColour(const std::string& kind) {
+  if (kind == "chassis") return srgb(112, 122, 92);
+  if (kind == "shoe") return srgb(66, 68, 72);
+  if (kind == "sprocket") return srgb(214, 138, 48);
+  if (kind == "road_wheel") return srgb(122, 146, 176);
+  if (kind == "roller") return srgb(150, 172, 150);
+  if (kind == "idler") return srgb(178, 96, 84);
+  // Bodies of a mechanism, in turn.
+  const Colour bodies[] = {srgb(78, 121, 167), srgb(214, 138, 48),  srgb(89, 161, 79),
+                           srgb(178, 96, 84),  srgb(140, 110, 160), srgb(118, 183, 178)};
+  if (isSurface(kind)) return groundColour();
+  if (kind.rfind("body ", 0) == 0) return bodies[static_cast<std::size_t>(kind.back() - '0') % std::size(bodies)];
+  return srgb(150, 150, 150);
+}
+
+namespace {
+
+/// Heights between which the colours run: all but the lowest and highest hundredth, so that a thrown grain does not
+/// wash out the rest.
+std::pair<float, float> heightRange(const Frame& frame) {
+  std::vector<float> heights;
+  for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
+  std::sort(heights.begin(), heights.end());
+  const std::size_t cut = heights.size() / 100;
+  return {heights[cut], heights[heights.size() - 1 - cut]};
+}
+
+} // namespace
+
+std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii) {
+  const std::size_t count = positions.size(), cut = count / 100;
+  Vec3d low, high;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<float> places;
+    for (const base::Vec3f& p : positions) places.push_back(p[k]);
+    std::sort(places.begin(), places.end());
+    low[k] = places[cut], high[k] = places[count - 1 - cut];
+  }
+  const Vec3d reach = high - low + Vec3d{1, 1, 1} * (2.0 * radii.front());
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d p = positions[i].as<double>();
+    if (cut == 0 || (base::min(p, low - reach) == low - reach && base::max(p, high + reach) == high + reach))
+      balls.push_back({p, radii[i]});
+  }
+  return balls;
+}
+
+bool liesFlat(const std::vector<base::Vec3f>& vertices) {
+  Box box;
+  for (const base::Vec3f& p : vertices) box.take(p.as<double>());
+  return box.high.z - box.low.z < kFlat * box.radius();
+}
+
+Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect) {
+  Box box;
+  for (const base::Vec3f& v : vertices) box.take(v.as<double>());
+  return cameraTowards(box.middle(), std::max(1e-3, box.radius()) * kVehicleTight, azimuth, elevation, aspect);
+}
+
+Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width) {
+  RenderScene scene;
+  std::vector<base::Vec3f> vehicle, surfaces;
+  if (!frame.positions.empty()) {
+    const auto [low, high] = heightRange(frame);
+    const float range = std::max(high - low, frame.radii.front());
+    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+      const base::Vec3f& p = frame.positions[i];
+      scene.spheres.push_back({p, frame.radii[i], heightColour((p.z - low) / range)});
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool surface = isSurface(parts[i].kind);
+    scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface});
+    for (const Vec3d& v : parts[i].mesh.vertices)
+      (surface ? surfaces : vehicle).push_back(frame.partPoses[i].toWorld(v).as<float>());
+  }
+  if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
+  const int height = std::max(1, width * 9 / 16);
+  if (!vehicle.empty())
+    return render(scene,
+                  cameraOnParts(vehicle, kAzimuth, liesFlat(vehicle) ? kFlatElevation : kVehicleElevation, kAspect),
+                  width, height);
+  std::vector<Ball> seen;
+  if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
+  for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
+  for (const base::Vec3f& v : surfaces) seen.push_back({v.as<double>(), 0});
+  if (seen.empty()) return render(scene, {}, width, height);
+  return render(scene, cameraAround(seen, kAzimuth, kBedElevation, kAspect), width, height);
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/render/image.hpp"
+#include "runs/output/output.hpp"
+#include "runs/render/render.hpp"
+
+namespace grouser::runs {
+
+/// Elevation of the camera above a vehicle, above a bed alone, and above parts that lie flat [deg].
+inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
+
+Colour partColour(const std::string& kind);
+Colour groundColour();
+/// A rigid surface of a scene of grains: drawn from the side of the grains alone.
+bool isSurface(const std::string& kind);
+
+/// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
+/// grains, axis by axis, than these are wide; of less than 100 grains none.
+std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
+
+/// Whether parts spread in the horizontal plane only, as a mechanism that moves in x and y does.
+bool liesFlat(const std::vector<base::Vec3f>& vertices);
+
+/// A camera whose picture the parts fill; their farthest corners may lie outside.
+Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect);
+
+/// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle filling the picture, or where
+/// there is none all grains but a few strays; seen from the front right above. Height of the picture: nine sixteenths
+/// of its width.
+Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width);
+
+} // namespace grouser::runs

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "runs/scene/mechanism_sections.hpp"
+#include "runs/scene/surface_sections.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grouser::base {
+class Document;
+} // namespace grouser::base
+
+/// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
+/// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
+namespace grouser::runs {
+
+/// [run]
+struct RunSettings {
+  double duration = 0;            ///< [s] after the bed has settled
+  std::optional<double> timeStep; ///< [s]; empty: the largest step the stability rule allows
+  base::Vec3d gravity{0, 0, -9.81};
+  double outputInterval = 0.02;
+  double frameInterval = 0.1;
+  double checkpointInterval = 1.0; ///< [s]; 0: only at the end
+  std::int64_t seed = 1;
+  std::string device = "auto";                ///< auto | cpu | cuda
+  std::string precision = "single";           ///< of the grains' forces: single | double
+  double impactSpeed = 1.0;                   ///< [m/s] that the step of hertz materials is chosen for
+  int threads = 0;                            ///< 0: all
+  std::string integrator = "rattle";          ///< of mechanisms: rattle | symplectic_euler
+  int integratorOrder = 2;                    ///< of rattle: 2, 4, 6, 8
+  std::string springs = "implicit";           ///< of rattle: explicit | implicit
+  std::optional<double> constraintTolerance;  ///< [m], [rad] to which joints are closed; empty: the solver's own
+  double skin = 0.3;                          ///< [-] of a grain's radius
+  double maxOverlap = 0.2;                    ///< [-] of a grain's radius; beyond it the run stops
+  std::array<bool, 2> periodic{false, false}; ///< x, y: opposite sides are joined
+  std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
+  bool operator==(const RunSettings&) const = default;
+};
+
+/// [material.NAME]
+struct Material {
+  std::string name;
+  double density = 2500;
+  std::string law = "linear";           ///< linear | hertz; what belongs to the law has a value after loading
+  std::optional<double> stiffness;      ///< [N/m] linear
+  std::optional<double> young, poisson; ///< [Pa], [-] hertz
+  std::optional<double> restitution;    ///< one of these two has a value after loading
+  std::optional<double> damping;        ///< [1/s] linear: gamma of F_n = k overlap - gamma m_eff v_n
+  bool attraction = false;
+  double friction = 0.5;
+  std::optional<double> tangentialStiffnessRatio; ///< linear
+  std::optional<double> tangentialDampingRatio;
+  double rollingFriction = 0;
+  double rollingDampingRatio = 0.3;
+  double cohesion = 0; ///< [J/m2] energy of adhesion
+  bool operator==(const Material&) const = default;
+};
+
+/// [contact."first|second"]: what a pair of materials has otherwise than the mixing rule gives.
+struct ContactPair {
+  std::string first, second;
+  std::optional<double> stiffness, restitution, damping, friction, rollingFriction, cohesion;
+  bool operator==(const ContactPair&) const = default;
+};
+
+/// [[grain]]
+struct Grain {
+  base::Vec3d position, velocity, spin;
+  double radius = 0;
+  std::string material;
+  bool operator==(const Grain&) const = default;
+};
+
+/// [[grains]]: many grains at once.
+struct GrainBlock {
+  std::string form = "lattice";         ///< lattice | random | file
+  std::optional<base::Vec3d> low, high; ///< corners of the box that holds them whole [m]
+  std::optional<double> radius;         ///< [m]
+  std::optional<double> radiusTo;       ///< [m]; radii are then uniform from radius to this
+  double spacing = 2.1;                 ///< [-] of a lattice, in largest radii
+  double jitter = 0;                    ///< [-] of the lattice's free gap
+  std::optional<std::int64_t> number;   ///< of a random fill
+  std::optional<std::string> file;      ///< absolute path after loading
+  base::Vec3d velocity, spin;
+  std::string material;
+  std::vector<Grain> fromFile; ///< what the file held when the scene was loaded
+  double smallestRadius() const;
+  double largestRadius() const;
+  bool operator==(const GrainBlock&) const = default;
+};
+/// Grains of a text file with lines "x, y, z, r" [m]. Throws InputError with the line that is none.
+std::vector<Grain> readGrainFile(const std::string& file, const GrainBlock& block);
+
+/// [[source]]: grains that enter while the run goes.
+struct Source {
+  base::Vec3d low, high;      ///< corners of the box that their centres start in [m]
+  base::Vec3d velocity, spin; ///< [m/s], [rad/s]
+  double radius = 0;          ///< [m]
+  std::string material;
+  std::int64_t number = 1; ///< that enter together
+  double every = 0;        ///< [s] between those
+  double start = 0;        ///< [s] of the first
+  std::int64_t total = 1;  ///< in all
+  bool operator==(const Source&) const = default;
+};
+
+/// [terrain]: x in [0, size x], y in [-size y / 2, size y / 2].
+struct Terrain {
+  std::string heightmap;               ///< absolute path after loading
+  std::array<double, 2> size{};        ///< [m] x, y
+  std::array<double, 2> heightRange{}; ///< [m] of black, of white
+  std::string kind = "granular";       ///< granular | rigid
+  std::string material;
+  std::string groundMaterial; ///< of floor and walls; the bed's where not given
+  std::optional<double> grainRadius;
+  std::optional<int> layers;
+  std::optional<double> depth;
+  double spacing = 2.1; ///< [-] lattice spacing in grain radii
+  double jitter = 0.9;  ///< [-] of the lattice's free gap
+  double packing = 0.6; ///< [-] solid fraction expected once settled
+  std::string floor = "follow";
+  bool walls = true;
+  std::optional<std::array<double, 2>> tile; ///< [m] x, y; settle a piece of this size, then fill the terrain with it
+  double settleTimeLimit = 3.0;
+  double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy a grain over m g radius
+  std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
+  bool cache = true;                      ///< keep the settled bed for later runs, and take it from one
+  bool granular() const { return kind == "granular"; }
+  bool operator==(const Terrain&) const = default;
+};
+
+/// [vehicle]
+struct Vehicle {
+  std::string spec;                              ///< absolute path after loading
+  std::optional<std::array<double, 2>> position; ///< [m] x, y of the point between the sprockets; empty: on the terrain
+  double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
+  double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
+  double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
+  std::string material;         ///< of the parts against the ground; empty: the contact data of the spec
+  std::string chassis = "free"; ///< free | fixed
+  bool operator==(const Vehicle&) const = default;
+};
+
+/// Sprocket speeds over time, linear between the points, constant outside.
+struct SpeedTable {
+  std::vector<double> time, left, right; ///< [s], [rad/s], [rad/s]
+  bool operator==(const SpeedTable&) const = default;
+};
+
+/// [driver]
+struct Driver {
+  std::optional<double> sprocketSpeed, left, right; ///< [rad/s]
+  std::optional<SpeedTable> table;                  ///< [driver.table]; its time begins with the drive
+  double tensionRamp = 0.15;
+  double weightRamp = 0.3;
+  std::optional<double> driveStart; ///< [s]; empty: when tension and weight are on
+  double driveRamp = 0.3;
+  bool operator==(const Driver&) const = default;
+
+  double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
+  /// Whatever form the speeds were given in, as one table.
+  SpeedTable speeds() const;
+};
+
+/// [output]
+struct Output {
+  std::string folder;              ///< empty: out/NAME of the scene file
+  std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
+  bool frames = true;
+  std::optional<bool> grainsCsv; ///< every grain in every row as text; empty: in small scenes
+  bool picture = true;
+  bool plots = true;
+  int pictureWidth = 1600;
+  bool operator==(const Output&) const = default;
+};
+
+/// [parallel]: how a run on several ranks shares out its grains. No bit of the answer depends on it.
+struct Parallel {
+  std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
+  std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen
+  bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than the others
+  std::string peerMemory = "auto";         ///< whether GPUs of one machine read each other's memory
+  bool operator==(const Parallel&) const = default;
+};
+
+/// One scene file with overrides applied and everything checked that can be checked without building it.
+struct Scene {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  RunSettings run;
+  std::vector<Material> materials;
+  std::vector<ContactPair> contacts;
+  std::vector<Grain> grains;
+  std::vector<GrainBlock> blocks;
+  std::vector<Source> sources;
+  std::vector<Plane> planes;
+  std::vector<BoxSection> boxes;
+  std::vector<CylinderSection> cylinders;
+  std::vector<MeshSection> meshes;
+  std::optional<Terrain> terrain;
+  MechanismSections mechanism;
+  std::optional<Vehicle> vehicle;
+  Driver driver;
+  Output output;
+  Parallel parallel;
+  std::shared_ptr<const base::Document> document; ///< the file itself; null for a scene that a program has made
+
+  /// Throws InputError "file:line: section.key = value message" for what only turns out after loading, as loading does
+  /// for the rest; `key` may be empty. The second form is for an entry of [[list]].
+  [[noreturn]] void fail(const std::string& section, const std::string& key, const std::string& message) const;
+  [[noreturn]] void fail(const std::string& list, std::size_t number, const std::string& key,
+                         const std::string& message) const;
+  [[noreturn]] void failMaterial(const std::string& name, const std::string& key, const std::string& message) const;
+  /// "scene.toml:14: source.0", for failures of the simulation that come from there.
+  std::string placeOf(const std::string& list, std::size_t number) const;
+
+  std::string name() const { return file.stem().string(); }
+  /// The material `name`; loading has made sure that it exists.
+  const Material& material(const std::string& name) const;
+  /// The override of a pair, in either order; null where there is none.
+  const ContactPair* contact(const std::string& a, const std::string& b) const;
+};
+
+/// Reads and checks a scene. Throws base::InputError with file, line, key, value, range and remedy.
+Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// The same from text; paths in it are relative to the folder of `file`.
+Scene parseScene(std::string_view text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides = {});
+
+/// The scene with every default filled in, as TOML that loads to the same scene.
+std::string resolvedToml(const Scene& scene);
+
+/// All keys of a scene file with unit, default, range and meaning, as Markdown.
+std::string fieldHelp();
+
+} // namespace grouser::runs

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields of a scene file: bodies, joints and what acts on them.
+#include "runs/scene/detail/scene_tables.hpp"
+
+namespace grouser::runs::detail {
+
+using base::Table;
+
+Table<BodySection> bodyTable() {
+  using S = BodySection;
+  Table<S> t("[body]", "A rigid body of a mechanism");
+  t.add("name", &S::name, "", "what joints and springs call it; \"world\" is the ground's").required();
+  t.add("mass", &S::mass, "kg", "required unless the body is fixed").above(0).atMost(1e12);
+  t.add("inertia", &S::inertia, "kg m2",
+        "about the centre of mass in the body's axes: xx, yy, zz, or these with the entries xy, xz, yz of the matrix; "
+        "of a uniform box where not given");
+  t.add("box", &S::box, "m", "edges of the box that is drawn; without one it follows from mass and inertia")
+      .above(0)
+      .atMost(1e5);
+  t.add("position", &S::position, "m", "of the centre of mass at the start").atLeast(-1e6).atMost(1e6);
+  t.add("axis", &S::axis, "-", "about which the body's axes are turned from the world's, with angle");
+  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
+  t.add("orientation", &S::orientation, "-",
+        "unit quaternion w, x, y, z from body to world, instead of axis and angle");
+  t.add("velocity", &S::velocity, "m/s", "of the centre of mass at the start, world components");
+  t.add("spin", &S::spin, "rad/s", "angular velocity at the start, world components");
+  t.add("fixed", &S::fixed, "", "never moves");
+  t.add("point", &S::point, "", "a mass without extent or inertia, for spherical and distance joints and springs");
+  return t;
+}
+
+Table<JointSection> jointTable() {
+  using S = JointSection;
+  Table<S> t("[joint]", "Holds two bodies together; what it leaves free is measured from the first to the second");
+  t.add("name", &S::name, "", "what springs and drives call it").required();
+  t.add("type", &S::type, "",
+        "what stays free: one turn, all turns, two turns, a slide, turn and slide, nothing, or all "
+        "but a distance")
+      .oneOf({"revolute", "spherical", "universal", "prismatic", "cylindrical", "fixed", "distance"});
+  t.add("bodies", &S::bodies, "", "names of the two, e.g. [\"world\", \"rod\"]").required();
+  t.add("point", &S::point, "m", "where it is at the start, in the world");
+  t.add("axis", &S::axis, "-", "of turn or slide at the start, in the world; of a universal joint the first body's");
+  t.add("second_axis", &S::secondAxis, "-", "of a universal joint, the second body's, perpendicular to axis");
+  t.add("point_a", &S::pointA, "m", "instead of point: in the first body's frame, together with point_b");
+  t.add("point_b", &S::pointB, "m", "the same in the second body's frame");
+  t.add("axis_a", &S::axisA, "-", "instead of axis: in the first body's frame, together with axis_b");
+  t.add("axis_b", &S::axisB, "-", "the same in the second body's frame; of a universal joint its own axis");
+  t.add("length", &S::length, "m", "between point_a and point_b of a distance joint; as at the start where not given")
+      .above(0)
+      .atMost(1e5);
+  t.add("damping", &S::damping, "N m s/rad or N s/m", "on the free axis; of a cylindrical joint on its angle")
+      .atLeast(0);
+  t.add("slide_damping", &S::slideDamping, "N s/m", "of a cylindrical joint on its slide").atLeast(0);
+  t.add("limits", &S::limits, "rad or m", "end stops on the free axis, lower and upper, from its position 0");
+  t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
+  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
+  return t;
+}
+
+Table<SpringSection> springTable() {
+  using S = SpringSection;
+  Table<S> t("[spring]", "Spring and damper between two points, or on the free axis of a joint");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("bodies", &S::bodies, "", "names of the two that it pushes apart; or joint");
+  t.add("point_a", &S::pointA, "m", "its end on the first body, in that body's frame; (0, 0, 0) where not given");
+  t.add("point_b", &S::pointB, "m", "its end on the second body, in that body's frame");
+  t.add("joint", &S::joint, "",
+        "name of a revolute, prismatic or cylindrical joint on whose axis it acts; instead of "
+        "bodies");
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
+  t.add("stiffness", &S::stiffness, "N/m or N m/rad", "of the spring").atLeast(0);
+  t.add("damping", &S::damping, "N s/m or N m s/rad", "of the damper; taken implicitly: any size is stable").atLeast(0);
+  t.add("preload", &S::preload, "N or N m", "force at free_position, positive pushes apart");
+  t.add("free_position", &S::freePosition, "m or rad",
+        "length, or position of the axis, where only the preload acts; as at the start where not given");
+  t.add("limits", &S::limits, "rad or m", "end stops on the axis of a joint, lower and upper");
+  t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
+  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
+  return t;
+}
+
+Table<BushingSection> bushingTable() {
+  using S = BushingSection;
+  Table<S> t("[bushing]", "Elastic bearing: springs and dampers between two bodies in all six directions, relaxed at "
+                          "the start");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("bodies", &S::bodies, "", "names of the two").required();
+  t.add("point", &S::point, "m", "its middle at the start, in the world").required();
+  t.add("axis", &S::axis, "-", "its z direction at the start, in the world; the world's axes where not given");
+  t.add("stiffness", &S::stiffness, "N/m", "along its x, y, z").atLeast(0);
+  t.add("damping", &S::damping, "N s/m", "along its x, y, z").atLeast(0);
+  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "about its x, y, z").atLeast(0);
+  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "about its x, y, z").atLeast(0);
+  return t;
+}
+
+Table<DriveSection> driveTable() {
+  using S = DriveSection;
+  Table<S> t("[drive]", "Motor on a free axis of a joint: value, polynomial, sine and table over time add up; what it "
+                        "takes is in the results");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
+  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)")
+      .oneOf({"speed", "position", "torque"});
+  t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times");
+  t.add("polynomial", &S::polynomial, "of value over s^i", "c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
+  t.add("amplitude", &S::amplitude, "as value", "of a sine");
+  t.add("frequency", &S::frequency, "Hz", "of that sine").atLeast(0).atMost(1e6);
+  t.add("phase", &S::phase, "deg", "of that sine at t = 0").atLeast(-3600).atMost(3600);
+  t.add("time", &S::time, "s", "increasing; of the table").atLeast(0);
+  t.add("values", &S::values, "as value",
+        "of the table: straight between its times for speed and torque, a smooth spline from rest to rest for a "
+        "position; constant "
+        "outside");
+  return t;
+}
+
+Table<CouplingSection> couplingTable() {
+  using S = CouplingSection;
+  Table<S> t("[coupling]",
+             "Ties two axes as gears, belts, rack and pinion or a screw do: position of the second = ratio x "
+             "position of the first + offset");
+  t.add("name", &S::name, "", "in results and messages").required();
+  t.add("joints", &S::joints, "", "names of the two").required();
+  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis over that of the first").required();
+  t.add("offset", &S::offset, "rad or m", "as at the start where not given");
+  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]")
+      .oneOf({"angle", "slide"});
+  return t;
+}
+
+} // namespace grouser::runs::detail

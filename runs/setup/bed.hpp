@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "runs/scene/scene.hpp"
+#include "terrain/bed_surface.hpp"
+#include "terrain/grains.hpp"
+#include "terrain/height_field.hpp"
+#include "terrain/layers.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace grouser::runs {
+
+/// The terrain of a scene as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone.
+struct Ground {
+  std::optional<terrain::HeightField> surface; ///< as the height-map says
+  std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
+  std::unique_ptr<terrain::Grains> grains;     ///< null without grains
+  std::optional<terrain::Rectangle> walls;     ///< around a bed
+  int layers{1};                               ///< of a bed that has to fall into place; 0: it does not
+  std::shared_ptr<const terrain::BedSurface> undisturbed; ///< of a settled bed, before the vehicle touched it
+};
+
+/// Called now and then while a bed settles: simulated time [s], kinetic energy a grain over m g radius [-].
+using SettleProgress = std::function<void(double time, double agitation)>;
+
+/// How settling ended.
+struct SettleReport {
+  double time{};      ///< simulated [s]
+  double agitation{}; ///< mean kinetic energy a grain over m g radius [-]
+  std::int64_t steps{};
+};
+
+/// The ground's surface as the height-map says. Throws InputError where that cannot be read.
+terrain::HeightField readSurface(const Scene& scene);
+
+/// How the scene's bed is laid.
+terrain::LayerOptions layerOptions(const Scene& scene);
+
+/// Throws what buildGround() would, and lays nothing: grains that overlap each other (up to a hundred thousand of
+/// them), sources in solids, surfaces too quick for the step.
+void checkGround(const Scene& scene, double timeStep);
+
+/// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
+/// On several ranks each takes the grains of its subdomain.
+Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});
+
+/// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
+/// m g radius, and the mean resultant force below the scene's share of the weight where it names one, for a whole tenth
+/// of a second, but at least for the time a grain takes to fall the bed's looseness.
+/// Throws SimulationError when the scene's time limit passes first.
+SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress);
+
+/// Takes the surface of a bed as it lies now for the undisturbed one, or `heights` of one taken earlier.
+void keepSurface(Ground& ground, const base::Exec& exec);
+void keepSurface(Ground& ground, const std::vector<double>& heights);
+
+/// Height of the undisturbed bed, or of the rigid ground; null where there is neither.
+std::function<double(double x, double y)> surfaceHeight(const Ground& ground);
+
+} // namespace grouser::runs

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+#include "runs/simulation/surfaces.hpp"
+#include "terrain/grains.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// What grains a scene has: those of [[grain]] and [[grains]], the bed's, and those that sources bring.
+struct GrainKinds {
+  double largest = 0, smallest = 0;  ///< radii [m]; 0 without grains
+  std::vector<std::string> material; ///< those that occur, in the order of the file
+  struct Kind {
+    std::string material;
+    double smallest, largest; ///< radii of that material [m]
+  };
+  std::vector<Kind> kinds; ///< one a material
+
+  bool any() const { return !material.empty(); }
+  bool manyRadii() const { return smallest != largest; }
+  bool manyMaterials() const { return material.size() > 1; }
+  bool many() const { return manyRadii() || manyMaterials(); }
+  int indexOf(const std::string& name) const;
+};
+GrainKinds grainKinds(const Scene& scene);
+
+/// The single grains and those of blocks, in the order of the file: their place is their id. Reads the files that
+/// blocks name. Throws InputError: no room for all, a broken line.
+std::vector<Grain> placedGrains(const Scene& scene);
+/// How many those are, without placing them.
+std::int64_t placedCount(const Scene& scene);
+std::int64_t placedCount(const GrainBlock& block);
+
+/// A surface that grains meet, as constants of a step.
+struct Surroundings {
+  struct Wall {
+    base::Vec3d normal;
+    double offset;
+    std::string material;
+    std::string name{}; ///< in messages: "plane 0"
+  };
+  std::vector<Wall> walls;
+  std::optional<terrain::HeightField> floor;
+  std::string floorMaterial;
+  std::vector<SceneSurface> surfaces{};
+};
+
+/// The grains' constants, and their walls, floor and surfaces with their laws.
+terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, double timeStep,
+                               const Surroundings& surroundings, terrain::Boundaries& boundaries);
+
+} // namespace grouser::runs

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/grain_kinds.hpp"
+
+namespace grouser::runs {
+
+/// Device memory that a grain of a scene will take, by what it is for [bytes]: sizes of the records times the places
+/// of a settled bed, before anything is allocated.
+struct GrainMemory {
+  double state{};      ///< places, velocities, spins of this step and the next, remainders, id
+  double lists{};      ///< neighbours, and where the grain was when they were listed
+  double history{};    ///< springs and rolling angles of contacts between grains
+  double boundaries{}; ///< touch with planes and floor, and history there
+  double ledger{};     ///< dissipated energy
+  double rebuild{};    ///< while the lists are made anew, on top of the others
+  double total() const { return state + lists + history + boundaries + ledger; }
+  double most() const { return total() + rebuild; }
+};
+
+/// Features of the grains' step, as the model of the scene will have them.
+unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds);
+
+/// Of the grains of `scene`. Those of very unlike radii have more neighbours, and take more.
+GrainMemory grainMemory(const Scene& scene);
+
+} // namespace grouser::runs

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/grain_space.hpp"
+
+#include "base/position.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/joined_sides.hpp"
+#include "terrain/grains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::runs {
+
+namespace {
+
+using base::Vec3d;
+
+/// Radii and places as the sections give them.
+class SpaceCheck {
+public:
+  explicit SpaceCheck(const Scene& scene)
+      : scene_(scene), kinds_(grainKinds(scene)), limit_(base::positionScale(2 * kinds_.largest).limit()) {}
+
+  void grains() const {
+    for (std::size_t k = 0; k < scene_.grains.size(); ++k) {
+      radius("grain", k, "radius", scene_.grains[k].radius);
+      place("grain", k, "position", scene_.grains[k].position);
+    }
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
+      const GrainBlock& b = scene_.blocks[k];
+      radius("grains", k, b.form == "file" ? "file" : "radius", b.smallestRadius());
+      if (b.low) place("grains", k, "low", *b.low), place("grains", k, "high", *b.high);
+      for (const Grain& g : b.fromFile) place("grains", k, "file", g.position);
+    }
+    for (std::size_t k = 0; k < scene_.sources.size(); ++k) {
+      const Source& s = scene_.sources[k];
+      radius("source", k, "radius", s.radius);
+      place("source", k, "low", s.low), place("source", k, "high", s.high);
+    }
+    if (!scene_.terrain || !scene_.terrain->granular()) return;
+    const auto [x, y] = scene_.terrain->size;
+    if (!(x < limit_ && 0.5 * y < limit_))
+      scene_.fail("terrain", "size",
+                  fmt::format("[m] reaches farther than {:.6g} m from the origin, the range of places of grains of "
+                              "terrain.grain_radius = {:g} m; use larger grains or a smaller terrain",
+                              limit_, kinds_.largest));
+  }
+
+  /// A grain must not touch two images of another: three cells of the search fit in between.
+  void sides() const {
+    const terrain::JoinedSides sides = joinedSides(scene_);
+    const double least = 3 * (2 * kinds_.largest + scene_.run.skin * kinds_.smallest);
+    for (std::size_t a = 0; a < 2; ++a) {
+      if (!sides[a]) continue;
+      const auto [from, to] = *sides[a];
+      const auto fail = [&](const std::string& message) {
+        if (scene_.terrain) scene_.fail("terrain", "size", "[m]" + message);
+        scene_.fail("run", std::string("domain_") + "xy"[a], "[m]" + message);
+      };
+      if (!(std::fabs(from) < limit_ && std::fabs(to) < limit_)) fail(tooFar());
+      if (to - from < least)
+        fail(fmt::format(" joins sides along {} that are too near: a grain could touch another from both; set them at "
+                         "least {:.6g} m apart, three times a diameter with run.skin, or use smaller grains",
+                         "xy"[a], least));
+    }
+  }
+
+  void boundaries() const {
+    constexpr std::size_t kMost = 32; // bits of a mask
+    std::size_t ofTerrain = 0;
+    if (scene_.terrain) ofTerrain = 1;
+    if (scene_.terrain && scene_.terrain->granular() && scene_.terrain->walls)
+      ofTerrain += (scene_.run.periodic[0] ? 0u : 2u) + (scene_.run.periodic[1] ? 0u : 2u);
+    std::size_t count = ofTerrain;
+    const auto add = [&](const char* list, std::size_t sections) {
+      count += sections;
+      if (count > kMost)
+        scene_.fail(list, sections - 1, "",
+                    fmt::format("is one of {} or more planes, boxes and cylinders{}; grains can meet at most {}: leave "
+                                "some out, or join several in one [[mesh]]",
+                                count, ofTerrain > 0 ? ", floor and walls of the terrain among them" : "", kMost));
+    };
+    add("plane", scene_.planes.size()), add("box", scene_.boxes.size()), add("cylinder", scene_.cylinders.size());
+  }
+
+  /// Ids are 32-bit numbers.
+  void ids() const {
+    constexpr double kMostGrains = 4e9;
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
+      const GrainBlock& b = scene_.blocks[k];
+      if (b.form != "lattice") continue;
+      double grains = 1; // in a whole number they might not fit
+      for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
+      if (grains > kMostGrains)
+        scene_.fail("grains", k, "radius",
+                    fmt::format("[m] makes a lattice of about {:.3g} grains between low and high, more than {:g}; use "
+                                "larger grains or a smaller box",
+                                grains, kMostGrains));
+    }
+  }
+
+private:
+  void radius(const char* list, std::size_t k, const char* key, double smallest) const {
+    constexpr double kSmallest = 1e-12; // [m]; no unit of places resolves a hundred-millionth of much less
+    if (smallest < kSmallest)
+      scene_.fail(
+          list, k, key,
+          fmt::format("[m] gives a grain of {:g} m, smaller than {:g} m; give it in metres", smallest, kSmallest));
+    constexpr double kLeast = 1e-3; // of the largest [-]; see terrain::Grains
+    if (smallest < kLeast * kinds_.largest)
+      scene_.fail(
+          list, k, key,
+          fmt::format("[m] gives a grain of {:g} m, less than a thousandth of the scene's largest, {:g} m; raise "
+                      "it, or lower that",
+                      smallest, kinds_.largest));
+  }
+  void place(const char* list, std::size_t k, const char* key, const Vec3d& p) const {
+    if (!(std::fabs(p.x) < limit_ && std::fabs(p.y) < limit_ && std::fabs(p.z) < limit_))
+      scene_.fail(list, k, key, "[m]" + tooFar());
+  }
+  std::string tooFar() const {
+    return fmt::format(" is farther than {:.6g} m from the origin, the range of places of grains of radius {:g} m;"
+                       " move the scene nearer to the origin, or use larger grains",
+                       limit_, kinds_.largest);
+  }
+
+  const Scene& scene_;
+  const GrainKinds kinds_;
+  double limit_;
+};
+
+} // namespace
+
+void checkGrainSpace(const Scene& scene) {
+  if (!grainKinds(scene).any()) return;
+  const SpaceCheck check(scene);
+  check.grains(), check.sides(), check.boundaries(), check.ids();
+}
+
+} // namespace grouser::runs

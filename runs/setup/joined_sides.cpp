@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/joined_sides.hpp"
+
+#include "runs/setup/grain_kinds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+terrain::JoinedSides joinedSides(const Scene& scene) {
+  terrain::JoinedSides sides;
+  const RunSettings& run = scene.run;
+  if (run.periodic[0]) {
+    if (scene.terrain) sides[0] = {0.0, scene.terrain->size[0]};
+    if (run.domainX) sides[0] = *run.domainX;
+  }
+  if (run.periodic[1]) {
+    if (scene.terrain) sides[1] = {-0.5 * scene.terrain->size[1], 0.5 * scene.terrain->size[1]};
+    if (run.domainY) sides[1] = *run.domainY;
+  }
+  return sides;
+}
+
+base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (!sides[a]) continue;
+    const double period = (*sides[a])[1] - (*sides[a])[0];
+    double& d = way[static_cast<int>(a)];
+    d -= period * std::floor(d / period + 0.5);
+  }
+  return way;
+}
+
+void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
+  const terrain::JoinedSides sides = joinedSides(scene);
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (!sides[a]) continue;
+    const auto [from, to] = *sides[a];
+    const int axis = static_cast<int>(a);
+    const auto outside = [&](double low, double high) {
+      return fmt::format(
+          "[m] reaches from {} = {:g} to {:g} m, outside the joined sides {:g} and {:g} m; move it between "
+          "them, or move run.domain_{}",
+          "xy"[a], low, high, from, to, "xy"[a]);
+    };
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      const double at = grains[i].position[axis];
+      if (at >= from && at < to) continue;
+      if (i < scene.grains.size()) scene.fail("grain", i, "position", outside(at, at));
+      std::size_t block = 0;
+      for (auto last = static_cast<std::int64_t>(scene.grains.size()); block + 1 < scene.blocks.size(); ++block)
+        if (last += placedCount(scene.blocks[block]); static_cast<std::int64_t>(i) < last) break;
+      scene.fail("grains", block, scene.blocks[block].file ? "file" : at < from ? "low" : "high", outside(at, at));
+    }
+    for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+      const double low = scene.sources[k].low[axis], high = scene.sources[k].high[axis];
+      // It may fill the period: its numbers never reach the upper side itself.
+      if (!(low >= from && (high < to || (low < high && high <= to))))
+        scene.fail("source", k, low < from ? "low" : "high", outside(low, high));
+    }
+  }
+}
+
+void checkLevelAcross(const Scene& scene, const terrain::HeightField& surface) {
+  const terrain::HeightFieldBounds all = surface.boundsOver(surface.area());
+  const double tolerance = 1e-9 * std::max(1.0, std::fabs(all.highest));
+  const terrain::Rectangle& area = surface.area();
+  constexpr int kSamples = 64;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!scene.run.periodic[static_cast<std::size_t>(axis)]) continue;
+    for (int along = 0; along <= kSamples; ++along)
+      for (int across = 1; across <= kSamples; ++across) {
+        const auto height = [&](int k) {
+          const double s = static_cast<double>(k) / kSamples, t = static_cast<double>(along) / kSamples;
+          return surface.height(area.xMin + (axis == 0 ? s : t) * area.width(),
+                                area.yMin + (axis == 0 ? t : s) * area.length());
+        };
+        if (std::fabs(height(across) - height(0)) <= tolerance) continue;
+        scene.fail("run", "periodic",
+                   fmt::format("joins the sides along {}, but terrain.heightmap = {} is not level in that direction; "
+                               "use a level height-map, or set it to [{}]",
+                               "xy"[axis], scene.terrain->heightmap, axis == 0 ? "false, ..." : "..., false"));
+      }
+  }
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/lattice.hpp"
+
+#include "base/error.hpp"
+#include "terrain/partition.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+namespace {
+
+constexpr const char* kRemedy = "change it, or start another number of ranks with mpirun -np";
+
+bool fits(int ranks, const std::array<int, 3>& wanted) {
+  try {
+    terrain::latticeShape(ranks, {1, 1, 1}, wanted);
+    return true;
+  } catch (const base::InputError&) {
+    return false;
+  }
+}
+
+} // namespace
+
+std::array<int, 3> wantedSubdomains(const Scene& scene) {
+  const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
+  std::array<int, 3> wanted{};
+  for (int a = 0; a < 3; ++a) {
+    if (scene.parallel.subdomains)
+      wanted[static_cast<std::size_t>(a)] = static_cast<int>((*scene.parallel.subdomains)[a]);
+    if (!cuts[a]->empty()) wanted[static_cast<std::size_t>(a)] = static_cast<int>(cuts[a]->size()) + 1;
+  }
+  return wanted;
+}
+
+void checkLattice(const Scene& scene, int ranks) {
+  const std::array<int, 3> wanted = wantedSubdomains(scene);
+  if (ranks == 1 || fits(ranks, wanted)) return;
+  const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!cuts[a]->empty())
+      scene.fail(
+          "parallel", std::string("cuts_") + "xyz"[a],
+          fmt::format("[m] makes {} subdomains along {}, and the scene asks for [{}, {}, {}] (0: any number up to "
+                      "{}), of which {} ranks make no lattice, one each; {}",
+                      wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], terrain::kMostSubdomainsAnAxis, ranks,
+                      kRemedy));
+  if (scene.parallel.subdomains)
+    scene.fail("parallel", "subdomains",
+               fmt::format("does not make {} subdomains, one for each rank; {}", ranks, kRemedy));
+  throw base::InputError(fmt::format("{}: {} ranks make no lattice with at most {} subdomains along each axis; start "
+                                     "another number with mpirun -np",
+                                     scene.file.string(), ranks, terrain::kMostSubdomainsAnAxis));
+}
+
+} // namespace grouser::runs

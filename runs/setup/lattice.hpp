@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+
+#include <array>
+
+namespace grouser::runs {
+
+/// Subdomains along x, y and z that the scene asks for, by their numbers or by planes between them; 0: any number.
+std::array<int, 3> wantedSubdomains(const Scene& scene);
+
+/// Throws base::InputError, with the line of the key, where so many ranks make no lattice that the scene asks for.
+void checkLattice(const Scene& scene, int ranks);
+
+} // namespace grouser::runs

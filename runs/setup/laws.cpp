@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/laws.hpp"
+
+#include "base/math.hpp"
+#include "contact/restitution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace grouser::runs {
+
+namespace {
+
+using contact::ContactLaw;
+
+/// Damping gamma [1/s] of one material in a contact of natural frequency omega0 [1/s].
+double dampingOf(const std::optional<double>& restitution, const std::optional<double>& damping, bool attraction,
+                 double omega0) {
+  if (damping) return *damping;
+  return 2 * omega0 * contact::dampingRatioFor(restitution.value_or(1), attraction);
+}
+
+void setLinear(const Scene& scene, const Material& a, const Material& b, const ContactPair* pair,
+               std::optional<double> effectiveMass, ContactLaw& law) {
+  const double ka = *a.stiffness, kb = *b.stiffness;
+  double stiffness = &a == &b ? ka : 2 * ka * kb / (ka + kb);
+  if (pair && pair->stiffness) stiffness = *pair->stiffness;
+  const double ratio = std::min(*a.tangentialStiffnessRatio, *b.tangentialStiffnessRatio);
+  const double dampingRatio = std::min(*a.tangentialDampingRatio, *b.tangentialDampingRatio);
+  law.stiffness = stiffness, law.tangentialStiffness = stiffness * ratio;
+  const bool given = pair && (pair->restitution || pair->damping);
+  if (effectiveMass) {
+    const double omega0 = std::sqrt(stiffness / *effectiveMass);
+    // The smaller restitution is the larger damping.
+    law.damping = given ? dampingOf(pair->restitution, pair->damping, law.attraction, omega0)
+                        : std::max(dampingOf(a.restitution, a.damping, law.attraction, omega0),
+                                   dampingOf(b.restitution, b.damping, law.attraction, omega0));
+    law.tangentialDamping = law.damping * dampingRatio;
+    return;
+  }
+  if (!given && a.damping.has_value() != b.damping.has_value())
+    scene.failMaterial(
+        (a.damping ? a : b).name, "damping",
+        fmt::format("[1/s] cannot be compared with the restitution of material.{} among grains of many masses; give "
+                    "both the same way, or [contact.\"{}|{}\"] for the pair",
+                    (a.damping ? b : a).name, a.name, b.name));
+  const std::optional<double> damping = given       ? pair->damping
+                                        : a.damping ? std::optional(std::max(*a.damping, *b.damping))
+                                                    : std::nullopt;
+  if (damping) {
+    law.damping = *damping, law.tangentialDamping = *damping * dampingRatio;
+    return;
+  }
+  const double restitution = given ? *pair->restitution : std::min(*a.restitution, *b.restitution);
+  law.rootDamping = 2 * contact::dampingRatioFor(restitution, law.attraction) * std::sqrt(stiffness);
+  law.tangentialRootDamping = law.rootDamping * dampingRatio;
+}
+
+double shearModulus(const Material& m) { return *m.young / (2 * (1 + *m.poisson)); }
+
+void setHertz(const Material& a, const Material& b, const ContactPair* pair, ContactLaw& law) {
+  const auto compliance = [](const Material& m) { return (1 - *m.poisson * *m.poisson) / *m.young; };
+  const auto shearCompliance = [](const Material& m) { return (2 - *m.poisson) / shearModulus(m); };
+  const double modulus = 1 / (compliance(a) + compliance(b));
+  law.hertz = true;
+  law.stiffness = 4.0 / 3 * modulus;
+  law.tangentialStiffness = 8 / (shearCompliance(a) + shearCompliance(b));
+  const double restitution = pair && pair->restitution ? *pair->restitution : std::min(*a.restitution, *b.restitution);
+  const double beta = contact::hertzDampingRatioFor(restitution, law.attraction);
+  law.rootDamping = 2 * beta * std::sqrt(2 * modulus);
+  law.tangentialRootDamping =
+      2 * beta * std::min(*a.tangentialDampingRatio, *b.tangentialDampingRatio) * std::sqrt(law.tangentialStiffness);
+}
+
+} // namespace
+
+double sphereMass(double density, double radius) {
+  return density * (4.0 / 3.0) * base::kPi * radius * radius * radius;
+}
+
+ContactLaw pairLaw(const Scene& scene, const std::string& nameA, const std::string& nameB,
+                   std::optional<double> effectiveMass) {
+  const Material &a = scene.material(nameA), &b = scene.material(nameB);
+  const ContactPair* pair = scene.contact(nameA, nameB);
+  if (a.law != b.law)
+    scene.failMaterial(b.name, "law",
+                       fmt::format("differs from law = \"{}\" of material.{}, which it meets; surfaces that touch must "
+                                   "have the same law: give both one of the two",
+                                   a.law, a.name));
+  ContactLaw law;
+  law.attraction = a.attraction && b.attraction;
+  law.friction = pair && pair->friction ? *pair->friction : std::min(a.friction, b.friction);
+  law.rollingFriction =
+      pair && pair->rollingFriction ? *pair->rollingFriction : std::min(a.rollingFriction, b.rollingFriction);
+  law.rollingDamping = std::min(a.rollingDampingRatio, b.rollingDampingRatio);
+  const double cohesion = pair && pair->cohesion ? *pair->cohesion
+                          : &a == &b             ? a.cohesion
+                                                 : std::sqrt(a.cohesion * b.cohesion);
+  law.pullPerRadius = 2 * base::kPi * cohesion;
+  if (a.law == "hertz")
+    setHertz(a, b, pair, law);
+  else
+    setLinear(scene, a, b, pair, effectiveMass, law);
+  return law;
+}
+
+contact::Coefficients<double> stiffest(const ContactLaw& law, double effectiveMass, double effectiveRadius,
+                                       double speed) {
+  const double overlap =
+      law.hertz ? contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).deepest : 0;
+  return contact::coefficientsOf<contact::kGeneral>(law, overlap, effectiveMass, effectiveRadius);
+}
+
+double contactTime(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed) {
+  if (!law.hertz) return base::kPi * std::sqrt(effectiveMass / law.stiffness);
+  return contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
+}
+
+double rayleighTimeOf(const Material& m, double radius) {
+  if (m.law != "hertz") return std::numeric_limits<double>::infinity();
+  return contact::rayleighTime(radius, m.density, shearModulus(m), *m.poisson);
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/model.hpp"
+#include "runs/scene/mechanism_sections.hpp"
+#include "runs/support/section_fault.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// From the sections of a scene file to the model that multibody/ solves.
+namespace grouser::runs {
+
+/// Adds section after section and checks each against what has been added so far. Throws SectionFault.
+class MechanismBuilder {
+public:
+  void add(const BodySection& body);
+  void add(const JointSection& joint);
+  void add(const SpringSection& spring);
+  void add(const BushingSection& bushing);
+  void add(const DriveSection& drive);
+  void add(const CouplingSection& coupling);
+
+  const multibody::Model& model() const { return model_; }
+
+private:
+  // Indices by name; "world" is multibody::kWorld. `key` is where the name stands.
+  int body(const std::string& key, const std::string& name) const;
+  int joint(const std::string& key, const std::string& name) const;
+  std::pair<int, int> twoBodies(const std::vector<std::string>& names) const;
+  /// The axis of a joint that `word` ("angle", "slide" or empty) means.
+  multibody::JointAxis axis(int joint, const std::string& key, const std::string& word) const;
+  base::Pose pose(int body) const;
+  void checkName(const std::string& kind, const std::string& name);
+  void addOnAxis(const SpringSection& spring);
+  void addBetweenPoints(const SpringSection& spring);
+
+  multibody::Model model_;
+  std::map<std::string, int> bodies_, joints_;
+  std::set<std::string> names_; ///< "body rod"
+};
+
+multibody::Model buildModel(const MechanismSections& sections);
+
+/// Throws SectionFault, for key "" of joint `joint`, where the velocities of its two bodies at the start do not go
+/// together with it. Velocities must agree to 1e-5 of their size.
+void checkStartVelocity(const multibody::Model& model, int joint);
+
+} // namespace grouser::runs

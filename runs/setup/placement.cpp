@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/placement.hpp"
+
+#include "base/math.hpp"
+#include "spheredecomp/decompose.hpp"
+#include "spheredecomp/mesh.hpp"
+#include "vehicle/wrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+namespace {
+
+constexpr double kBorder = 0.02; // [m] kept free by the default place
+
+/// Extent of the vehicle about its origin at a heading [m].
+terrain::Rectangle footprint(const vehicle::VehicleSpec& spec, double heading) {
+  const vehicle::Wrap wrap = vehicle::wrapTrack(spec);
+  // A shoe reaches half a pitch and its grousers beyond its middle, whichever way it is turned.
+  const double reach = 0.5 * spec.shoe.pitch + spec.shoe.grouserHeight - spec.shoe.padBottom;
+  double rear = 1e300, front = -1e300;
+  for (int i = 0; i < spec.shoe.count; ++i) {
+    rear = std::min(rear, wrap.shoeCentre(i).x - reach);
+    front = std::max(front, wrap.shoeCentre(i).x + reach);
+  }
+  const double half = spec.trackOffset + std::max(spec.shoe.padHalfWidth, 0.175), c = base::cos(heading),
+               s = base::sin(heading);
+  terrain::Rectangle r{1e300, -1e300, 1e300, -1e300};
+  for (const double x : {rear, front})
+    for (const double y : {-half, half}) {
+      r.xMin = std::min(r.xMin, c * x - s * y), r.xMax = std::max(r.xMax, c * x - s * y);
+      r.yMin = std::min(r.yMin, s * x + c * y), r.yMax = std::max(r.yMax, s * x + c * y);
+    }
+  return r;
+}
+
+/// Coordinate of the origin along one axis: the rear at the border the vehicle looks away from, else centred.
+double along(double direction, double low, double high, double areaLow, double areaHigh) {
+  if (direction > 0.5) return areaLow - low + kBorder;
+  if (direction < -0.5) return areaHigh - high - kBorder;
+  return 0.5 * (areaLow + areaHigh) - 0.5 * (low + high);
+}
+
+} // namespace
+
+std::optional<terrain::Rectangle> terrainArea(const Scene& scene) {
+  if (!scene.terrain) return {};
+  const auto& size = scene.terrain->size;
+  return terrain::Rectangle{0, size[0], -0.5 * size[1], 0.5 * size[1]};
+}
+
+Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec) {
+  const double heading = scene.vehicle->heading * base::kPi / 180;
+  const std::optional<terrain::Rectangle> area = terrainArea(scene);
+  if (!area) {
+    const auto place = scene.vehicle->position.value_or(std::array<double, 2>{0, 0});
+    return {place[0], place[1], heading};
+  }
+  const terrain::Rectangle f = footprint(spec, heading);
+  Placement p{along(base::cos(heading), f.xMin, f.xMax, area->xMin, area->xMax),
+              along(base::sin(heading), f.yMin, f.yMax, area->yMin, area->yMax), heading};
+  if (scene.vehicle->position) p.x = (*scene.vehicle->position)[0], p.y = (*scene.vehicle->position)[1];
+  if (p.x + f.xMin < area->xMin || p.x + f.xMax > area->xMax || p.y + f.yMin < area->yMin || p.y + f.yMax > area->yMax)
+    scene.fail(
+        "vehicle", "position",
+        fmt::format("[m] puts the vehicle at ({:.3f}, {:.3f}) m with vehicle.heading = {:g} [deg], where it would "
+                    "cover [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; the terrain is [{:.2f}, {:.2f}] x [{:.2f}, "
+                    "{:.2f}] m, and it needs {:.2f} x {:.2f} m: move it or enlarge terrain.size",
+                    p.x, p.y, scene.vehicle->heading, p.x + f.xMin, p.x + f.xMax, p.y + f.yMin, p.y + f.yMax,
+                    area->xMin, area->xMax, area->yMin, area->yMax, f.width(), f.length()));
+  return p;
+}
+
+void checkParts(const Scene& scene) {
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  const double radius = scene.vehicle->sphereRadius;
+  for (const std::string& name :
+       {spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh, spec.roller.mesh, spec.idler.mesh}) {
+    const base::TriangleMesh mesh = spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+    const auto [low, high] = spheredecomp::bounds(mesh);
+    const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (radius > 0.5 * longest)
+      scene.fail("vehicle", "sphere_radius",
+                 fmt::format("[m] is above half of the longest side of {}, {:.4g} m; lower it", name, longest));
+    if (const double points = spheredecomp::latticePoints(mesh, radius); !(points <= spheredecomp::kMostLatticePoints))
+      scene.fail("vehicle", "sphere_radius",
+                 fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
+                             spheredecomp::kMostLatticePoints));
+  }
+}
+
+double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
+                   const std::function<double(double, double)>& surfaceHeight) {
+  const double c = base::cos(place.heading), s = base::sin(place.heading);
+  const double first = spec.roadWheel.firstX - 0.2;
+  const double last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1) + 0.2;
+  double highest = -1e300;
+  for (const double side : {-1.0, 1.0})
+    for (int i = 0; i <= 40; ++i)
+      for (int j = -2; j <= 2; ++j) {
+        const double px = first + (last - first) * i / 40.0;
+        const double py = side * spec.trackOffset + 0.5 * j * spec.shoe.padHalfWidth;
+        highest = std::max(highest, surfaceHeight(place.x + c * px - s * py, place.y + s * px + c * py));
+      }
+  return highest;
+}
+
+std::string offTerrain(const Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state) {
+  const std::optional<terrain::Rectangle> area = terrainArea(scene);
+  if (!area) return {};
+  for (const int index : assembly.groundParts) {
+    const vehicle::Part& part = assembly.parts[static_cast<std::size_t>(index)];
+    const base::Vec3d p = state.pose[static_cast<std::size_t>(part.body)].position;
+    if (p.x >= area->xMin && p.x <= area->xMax && p.y >= area->yMin && p.y <= area->yMax) continue;
+    return fmt::format(
+        "the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position or "
+        "shorten run.duration",
+        part.name, p.x, p.y);
+  }
+  return {};
+}
+
+} // namespace grouser::runs

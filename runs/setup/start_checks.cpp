@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/start_checks.hpp"
+
+#include "base/error.hpp"
+#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/sources.hpp"
+#include "runs/setup/surface_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <string_view>
+#include <tuple>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr std::size_t kMostChecked = 1'000'000; // of the grains that sources will set
+
+/// Cells of one largest diameter along one axis, in a ring between joined sides.
+struct CellsAlong {
+  double from = 0, width;
+  std::int64_t ring = 0; ///< cells between joined sides; 0: walls or nothing
+
+  CellsAlong(double diameter, const std::optional<std::array<double, 2>>& joined) : width(diameter) {
+    if (!joined) return;
+    from = (*joined)[0];
+    const double period = (*joined)[1] - from;
+    ring = std::max<std::int64_t>(1, static_cast<std::int64_t>(period / diameter));
+    width = period / static_cast<double>(ring);
+  }
+  std::int64_t of(double x) const { return wrapped(static_cast<std::int64_t>(std::floor((x - from) / width))); }
+  std::int64_t wrapped(std::int64_t k) const { return ring > 0 ? (k % ring + ring) % ring : k; }
+};
+
+/// "at (1, 2, 3) m".
+std::string at(const Vec3d& p) { return fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
+
+/// A ball that somebody sets into the scene, and who.
+struct Ball {
+  Vec3d position;
+  double radius;
+  std::string_view list; ///< "grain", "grains", "source"
+  std::size_t number{};  ///< of the section there
+  double time{};         ///< [s]
+  std::size_t id{};      ///< of a grain that is there from the start
+};
+
+/// Sets balls into the scene one after the other, each where nothing may be yet.
+class Placing {
+public:
+  Placing(const Scene& scene, const Surroundings& around)
+      : scene_(scene), around_(around), joined_(joinedSides(scene)),
+        largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, joined_[0]),
+                                                    CellsAlong(2 * largest_, joined_[1]),
+                                                    CellsAlong(2 * largest_, {})} {
+    for (const SceneSurface& s : around.surfaces) motions_.emplace_back(s.section, s.start.position);
+  }
+
+  /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
+  void place(const Ball& ball) {
+    for (const Surroundings::Wall& wall : around_.walls)
+      if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
+          isTooDeep(depth, ball.radius))
+        refuse(ball, depth, wall.name);
+    if (around_.floor && !around_.floor->view().clearOf(ball.position, ball.radius))
+      if (const double depth = ball.radius - around_.floor->closestPoint(ball.position).distance;
+          isTooDeep(depth, ball.radius))
+        refuse(ball, depth, "the terrain's floor");
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      const SceneSurface& s = around_.surfaces[i];
+      if (s.section.free && ball.time > 0) continue;
+      if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
+          isTooDeep(depth, ball.radius))
+        refuse(ball, depth, fmt::format("{} {}", s.kind, s.number));
+    }
+    placeAmongBalls(ball);
+  }
+  /// Later ones know nothing of where those placed so far have gone.
+  void forgetBalls() { balls_.clear(), cells_.clear(); }
+
+private:
+  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+
+  base::Pose poseAt(std::size_t i, double time) const {
+    const SceneSurface& s = around_.surfaces[i];
+    if (!s.section.moves() || time <= 0) return s.start;
+    const SurfaceMotion::State now = motions_[i].at(time);
+    return {now.centre, now.turned * s.start.orientation};
+  }
+
+  void placeAmongBalls(const Ball& ball) {
+    const std::int64_t x = along_[0].of(ball.position.x), y = along_[1].of(ball.position.y),
+                       z = along_[2].of(ball.position.z);
+    for (std::int64_t k = 0; k < 27; ++k) {
+      const auto found =
+          cells_.find({along_[0].wrapped(x + k / 9 - 1), along_[1].wrapped(y + k / 3 % 3 - 1), z + k % 3 - 1});
+      if (found == cells_.end()) continue;
+      for (const std::size_t j : found->second) {
+        const Ball& other = balls_[j];
+        const double depth = ball.radius + other.radius - norm(toNearestImage(joined_, ball.position - other.position));
+        if (isTooDeep(depth, std::min(ball.radius, other.radius)))
+          refuse(ball, depth,
+                 (other.list == "source" ? fmt::format("one of source.{} ", other.number)
+                                         : fmt::format("grain {} ", other.id)) +
+                     at(other.position));
+      }
+    }
+    cells_[{x, y, z}].push_back(balls_.size());
+    balls_.push_back(ball);
+  }
+
+  /// `radius`: of the smaller one [m].
+  bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.maxOverlap * radius; }
+
+  [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
+    const std::string how = fmt::format("overlaps {} by {:.3g} m, more than run.max_overlap = {:g} of its radius", with,
+                                        overlap, scene_.run.maxOverlap);
+    if (ball.list == "grain") scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
+    if (ball.list == "grains")
+      scene_.fail("grains", ball.number, "",
+                  fmt::format("sets grain {} {}, which {}; move the block", ball.id, at(ball.position), how));
+    scene_.fail("source", ball.number, "low",
+                fmt::format("[m] to high sets a grain {} at {:g} s, which {}; move low and high{}", at(ball.position),
+                            ball.time, how, ball.time > 0 ? ", or change start and every" : ""));
+  }
+
+  const Scene& scene_;
+  const Surroundings& around_;
+  terrain::JoinedSides joined_;
+  double largest_;
+  std::array<CellsAlong, 3> along_;
+  std::vector<SurfaceMotion> motions_;
+  std::vector<Ball> balls_;
+  std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
+/// [[grain]] and [[grains]], in the order of their ids.
+void placeStarting(const Scene& scene, const std::vector<Grain>& grains, Placing& placing) {
+  std::size_t id = 0;
+  for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)
+    placing.place({grains[id].position, grains[id].radius, "grain", k, 0, id});
+  for (std::size_t k = 0; k < scene.blocks.size(); ++k)
+    for (std::int64_t left = placedCount(scene.blocks[k]); left > 0; --left, ++id)
+      placing.place({grains[id].position, grains[id].radius, "grains", k, 0, id});
+}
+
+} // namespace
+
+void checkStart(const Scene& scene, const std::vector<Grain>& grains, const Surroundings& around, double timeStep) {
+  checkBetweenSides(scene, grains);
+  checkSources(scene);
+  Placing placing(scene, around);
+  placeStarting(scene, grains, placing);
+  const Sources sources(scene, timeStep);
+  std::size_t checked = 0;
+  for (auto step = sources.nextEntry(0); step && checked < kMostChecked; step = sources.nextEntry(*step + 1)) {
+    const double time = static_cast<double>(*step) * timeStep;
+    if (time > scene.run.duration) break;
+    if (*step > 0) placing.forgetBalls();
+    for (const Sources::Batch& batch : sources.batchesAt(*step))
+      for (const terrain::GrainStart& g : batch.grains) {
+        placing.place({g.position, g.radius, "source", batch.source, time});
+        ++checked;
+      }
+  }
+}
+
+void watchSources(const Scene& scene, double timeStep, terrain::Grains& grains) {
+  if (scene.sources.empty()) return;
+  std::vector<std::string> places, surfaces;
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) places.push_back(scene.placeOf("source", k));
+  for (const SceneSurface& s : surfacesOf(scene))
+    if (!s.mesh) surfaces.push_back(s.name);
+  const double maxOverlap = scene.run.maxOverlap;
+  grains.onCrowding([=, sources = Sources(scene, timeStep), all = &grains](const terrain::Crowding& c) {
+    std::size_t before = 0, source = 0;
+    terrain::GrainStart grain;
+    for (const Sources::Batch& batch : sources.batchesAt(all->steps())) {
+      if (c.entering >= before && c.entering < before + batch.grains.size())
+        source = batch.source, grain = batch.grains[c.entering - before];
+      before += batch.grains.size();
+    }
+    const std::string message = fmt::format(
+        "{} would set a grain {} at step {}, time {:.6g} s, {:.3g} m deep in {}, more than run.max_overlap = {:g} of "
+        "the radius; let it enter elsewhere (low, high), later (start), or leave those before it more time to get away "
+        "(every, number, velocity)",
+        places[source], at(grain.position), all->steps(), static_cast<double>(all->steps()) * timeStep, c.overlap,
+        c.grain ? fmt::format("grain {} {}", *c.grain, at(c.position)) : surfaces[c.surface], maxOverlap);
+    if (all->steps() == 0) throw base::InputError(message);
+    throw base::SimulationError(message);
+  });
+}
+
+} // namespace grouser::runs

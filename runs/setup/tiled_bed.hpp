@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "runs/scene/scene.hpp"
+#include "terrain/grains.hpp"
+#include "terrain/height_field.hpp"
+#include "terrain/layers.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grouser::runs {
+
+/// A bed made of copies of one settled tile.
+///
+/// A piece of the bed of about terrain.tile, with joined sides on level ground, is laid and settled alone, then copied
+/// over the terrain with the springs of its contacts, so that the copies are in balance across their seams. Grains that
+/// would stand in a wall are left out, and, where the ground is not level, those with their centre above the
+/// height-map; what lay against them has to come to rest again. Every rank makes the same tile.
+class TiledBed {
+public:
+  /// `plan` is that of `surface`. Throws InputError where the floor is not level, SimulationError where the tile does
+  /// not settle.
+  TiledBed(const Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
+           const base::Exec& exec, double timeStep);
+
+  /// Where the grains are, by id.
+  std::vector<terrain::GrainStart> start(double radius, int material) const;
+  /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
+  void bringToRest(terrain::Grains& grains, std::size_t floor) const;
+
+private:
+  /// Where a grain of the tile stands in one of the copies.
+  struct Copy {
+    std::array<std::int64_t, 2> tile;
+    std::size_t grain; ///< row of the tile's state
+  };
+  base::Vec3l place(const Copy& copy) const;
+  std::int64_t idOf(std::array<std::int64_t, 2> tile, std::size_t grain) const;
+
+  std::array<bool, 2> joined_{};
+  std::array<std::int64_t, 2> copies_{};
+  base::PositionScale scale_;
+  base::Period period_; ///< of the tile
+  base::Vec3l lift_{};  ///< from the tile's own place to the first copy
+  terrain::GrainState tile_;
+  std::vector<Copy> grains_;     ///< by id
+  std::vector<std::int64_t> id_; ///< [copies x][copies y][grains of the tile]; -1: left out
+};
+
+} // namespace grouser::runs

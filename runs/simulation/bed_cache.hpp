@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+#include "runs/setup/bed.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+/// Settled beds, kept from run to run: settling often takes longer than the drive, and a sweep over the vehicle settles
+/// the same bed again and again. A run that begins on a kept bed gives the same bits as one that settled it.
+namespace grouser::runs {
+
+/// A folder of settled beds, and what became of the one that was asked for.
+class BedCache {
+public:
+  static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30; ///< [bytes]
+
+  /// `limit` [bytes]: the newest beds are kept up to it.
+  explicit BedCache(std::filesystem::path folder, std::uint64_t limit = kDefaultLimit)
+      : folder_(std::move(folder)), limit_(limit) {}
+
+  /// As the user's surroundings say: GROUSER_CACHE names the folder, and where it is set but empty nothing is kept;
+  /// otherwise $XDG_CACHE_HOME/grouser, otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits its size. Throws
+  /// InputError where that is no number. On several ranks the surroundings of the first count.
+  static std::optional<BedCache> ofUser(const base::Comm& comm = {});
+
+  /// Puts the kept bed of this scene in the place of the loose one; where there is none, settles as runs/bed does and
+  /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a
+  /// file in it is a warning, never the end of the run. On several ranks all of them call it; the folder must be seen
+  /// by all, or nothing is reused. Throws what `progress` throws, and SimulationError as settle() does.
+  SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress, const base::Comm& comm);
+
+  /// One line: where the bed came from and how long that took. Empty before settle().
+  const std::string& story() const { return story_; }
+
+  /// Everything that makes the bits of a settled bed, as text: the parts of the scene that have a share in it with all
+  /// their values, the bytes of the height-map, the time step, and the running program. The program is known by a hash
+  /// of its file, since neither a version nor a commit tells of changes that are not committed, or of a compiler.
+  static std::string origin(const Scene& scene, double timeStep);
+
+private:
+  bool reuse(const std::filesystem::path& file, const std::string& origin, Ground& ground, SettleReport& report,
+             const base::Comm& comm) const;
+  bool keep(const std::filesystem::path& file, const std::string& origin, const Ground& ground,
+            const SettleReport& report, const base::Comm& comm) const;
+  void deleteOldest(const std::filesystem::path& except) const;
+
+  std::filesystem::path folder_;
+  std::uint64_t limit_;
+  std::string story_;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/support/hdf5_file.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/simulation/simulation_state.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace grouser::runs {
+
+inline constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// Kinds of files that hold a state, by which one is not taken for another.
+inline constexpr const char* kCheckpointFile = "checkpoint";
+inline constexpr const char* kBedFile = "settled bed";
+
+/// A stopped run: all that is needed to go on as if it had not been stopped.
+struct Checkpoint {
+  std::string scene;   ///< resolved
+  std::string inputs;  ///< what the files that the scene names held: see inputsOf()
+  std::string commit;  ///< of the program that wrote it
+  double timeStep{};   ///< [s]
+  std::int64_t rows{}; ///< written by then
+  std::int64_t frames{};
+  SimulationState state;
+};
+
+/// One line a file that the scene reads (height-map, vehicle, meshes): its role and a hash of its bytes.
+std::string inputsOf(const Scene& scene);
+
+/// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
+/// Throws std::runtime_error.
+/// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
+void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
+
+/// Throws base::InputError where the file is missing, foreign, of another version, cut or damaged.
+/// On several ranks, whatever their number was when it was written, each gets its rows.
+Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
+
+/// What the two above are made of. `kind` is one of those named on top; readState() takes a file that checkStateFile()
+/// has found whole, which one rank does for all.
+void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
+                const base::Comm& comm);
+void checkStateFile(const std::filesystem::path& path, const char* kind);
+Checkpoint readState(const Hdf5File& file, const base::Comm& comm);
+
+/// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
+/// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by
+/// what is in them.
+void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path, const Scene& scene);
+
+} // namespace grouser::runs

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/mechanism.hpp"
+
+#include "base/math.hpp"
+#include "runs/setup/mechanism_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Steps of a period or turn that "auto" gives [-], and the longest step it gives [s].
+constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
+/// The same of swings on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves room for
+/// forty times the pull of the start [-].
+constexpr double kStepsPerSwingOnPull = 20;
+/// A stable step is inverse to the root of the pull. It is looked at again when this share of what the step bears is
+/// reached, but not before the pull has grown by the second, which a swing beyond it needs to make itself felt, and
+/// when it has grown by the third: poses change too [-].
+constexpr double kPullShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
+/// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
+constexpr double kRoundedRate = 1e-12;
+
+/// The solver's errors about the mechanism as a whole, with the file.
+multibody::Solver makeSolver(const Scene& scene, const multibody::Model& model) {
+  try {
+    return multibody::Solver(model, solverOptions(scene.run));
+  } catch (const base::InputError& error) {
+    throw base::InputError(fmt::format("{}: {}", scene.file.string(), error.what()));
+  }
+}
+
+} // namespace
+
+multibody::SolverOptions solverOptions(const RunSettings& run) {
+  multibody::SolverOptions options;
+  options.integrator =
+      run.integrator == "rattle" ? multibody::Integrator::kRattle : multibody::Integrator::kSymplecticEuler;
+  options.order = run.integratorOrder;
+  options.springs = run.springs == "implicit" ? multibody::Springs::kImplicit : multibody::Springs::kExplicit;
+  options.positionTolerance = run.constraintTolerance.value_or(0);
+  // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
+  options.startVelocities = multibody::StartVelocities::kAccept;
+  return options;
+}
+
+Mechanism::Mechanism(const Scene& scene, double timeStep)
+    : timeStep_(timeStep), model_(buildModel(scene.mechanism)), state_(multibody::makeState(model_)),
+      loads_(multibody::makeLoads(model_)), solver_(makeSolver(scene, model_)) {
+  loads_.gravity = scene.run.gravity;
+  const bool imposed = std::any_of(model_.drives().begin(), model_.drives().end(),
+                                   [](const multibody::Drive& d) { return d.kind != multibody::DriveKind::kForce; });
+  if (imposed || solver_.velocityError(state_) > kRoundedRate) startBlow_ = -solver_.projectVelocities(state_, loads_);
+}
+
+void Mechanism::advance() {
+  try {
+    solver_.step(state_, loads_, timeStep_);
+  } catch (const base::SimulationError& error) {
+    throw base::SimulationError(tooTaut_.empty() ? error.what() : fmt::format("{}; {}", error.what(), tooTaut_));
+  }
+  const multibody::StepReport& report = solver_.lastStep();
+  worst_.position = std::max(worst_.position, report.maxPositionError);
+  worst_.iterations = std::max(worst_.iterations, report.iterations);
+  worst_.singularSteps += report.singularRows > 0;
+  if (tooTaut_.empty()) watchPull();
+}
+
+/// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
+/// The first that the step does not bear is kept, not the worst: what comes later holds the forces of the swing itself.
+void Mechanism::watchPull() {
+  double pull = 0;
+  for (const multibody::JointReading& joint : state_.joint) pull = std::max(pull, norm(joint.force));
+  for (const multibody::SpringReading& spring : state_.spring) pull = std::max(pull, std::fabs(spring.force));
+  if (!(pull > boundedPull_)) return;
+  const double most = lookAtPull();
+  boundedPull_ = pull * std::clamp(kPullShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
+}
+
+/// The longest step that bears the pull of now [s].
+double Mechanism::lookAtPull() {
+  std::string part;
+  const double most = stableStepOnPull(&part);
+  if (timeStep_ >= most)
+    tooTaut_ =
+        fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
+  return most;
+}
+
+const std::string& Mechanism::tooTaut() {
+  if (tooTaut_.empty()) lookAtPull();
+  return tooTaut_;
+}
+
+Mechanism::DriveReading Mechanism::drive(int index) const {
+  return {model_.drives()[at(index)].law.value(state_.time), multibody::driveForce(model_, state_, index),
+          multibody::drivePower(model_, state_, index)};
+}
+
+double Mechanism::axisSpringForce(int index) const {
+  const multibody::AxisSpring& s = model_.axisSprings()[at(index)];
+  const multibody::AxisReading axis = multibody::axisReading(model_, state_, s.joint, s.axis);
+  return s.preload - s.stiffness * (axis.position - s.freePosition) - s.damping * axis.rate;
+}
+
+Mechanism::Ledger Mechanism::ledger() const {
+  const multibody::Totals t = multibody::totals(model_, state_, loads_);
+  return {state_.ledger.driveWork,  t.kinetic,        t.gravity,        t.elastic,
+          state_.ledger.dissipated, t.linearMomentum, t.angularMomentum};
+}
+
+Mechanism::Drift Mechanism::drift() const {
+  Drift drift = worst_;
+  drift.velocity = solver_.velocityError(state_);
+  return drift;
+}
+
+double mechanismTimeStep(const Scene& scene) {
+  Mechanism mechanism(scene, kLongestStep);
+  double shortest = std::min(kStepsPerPeriod * kLongestStep, mechanism.shortestSwing());
+  for (const multibody::Twist& V : mechanism.state().twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
+  shortest = std::min(shortest, kStepsPerPeriod / kStepsPerSwingOnPull * mechanism.shortestSwingOnPull());
+  // Rows fall on whole steps.
+  const double row = scene.run.outputInterval;
+  return row / std::ceil(kStepsPerPeriod * row / shortest);
+}
+
+std::string tautStartWarning(const Scene& scene, double timeStep) {
+  std::string part;
+  const double most = Mechanism(scene, timeStep).stableStepOnPull(&part);
+  if (timeStep < most) return "";
+  return fmt::format("{}: run.time_step = {:g} s: at the start {} bears so much that swings across it grow with steps "
+                     "above {:.2g} s, after the least push; choose a shorter step, or \"auto\"",
+                     scene.file.string(), timeStep, part, most);
+}
+
+std::vector<std::uint32_t> MechanismState::words() const {
+  std::vector<std::uint32_t> words(2 * bodies.size());
+  if (!bodies.empty()) std::memcpy(words.data(), bodies.data(), bodies.size() * sizeof(double));
+  return words;
+}
+
+MechanismState Mechanism::save() const {
+  return {state_.save(),
+          {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)}};
+}
+
+void Mechanism::restore(const MechanismState& saved) {
+  state_.restore(saved.bodies);
+  if (saved.worst.size() != 3)
+    throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
+  worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
+}
+
+} // namespace grouser::runs

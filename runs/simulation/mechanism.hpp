@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/math.hpp"
+#include "multibody/solver.hpp"
+#include "multibody/state.hpp"
+#include "runs/simulation/mechanism_state.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
+class Mechanism {
+public:
+  /// Throws base::InputError where the sections make no mechanism.
+  Mechanism(const Scene& scene, double timeStep);
+  Mechanism(const Mechanism&) = delete;
+  Mechanism& operator=(const Mechanism&) = delete;
+
+  /// One step. Throws base::SimulationError.
+  void advance();
+
+  const multibody::Model& model() const { return model_; }
+  const multibody::State& state() const { return state_; }
+  const multibody::Solver& solver() const { return solver_; }
+
+  /// What a drive does now.
+  struct DriveReading {
+    double value = 0;  ///< what it imposes [rad/s, rad, N m, or m/s, m, N]
+    double torque = 0; ///< [N m] or [N]
+    double power = 0;  ///< [W]
+  };
+  DriveReading drive(int index) const;
+  /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
+  double axisSpringForce(int index) const;
+
+  /// Energies [J] and momenta since the start of the world; work of drives and dissipation since the first step.
+  struct Ledger {
+    double driveWork{}, kinetic{}, potential{}, elastic{}, dissipated{};
+    base::Vec3d linearMomentum, angularMomentum;
+  };
+  Ledger ledger() const;
+
+  /// Kinetic energy that the drives gave in a blow, since the velocities of the scene did not fit theirs [J].
+  double startBlow() const { return startBlow_; }
+
+  /// Shortest period of all springs and bushings against the masses, where the bodies are now [s]; infinite without
+  /// any.
+  double shortestSwing() { return 2 * base::kPi / solver_.stableTurn() * solver_.stableStep(state_, loads_); }
+  /// The same of bodies that hang on taut joints and springs (Solver::pullRate).
+  double shortestSwingOnPull() { return 2 * base::kPi / solver_.pullRate(state_, loads_); }
+  /// Up to which step such a swing does not grow [s]; infinite where nothing pulls. `part`, if given, receives the name
+  /// of what has the greatest part in it.
+  double stableStepOnPull(std::string* part = nullptr) {
+    return solver_.stableTurn() / solver_.pullRate(state_, loads_, part);
+  }
+  /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere, nor
+  /// does it now.
+  const std::string& tooTaut();
+
+  /// How well the joints are closed.
+  struct Drift {
+    double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
+    double velocity = 0;   ///< now [m/s, rad/s]
+    int iterations = 0;    ///< most of a step since then
+    int singularSteps = 0; ///< steps through a singular position since then
+  };
+  Drift drift() const;
+  void restartMeans() { worst_ = {}; }
+
+  MechanismState save() const;
+  /// Throws base::InputError where the state is of another mechanism.
+  void restore(const MechanismState& saved);
+
+private:
+  void watchPull();
+  double lookAtPull();
+
+  const double timeStep_;
+  const multibody::Model model_;
+  multibody::State state_;
+  multibody::Loads loads_;
+  multibody::Solver solver_;
+  Drift worst_;
+  double startBlow_ = 0;
+  double boundedPull_ = 0; ///< up to this force in joints and springs the step is short enough [N]
+  std::string tooTaut_;
+};
+
+/// The solver's options as a scene's [run] gives them.
+multibody::SolverOptions solverOptions(const RunSettings& run);
+
+/// The step that "auto" stands for: at the start a hundredth of the shortest swing of the springs or turn of a body, a
+/// twentieth of the shortest swing on taut joints; at most 1 ms, and a whole share of the output interval.
+double mechanismTimeStep(const Scene& scene);
+
+/// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
+/// first push. Empty where the step is short enough.
+std::string tautStartWarning(const Scene& scene, double timeStep);
+
+} // namespace grouser::runs

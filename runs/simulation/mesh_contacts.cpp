@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/mesh_contacts.hpp"
+
+#include "runs/setup/grain_part_model.hpp"
+#include "runs/setup/laws.hpp"
+#include "spheredecomp/decompose.hpp"
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+
+MeshContacts::MeshContacts(const Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains)
+    : exec_(exec), comm_(grains.comm()), room_(0.5 * grains.smallestRadius()) {
+  std::vector<contact::GrainPart> parts;
+  for (const MeshSection& mesh : scene.meshes) {
+    spheredecomp::DecompositionOptions options;
+    options.radius = *mesh.sphereRadius, options.interior = false;
+    parts.push_back({static_cast<int>(sets_.size()), {}, {}});
+    sets_.push_back(spheredecomp::decompose(mesh.loaded.query->mesh(), mesh.file, options));
+    reach_.push_back(contact::enclosingRadius(sets_.back()));
+  }
+  std::vector<const base::SphereSet*> sets;
+  for (const base::SphereSet& set : sets_) sets.push_back(&set);
+  const auto [model, materials] =
+      grainPartModel(scene, grains, timeStep, room_, [&](const std::string& soil, std::optional<double> mass) {
+        return pairLaw(scene, soil, scene.meshes.front().material, mass);
+      });
+  force_ = model.force, torque_ = model.torque;
+  contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, materials);
+  grains.onHandOver([this](const std::uint32_t* destination) { contacts_->handOver(destination); });
+  motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
+  sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size());
+  loads_.resize(sets_.size());
+}
+
+/// Decided from the motions alone, so alike on all ranks.
+bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) const {
+  if (listedAt_.empty()) return true;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const contact::PartMotion &was = listedAt_[k], &is = motions[k];
+    double turned = 0; // sum of the chords of three axes: no less than the norm of the turn
+    for (int column = 0; column < 3; ++column) {
+      Vec3d chord;
+      for (int row = 0; row < 3; ++row) chord[row] = is.rotation.m[row][column] - was.rotation.m[row][column];
+      turned += norm(chord);
+    }
+    if (!(norm(is.origin - was.origin) + turned * reach_[k] <= room_)) return true;
+  }
+  return false;
+}
+
+void MeshContacts::touch(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                         bool slotsChanged) {
+  std::copy(motions.begin(), motions.end(), motion_.host());
+  motion_.upload();
+  sums_.device().zero();
+  if (slotsChanged || haveLeft(motions)) {
+    contacts_->refresh(viewOf(grains), motion_.device());
+    listedAt_ = motions;
+  }
+  contacts_->compute(viewOf(grains), motion_.device(), sums_.device().data());
+  grainLoads_ = contacts_->grainLoads();
+  sums_.download();
+  base::synchronize(exec_);
+  comm_.sum(&sums_.host()->force.x, 6 * sums_.size());
+  for (std::size_t k = 0; k < loads_.size(); ++k)
+    loads_[k] = {force_.value(sums_.host()[k].force), torque_.value(sums_.host()[k].torque)};
+}
+
+std::size_t MeshContacts::spheres() const {
+  std::size_t total = 0;
+  for (const base::SphereSet& set : sets_) total += set.spheres.size();
+  return total;
+}
+
+void MeshContacts::restore(const contact::SavedGrainPatches& saved) {
+  contacts_->restore(saved);
+  listedAt_.clear();
+}
+
+} // namespace grouser::runs

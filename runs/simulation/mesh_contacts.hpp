@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "runs/scene/scene.hpp"
+#include "terrain/grains.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace grouser::runs {
+
+/// Grains against the [[mesh]]es of a scene, each cut into spheres as the parts of a vehicle are. All have one
+/// material.
+class MeshContacts {
+public:
+  /// Tells the grains that history must follow those that go to other ranks; so it outlives their steps.
+  MeshContacts(const Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains);
+  MeshContacts(const MeshContacts&) = delete;
+  MeshContacts& operator=(const MeshContacts&) = delete;
+
+  /// One step: contacts with the meshes where they are, one motion a mesh.
+  void touch(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions, bool slotsChanged);
+  /// For the grains' step, after touch().
+  const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
+  /// On each mesh about its centre, of all ranks, after touch().
+  const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
+
+  double elastic() const { return contacts_->ledger().elastic; } ///< [J]
+  std::size_t spheres() const;
+  contact::SavedGrainPatches save() const { return contacts_->save(); }
+  void restore(const contact::SavedGrainPatches& saved);
+
+private:
+  bool haveLeft(const std::vector<contact::PartMotion>& motions) const;
+
+  base::Exec exec_;
+  base::Comm comm_;
+  std::vector<base::SphereSet> sets_;
+  std::vector<double> reach_; ///< of each about its frame's origin [m]
+  std::unique_ptr<contact::GrainPartContacts> contacts_;
+  base::Mirrored<contact::PartMotion> motion_;
+  base::Mirrored<contact::PartLoad> sums_;
+  base::FixedPoint force_, torque_;
+  contact::GrainLoadsView grainLoads_;
+  std::vector<terrain::SurfaceLoad> loads_;
+  std::vector<contact::PartMotion> listedAt_; ///< empty: the lists are to be made
+  double room_;                               ///< that a mesh may move between two lists [m]
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/simulation.hpp"
+
+#include "base/error.hpp"
+#include "runs/setup/placement.hpp"
+#include "runs/setup/step_limit.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+namespace {
+constexpr double kMostCreated = 2;     // energy that may be left over, as a share of what was put in [-]
+constexpr double kEnergyFloor = 1e-6;  // [J] below which nothing is judged
+constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
+} // namespace
+
+Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress,
+                       const base::Comm& comm, BedCache* beds)
+    : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
+      ground_(buildGround(scene, exec, timeStep_, comm)), sources_(scene, timeStep_) {
+  const bool bed = scene.terrain && scene.terrain->granular();
+  if (scene.vehicle)
+    placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
+  if (bed && scene.terrain->settleTimeLimit > 0)
+    settled_ = beds ? beds->settle(scene, ground_, progress, comm) : settle(scene, ground_, progress);
+  if (bed) keepSurface(ground_, exec);
+  surface_ = surfaceHeight(ground_);
+  if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
+  if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
+  if (ground_.grains) ground_.grains->setSteps(0);
+  makeSurfaces(nullptr);
+  if (surfaces_) surfaces_->makeMeshContacts(scene_, exec_, *ground_.grains);
+  start_ = ledger();
+  addGrains();
+}
+
+void Simulation::step() {
+  terrain::Grains* grains = ground_.grains.get();
+  if (vehicle_) vehicle_->placeSurfaces();
+  const bool slotsChanged = grains && grains->refreshNeighbours();
+  if (vehicle_) {
+    vehicle_->refreshLists(grains, slotsChanged);
+    if (grains) grains->beginBoundaries();
+    vehicle_->touch(grains);
+    vehicle_->collectLoads();
+  }
+  if (surfaces_) surfaces_->touch(*grains, steps_, slotsChanged);
+  // The device works on the grains while the host solves the vehicle.
+  if (grains) grains->beginStep(partLoads());
+  if (vehicle_) vehicle_->advance();
+  if (mechanism_) mechanism_->advance();
+  if (grains) grains->endStep();
+  if (surfaces_) surfaces_->advance(*grains, steps_);
+  ++steps_;
+  addGrains();
+  if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+}
+
+std::int64_t Simulation::advance(std::int64_t most) {
+  const bool grainsAlone = ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && sources_.empty();
+  if (!grainsAlone) {
+    step();
+    return 1;
+  }
+  const std::int64_t taken = ground_.grains->advance(most);
+  steps_ += taken;
+  return taken;
+}
+
+/// Of the rigid parts that touch the grains in this step; null without.
+const contact::GrainLoadsView* Simulation::partLoads() const {
+  if (vehicle_) return vehicle_->grainLoads();
+  return surfaces_ ? surfaces_->grainLoads() : nullptr;
+}
+
+/// Where they are at this step; until now the grains had them at rest.
+void Simulation::makeSurfaces(const SurfaceStates* former) {
+  if (!ground_.grains || surfacesOf(scene_).empty()) return;
+  surfaces_ = std::make_unique<Surfaces>(scene_, timeStep_);
+  if (former) surfaces_->restore(*former);
+  surfaces_->place(*ground_.grains, steps_);
+}
+
+/// Grains of the sources that enter now, before the next step. What they bring with them is no change of energy.
+void Simulation::addGrains() {
+  if (sources_.empty()) return;
+  const std::vector<terrain::GrainStart> entering = sources_.enteringAt(steps_);
+  if (entering.empty()) return;
+  const terrain::GrainLedger before = ground_.grains->ledger();
+  ground_.grains->add(entering);
+  const terrain::GrainLedger after = ground_.grains->ledger();
+  start_.kinetic += after.kinetic + after.rotational - before.kinetic - before.rotational;
+  start_.potential += after.potential - before.potential;
+  start_.elastic += after.elastic - before.elastic;
+}
+
+void Simulation::checkAlarm() {
+  std::string alarm = vehicle_->alarm();
+  if (alarm.empty()) alarm = offTerrain(scene_, vehicle_->assembly(), vehicle_->state());
+  if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
+}
+
+Simulation::Ledger Simulation::ledger() {
+  Ledger ledger;
+  if (ground_.grains) {
+    const terrain::GrainLedger g = ground_.grains->ledger();
+    ledger.kinetic = g.kinetic + g.rotational;
+    ledger.potential = g.potential;
+    ledger.elastic = g.elastic;
+    ledger.dissipated = g.dissipated;
+    ledger.grainContacts = g.contacts, ledger.boundaryContacts = g.boundaryContacts;
+    ledger.deepestOverlap = g.deepestOverlap, ledger.fastestGrain = g.fastest;
+  }
+  if (vehicle_) {
+    const VehicleRig::Ledger v = vehicle_->ledger();
+    ledger.driveWork = v.driveWork;
+    ledger.kinetic += v.kinetic;
+    ledger.potential += v.potentialGain;
+    ledger.elastic += v.elastic;
+    ledger.dissipated += v.dissipated;
+    ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
+    ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
+  }
+  if (surfaces_) {
+    const Surfaces::Ledger s = surfaces_->ledger();
+    ledger.driveWork += s.work, ledger.kinetic += s.kinetic, ledger.potential += s.potential;
+    ledger.elastic += s.elastic;
+  }
+  if (mechanism_) {
+    const Mechanism::Ledger m = mechanism_->ledger();
+    ledger.driveWork = m.driveWork;
+    ledger.kinetic = m.kinetic, ledger.potential = m.potential;
+    ledger.elastic = m.elastic, ledger.dissipated = m.dissipated;
+  }
+  ledger.kinetic -= start_.kinetic, ledger.potential -= start_.potential;
+  ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;
+  ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork;
+  return ledger;
+}
+
+void Simulation::checkEnergy(const Ledger& now) {
+  mostPutIn_ = std::max(mostPutIn_, std::max(0.0, now.driveWork) + std::max(0.0, -now.potential));
+  const double available = start_.kinetic + std::max(start_.elastic, -now.elastic) + mostPutIn_;
+  // A vehicle is set down with small overlaps between its parts, whose energy nobody put in.
+  const double floor = kEnergyFloor + (vehicle_ ? kVehicleFloor * vehicle_->assembly().mass : 0.0);
+  if (now.residual <= kMostCreated * available + floor) return;
+  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
+  if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (mechanism_ && !mechanism_->tooTaut().empty()) remedy += "; " + mechanism_->tooTaut();
+  throw base::SimulationError(
+      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; {}", steps_, time(),
+                  now.residual, available, remedy));
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/bed.hpp"
+#include "runs/simulation/bed_cache.hpp"
+#include "runs/simulation/mechanism.hpp"
+#include "runs/output/output.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/simulation/simulation_state.hpp"
+#include "runs/setup/sources.hpp"
+#include "runs/simulation/surfaces.hpp"
+#include "runs/simulation/vehicle_rig.hpp"
+
+#include <memory>
+#include <string>
+
+namespace grouser::runs {
+
+/// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
+/// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
+class Simulation {
+public:
+  /// `beds`: where settled beds are kept; null: settles by itself.
+  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {},
+             BedCache* beds = nullptr);
+  /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
+  /// InputError when the state is of another scene.
+  Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {});
+  SimulationState save() const;
+
+  /// One step of length timeStep(). Throws SimulationError at a fault.
+  void step();
+  /// At least one step, at most `most`: as many as can be given to the device at once. Returns how many were taken.
+  std::int64_t advance(std::int64_t most);
+
+  double timeStep() const { return timeStep_; }
+  std::int64_t steps() const { return steps_; }
+  double time() const { return static_cast<double>(steps_) * timeStep_; } ///< since the bed has settled [s]
+
+  const base::Comm& comm() const { return comm_; }
+  const Ground& ground() const { return ground_; }
+  const VehicleRig* vehicle() const { return vehicle_.get(); }
+  const Mechanism* mechanism() const { return mechanism_.get(); }
+  const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
+  /// Means of the observers begin anew: after every row.
+  void restartMeans() {
+    if (surfaces_) surfaces_->restartMeans();
+    if (vehicle_) vehicle_->restartMeans();
+    if (mechanism_) mechanism_->restartMeans();
+  }
+  const SettleReport& settled() const { return settled_; }
+
+  /// Changes of all energies [J] since the first step, and what does not balance:
+  /// residual = kinetic + potential + elastic + dissipated - driveWork.
+  struct Ledger {
+    double driveWork{}, kinetic{}, potential{}, elastic{}, dissipated{}, residual{};
+    base::Vec3d impulseResidual; ///< on vehicle plus on bed [N s]
+    std::int64_t grainContacts{}, boundaryContacts{}, partContacts{}, patches{};
+    double deepestOverlap{}, fastestGrain{}; ///< [m], [m/s]
+  };
+  Ledger ledger();
+
+  /// Throws SimulationError when the contacts have given far more energy than ever was put in: an unstable step.
+  void checkEnergy(const Ledger& now);
+
+  /// Hash over the state sorted by id, as 16 hexadecimal digits: equal bits, equal hash.
+  std::string stateHash() const;
+
+private:
+  friend class StepBench;                            // times the verbs of step() one by one
+  static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
+  void checkAlarm();
+  void addGrains();
+  void makeSurfaces(const SurfaceStates* former);
+  const contact::GrainLoadsView* partLoads() const;
+
+  const Scene scene_;
+  base::Exec exec_;
+  base::Comm comm_;
+  double timeStep_;
+  Ground ground_;
+  SettleReport settled_;
+  std::function<double(double, double)> surface_;
+  Sources sources_;
+  std::unique_ptr<Surfaces> surfaces_; ///< null without
+  std::unique_ptr<VehicleRig> vehicle_;
+  std::unique_ptr<Mechanism> mechanism_;
+  std::int64_t steps_{0};
+  double mostPutIn_{0}; ///< by drives and gravity, the most at any row so far [J]
+  Ledger start_;        ///< before the first step; the ledger counts from here
+};
+
+} // namespace grouser::runs

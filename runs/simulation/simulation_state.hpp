@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/bed.hpp"
+#include "runs/simulation/mechanism_state.hpp"
+#include "runs/simulation/surface_state.hpp"
+#include "runs/simulation/vehicle_state.hpp"
+#include "terrain/grain_state.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// All of a simulation on which later bits or later output depend. Free of device, threads and lists.
+struct SimulationState {
+  std::int64_t steps{};
+  std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
+  SettleReport settled;
+  std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
+  double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
+  std::optional<terrain::GrainState> grains;
+  std::optional<SurfaceStates> surfaces;
+  std::optional<VehicleState> vehicle;
+  std::optional<MechanismState> mechanism;
+
+  /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
+  /// which call it.
+  std::string hash(const base::Comm& comm = {}) const;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/surfaces.hpp"
+
+#include "base/error.hpp"
+#include "runs/support/orientation.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::runs {
+
+using base::Vec3d;
+using terrain::SurfaceShape;
+
+namespace {
+
+Vec3d freeAxisOf(const SurfaceSection& s) {
+  Vec3d axis;
+  if (s.free) axis[(*s.free)[0] - 'x'] = 1;
+  return axis;
+}
+
+/// Load on a free surface [N].
+double loadAt(const SurfaceSection& s, double time) {
+  const double ramp = s.loadRamp.value_or(0);
+  return s.load.value_or(0) * (time < ramp ? time / ramp : 1);
+}
+
+} // namespace
+
+std::vector<SceneSurface> surfacesOf(const Scene& scene) {
+  std::vector<SceneSurface> all;
+  const auto add = [&](const char* kind, std::size_t number, const SurfaceSection& section, SurfaceShape shape,
+                       const Vec3d& half, const base::Pose& pose) {
+    all.push_back(
+        {section.name.value_or(fmt::format("{}{}", kind, number)), kind, number, section, {shape, half}, pose});
+  };
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& p = scene.planes[k];
+    if (!p.isWall()) add("plane", k, p, SurfaceShape::plane, {}, {p.point, turnFromZ(p.normal)});
+  }
+  for (std::size_t k = 0; k < scene.boxes.size(); ++k) {
+    const BoxSection& b = scene.boxes[k];
+    add("box", k, b, SurfaceShape::box, 0.5 * b.size,
+        {b.position, orientationOf(b.axis, b.angle, b.orientation.value_or(std::vector<double>{}))});
+  }
+  for (std::size_t k = 0; k < scene.cylinders.size(); ++k) {
+    const CylinderSection& c = scene.cylinders[k];
+    add("cylinder", k, c, c.hollow ? SurfaceShape::tube : SurfaceShape::cylinder, {c.radius, 0, 0.5 * c.length},
+        {c.position, turnFromZ(c.axis)});
+  }
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    const MeshSection& m = scene.meshes[k];
+    const auto [low, high] = spheredecomp::bounds(m.loaded.query->mesh());
+    add("mesh", k, m, SurfaceShape::box, 0.5 * (high - low),
+        {m.position, orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
+    all.back().mesh = m.loaded.query;
+  }
+  return all;
+}
+
+terrain::SurfacePlacement startingPlace(const SceneSurface& surface) {
+  const base::Pose& pose = surface.start;
+  return {{pose.position, pose.orientation.matrix(), pose.position, {}, {}}, base::Mat3d::identity()};
+}
+
+double startingOverlap(const SceneSurface& surface, const Vec3d& position, double radius) {
+  return overlapAt(surface, surface.start, position, radius);
+}
+
+double overlapAt(const SceneSurface& surface, const base::Pose& pose, const Vec3d& position, double radius) {
+  const Vec3d p = pose.toBody(position);
+  if (surface.mesh) return radius - surface.mesh->signedDistance(p);
+  return radius - terrain::gapTo(surface.geometry, p).distance;
+}
+
+Surfaces::Surfaces(const Scene& scene, double timeStep)
+    : surfaces_(surfacesOf(scene)), gravity_(scene.run.gravity), timeStep_(timeStep) {
+  for (const SceneSurface& s : surfaces_) {
+    motions_.emplace_back(s.section, s.start.position);
+    freeAxes_.push_back(freeAxisOf(s.section));
+    if (!s.mesh) ++shapes_;
+  }
+  states_.surfaces.resize(surfaces_.size());
+}
+
+terrain::SurfacePlacement Surfaces::placement(std::size_t i, std::int64_t step) const {
+  const SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
+  const SurfaceState& s = states_.surfaces[i];
+  const Vec3d centre = law.centre + freeAxes_[i] * s.offset, velocity = law.velocity + freeAxes_[i] * s.speed;
+  return {{centre, (law.turned * surfaces_[i].start.orientation).matrix(), centre, velocity, law.spin},
+          law.turned.matrix()};
+}
+
+base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {
+  const SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
+  return {law.centre + freeAxes_[i] * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
+}
+
+void Surfaces::makeMeshContacts(const Scene& scene, const base::Exec& exec, terrain::Grains& grains) {
+  if (shapes_ == surfaces_.size()) return;
+  meshes_ = std::make_unique<MeshContacts>(scene, exec, timeStep_, grains);
+  if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
+}
+
+void Surfaces::touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
+  if (!meshes_) return;
+  std::vector<contact::PartMotion> motions;
+  for (std::size_t i = shapes_; i < surfaces_.size(); ++i) motions.push_back(placement(i, step).motion);
+  meshes_->touch(grains, motions, slotsChanged);
+}
+
+SurfaceStates Surfaces::save() const {
+  SurfaceStates states = states_;
+  if (meshes_) states.patches = meshes_->save();
+  return states;
+}
+
+void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
+  std::vector<terrain::SurfacePlacement> placements;
+  for (std::size_t i = 0; i < shapes_; ++i) placements.push_back(placement(i, step));
+  grains.placeSurfaces(placements);
+}
+
+/// What goes farther in a step than half a radius could pass through a grain unfelt.
+void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const {
+  const bool plane = surfaces_[i].geometry.shape == terrain::SurfaceShape::plane;
+  const double across = plane ? std::fabs(dot(freeAxes_[i], placement(i, step).normal())) : 1;
+  const double speed = std::fabs(states_.surfaces[i].speed), most = 0.5 * smallestRadius / timeStep_;
+  if (speed * across <= most) return;
+  throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {}, which forces move, goes at {:.4g} m/s, more "
+                                          "than half the smallest grain's radius in a "
+                                          "step ({:.4g} m/s): it could pass through a grain unfelt; lower its load, "
+                                          "raise its mass, or use a smaller time_step",
+                                          step, static_cast<double>(step) * timeStep_, surfaces_[i].name, speed, most));
+}
+
+void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
+  const double time = static_cast<double>(step) * timeStep_;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const terrain::SurfaceLoad& load = i < shapes_ ? grains.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
+    const SurfaceMotion::State law = motions_[i].at(time);
+    SurfaceState& s = states_.surfaces[i];
+    double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
+    if (surfaces_[i].section.free) {
+      // Symplectic Euler, as the grains.
+      const double mass = *surfaces_[i].section.mass, given = loadAt(surfaces_[i].section, time);
+      s.speed += (dot(load.force + gravity_ * mass, freeAxes_[i]) + given) / mass * timeStep_;
+      s.offset += s.speed * timeStep_;
+      checkSpeed(i, step, grains.smallestRadius());
+      power += given * s.speed;
+    }
+    s.work += power * timeStep_;
+    s.force += load.force, s.torque += load.torque, s.power += power;
+  }
+  ++states_.meanSteps;
+  place(grains, step + 1);
+}
+
+Surfaces::Observation Surfaces::observe(std::size_t i, std::int64_t step) const {
+  const SurfaceState& s = states_.surfaces[i];
+  const double share = states_.meanSteps > 0 ? 1 / static_cast<double>(states_.meanSteps) : 0.0;
+  return {s.force * share, s.torque * share, s.power * share, pose(i, step).position};
+}
+
+void Surfaces::restartMeans() {
+  for (SurfaceState& s : states_.surfaces) s.force = s.torque = {}, s.power = 0;
+  states_.meanSteps = 0;
+}
+
+Surfaces::Ledger Surfaces::ledger() const {
+  Ledger ledger;
+  if (meshes_) ledger.elastic = meshes_->elastic();
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const SurfaceState& s = states_.surfaces[i];
+    ledger.work += s.work;
+    if (!surfaces_[i].section.free) continue;
+    const double mass = *surfaces_[i].section.mass;
+    ledger.kinetic += 0.5 * mass * s.speed * s.speed;
+    ledger.potential -= mass * dot(gravity_, freeAxes_[i]) * s.offset;
+  }
+  return ledger;
+}
+
+void Surfaces::restore(const SurfaceStates& states) {
+  if (states.surfaces.size() != surfaces_.size())
+    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  states_ = states;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/simulation/mesh_contacts.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/surface_motion.hpp"
+#include "runs/simulation/surface_state.hpp"
+#include "terrain/grains.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grouser::runs {
+
+/// One rigid surface of a scene as grains meet it, whatever section it stands in.
+struct SceneSurface {
+  std::string name;     ///< "lid"
+  const char* kind{};   ///< "box"
+  std::size_t number{}; ///< among those of its kind
+  SurfaceSection section;
+  terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
+  base::Pose start;
+  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
+};
+/// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
+std::vector<SceneSurface> surfacesOf(const Scene& scene);
+/// At rest where it stands at the start.
+terrain::SurfacePlacement startingPlace(const SceneSurface& surface);
+/// Overlap of a sphere with it at the start [m]; negative where they do not touch.
+double startingOverlap(const SceneSurface& surface, const base::Vec3d& position, double radius);
+/// The same where the surface's own frame has come to `pose`.
+double overlapAt(const SceneSurface& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
+
+/// The moving surfaces of a scene: where they are at each step, what they take to be moved, and how those that forces
+/// move give way. The same on all ranks.
+class Surfaces {
+public:
+  Surfaces(const Scene& scene, double timeStep);
+
+  /// The meshes' contacts; after grains have been restored, before the first touch().
+  void makeMeshContacts(const Scene& scene, const base::Exec& exec, terrain::Grains& grains);
+
+  /// Contacts of grains with meshes in step `step`.
+  void touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
+  /// For the grains' step; null without meshes.
+  const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
+  /// Where they are at step `step`, to the grains.
+  void place(terrain::Grains& grains, std::int64_t step) const;
+  /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step. Throws
+  /// SimulationError where forces have made a surface so quick that grains might not feel it.
+  void advance(terrain::Grains& grains, std::int64_t step);
+
+  std::size_t count() const { return surfaces_.size(); }
+  const SceneSurface& surface(std::size_t i) const { return surfaces_[i]; }
+  base::Pose pose(std::size_t i, std::int64_t step) const;
+
+  /// Loads by the grains, about the centre, and the power of what moves the surface: means since restartMeans().
+  struct Observation {
+    base::Vec3d force, torque; ///< [N], [N m]
+    double power{};            ///< [W]
+    base::Vec3d position;      ///< of the centre now [m]
+  };
+  Observation observe(std::size_t i, std::int64_t step) const;
+  void restartMeans();
+
+  /// [J]; of surfaces that forces move.
+  struct Ledger {
+    double work{}; ///< since the start, by what moves the surfaces and by loads
+    double kinetic{}, potential{};
+    double elastic{}; ///< in contacts with meshes
+  };
+  Ledger ledger() const;
+
+  SurfaceStates save() const;
+  /// Throws InputError when they are of other surfaces.
+  void restore(const SurfaceStates& states);
+
+private:
+  terrain::SurfacePlacement placement(std::size_t i, std::int64_t step) const;
+  void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
+
+  std::vector<SceneSurface> surfaces_;
+  std::vector<SurfaceMotion> motions_;
+  std::vector<base::Vec3d> freeAxes_; ///< zero where it is not free
+  base::Vec3d gravity_;
+  double timeStep_;
+  SurfaceStates states_;
+  std::size_t shapes_{0}; ///< surfaces that are no meshes
+  std::unique_ptr<MeshContacts> meshes_;
+};
+
+} // namespace grouser::runs

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/studies/multibody.hpp"
+
+#include "base/error.hpp"
+#include "base/table.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/locations.hpp"
+#include "runs/output/manifest.hpp"
+#include "runs/output/output.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/stop_signals.hpp"
+#include "runs/studies/report.hpp"
+#include "runs/studies/stability.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kThreshold = 1e-3;  ///< y_thr of the error's definition
+constexpr double kShortRun = 0.2;    ///< [s] of CPU below which a run is done again
+constexpr int kRepeats = 3;          ///< of a short run; the least time counts
+constexpr double kHopeless = 1e3;    ///< an error that is not worth a number [-]
+constexpr int kQuickSteps = 3;       ///< step sizes of --quick
+constexpr int kFullSteps = 7;        ///< a quarter each: a factor of 4096
+constexpr double kQuickBudget = 0.5; ///< [s] of CPU for one run of --quick
+
+double cpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The scene of a case; one that is not in runs/mechanisms/ is made by the script that stands there.
+Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
+  const fs::path folder = shareFolder() / "runs" / "mechanisms";
+  fs::path file = folder / scene;
+  const bool isMade = !scene.ends_with(".toml");
+  if (isMade) {
+    file = fs::temp_directory_path() / fmt::format("grouser_mechanism_{}.toml", getpid());
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at < scene.size();) {
+      const std::size_t space = std::min(scene.find(' ', at), scene.size());
+      words.push_back(scene.substr(at, space - at)), at = space + 1;
+    }
+    words.push_back(file.string());
+    std::string warning;
+    if (!runScript(folder / "make_mechanisms.py", words, warning)) throw base::InputError(warning);
+  }
+  Scene loaded = loadScene(file, {"run.integrator=" + integrator.word,
+                                  fmt::format("run.integrator_order={}", std::max(2, integrator.order))});
+  if (isMade) fs::remove(file);
+  return loaded;
+}
+
+struct Measured {
+  double error = 0, position = 0, velocity = 0, energy = 0, seconds = 0;
+};
+
+/// Steps through a case, comparing at its sample times; the clock runs in the steps only.
+Measured measure(const StudyCase& c, const Scene& scene, double step, std::int64_t stepsPerSample,
+                 std::int64_t samples) {
+  Mechanism mechanism(scene, step);
+  const auto energy = [&] {
+    const Mechanism::Ledger l = mechanism.ledger();
+    return l.kinetic + l.potential + l.elastic + l.dissipated - l.driveWork;
+  };
+  const double start = energy();
+  Measured m;
+  double sum = 0;
+  for (std::int64_t i = 1; i <= samples; ++i) {
+    const double begin = cpuSeconds();
+    for (std::int64_t s = 0; s < stepsPerSample; ++s) mechanism.advance();
+    m.seconds += cpuSeconds() - begin;
+    const std::vector<double> is = readProbes(mechanism, c.probes);
+    const std::vector<double> should = c.reference(static_cast<double>(i) * c.sample);
+    for (std::size_t j = 0; j < is.size(); ++j) {
+      const double e = std::fabs(is[j] - should[j]) / std::max(std::fabs(should[j]), kThreshold);
+      sum += e * e / static_cast<double>(is.size());
+    }
+    const Mechanism::Drift drift = mechanism.drift();
+    m.position = std::max(m.position, drift.position), m.velocity = std::max(m.velocity, drift.velocity);
+    m.energy = std::max(m.energy, std::fabs(energy() - start));
+    if (const int signal = StopSignals::received()) throw Stopped(signal, "the study was stopped");
+  }
+  m.error = std::sqrt(sum / static_cast<double>(samples));
+  return m;
+}
+
+} // namespace
+
+std::vector<IntegratorChoice> studyIntegrators() {
+  return {
+      {"euler", "symplectic_euler", 1}, {"rattle2", "rattle", 2}, {"rattle4", "rattle", 4}, {"rattle8", "rattle", 8}};
+}
+
+std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& integrator, int count, double budget) {
+  const Scene scene = loadCase(c.scene, integrator);
+  const std::int64_t samples = std::llround(c.end / c.sample);
+  std::vector<StudyPoint> points;
+  std::int64_t perSample = c.coarsest;
+  for (int k = 0; k < count; ++k, perSample *= 4) {
+    StudyPoint p;
+    p.integrator = integrator.name, p.step = c.sample / static_cast<double>(perSample), p.steps = samples * perSample;
+    p.order = std::numeric_limits<double>::quiet_NaN();
+    const StudyPoint* before = points.empty() ? nullptr : &points.back();
+    if (before && before->seconds * 4 > budget) {
+      p.failure = fmt::format("left out: about {:.0f} s", before->seconds * 4);
+      p.seconds = before->seconds * 4;
+      points.push_back(p);
+      continue;
+    }
+    try {
+      Measured m = measure(c, scene, p.step, perSample, samples);
+      for (int again = 1; again < kRepeats && m.seconds < kShortRun; ++again)
+        m.seconds = std::min(m.seconds, measure(c, scene, p.step, perSample, samples).seconds);
+      p.seconds = m.seconds, p.positionDrift = m.position, p.velocityDrift = m.velocity, p.energyDrift = m.energy;
+      if (m.error < kHopeless)
+        p.error = m.error;
+      else
+        p.failure = "lost: the error is beyond all bounds";
+      if (p.error && before && before->error && *p.error > 0) p.order = std::log2(*before->error / *p.error) / 2;
+    } catch (const base::SimulationError& error) {
+      p.failure = error.what();
+    } catch (const base::InputError& error) {
+      p.failure = error.what(); // an explicit spring beyond its stable step, or what an integrator does not take
+    }
+    points.push_back(p);
+  }
+  return points;
+}
+
+void studyMultibodyCommand(const StudyCommand& command) {
+  std::vector<StudyCase> cases = studyCases();
+  std::vector<std::string> names;
+  for (const StudyCase& c : cases) names.push_back(c.name);
+  for (const std::string& name : command.cases)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw base::InputError(fmt::format("--cases {}: is no case; did you mean {}? (cases: {})", name,
+                                         base::nearestWord(name, names), fmt::join(names, ", ")));
+  std::erase_if(cases, [&](const StudyCase& c) {
+    if (!command.cases.empty())
+      return std::find(command.cases.begin(), command.cases.end(), c.name) == command.cases.end();
+    return command.quick && c.isLong;
+  });
+  const fs::path folder = command.folder.empty() ? fs::path("out") / "study_multibody" : fs::path(command.folder);
+  checkOutputFolder(folder, command.force);
+  fs::create_directories(folder);
+
+  const StopSignals signals;
+  const int count = command.quick ? kQuickSteps : kFullSteps;
+  const double budget = command.quick ? kQuickBudget : command.budget;
+  const std::vector<IntegratorChoice> integrators = studyIntegrators();
+  fmt::print("study     multibody: commit {}, {}, one thread; CPU time of the steps, without set-up and output\n",
+             buildInfo().commit, machineText());
+  if (command.stability) {
+    const std::vector<StabilityPoint> points = studyStability();
+    fmt::print("{}", stabilityTable(points));
+    writeTextFile(folder / "stability.csv", stabilityCsv(points), "--out");
+    fmt::print("table     {}\n", (folder / "stability.csv").string());
+    return;
+  }
+  Progress progress("studying");
+  std::vector<StudyResult> results;
+  double done = 0;
+  for (const StudyCase& c : cases) {
+    StudyResult result{c, {}};
+    for (const IntegratorChoice& integrator : integrators) {
+      progress.update(done / static_cast<double>(cases.size() * integrators.size()), c.name + ", " + integrator.name);
+      for (const StudyPoint& p : studyOne(c, integrator, count, budget)) result.points.push_back(p);
+      done += 1;
+    }
+    progress.note(caseTable(result));
+    results.push_back(std::move(result));
+  }
+  progress.finish(fmt::format("{} cases", cases.size()));
+
+  std::vector<ReactionResult> reactions;
+  for (const ReactionCase& r : reactionCases()) {
+    if (std::none_of(cases.begin(), cases.end(), [&](const StudyCase& c) { return c.name == r.name; }) &&
+        !command.cases.empty())
+      continue;
+    for (const IntegratorChoice& integrator : integrators)
+      if (integrator.order <= 2) reactions.push_back(measureReaction(r, integrator));
+  }
+  fmt::print("{}\n{}", cheapestTable(results), reactionTable(reactions));
+  writeTextFile(folder / "multibody.csv", pointsCsv(results), "--out");
+  writeTextFile(folder / "cheapest.csv", cheapestCsv(results), "--out");
+  writeTextFile(folder / "reactions.csv", reactionsCsv(reactions), "--out");
+  drawPicture("study.py", {folder / "multibody.csv"}, folder / "multibody.png");
+  fmt::print("tables    {}\n", folder.string());
+}
+
+ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& integrator) {
+  ReactionResult result{r, integrator.name, {}, 0, ""};
+  try {
+    const Scene scene = loadCase(r.scene, integrator);
+    Mechanism mechanism(scene, r.step);
+    const std::int64_t steps = std::llround(r.end / r.step);
+    double sum = 0;
+    for (std::int64_t i = 0; i < steps; ++i) {
+      mechanism.advance();
+      const double f = r.measured(mechanism);
+      sum += f;
+      if (i > 0) result.worst = std::max(result.worst, std::fabs(f / r.exact - 1));
+    }
+    result.mean = sum / static_cast<double>(steps);
+  } catch (const std::runtime_error& error) {
+    result.failure = error.what();
+  }
+  return result;
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/studies/collapse.hpp"
+#include "runs/studies/grain_stability.hpp"
+#include "runs/studies/impact.hpp"
+#include "runs/studies/packing.hpp"
+#include "runs/studies/precision_command.hpp"
+#include "runs/studies/shear.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace grouser::runs {
+
+/// What `grouser study` was asked for, beside `multibody`.
+struct GrainStudies {
+  ImpactCommand impact;
+  GrainStabilityCommand stability;
+  PrecisionCommand precision;
+  PackingCommand packing;
+  CollapseCommand collapse;
+  ShearCommand shear;
+};
+
+/// Adds the studies of grains to the command `study`.
+void addGrainStudies(CLI::App& study, GrainStudies& studies);
+
+} // namespace grouser::runs

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/studies/precision_command.hpp"
+
+#include "runs/output/plots.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/stop_signals.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace grouser::runs {
+
+namespace {
+
+/// Sizes that --quick does not exceed.
+constexpr std::int64_t kQuickGrains = 2000, kQuickDriftGrains = 200;
+constexpr int kQuickConfigurations = 5, kQuickRuns = 3;
+constexpr double kQuickTime = 0.1; // [s]
+
+} // namespace
+
+void studyPrecisionCommand(const PrecisionCommand& command) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const auto folder = beginStudy("precision", command.place);
+  const StopSignals signals;
+  TouchStudy touch = command.touch;
+  DriftStudy drift = command.drift;
+  touch.threads = drift.threads = command.threads;
+  if (command.place.quick) {
+    touch.grains = std::min(touch.grains, kQuickGrains);
+    touch.configurations = std::min(touch.configurations, kQuickConfigurations);
+    drift.grains = std::min(drift.grains, kQuickDriftGrains), drift.runs = std::min(drift.runs, kQuickRuns);
+    drift.gasTime = std::min(drift.gasTime, kQuickTime), drift.bedTime = std::min(drift.bedTime, kQuickTime);
+  }
+  fmt::print(
+      "          radius 27 mm, 2500 kg/m3, 1e6 N/m, step 5e-5 s, 20 steps a contact; a bed that falls into a box, "
+      "friction 0.5, restitution 0.5; a gas of elastic grains\n");
+
+  Progress judging("judging");
+  int judged = 0;
+  const std::vector<TouchConfiguration> touches = studyTouch(touch, [&](const TouchConfiguration& c) {
+    judging.update(static_cast<double>(++judged) / touch.configurations, fmt::format("step {}", c.step));
+    stopStudyIfAsked();
+  });
+  judging.note(touchTable(touches, touch));
+  judging.finish(fmt::format("{} configurations", touches.size()));
+  Progress drifting("drifting");
+  const auto update = [&drifting](double fraction, const std::string& what) { drifting.update(fraction, what); };
+  const std::vector<Drift> drifts = studyDrift(drift, update);
+  drifting.note(driftTable(drifts));
+  drifting.finish(fmt::format("{} pairs of runs", drifts.size()));
+  Progress many("running");
+  const std::vector<MacroRow> macro =
+      studyMacroscopic(drift, [&many](double fraction, const std::string& what) { many.update(fraction, what); });
+  many.note(macroTable(macro, drift.runs));
+  many.finish(fmt::format("{} beds", 2 * drift.runs));
+
+  writeTextFile(folder / "touch.csv", touchCsv(touches), "--out");
+  writeTextFile(folder / "drift.csv", driftCsv(drifts), "--out");
+  writeTextFile(folder / "macroscopic.csv", macroCsv(macro), "--out");
+  writeStudyOrigin(folder, "precision", std::chrono::duration<double>(Clock::now() - begin).count(),
+                   {{"grains", touch.grains},
+                    {"configurations", touch.configurations},
+                    {"steps_between", touch.every},
+                    {"drift_grains", drift.grains},
+                    {"runs", drift.runs},
+                    {"quick", command.place.quick}});
+  drawPicture("study_precision.py", {folder / "touch.csv", folder / "drift.csv", folder / "macroscopic.csv"},
+              folder / "precision.png");
+  fmt::print("tables    {}\n", folder.string());
+}
+
+} // namespace grouser::runs

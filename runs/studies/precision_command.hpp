@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/studies/drift.hpp"
+#include "runs/studies/touch.hpp"
+
+namespace grouser::runs {
+
+/// `grouser study precision`.
+struct PrecisionCommand {
+  StudyPlace place;
+  TouchStudy touch;
+  DriftStudy drift;
+  int threads = 0; ///< 0: all
+};
+void studyPrecisionCommand(const PrecisionCommand& command);
+
+} // namespace grouser::runs

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/studies/multibody.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The tables of `grouser study multibody`, as text and as CSV.
+namespace grouser::runs {
+
+/// Errors that a setting must stay below [-]: low and high precision of the IFToMM benchmark.
+inline constexpr double kLowPrecision = 1e-1, kHighPrecision = 1e-3;
+
+struct StudyResult {
+  StudyCase study;
+  std::vector<StudyPoint> points;
+};
+std::string caseTable(const StudyResult& result);
+std::string pointsCsv(const std::vector<StudyResult>& results);
+
+/// The point of least CPU time whose error is below `threshold`; null where there is none.
+const StudyPoint* cheapest(const StudyResult& result, double threshold);
+std::string cheapestTable(const std::vector<StudyResult>& results);
+std::string cheapestCsv(const std::vector<StudyResult>& results);
+
+struct ReactionResult {
+  ReactionCase reaction;
+  std::string integrator;
+  std::optional<double> mean; ///< [N] over all steps
+  double worst = 0;           ///< largest deviation after the first step, over the exact value [-]
+  std::string failure;
+};
+ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& integrator);
+std::string reactionTable(const std::vector<ReactionResult>& results);
+std::string reactionsCsv(const std::vector<ReactionResult>& results);
+
+} // namespace grouser::runs

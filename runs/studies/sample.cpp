@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/studies/sample.hpp"
+
+#include "base/math.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/studies/common.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::runs {
+
+double SampleGrains::mass() const { return density * 4.0 / 3.0 * base::kPi * radius * radius * radius; }
+
+std::string SampleGrains::toml(const std::string& name) const {
+  return fmt::format(
+      "[material.{}]\ndensity = {:.17g}\nstiffness = {:.17g}\nrestitution = {:.17g}\nfriction = {:.17g}\n"
+      "rolling_friction = {:.17g}\n",
+      name, density, stiffness, restitution, friction, rollingFriction);
+}
+
+Sample buildSample(const std::string& toml, const base::Exec& exec) {
+  Sample sample;
+  sample.scene = parseScene(toml, "sample.toml");
+  sample.timeStep = chooseTimeStep(sample.scene);
+  sample.ground = buildGround(sample.scene, exec, sample.timeStep);
+  return sample;
+}
+
+void advanceSample(terrain::Grains& grains, std::int64_t steps) {
+  for (std::int64_t i = 0; i < steps; ++i) {
+    grains.refreshNeighbours();
+    grains.step();
+  }
+}
+
+double bringToRest(Sample& sample, double agitation, double limit) {
+  terrain::Grains& grains = sample.grains();
+  const terrain::GrainModel& model = grains.model();
+  const double unit = model.mass * norm(model.gravity) * 2 * model.radius *
+                      static_cast<double>(std::max<std::size_t>(1, grains.count()));
+  const auto every = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / model.timeStep));
+  int calm = 0;
+  double time = 0;
+  while (time < limit) {
+    stopStudyIfAsked();
+    advanceSample(grains, every);
+    time += static_cast<double>(every) * model.timeStep;
+    const terrain::GrainLedger ledger = grains.ledger();
+    calm = ledger.kinetic + ledger.rotational < agitation * unit ? calm + 1 : 0;
+    if (calm >= 3) return time;
+  }
+  return -time;
+}
+
+} // namespace grouser::runs

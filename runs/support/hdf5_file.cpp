@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/hdf5_file.hpp"
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace grouser::runs {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+namespace {
+
+/// Closes an HDF5 handle at the end of a scope.
+class Handle {
+public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+
+private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+hid_t fileType(NumberType type) {
+  switch (type) {
+  case NumberType::Float32:
+    return H5T_IEEE_F32LE;
+  case NumberType::Float64:
+    return H5T_IEEE_F64LE;
+  case NumberType::Int64:
+    return H5T_STD_I64LE;
+  case NumberType::Int32:
+    return H5T_STD_I32LE;
+  case NumberType::UInt32:
+    return H5T_STD_U32LE;
+  }
+  return -1;
+}
+
+hid_t memoryType(NumberType type) {
+  switch (type) {
+  case NumberType::Float32:
+    return H5T_NATIVE_FLOAT;
+  case NumberType::Float64:
+    return H5T_NATIVE_DOUBLE;
+  case NumberType::Int64:
+    return H5T_NATIVE_INT64;
+  case NumberType::Int32:
+    return H5T_NATIVE_INT32;
+  case NumberType::UInt32:
+    return H5T_NATIVE_UINT32;
+  }
+  return -1;
+}
+
+/// Link creation that makes the groups on the way.
+hid_t makeParents() {
+  const hid_t list = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(list, 1);
+  return list;
+}
+
+hid_t stringType() {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+/// Before the first use of the library: errors become exceptions here, and the library does not tidy up when the
+/// program ends. HDF5 1.10 keeps a file that it could not write (full disk) and crashes on it at exit; ours are closed
+/// by then.
+void quiet() {
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+std::string failure(const std::filesystem::path& path, const char* what) {
+  return fmt::format("{}: HDF5 could not {}; is the disk full, or the file open elsewhere?", path.string(), what);
+}
+
+} // namespace
+
+GrowingDataset::GrowingDataset(GrowingDataset&& other) noexcept
+    : dataset_(std::exchange(other.dataset_, -1)), width_(other.width_), rows_(other.rows_) {}
+
+GrowingDataset& GrowingDataset::operator=(GrowingDataset&& other) noexcept {
+  std::swap(dataset_, other.dataset_), std::swap(width_, other.width_), std::swap(rows_, other.rows_);
+  return *this;
+}
+
+GrowingDataset::~GrowingDataset() {
+  if (dataset_ >= 0) H5Dclose(dataset_);
+}
+
+void GrowingDataset::append(const double* numbers) { appendRow(numbers, H5T_NATIVE_DOUBLE); }
+void GrowingDataset::append(const std::int64_t* numbers) { appendRow(numbers, H5T_NATIVE_INT64); }
+
+void GrowingDataset::appendRow(const void* numbers, std::int64_t type) {
+  const int rank = width_ ? 2 : 1;
+  const hsize_t extent[2] = {rows_ + 1, static_cast<hsize_t>(width_)};
+  const hsize_t start[2] = {rows_, 0}, count[2] = {1, static_cast<hsize_t>(width_)};
+  bool good = H5Dset_extent(dataset_, extent) >= 0;
+  const Handle space(H5Dget_space(dataset_), H5Sclose);
+  const Handle row(H5Screate_simple(rank, count, nullptr), H5Sclose);
+  good = good && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0;
+  good = good && H5Dwrite(dataset_, type, row, space, H5P_DEFAULT, numbers) >= 0;
+  if (!good) throw std::runtime_error("HDF5 could not append a row to the results; is the disk full?");
+  ++rows_;
+}
+
+Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlock) {
+  quiet();
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, userBlock);
+  // The oldest file format has no "open for writing" mark: a file that a killed program left stays readable.
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  if (file < 0) throw std::runtime_error(failure(path, "create the file"));
+  return {file, path};
+}
+
+namespace {
+hid_t openedAs(unsigned access, const std::filesystem::path& path) {
+  quiet();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw base::InputError(fmt::format("{}: there is no such file; give the results.h5 of a run", path.string()));
+  const hid_t file = H5Fopen(path.c_str(), access, H5P_DEFAULT);
+  if (file < 0)
+    throw base::InputError(
+        fmt::format("{}: is no HDF5 file, or was cut short; give the results.h5 of a run", path.string()));
+  return file;
+}
+} // namespace
+
+Hdf5File Hdf5File::open(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDONLY, path), path}; }
+
+Hdf5File Hdf5File::openToChange(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDWR, path), path}; }
+
+Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Comm& comm) {
+  if (comm.alone()) return openToChange(path);
+  quiet();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+  if (file < 0) throw std::runtime_error(failure(path, "open the file on all ranks"));
+  Hdf5File opened(file, path);
+  opened.shared_ = true;
+  return opened;
+}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : file_(std::exchange(other.file_, -1)), path_(std::move(other.path_)), shared_(other.shared_) {}
+
+Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
+  std::swap(file_, other.file_), std::swap(path_, other.path_), std::swap(shared_, other.shared_);
+  return *this;
+}
+
+Hdf5File::~Hdf5File() {
+  // All ranks close a shared file together; with an error on its way out they will not.
+  if (shared_ && std::uncaught_exceptions() > 0) return;
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::check(std::int64_t status, const char* what) const {
+  if (status < 0) throw std::runtime_error(failure(path_, what));
+}
+
+void Hdf5File::makeGroup(const std::string& group) {
+  if (has(group)) return;
+  const Handle parents(makeParents(), H5Pclose);
+  const Handle id(H5Gcreate2(file_, group.c_str(), parents, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  check(id, "make a group");
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle type(stringType(), H5Tclose);
+  const Handle id(
+      H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  check(id, "make an attribute");
+  const char* text = value.c_str();
+  check(H5Awrite(id, type, &text), "write an attribute");
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle id(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
+                                    H5P_DEFAULT, H5P_DEFAULT),
+                  H5Aclose);
+  check(id, "make an attribute");
+  check(H5Awrite(id, H5T_NATIVE_DOUBLE, &value), "write an attribute");
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values) {
+  const hsize_t count = values.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Handle type(stringType(), H5Tclose);
+  const Handle id(
+      H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  check(id, "make an attribute");
+  std::vector<const char*> texts;
+  for (const std::string& v : values) texts.push_back(v.c_str());
+  if (count) check(H5Awrite(id, type, texts.data()), "write an attribute");
+}
+
+void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
+                            const std::vector<std::uint64_t>& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle parents(makeParents(), H5Pclose);
+  const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, H5P_DEFAULT, H5P_DEFAULT),
+                  H5Dclose);
+  check(id, "make a dataset");
+  const bool isEmpty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
+  if (!isEmpty) check(H5Dwrite(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), "write a dataset");
+}
+
+void Hdf5File::reserveNumbers(const std::string& dataset, NumberType type, const std::vector<std::uint64_t>& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle parents(makeParents(), H5Pclose);
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
+  const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
+  check(id, "make a dataset");
+}
+
+namespace {
+
+/// Rows [first, first + count) of a dataset: its space with these selected, and one of just their shape.
+struct RowSelection {
+  Handle file, memory;
+  RowSelection(hid_t dataset, std::uint64_t first, std::uint64_t count)
+      : file(H5Dget_space(dataset), H5Sclose), memory(select(file, first, count), H5Sclose) {}
+
+private:
+  static hid_t select(hid_t space, std::uint64_t first, std::uint64_t count) {
+    std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(1, H5Sget_simple_extent_ndims(space))));
+    H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+    std::vector<hsize_t> start(extent.size(), 0);
+    start[0] = first, extent[0] = count;
+    const hid_t memory = H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr);
+    const bool none = std::find(extent.begin(), extent.end(), 0u) != extent.end();
+    if (none) {
+      H5Sselect_none(space);
+      H5Sselect_none(memory);
+    } else if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0) {
+      return -1;
+    }
+    return memory;
+  }
+};
+
+} // namespace
+
+void Hdf5File::writeRowNumbers(const std::string& dataset, std::uint64_t first, const void* numbers, std::size_t count,
+                               NumberType type) {
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  check(id, "open a dataset");
+  std::uint64_t width = 1;
+  const std::vector<std::uint64_t> extent = shape(dataset);
+  for (std::size_t axis = 1; axis < extent.size(); ++axis) width *= extent[axis];
+  const RowSelection rows(id, first, width ? count / width : 0);
+  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  if (shared_) H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+  check(rows.memory, "select rows");
+  check(H5Dwrite(id, memoryType(type), rows.memory, rows.file, transfer, numbers), "write rows");
+}
+
+void Hdf5File::readRowNumbers(const std::string& dataset, std::uint64_t first, std::uint64_t count, void* numbers,
+                              NumberType type) const {
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle stored(H5Dget_type(id), H5Tclose);
+  const RowSelection rows(id, first, count);
+  if (H5Tequal(stored, fileType(type)) <= 0 || rows.memory < 0 ||
+      H5Dread(id, memoryType(type), rows.memory, rows.file, H5P_DEFAULT, numbers) < 0)
+    throw base::InputError(fmt::format("{}: rows of the dataset {} cannot be read", path_.string(), dataset));
+}
+
+GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, int width, int chunkRows) {
+  const int rank = width ? 2 : 1;
+  const hsize_t none[2] = {0, static_cast<hsize_t>(width)};
+  const hsize_t most[2] = {H5S_UNLIMITED, static_cast<hsize_t>(width)};
+  const hsize_t chunk[2] = {static_cast<hsize_t>(chunkRows), static_cast<hsize_t>(width)};
+  const Handle space(H5Screate_simple(rank, none, most), H5Sclose);
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(layout, rank, chunk);
+  const Handle parents(makeParents(), H5Pclose);
+  const hid_t id = H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT);
+  check(id, "make a dataset");
+  return {id, width};
+}
+
+void Hdf5File::link(const std::string& existing, const std::string& name) {
+  const Handle parents(makeParents(), H5Pclose);
+  check(H5Lcreate_hard(file_, existing.c_str(), file_, name.c_str(), parents, H5P_DEFAULT), "make a link");
+}
+
+void Hdf5File::remove(const std::string& object) {
+  check(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), "remove an object");
+}
+
+void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush the file"); }
+
+bool Hdf5File::has(const std::string& object) const {
+  // Each group on the way must exist before HDF5 may be asked for the next.
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    const std::string part = object.substr(0, end);
+    if (part != "/" && H5Lexists(file_, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  std::vector<std::string> names;
+  if (!has(group)) return names;
+  const auto take = [](hid_t, const char* name, const H5L_info_t*, void* found) -> herr_t {
+    static_cast<std::vector<std::string>*>(found)->emplace_back(name);
+    return 0;
+  };
+  const Handle id(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  check(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names), "list a group");
+  return names;
+}
+
+std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
+  const Handle id(has(dataset) ? H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT) : hid_t{-1}, H5Dclose);
+  if (id < 0)
+    throw base::InputError(
+        fmt::format("{}: has no dataset {}; give the results.h5 of a run of this program", path_.string(), dataset));
+  const Handle space(H5Dget_space(id), H5Sclose);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+std::vector<double> Hdf5File::numbers(const std::string& dataset) const {
+  std::uint64_t count = 1;
+  for (const std::uint64_t n : shape(dataset)) count *= n;
+  std::vector<double> values(count);
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (count && H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw base::InputError(fmt::format("{}: the dataset {} cannot be read as numbers", path_.string(), dataset));
+  return values;
+}
+
+void Hdf5File::readNumbers(const std::string& dataset, void* numbers, NumberType type, std::uint64_t count) const {
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle stored(H5Dget_type(id), H5Tclose);
+  if (H5Tequal(stored, fileType(type)) <= 0 ||
+      (count && H5Dread(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) < 0))
+    throw base::InputError(fmt::format("{}: the dataset {} cannot be read", path_.string(), dataset));
+}
+
+double Hdf5File::number(const std::string& object, const std::string& name) const {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return value;
+  const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  H5Aread(id, H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+std::string Hdf5File::text(const std::string& object, const std::string& name) const {
+  const std::vector<std::string> all = texts(object, name);
+  return all.empty() ? "" : all.front();
+}
+
+std::vector<std::string> Hdf5File::texts(const std::string& object, const std::string& name) const {
+  if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return {};
+  const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle stored(H5Aget_type(id), H5Tclose);
+  if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) <= 0) return {};
+  const Handle space(H5Aget_space(id), H5Sclose);
+  std::vector<char*> raw(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))), nullptr);
+  const Handle type(stringType(), H5Tclose);
+  std::vector<std::string> values;
+  if (raw.empty() || H5Aread(id, type, raw.data()) < 0) return values;
+  for (const char* s : raw) values.emplace_back(s ? s : "");
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, raw.data());
+  return values;
+}
+
+} // namespace grouser::runs

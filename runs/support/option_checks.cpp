@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/option_checks.hpp"
+
+#include "base/table.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace grouser::runs {
+
+namespace {
+
+/// The number that is the whole of `text`.
+template <class T> std::optional<T> numberIn(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// Takes the texts that `isAllowed` holds for; `allowed` says which these are.
+template <class Test> CLI::Validator check(const std::string& allowed, const std::string& shown, Test isAllowed) {
+  return {[=](std::string& text) {
+            return isAllowed(text) ? std::string() : fmt::format("{} is not {}", text.empty() ? "\"\"" : text, allowed);
+          },
+          shown};
+}
+
+} // namespace
+
+CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
+  const bool isOpen = high == std::numeric_limits<std::int64_t>::max();
+  const std::string range = isOpen ? fmt::format("of at least {}", low) : fmt::format("from {} to {}", low, high);
+  return check("a whole number " + range, isOpen ? fmt::format(">= {}", low) : fmt::format("in [{}, {}]", low, high),
+               [=](const std::string& text) {
+                 const auto n = numberIn<std::int64_t>(text);
+                 return n && *n >= low && *n <= high;
+               });
+}
+
+CLI::Validator positive(const std::string& what) {
+  return check(what + " above 0", "> 0", [](const std::string& text) {
+    const auto x = numberIn<double>(text);
+    return x && std::isfinite(*x) && *x > 0;
+  });
+}
+
+CLI::Validator notNegative(const std::string& what) {
+  return check(what + " of at least 0", ">= 0", [](const std::string& text) {
+    const auto x = numberIn<double>(text);
+    return x && std::isfinite(*x) && *x >= 0;
+  });
+}
+
+CLI::Validator between(double low, double high) {
+  const std::string range = fmt::format("in [{:g}, {:g}]", low, high);
+  return check("a number " + range, range, [low, high](const std::string& text) {
+    const auto x = numberIn<double>(text);
+    return x && *x >= low && *x <= high; // nan is in no range
+  });
+}
+
+std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* level = &app;
+  std::string path;
+  for (int i = 1; i < argc && level->get_require_subcommand_min() > 0; ++i) {
+    const std::string word = argv[i];
+    if (word.empty() || word[0] == '-') break;
+    const CLI::App* next = nullptr;
+    std::vector<std::string> names;
+    for (const CLI::App* sub : level->get_subcommands([](const CLI::App*) { return true; })) {
+      names.push_back(sub->get_name());
+      if (names.back() == word) next = sub;
+    }
+    if (!next)
+      return fmt::format("\"{}{}\" is no command; did you mean \"{}{}\"? See grouser{} --help", path, word, path,
+                         base::nearestWord(word, names), path.empty() ? "" : " " + path.substr(0, path.size() - 1));
+    path += word + " ";
+    level = next;
+  }
+  return "";
+}
+
+} // namespace grouser::runs

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace grouser::runs {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto kTerminalPause = 200ms;
+constexpr auto kPlainPause = 5s;
+
+} // namespace
+
+Progress::Progress(std::string what, bool shown)
+    : what_(std::move(what)), shown_(shown), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()),
+      next_(start_ + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause))) {}
+
+Progress::~Progress() {
+  if (open_) fmt::print(stderr, "\n");
+}
+
+bool Progress::due() const { return shown_ && Clock::now() >= next_; }
+
+void Progress::update(double fraction, const std::string& detail) {
+  const Clock::time_point now = Clock::now();
+  if (!shown_ || now < next_) return;
+  next_ = now + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause));
+  const std::string text = line(what_, fraction, std::chrono::duration<double>(now - start_).count(), detail);
+  if (terminal_) {
+    clearLine();
+    fmt::print(stderr, "{}", text);
+    open_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+  std::fflush(stderr);
+}
+
+void Progress::note(const std::string& line) {
+  if (!shown_) return;
+  clearLine();
+  std::fflush(stderr);
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+void Progress::finish(const std::string& detail) {
+  if (!shown_) return;
+  clearLine();
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  fmt::print(stderr, "{}: {}, took {}\n", what_, detail, duration(elapsed));
+}
+
+void Progress::clearLine() {
+  if (open_) fmt::print(stderr, "\r\033[K");
+  open_ = false;
+}
+
+std::string Progress::duration(double seconds) {
+  const long s = static_cast<long>(seconds + 0.5);
+  if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+}
+
+std::string Progress::line(const std::string& what, double fraction, double elapsed, const std::string& detail) {
+  const std::string left =
+      fraction > 0 ? duration(elapsed * (1 - fraction) / fraction) + " left" : "time left unknown yet";
+  return fmt::format("{}: {:5.1f} %, {}, {}", what, 100 * fraction, detail, left);
+}
+
+} // namespace grouser::runs

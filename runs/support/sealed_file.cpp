@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/sealed_file.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Owns a file descriptor.
+class Descriptor {
+public:
+  Descriptor(const fs::path& path, int flags) : path_(path), fd_(::open(path.c_str(), flags | O_CLOEXEC)) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  bool good() const { return fd_ >= 0; }
+  operator int() const { return fd_; }
+  void require(bool done, const char* what) const {
+    if (!done)
+      throw std::runtime_error(
+          fmt::format("{}: could not {} ({}); is the disk full?", path_.string(), what, std::strerror(errno)));
+  }
+
+private:
+  fs::path path_;
+  int fd_;
+};
+
+std::string sealText(const char* kind, int version, std::uint64_t bytes, const std::string& checksum) {
+  std::string text = fmt::format("grouser {}\nversion {}\nbytes {}\nchecksum {}\n", kind, version, bytes, checksum);
+  text.resize(kSealBytes);
+  return text;
+}
+
+struct Measure {
+  std::uint64_t bytes = 0;
+  std::string checksum;
+};
+
+/// Length and checksum of all behind the seal. Eight bytes a word; the last is filled up with zeros.
+Measure measure(const Descriptor& file) {
+  Measure m;
+  base::StateHash hash;
+  std::vector<char> chunk(1 << 20);
+  for (std::uint64_t at = kSealBytes;;) {
+    std::size_t filled = 0;
+    while (filled < chunk.size()) {
+      const ssize_t got = ::pread(file, chunk.data() + filled, chunk.size() - filled, static_cast<off_t>(at + filled));
+      if (got < 0 && errno == EINTR) continue;
+      file.require(got >= 0, "be read");
+      if (got == 0) break;
+      filled += static_cast<std::size_t>(got);
+    }
+    for (std::size_t i = 0; i < filled; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, chunk.data() + i, std::min(sizeof word, filled - i));
+      hash.add(word);
+    }
+    at += filled, m.bytes = at;
+    if (filled < chunk.size()) break;
+  }
+  hash.add(m.bytes);
+  m.checksum = hash.hex();
+  return m;
+}
+
+void seal(const fs::path& path, const char* kind, int version) {
+  const Descriptor file(path, O_RDWR);
+  file.require(file.good(), "be opened");
+  const Measure m = measure(file);
+  const std::string text = sealText(kind, version, m.bytes, m.checksum);
+  file.require(::pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()), "be written");
+  file.require(::fsync(file) == 0, "be brought to the disk");
+}
+
+} // namespace
+
+void syncFile(const fs::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  file.require(file.good() && ::fsync(file) == 0, "be brought to the disk");
+}
+
+void writeSealed(const fs::path& path, const char* kind, int version,
+                 const std::function<void(const fs::path& part)>& write, const base::Comm& comm) {
+  const fs::path part = path.string() + ".part";
+  try {
+    write(part);
+    comm.wait();
+    if (!comm.first()) {
+      comm.wait();
+      return;
+    }
+    seal(part, kind, version);
+    fs::rename(part, path);
+  } catch (...) {
+    std::error_code error;
+    fs::remove(part, error);
+    throw;
+  }
+  syncFile(fs::absolute(path).parent_path()); // the name itself
+  comm.wait();
+}
+
+void checkSeal(const fs::path& path, const char* kind, int version) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    throw base::InputError(
+        fmt::format("{}: there is no such file; name the {} of a run, or start anew without it", path.string(), kind));
+  const Descriptor file(path, O_RDONLY);
+  if (!file.good()) throw base::InputError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
+  std::string text(kSealBytes, '\0');
+  const bool isSealed = ::pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
+  const std::string head = fmt::format("grouser {}\nversion ", kind);
+  if (!isSealed || text.compare(0, head.size(), head) != 0)
+    throw base::InputError(fmt::format("{}: is no {} of this program, or is damaged", path.string(), kind));
+  const std::size_t end = text.find('\n', head.size());
+  const std::string found = text.substr(head.size(), end == std::string::npos ? 0 : end - head.size());
+  if (found != std::to_string(version))
+    throw base::InputError(fmt::format("{}: is a {} of version {}, this program reads version {}; use the program that "
+                                       "wrote it, or start anew",
+                                       path.string(), kind, found, version));
+  const Measure m = measure(file);
+  if (text != sealText(kind, version, m.bytes, m.checksum))
+    throw base::InputError(fmt::format("{}: the {} is damaged: its length or checksum is not what was written; start "
+                                       "anew without it",
+                                       path.string(), kind));
+}
+
+} // namespace grouser::runs

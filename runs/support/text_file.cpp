@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/text_file.hpp"
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace grouser::runs {
+
+namespace fs = std::filesystem;
+
+void writeTextFile(const fs::path& path, const std::string& text, const std::string& option) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary);
+  if (!file)
+    throw base::InputError(
+        fmt::format("{}: cannot be written ({}); name another with {}", path.string(), std::strerror(errno), option));
+  file << text;
+  file.close();
+  if (file) return;
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) fs::remove(path, error); // and no device, such as /dev/full
+  throw std::runtime_error(fmt::format("{}: could not be written whole; is the disk full?", path.string()));
+}
+
+void replaceTextFile(const fs::path& path, const std::string& text) {
+  const fs::path part = path.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) {
+    std::error_code error;
+    fs::remove(part, error);
+    throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+  }
+  fs::rename(part, path);
+}
+
+} // namespace grouser::runs

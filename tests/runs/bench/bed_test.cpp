@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The benches compute the same physics as runs, and their figures are whole.
+#include "runs/bench/bench.hpp"
+
+#include "base/error.hpp"
+#include "program_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace grouser::runs {
+namespace {
+
+BedBench tinyBed() {
+  BedBench b;
+  b.grains = 320, b.settleTime = 0.1, b.steps = 20, b.batches = 3;
+  return b;
+}
+
+/// The coupled scene, unsettled and coarse: what is compared are bits.
+Scene shortScene() {
+  return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
+                   {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
+                    "driver.tension_ramp=0.005", "driver.weight_ramp=0.005"});
+}
+
+TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
+  const Scene scene = shortScene();
+  const auto quiet = [](double, double) {};
+  Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  StepBench bench(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  EXPECT_EQ(timed.stateHash(), plain.stateHash());
+  EXPECT_EQ(timed.steps(), plain.steps());
+  EXPECT_EQ(bench.steps(), 150);
+  EXPECT_EQ(timed.ground().grains->rebuilds(), plain.ground().grains->rebuilds());
+  EXPECT_GE(bench.rebuilds(), 1) << "the pass must hold a rebuild";
+  const auto& parts = bench.parts();
+  for (const StepBench::Part& part : parts) EXPECT_GT(part.microseconds, 0) << part.name;
+  EXPECT_GT(parts[StepBench::kGrains].microseconds, parts[StepBench::kFlags].microseconds);
+}
+
+TEST(StepBench, ComputesTheSameBitsForAMechanism) {
+  const Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
+  const auto quiet = [](double, double) {};
+  Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  const std::string atRest = plain.stateHash();
+  StepBench bench(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  EXPECT_NE(plain.stateHash(), atRest);
+  EXPECT_EQ(timed.stateHash(), plain.stateHash());
+  EXPECT_GT(bench.parts()[StepBench::kMultibody].microseconds, 0);
+}
+
+TEST(BenchBed, SettlesAndCountsWhatItSays) {
+  const BedBench b = tinyBed();
+  const BedFigures f = benchBed(b, base::cpuExec(1));
+  EXPECT_EQ(f.times.microseconds.size(), 3u);
+  EXPECT_GT(f.times.least(), 0);
+  EXPECT_LE(f.times.least(), f.times.median());
+  EXPECT_LE(f.times.median(), f.times.most());
+  EXPECT_EQ(f.stepsTaken, 2000 + 25 + 3 * 20) << "settling, warm-up, batches";
+  // 8 x 8 places a layer: each grain that has come down rests on one at least.
+  EXPECT_GT(f.contactsPerGrain, 0.5);
+  EXPECT_LT(f.contactsPerGrain, 6);
+  EXPECT_GT(f.listLength, f.contactsPerGrain);
+  EXPECT_GT(f.rebuildMicroseconds, 0);
+  EXPECT_GT(f.bytesPerGrain, 100);
+}
+
+TEST(BenchBed, IsOneBedForAllThreadsAndSkins) {
+  BedBench b = tinyBed();
+  b.hash = true, b.settleTime = 0.02;
+  const std::string hash = benchBed(b, base::cpuExec(1)).stateHash;
+  b.skin = 0.6;
+  EXPECT_EQ(benchBed(b, base::cpuExec(2)).stateHash, hash);
+  b.jitter = 0.5;
+  EXPECT_NE(benchBed(b, base::cpuExec(1)).stateHash, hash) << "the hash must see the bed";
+}
+
+TEST(BenchBed, UnstableStepIsAnInputError) {
+  BedBench b = tinyBed();
+  b.timeStep = 1e-2;
+  EXPECT_THROW(benchBed(b, base::cpuExec(1)), base::InputError);
+}
+
+class BenchCommands : public ProgramTest {};
+
+TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
+  const Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
+                           "--json bed.json");
+  ASSERT_EQ(bed.code, 0) << bed.errors;
+  for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes a grain",
+                           "machine ", "commit ", "state-hash "})
+    EXPECT_NE(bed.out.find(part), std::string::npos) << part << "\n" << bed.out;
+  const nlohmann::json b = nlohmann::json::parse(contents(folder_ / "bed.json"));
+  for (const char* key :
+       {"device", "machine", "commit", "grains", "microseconds_a_step", "particle_steps_per_second", "contacts_a_grain",
+        "neighbours_listed_a_grain", "steps_between_rebuilds", "rebuild_microseconds", "bytes_a_grain", "state_hash"})
+    EXPECT_TRUE(b.contains(key)) << key;
+  EXPECT_EQ(b["microseconds_a_step"]["batches"].size(), 5u);
+  EXPECT_NEAR(b["particle_steps_per_second"]["median"].get<double>() * b["microseconds_a_step"]["median"].get<double>(),
+              100 * 1e6, 1);
+
+  const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml";
+  const Outcome step = call("bench step " + scene +
+                            " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03 --after 0.03 "
+                            "--steps 10 --batches 2 --threads 1 --device cpu --json step.json");
+  ASSERT_EQ(step.code, 0) << step.errors;
+  for (const char* part : {"without clocks", "sum is larger", "grain kernel", "multibody", "track contacts",
+                           "grain on grain", "grain on part", "memory "})
+    EXPECT_NE(step.out.find(part), std::string::npos) << part << "\n" << step.out;
+  const nlohmann::json s = nlohmann::json::parse(contents(folder_ / "step.json"));
+  double sum = 0;
+  for (const auto& [name, microseconds] : s["instrumented_microseconds_a_step"].items())
+    if (name != "sum") sum += microseconds.get<double>();
+  EXPECT_NEAR(sum, s["instrumented_microseconds_a_step"]["sum"].get<double>(), 1e-9 * sum);
+  EXPECT_GT(s["contacts_a_step"]["grain_boundary"].get<double>(), 0) << "the bottom layer lies on the floor";
+  EXPECT_GT(s["host_peak_bytes"].get<double>(), 1e6);
+
+  EXPECT_EQ(call("bench bed --grains 0").code, 2);
+  EXPECT_EQ(call("bench step nosuch.toml").code, 2);
+}
+
+} // namespace
+} // namespace grouser::runs

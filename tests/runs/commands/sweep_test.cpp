@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sweeps: the product of values, names, what is left out when called again, and a failed run that stops no other.
+#include "runs/commands/sweep.hpp"
+
+#include "base/error.hpp"
+#include "program_fixture.hpp"
+#include "runs/output/channels.hpp"
+#include "runs/commands/sweep_summary.hpp"
+#include "scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace grouser::runs {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// A table of text cells; quotes are taken off.
+struct Csv {
+  Words header;
+  std::vector<Words> rows;
+
+  explicit Csv(const fs::path& path) {
+    std::istringstream stream(contents(path));
+    for (std::string line; std::getline(stream, line);) {
+      Words cells(1);
+      bool inQuotes = false;
+      for (const char c : line) {
+        if (c == '"')
+          inQuotes = !inQuotes;
+        else if (c == ',' && !inQuotes)
+          cells.emplace_back();
+        else
+          cells.back() += c;
+      }
+      header.empty() ? header = cells : (rows.push_back(cells), header);
+    }
+  }
+  std::string at(std::size_t row, const std::string& column) const {
+    const auto found = std::find(header.begin(), header.end(), column);
+    if (found == header.end() || row >= rows.size()) return "no such cell";
+    return rows[row][static_cast<std::size_t>(found - header.begin())];
+  }
+};
+
+class Sweep : public ProgramTest {
+protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    writeScene("1e-3");
+  }
+
+  /// A falling grain above a plane, which at 100 m/s it would meet v sqrt(m / k) = 1e-2 m deep, five times what is
+  /// allowed: then a run fails.
+  void writeScene(const std::string& duration) const {
+    std::ofstream(scene()) << "version = 1\n[run]\nduration = " << duration
+                           << "\ntime_step = 1e-5\noutput_interval = 1e-4\nthreads = 1\n[material.glass]\n[[grain]]\n"
+                              "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
+                              "[[plane]]\npoint = [0, 0, 0.98]\nmaterial = \"glass\"\n"
+                              "[output]\nplots = false\npicture = false\nframes = false\n";
+  }
+  fs::path scene() const { return folder_ / "fall.toml"; }
+  fs::path out() const { return folder_ / "out"; }
+
+  SweepOptions options() const {
+    SweepOptions o;
+    o.program = programUnderTest(), o.folder = out(), o.plot = false;
+    return o;
+  }
+  int sweep(const Words& sets, int jobs = 1, bool force = false) const {
+    SweepOptions o = options();
+    o.jobs = jobs, o.force = force;
+    return runSweep(planSweep(scene(), sets), o);
+  }
+  /// When a run last wrote its manifest; what was left out keeps it.
+  fs::file_time_type ended(const std::string& run) const { return fs::last_write_time(out() / run / "manifest.json"); }
+};
+
+TEST(SweepValues, SplitAtCommasOutsideBracketsAndQuotes) {
+  EXPECT_EQ(splitValues("0.5,1, 2"), (Words{"0.5", "1", "2"}));
+  EXPECT_EQ(splitValues("[1, 2],[3, 4]"), (Words{"[1, 2]", "[3, 4]"}));
+  EXPECT_EQ(splitValues("\"a,b\",'c,d'"), (Words{"\"a,b\"", "'c,d'"}));
+  EXPECT_EQ(splitValues("[0, 0, 1]"), Words{"[0, 0, 1]"});
+  EXPECT_EQ(splitValues("1,"), (Words{"1", ""}));
+}
+
+TEST_F(Sweep, IsTheProductOfAllListsNamedByTheirValues) {
+  const SweepPlan plan = planSweep(scene(), {"run.seed=1,2", "run.skin=0.5", "grain.0.velocity=[0, 0, 1],[1,0,0]"});
+  EXPECT_EQ(plan.keys, (Words{"run.seed", "grain.0.velocity"}));
+  Words names;
+  for (const SweepRun& run : plan.runs) {
+    names.push_back(run.name);
+    EXPECT_EQ(run.scene.run.skin, 0.5) << "one value is for all";
+  }
+  EXPECT_EQ(names, (Words{"seed=1,velocity=0_0_1", "seed=1,velocity=1_0_0", "seed=2,velocity=0_0_1",
+                          "seed=2,velocity=1_0_0"}));
+  EXPECT_EQ(plan.runs[3].scene.run.seed, 2);
+  EXPECT_EQ(plan.runs[3].scene.grains[0].velocity, (base::Vec3d{1, 0, 0}));
+}
+
+TEST_F(Sweep, NamesTellKeysOfOneLastWordApart) {
+  std::ofstream(scene(), std::ios::app) << "[material.steel]\n";
+  const SweepPlan plan = planSweep(scene(), {"material.glass.friction=0.1,0.2", "material.steel.friction=0.3,0.4"});
+  EXPECT_EQ(plan.runs[1].name, "material.glass.friction=0.1,material.steel.friction=0.4");
+}
+
+TEST_F(Sweep, AnEntryOfAListIsNamedByItsWholeKey) {
+  const SweepPlan plan = planSweep(scene(), {"grain.0.position.2=1,2"});
+  EXPECT_EQ(plan.runs[1].name, "grain.0.position.2=2");
+}
+
+TEST_F(Sweep, ValuesThatLookAlikeAsFolderNamesGetTheirOwn) {
+  const SweepPlan plan = planSweep(scene(), {"grain.0.velocity=[0,0,1],[0, 0, 1]"});
+  EXPECT_EQ(plan.runs[0].name, "velocity=0_0_1");
+  EXPECT_EQ(plan.runs[1].name, "velocity=0_0_1~2");
+}
+
+TEST_F(Sweep, OneValueIsASweepOfOneRun) {
+  const SweepPlan plan = planSweep(scene(), {"run.seed=3"});
+  ASSERT_EQ(plan.runs.size(), 1u);
+  EXPECT_EQ(plan.runs[0].name, "seed=3");
+}
+
+TEST_F(Sweep, WrongValuesAreFoundBeforeAnythingRuns) {
+  for (const Words& sets : {Words{}, Words{"run.seed=1,-2"}, Words{"run.seed=1,,2"}, Words{"run.seed=1,1"},
+                            Words{"run.seed=1,2", "run.seed=3"}, Words{"run.sead=1,2"}, Words{"run.seed"},
+                            Words{"run.time_step=1e-5,1e-2"}})
+    EXPECT_THROW(planSweep(scene(), sets), base::InputError) << (sets.empty() ? "" : sets[0]);
+}
+
+TEST_F(Sweep, LeavesAFolderARunAndASummary) {
+  EXPECT_EQ(sweep({"run.seed=1,2"}, 2), 0);
+  for (const char* run : {"seed=1", "seed=2"})
+    for (const char* file : {"results.h5", "timeseries.csv", "manifest.json", "scene.toml", "log.txt"})
+      EXPECT_TRUE(fs::exists(out() / run / file)) << run << "/" << file;
+  const Csv csv(out() / "summary.csv");
+  ASSERT_EQ(csv.rows.size(), 2u);
+  EXPECT_EQ(csv.at(1, "run"), "seed=2");
+  EXPECT_EQ(csv.at(1, "run.seed"), "2");
+  EXPECT_EQ(csv.at(1, "status"), "finished");
+  EXPECT_EQ(csv.at(1, "steps"), "100");
+  EXPECT_EQ(csv.at(1, "state hash").size(), 16u);
+  EXPECT_EQ(csv.at(0, "state hash"), csv.at(1, "state hash")) << "a single grain knows no seed";
+  EXPECT_EQ(csv.at(0, "speed [m/s]"), "no such cell") << "no vehicle, no speed";
+  EXPECT_GE(std::stod(csv.at(0, "wall time [s]")), 0);
+}
+
+TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
+  // The grain lies on it from the start.
+  std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"belt\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
+                                           "material = \"glass\"\nvelocity = [0.1, 0, 0]\n";
+  ASSERT_EQ(sweep({"run.duration=0.05", "run.output_interval=1e-3", "box.0.velocity.0=0.1,0.2"}), 0);
+  const Csv csv(out() / "summary.csv");
+  const double weight = 2500 * 4.0 / 3 * 3.14159265 * 1e-6 * 9.81;
+  for (std::size_t row = 0; row < 2; ++row) {
+    const auto number = [&](const char* column) { return std::stod(csv.at(row, column)); };
+    EXPECT_EQ(csv.at(row, "run"), row == 0 ? "box.0.velocity.0=0.1" : "box.0.velocity.0=0.2");
+    EXPECT_EQ(number("steady from [s]"), 0.025);
+    EXPECT_NEAR(number("belt force z [N]"), -weight, 0.05 * weight) << "at rest but for what is left of its sinking in";
+    EXPECT_NEAR(number("belt position x at the end [m]"), row == 0 ? 0.005 : 0.01, 1e-12);
+    EXPECT_EQ(number("belt force y [N]"), 0);
+    EXPECT_NEAR(number("belt torque z [N m]"), 0, 1e-9) << "grain and centre lie in one plane";
+  }
+}
+
+TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
+  ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
+  const auto one = ended("seed=1"), two = ended("seed=2");
+  // One value more, and a run that was killed in between.
+  std::string manifest = contents(out() / "seed=2/manifest.json");
+  manifest.replace(manifest.find("finished"), 8, "running");
+  std::ofstream(out() / "seed=2/manifest.json") << manifest;
+  ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
+  EXPECT_EQ(ended("seed=1"), one);
+  EXPECT_NE(ended("seed=2"), two);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(2, "status"), "finished");
+  // Threads are no other scene; a longer duration is.
+  SweepOptions o = options();
+  ASSERT_EQ(runSweep(planSweep(scene(), {"run.seed=1,2,3"}, {"run.threads=2"}), o), 0);
+  EXPECT_EQ(ended("seed=1"), one);
+  writeScene("2e-3");
+  ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
+  EXPECT_NE(ended("seed=1"), one);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(0, "steps"), "200");
+}
+
+TEST_F(Sweep, ForceRunsAll) {
+  ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
+  const auto one = ended("seed=1");
+  ASSERT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
+  EXPECT_NE(ended("seed=1"), one);
+}
+
+TEST_F(Sweep, AFailedRunStopsNoOther) {
+  EXPECT_EQ(sweep({"grain.0.velocity=[0,0,1],[0,0,-100],[0,0,2]"}), 1);
+  const Csv csv(out() / "summary.csv");
+  EXPECT_EQ(csv.at(0, "status"), "finished");
+  EXPECT_EQ(csv.at(1, "status"), "failed");
+  EXPECT_NE(csv.at(1, "message").find("overlaps"), std::string::npos) << csv.at(1, "message");
+  EXPECT_EQ(csv.at(1, "state hash"), "");
+  EXPECT_EQ(csv.at(2, "status"), "finished");
+  EXPECT_EQ(csv.rows[1].size(), csv.header.size()) << "a message with commas is one cell";
+}
+
+TEST_F(Sweep, ARunThatIsKilledIsAFailedRun) {
+  const fs::path killer = folder_ / "killer";
+  std::ofstream(killer) << "#!/bin/sh\nkill -9 $$\n";
+  fs::permissions(killer, fs::perms::owner_all);
+  SweepOptions o = options();
+  o.program = killer;
+  EXPECT_EQ(runSweep(planSweep(scene(), {"run.seed=1,2"}), o), 2);
+  EXPECT_NE(Csv(out() / "summary.csv").at(0, "message").find("signal 9"), std::string::npos);
+}
+
+TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
+  fs::create_directories(out() / "seed=2");
+  std::ofstream(out() / "seed=2/thesis.txt") << "precious";
+  EXPECT_THROW(sweep({"run.seed=1,2"}), base::InputError);
+  EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
+  EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
+  EXPECT_EQ(contents(out() / "seed=2/thesis.txt"), "precious");
+}
+
+TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
+  const Outcome sound = call("sweep fall.toml --set run.seed=1,2");
+  EXPECT_EQ(sound.code, 0) << sound.errors;
+  EXPECT_TRUE(fs::exists(folder_ / "out/fall_sweep/seed=2/results.h5"));
+  EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
+  EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "a"));
+  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
+  EXPECT_EQ(unsound.code, 3);
+  EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
+}
+
+class SweepSummary : public FolderTest {};
+
+TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
+  Scene scene = parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
+  scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
+  scene.driver.table = SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.5);
+  scene.run.duration = 1;
+  EXPECT_TRUE(std::isnan(steadyFrom(scene)));
+  scene.vehicle.reset();
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 0.5);
+}
+
+/// A vehicle that stands until t = 2 s and then drives as the formulas below say.
+TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
+  SweepPlan plan;
+  plan.keys = {"driver.sprocket_speed"};
+  plan.runs = {
+      {"sprocket_speed=2", {"2"}, {}, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
+  Scene& scene = plan.runs[0].scene;
+  scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
+
+  std::vector<Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
+                                   {"ledger/residual", "J", "", 1, {}},
+                                   {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
+  for (const std::string side : {"left", "right"}) {
+    for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
+      channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
+    for (const char* shoes : {"sinkage", "tension"})
+      channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
+  }
+  RunWriter writer(folder_ / "sprocket_speed=2", scene, channels, {});
+  writer.constant("vehicle/pitch_radius", "m", 0.25);
+  RowBuilder row(channels);
+  for (int r = 0; r <= 30; ++r) {
+    const bool isSteady = r >= 20;
+    row.begin(100 * r, 0.1 * r);
+    for (const std::string side : {"left", "right"}) {
+      const double of = side == "left" ? 1 : 3;
+      row.set("vehicle/" + side + "/sprocket_speed", isSteady ? 2 : 77);
+      row.set("vehicle/" + side + "/speed", isSteady ? 0.2 * of : 77); // mean 0.4 of 0.5 m/s
+      row.set("vehicle/" + side + "/teeth_passed", 0.5 * r * of);      // 10 rows: 5 and 15
+      row.set("vehicle/" + side + "/drive_torque", isSteady ? 100 * of : 77);
+      row.set("vehicle/" + side + "/sinkage",
+              std::vector<double>{isSteady ? 0.01 * of : 77, std::nan("")}); // one shoe is off the ground
+      row.set("vehicle/" + side + "/tension",
+              std::vector<double>{isSteady ? 1000.0 : 77e3, isSteady && r == 25 ? 6000 * of : 1000.0});
+    }
+    row.set("vehicle/motion_resistance", isSteady ? 50 + 10 * (r % 2 ? 1 : -1) : 77);
+    row.set("ledger/residual", 0.1 * r);
+    row.set("ledger/impulse_residual", base::Vec3d{0, 3, 4});
+    writer.row(row.row());
+  }
+  Summary summary;
+  summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
+  writer.finish(summary);
+
+  const Csv csv(writeSummary(plan, {{"finished", ""}}, folder_));
+  const auto number = [&](const char* column) { return std::stod(csv.at(0, column)); };
+  EXPECT_EQ(csv.at(0, "driver.sprocket_speed"), "2");
+  EXPECT_EQ(number("wall time [s]"), 12.5);
+  EXPECT_EQ(csv.at(0, "state hash"), "0123456789abcdef");
+  // Nine digits are written.
+  EXPECT_NEAR(number("steady from [s]"), 2, 1e-8);
+  EXPECT_NEAR(number("teeth passed [-]"), 10, 1e-8) << "mean of both sprockets";
+  EXPECT_NEAR(number("speed [m/s]"), 0.4, 1e-8);
+  EXPECT_NEAR(number("slip [-]"), 1 - 0.4 / 0.5, 1e-8);
+  EXPECT_NEAR(number("sinkage mean [m]"), 0.02, 1e-9);
+  EXPECT_NEAR(number("sinkage max [m]"), 0.03, 1e-9);
+  EXPECT_NEAR(number("drive torque [N m]"), 400, 1e-6);
+  EXPECT_NEAR(number("drive power [W]"), 800, 1e-6);
+  EXPECT_NEAR(number("tension mean [N]"), 1000 + (5000 + 17000) / 44.0, 1e-5) << "11 rows, 2 tracks, 2 shoes";
+  EXPECT_NEAR(number("tension peak [N]"), 18000, 1e-4);
+  EXPECT_NEAR(number("motion resistance [N]"), 50 - 10 / 11.0, 1e-7);
+  EXPECT_NEAR(number("energy residual [J]"), 3, 1e-8) << "at the end";
+  EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
+  EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "what the results lack is empty";
+}
+
+} // namespace
+} // namespace grouser::runs

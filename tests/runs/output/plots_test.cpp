@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/plots.hpp"
+
+#include "folder_fixture.hpp"
+#include "runs/output/channels.hpp"
+#include "scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace grouser::runs {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kShoes = 12, kRows = 80;
+
+/// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
+/// comes down at row 60 only.
+class Plots : public FolderTest {
+protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    std::vector<Channel> channels = {
+        {"vehicle/left/sinkage", "m", "", kShoes, {}}, {"vehicle/left/pad_height", "m", "", kShoes, {}},
+        {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
+        {"vehicle/left/speed", "m/s", "", 1, {}},      {"vehicle/left/drive_torque", "N m", "", 1, {}}};
+    for (const Channel& c : ledgerChannels()) channels.push_back(c);
+    RunWriter writer(folder_, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    writer.constant("vehicle/pitch_radius", "m", 0.245);
+    RowBuilder row(channels);
+    for (int r = 0; r < kRows; ++r) {
+      std::vector<double> sinkage(kShoes), height(kShoes);
+      for (int s = 0; s < kShoes; ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        const int left = 10 + 5 * s - r;
+        sinkage[i] = left >= 0 && (s + 1 < kShoes || r >= 60) ? 0.001 * r : std::nan("");
+        height[i] = left >= 0 ? 0.2 - 0.001 * r : 0.2 - 0.05 * left;
+      }
+      row.begin(r, 0.02 * r);
+      row.set("vehicle/left/sinkage", sinkage);
+      row.set("vehicle/left/pad_height", height);
+      row.set("vehicle/left/tension", std::vector<double>(kShoes, 5000));
+      row.set("vehicle/left/sprocket_speed", 1.0);
+      row.set("vehicle/left/speed", 0.24);
+      row.set("vehicle/left/drive_torque", 300.0);
+      for (const Channel& c : ledgerChannels())
+        if (c.width == 1) row.set(c.path, 1.0 * r);
+      writer.row(row.row());
+    }
+    writer.finish({});
+  }
+  void TearDown() override {
+    unsetenv("GROUSER_SHARE");
+    FolderTest::TearDown();
+  }
+};
+
+TEST_F(Plots, AreDrawnOrSayWhatToInstall) {
+  std::string warning;
+  const std::vector<fs::path> drawn = drawPlots(folder_ / "results.h5", folder_, kAllPlots, warning);
+  if (!warning.empty()) {
+    EXPECT_NE(warning.find("install python3"), std::string::npos) << warning;
+    GTEST_SKIP() << warning;
+  }
+  ASSERT_EQ(drawn.size(), kAllPlots.size() - 1) << "all but that of mechanisms, of which these results hold none";
+  for (const fs::path& plot : drawn) EXPECT_GT(fs::file_size(plot), 10000u) << plot;
+}
+
+TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
+  const fs::path hanging = folder_ / "hanging";
+  const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},
+                                         {"vehicle/left/pad_height", "m", "", kShoes, {}}};
+  {
+    RunWriter writer(hanging, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    RowBuilder row(channels);
+    row.begin(0, 0); // all NaN
+    writer.row(row.row());
+    writer.finish({});
+  } // closes the file
+  std::string warning;
+  const std::vector<fs::path> drawn = drawPlots(hanging / "results.h5", hanging, {"sinkage", "shoe_heights"}, warning);
+  if (warning.find("install python3") != std::string::npos) GTEST_SKIP() << warning;
+  EXPECT_EQ(warning, "");
+  EXPECT_EQ(drawn.size(), 2u);
+}
+
+TEST_F(Plots, WithoutScriptsAreAWarning) {
+  setenv("GROUSER_SHARE", "/nonexistent", 1);
+  std::string warning;
+  EXPECT_TRUE(drawPlots(folder_ / "results.h5", folder_, kAllPlots, warning).empty());
+  EXPECT_NE(warning.find("GROUSER_SHARE"), std::string::npos);
+}
+
+TEST_F(Plots, OfADamagedFileAreAWarning) {
+  std::string warning;
+  EXPECT_TRUE(drawPlots(folder_ / "timeseries.csv", folder_, kAllPlots, warning).empty());
+  EXPECT_NE(warning.find("no plots"), std::string::npos);
+}
+
+/// The four shoes of the source paper's figure: neighbours, longest on the ground run, then picked up within the run.
+TEST_F(Plots, FourShoesAreConsecutiveAndPickedUp) {
+  const std::string script = "import sys; sys.path.insert(0, '" + std::string(GROUSER_SOURCE_DIR) +
+                             "/runs/plots'); import h5py, series, shoes; run = series.Run(h5py.File('" +
+                             (folder_ / "results.h5").string() +
+                             "', 'r')); side, four = shoes.choose_four(run.shoes('pad_height'), run.shoes('sinkage')); "
+                             "sys.exit(0 if (side, four) == ('left', [7, 8, 9, 10]) else print(side, four) or 9)";
+  const int status = std::system(("/usr/bin/python3 -c \"" + script + "\"").c_str());
+  if (WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 9) GTEST_SKIP() << "no Python with h5py and matplotlib";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+} // namespace
+} // namespace grouser::runs

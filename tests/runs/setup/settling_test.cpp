@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a bed counts as settled.
+#include "base/error.hpp"
+#include "runs/setup/bed.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::runs {
+namespace {
+
+Scene bed(const std::vector<std::string>& overrides) {
+  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+                    "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
+                    "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
+                    "settle_kinetic_energy = 1e-2\n",
+                    "bed.toml", overrides);
+}
+
+TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
+  const auto settled = [](const Scene& scene, double& ratio) {
+    Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
+    const SettleReport report = settle(scene, ground, [](double, double) {});
+    ground.grains->refreshNeighbours();
+    ground.grains->step();
+    ratio = ground.grains->forceRatio();
+    return report;
+  };
+  double loose = 0, tight = 0;
+  const SettleReport byEnergy = settled(bed({}), loose),
+                     byBoth = settled(bed({"terrain.settle_force_ratio=0.02"}), tight);
+  EXPECT_GT(loose, 0.04) << "the energy alone asks for less, or this shows nothing";
+  EXPECT_LT(tight, 0.03); // one step after it was below 0.02
+  EXPECT_GT(byBoth.time, byEnergy.time);
+}
+
+TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
+  const Scene scene = bed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
+  Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
+  try {
+    settle(scene, ground, [](double, double) {});
+    FAIL() << "nothing rests to 1e-9";
+  } catch (const base::SimulationError& error) {
+    for (const char* part : {"has not settled within 0.3 s", "of its weight, wanted is 1e-09", "settle_force_ratio"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+} // namespace
+} // namespace grouser::runs
