@@ -14,7 +14,7 @@
 #include <limits>
 #include <numeric>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 using base::Vec3d;
 using Clock = std::chrono::steady_clock;
@@ -38,7 +38,7 @@ double median(std::vector<double> values) {
 terrain::GrainModel modelOf(const BedBench& b) {
   terrain::GrainModel model;
   model.radius = b.radius;
-  model.mass = sphereMass(b.density, b.radius);
+  model.mass = setup::sphereMass(b.density, b.radius);
   model.timeStep = b.timeStep;
   model.gravity = {0, 0, -kGravity};
   model.skin = b.skin, model.mostLanes = b.lanes;
@@ -110,7 +110,7 @@ double timed(const base::Exec& exec, terrain::Grains& grains, std::int64_t steps
 
 } // namespace
 
-double BatchTimes::median() const { return runs::median(microseconds); }
+double BatchTimes::median() const { return bench::median(microseconds); }
 double BatchTimes::least() const { return *std::min_element(microseconds.begin(), microseconds.end()); }
 double BatchTimes::most() const { return *std::max_element(microseconds.begin(), microseconds.end()); }
 
@@ -173,4 +173,4 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   return f;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench

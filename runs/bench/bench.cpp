@@ -14,7 +14,7 @@
 #include <cmath>
 #include <memory>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
@@ -32,8 +32,8 @@ Json jsonOf(const BatchTimes& times) {
 }
 
 /// Steps of the simulation, with progress.
-void advance(Simulation& simulation, std::int64_t steps, const char* what) {
-  Progress progress(what, simulation.comm().first());
+void advance(simulation::Simulation& simulation, std::int64_t steps, const char* what) {
+  support::Progress progress(what, simulation.comm().first());
   for (std::int64_t i = 0; i < steps; ++i) {
     simulation.step();
     if (progress.due())
@@ -46,11 +46,11 @@ void advance(Simulation& simulation, std::int64_t steps, const char* what) {
 struct Contacts {
   double grainGrain = 0, grainBoundary = 0, grainPart = 0, partPart = 0, pairsListed = 0, probesListed = 0;
   int counts = 0;
-  void count(Simulation& simulation) {
-    const Simulation::Ledger l = simulation.ledger();
+  void count(simulation::Simulation& simulation) {
+    const simulation::Simulation::Ledger l = simulation.ledger();
     grainGrain += static_cast<double>(l.grainContacts), grainBoundary += static_cast<double>(l.boundaryContacts);
     grainPart += static_cast<double>(l.partContacts), partPart += static_cast<double>(l.patches);
-    if (const VehicleRig* rig = simulation.vehicle()) {
+    if (const simulation::VehicleRig* rig = simulation.vehicle()) {
       pairsListed += static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->grainPairsListed())));
       probesListed += static_cast<double>(rig->probesListed());
     }
@@ -59,7 +59,7 @@ struct Contacts {
   double mean(double sum) const { return counts ? sum / counts : 0; }
 };
 
-double defaultStart(const Scene& scene) {
+double defaultStart(const scene::Scene& scene) {
   return scene.vehicle ? scene.driver.driveBegins() + scene.driver.driveRamp : 0;
 }
 
@@ -85,7 +85,7 @@ Json printParts(const StepBench& bench) {
 
 void benchBedCommand(const BenchCommand& command) {
   const base::Exec exec =
-      chooseDevice(command.device.empty() ? "auto" : command.device, command.threads, command.ranks);
+      support::chooseDevice(command.device.empty() ? "auto" : command.device, command.threads, command.ranks);
   Json json = benchOrigin("bed", exec);
   const BedBench& b = command.bed;
   fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
@@ -150,20 +150,20 @@ void benchBedCommand(const BenchCommand& command) {
 }
 
 void benchStepCommand(const BenchCommand& command) {
-  const Scene scene = loadScene(command.scene, command.overrides);
+  const scene::Scene scene = scene::loadScene(command.scene, command.overrides);
   const std::string device = command.device.empty() ? scene.run.device : command.device;
-  const base::Exec exec = chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
+  const base::Exec exec = support::chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
   const StepBenchOptions& o = command.step;
   const base::Comm comm = command.comm();
   Json json = benchOrigin("step", exec);
 
-  std::unique_ptr<Progress> settling;
+  std::unique_ptr<support::Progress> settling;
   const Clock::time_point start = Clock::now();
   const auto settle = [&](double time, double) {
-    if (!settling) settling = std::make_unique<Progress>("settling", comm.first());
+    if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
   };
-  Simulation simulation(scene, exec, settle, comm);
+  simulation::Simulation simulation(scene, exec, settle, comm);
   if (settling) settling->finish("at rest");
   const double prepared = std::chrono::duration<double>(Clock::now() - start).count();
   const std::size_t grains = simulation.ground().grains ? simulation.ground().grains->count() : 0;
@@ -236,4 +236,4 @@ void benchStepCommand(const BenchCommand& command) {
   writeBench(json, command.json, comm);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench

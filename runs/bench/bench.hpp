@@ -12,7 +12,7 @@
 #include <vector>
 
 /// Speed figures, with the machine and the commit that gave them.
-namespace grouser::runs {
+namespace grouser::bench {
 
 /// Times of several equal batches of steps [us a step].
 struct BatchTimes {
@@ -74,7 +74,7 @@ struct StepBenchOptions {
 /// physics, slower. A friend of Simulation, so that the loop itself stays free of timers.
 class StepBench {
 public:
-  explicit StepBench(Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}
+  explicit StepBench(simulation::Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}
   void step();
 
   struct Part {
@@ -90,7 +90,7 @@ private:
   /// The time since the last mark goes to a part.
   void mark(int part);
 
-  Simulation& simulation_;
+  simulation::Simulation& simulation_;
   base::Exec exec_;
   std::array<Part, kParts> parts_{{{"place surfaces"},
                                    {"neighbours"},
@@ -122,4 +122,4 @@ struct BenchCommand {
 void benchBedCommand(const BenchCommand& command);
 void benchStepCommand(const BenchCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 namespace {
 
@@ -75,11 +75,11 @@ BulletFigures benchBullet(const std::vector<base::Vec3f>& positions, float diame
   return figures;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench
 
 #else
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 std::string bulletVersion() { return ""; }
 
@@ -87,6 +87,6 @@ BulletFigures benchBullet(const std::vector<base::Vec3f>&, float, int) {
   throw std::runtime_error("this program was built without Bullet");
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench
 
 #endif

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 /// What sequential Bullet needs to find the contacts of equal spheres.
 struct BulletFigures {
@@ -24,4 +24,4 @@ std::string bulletVersion();
 /// `diameter` in any unit. Throws std::runtime_error where there is no Bullet.
 BulletFigures benchBullet(const std::vector<base::Vec3f>& positions, float diameter, int repeats);
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 namespace {
 
@@ -49,4 +49,4 @@ base::Array<base::Position> ContactSpheres::make(const base::Exec& exec, std::in
   return positions;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench

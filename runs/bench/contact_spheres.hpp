@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 /// Equal spheres for the bench of contact detection: `count` sites of a cubic lattice, as nearly a cube as can be, of
 /// spacing kSpacing diameters; each sphere is moved from its site by up to kJitter diameters along each axis, evenly at
@@ -22,4 +22,4 @@ struct ContactSpheres {
   static base::Array<base::Position> make(const base::Exec& exec, std::int64_t count, std::uint64_t seed);
 };
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -19,7 +19,7 @@
 #include <limits>
 #include <optional>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 namespace {
 
@@ -153,7 +153,7 @@ double growthExponent(const std::vector<double>& contacts, const std::vector<dou
 }
 
 void benchContactsCommand(const ContactsBench& bench) {
-  const base::Exec exec = chooseDevice(bench.device, bench.threads, bench.ranks);
+  const base::Exec exec = support::chooseDevice(bench.device, bench.threads, bench.ranks);
   if (!bench.plot.empty() && !bench.plot.ends_with(".png"))
     throw base::InputError(fmt::format("--plot {}: its name must end with .png", bench.plot));
   if (!bench.plot.empty() && bench.json.empty())
@@ -198,7 +198,7 @@ void benchContactsCommand(const ContactsBench& bench) {
   }
   const base::Comm comm = bench.ranks ? bench.ranks->comm() : base::Comm();
   writeBench(json, bench.json, comm);
-  if (!bench.plot.empty() && comm.first()) drawPicture("contacts.py", {bench.json}, bench.plot);
+  if (!bench.plot.empty() && comm.first()) output::drawPicture("contacts.py", {bench.json}, bench.plot);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -8,7 +8,7 @@
 #include <vector>
 
 /// `grouser bench contacts`: the speed of contact detection alone.
-namespace grouser::runs {
+namespace grouser::bench {
 
 struct ContactsBench {
   std::vector<double> contacts; ///< about so many, each pair once; empty: a range that suits the device
@@ -31,4 +31,4 @@ void benchContactsCommand(const ContactsBench& bench);
 /// two.
 double growthExponent(const std::vector<double>& contacts, const std::vector<double>& seconds);
 
-} // namespace grouser::runs
+} // namespace grouser::bench

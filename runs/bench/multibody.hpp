@@ -9,7 +9,7 @@
 #include <vector>
 
 /// `grouser bench multibody`: the speed of the multibody solver alone, on one core.
-namespace grouser::runs {
+namespace grouser::bench {
 
 struct MultibodyBench {
   std::string vehicle;     ///< spec file; empty: the light vehicle
@@ -73,4 +73,4 @@ private:
   std::vector<std::vector<Circle>> circles_; ///< one list a track
 };
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 using base::Vec3d;
 using multibody::JointType;
@@ -152,4 +152,4 @@ multibody::Model ringsAndHull(int shoes) {
   return model;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -9,7 +9,7 @@
 #include <string>
 
 /// What all benches have in common.
-namespace grouser::runs {
+namespace grouser::bench {
 
 /// Machine, device and program: printed as the first lines of a bench, and returned as the head of its JSON.
 nlohmann::ordered_json benchOrigin(const char* bench, const base::Exec& exec);
@@ -18,4 +18,4 @@ nlohmann::ordered_json benchOrigin(const char* bench, const base::Exec& exec);
 /// name.
 void writeBench(const nlohmann::ordered_json& json, const std::string& path, const base::Comm& comm);
 
-} // namespace grouser::runs
+} // namespace grouser::bench

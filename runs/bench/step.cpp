@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace grouser::runs {
+namespace grouser::bench {
 
 namespace {
 
@@ -23,9 +23,9 @@ void StepBench::mark(int part) {
 
 // As Simulation::step(); a test compares the bits.
 void StepBench::step() {
-  Simulation& s = simulation_;
+  simulation::Simulation& s = simulation_;
   terrain::Grains* grains = s.ground_.grains.get();
-  VehicleRig* vehicle = s.vehicle_.get();
+  simulation::VehicleRig* vehicle = s.vehicle_.get();
   base::synchronize(exec_);
   last_ = now();
   if (vehicle) vehicle->placeSurfaces();
@@ -58,9 +58,9 @@ void StepBench::step() {
   mark(kFlags);
   ++s.steps_;
   s.addGrains();
-  if (vehicle && s.steps_ % Simulation::kAlarmInterval == 0) s.checkAlarm();
+  if (vehicle && s.steps_ % simulation::Simulation::kAlarmInterval == 0) s.checkAlarm();
   mark(kAlarm);
   ++steps_;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::bench

@@ -20,7 +20,7 @@
 
 #include <filesystem>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace fs = std::filesystem;
 
@@ -28,7 +28,7 @@ namespace {
 
 void drawAndName(const fs::path& results, const fs::path& folder, const std::vector<std::string>& names) {
   std::string warning;
-  for (const fs::path& plot : drawPlots(results, folder, names, warning)) fmt::print("plot      {}\n", plot.string());
+  for (const fs::path& plot : output::drawPlots(results, folder, names, warning)) fmt::print("plot      {}\n", plot.string());
   if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
 }
 
@@ -39,7 +39,7 @@ void nameIfThere(const char* what, const fs::path& file) {
 /// A run goes on in the folder of its checkpoint.
 void chooseCheckpoint(const RunCommand& command, RunOptions& options) {
   if (command.checkpoint.empty()) {
-    options.resume = options.folder / kCheckpointName;
+    options.resume = options.folder / simulation::kCheckpointName;
     return;
   }
   options.resume = command.checkpoint;
@@ -58,7 +58,7 @@ void runCommand(const RunCommand& command) {
   std::vector<std::string> overrides = command.overrides;
   if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
   if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
-  const Scene scene = loadScene(command.scene, overrides);
+  const scene::Scene scene = scene::loadScene(command.scene, overrides);
 
   RunOptions options;
   options.folder = !command.folder.empty()        ? fs::path(command.folder)
@@ -71,19 +71,19 @@ void runCommand(const RunCommand& command) {
   if (command.resume)
     chooseCheckpoint(command, options);
   else if (options.comm().first())
-    checkOutputFolder(options.folder, options.force);
-  const Summary summary = runScene(scene, options);
+    output::checkOutputFolder(options.folder, options.force);
+  const output::Summary summary = runScene(scene, options);
   if (!options.comm().first()) return;
 
   const fs::path results = options.folder / "results.h5";
   nameIfThere("results", results);
   nameIfThere("series", options.folder / "timeseries.csv");
   nameIfThere("grains", options.folder / "grains.csv");
-  if (scene.vehicle) fmt::print("sinkage   {}\n", writeSinkageCsv(results, options.folder).string());
-  if (scene.output.plots) drawAndName(results, options.folder, kAllPlots);
+  if (scene.vehicle) fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, options.folder).string());
+  if (scene.output.plots) drawAndName(results, options.folder, output::kAllPlots);
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
-  listFiles(options.folder);
+  output::listFiles(options.folder);
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 
@@ -103,19 +103,19 @@ void sweepCommand(const SweepCommand& command) {
 }
 
 void hashCommand(const HashCommand& command) {
-  const SimulationState state = readCheckpoint(command.checkpoint).state;
+  const simulation::SimulationState state = simulation::readCheckpoint(command.checkpoint).state;
   fmt::print("state-hash {} step {}\n", state.hash(), state.steps);
 }
 
 void sinkageCommand(const SinkageCommand& command) {
   const fs::path results = command.results;
   const fs::path folder = command.folder.empty() ? fs::absolute(results).parent_path() : fs::path(command.folder);
-  fmt::print("sinkage   {}\n", writeSinkageCsv(results, folder).string());
+  fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder).string());
   drawAndName(results, folder, {"sinkage"});
 }
 
 void planCommand(const PlanCommand& command) {
-  const Scene scene = loadScene(command.scene, command.overrides);
+  const scene::Scene scene = scene::loadScene(command.scene, command.overrides);
   fmt::print("{}", planText(scene));
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
 }
@@ -134,8 +134,8 @@ void spheresCommand(const SpheresCommand& command) {
   std::string text = "x [m],y [m],z [m],radius [m]\n";
   for (const base::SetSphere& s : set.spheres)
     text += fmt::format("{},{},{},{}\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
-  writeTextFile(command.csv, text, "--csv");
+  support::writeTextFile(command.csv, text, "--csv");
   fmt::print("spheres   {}\n", command.csv);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// What each command of the program does, once its words are parsed. All throw; `main` catches.
-namespace grouser::runs {
+namespace grouser::commands {
 
 struct RunCommand {
   std::string scene;
@@ -68,4 +68,4 @@ struct SpheresCommand {
 };
 void spheresCommand(const SpheresCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

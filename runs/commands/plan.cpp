@@ -21,13 +21,13 @@
 #include <cmath>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace {
 
 /// Grains of the bed; reads the height-map, for hills may need more.
-std::int64_t bedGrains(const Scene& scene) {
-  return terrain::planBed(readSurface(scene), layerOptions(scene)).grains;
+std::int64_t bedGrains(const scene::Scene& scene) {
+  return terrain::planBed(setup::readSurface(scene), setup::layerOptions(scene)).grains;
 }
 
 std::string onOff(bool on, const std::string& what, const std::string& why) {
@@ -36,8 +36,8 @@ std::string onOff(bool on, const std::string& what, const std::string& why) {
 }
 
 /// Memory of the grains, by what it is for.
-std::string memoryText(const Scene& scene, double grains) {
-  const GrainMemory m = grainMemory(scene);
+std::string memoryText(const scene::Scene& scene, double grains) {
+  const setup::GrainMemory m = setup::grainMemory(scene);
   std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes a grain:\n", "memory for grains",
                                  grains * m.total() / 1048576.0, m.total());
   const auto part = [&](const char* what, double bytes) { text += fmt::format("    {:<22} {:.0f}\n", what, bytes); };
@@ -49,24 +49,24 @@ std::string memoryText(const Scene& scene, double grains) {
 
 /// What the grains' steps cost where they have been measured; parts and vehicle come on top. A core works on several
 /// contacts at once where grains have one radius, linear springs and nothing rarer.
-std::string costText(const Scene& scene, double grainSteps) {
+std::string costText(const scene::Scene& scene, double grainSteps) {
   const bool plain = scene.run.precision == "single" &&
-                     !(grainFeatures(scene, grainKinds(scene)) &
+                     !(setup::grainFeatures(scene, setup::grainKinds(scene)) &
                        ~(contact::kFriction | terrain::kBoundaries | terrain::kLoads | terrain::kLedger));
   std::string text;
   for (const RankSpeed& s : kRankSpeeds) {
     const double speed = s.grainSteps * (plain ? 1.0 : s.shareOfOthers);
     text += fmt::format("  {:<24} {} on {}, at {:.2g} grain steps/s (grouser bench bed), without vehicle and output\n",
-                        text.empty() ? "expected time" : "", Progress::duration(grainSteps / speed), s.name, speed);
+                        text.empty() ? "expected time" : "", support::Progress::duration(grainSteps / speed), s.name, speed);
   }
   return text;
 }
 
 /// "3: drum, lifter, lid; 2 move, 1 free".
-std::string surfacesLine(const Scene& scene) {
+std::string surfacesLine(const scene::Scene& scene) {
   std::string names;
   int moved = 0, freed = 0;
-  for (const SceneSurface& s : surfacesOf(scene)) {
+  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
     names += (names.empty() ? "" : ", ") + s.name;
     s.section.free ? ++freed : moved += s.section.moves() ? 1 : 0;
   }
@@ -75,14 +75,14 @@ std::string surfacesLine(const Scene& scene) {
   return onOff(true, "surfaces", fmt::format("{}; {} moved, {} free", names, moved, freed));
 }
 
-std::string switches(const Scene& scene) {
-  const Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
-  const GrainKinds kinds = grainKinds(scene);
+std::string switches(const scene::Scene& scene) {
+  const scene::Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
+  const setup::GrainKinds kinds = setup::grainKinds(scene);
   const bool bed = t && t->granular(), grains = kinds.any();
   std::string text = "switched on and off\n";
   text += onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
   if (grains) {
-    const unsigned features = grainFeatures(scene, kinds);
+    const unsigned features = setup::grainFeatures(scene, kinds);
     const auto has = [&](unsigned feature) { return (features & feature) != 0; };
     text += onOff(has(contact::kFriction), "friction history", has(contact::kFriction) ? "" : "friction is 0");
     text += onOff(has(contact::kRollingFriction), "rolling history",
@@ -111,8 +111,8 @@ std::string switches(const Scene& scene) {
   text += surfacesLine(scene);
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
-  const MechanismSections& m = scene.mechanism;
-  text += onOff(!m.empty(), "mechanism", m.empty() ? "no [[body]]" : integratorText(scene.run));
+  const scene::MechanismSections& m = scene.mechanism;
+  text += onOff(!m.empty(), "mechanism", m.empty() ? "no [[body]]" : output::integratorText(scene.run));
   text += onOff(scene.output.frames, "frames",
                 scene.output.frames ? fmt::format("{:.0f}, one each {} s",
                                                   std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,
@@ -125,33 +125,33 @@ std::string switches(const Scene& scene) {
 
 } // namespace
 
-std::int64_t plannedGrains(const Scene& scene) {
-  std::int64_t grains = placedCount(scene);
-  for (const Source& s : scene.sources) grains += s.total;
+std::int64_t plannedGrains(const scene::Scene& scene) {
+  std::int64_t grains = setup::placedCount(scene);
+  for (const scene::Source& s : scene.sources) grains += s.total;
   return grains + (scene.terrain && scene.terrain->granular() ? bedGrains(scene) : 0);
 }
 
-std::string planText(const Scene& scene) {
+std::string planText(const scene::Scene& scene) {
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
   const std::int64_t grains = plannedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);
   if (grains) text += memoryText(scene, static_cast<double>(grains));
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-    placeVehicle(scene, spec);
+    setup::placeVehicle(scene, spec);
     text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
                         spec.shoe.count, spec.pitchRadius());
   }
-  const double step = chooseTimeStep(scene);
-  checkGround(scene, step);
-  if (!scene.mechanism.empty()) text += mechanismSize(Mechanism(scene, step));
+  const double step = setup::chooseTimeStep(scene);
+  setup::checkGround(scene, step);
+  if (!scene.mechanism.empty()) text += output::mechanismSize(simulation::Mechanism(scene, step));
   text += "\ntime\n";
-  const double contact = shortestContact(scene);
-  const double resolved = contact / kStepsPerContact;
+  const double contact = setup::shortestContact(scene);
+  const double resolved = contact / setup::kStepsPerContact;
   if (contact > 0) {
     text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
     text +=
-        fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, kStepsPerContact);
+        fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, setup::kStepsPerContact);
   }
   const double steps = std::round(scene.run.duration / step);
   text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
@@ -163,9 +163,9 @@ std::string planText(const Scene& scene) {
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
                         contact / step, resolved);
   if (!scene.mechanism.empty())
-    if (const std::string warning = tautStartWarning(scene, step); !warning.empty())
+    if (const std::string warning = simulation::tautStartWarning(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

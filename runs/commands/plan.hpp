@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 /// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
-std::string planText(const Scene& scene);
+std::string planText(const scene::Scene& scene);
 
 /// What one rank does, from `grouser bench bed`: the figures that expectations rest on.
 struct RankSpeed {
@@ -23,10 +23,10 @@ inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.3, 20e-6, 2e
                                             {"an H200", 4.4e9, 1.0, 100e-6, 5e10}};
 
 /// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
-std::int64_t plannedGrains(const Scene& scene);
+std::int64_t plannedGrains(const scene::Scene& scene);
 
 /// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, and the efficiency to expect from the
 /// stated speeds. Empty for a scene without grains.
-std::string sharePlan(const Scene& scene, int ranks);
+std::string sharePlan(const scene::Scene& scene, int ranks);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

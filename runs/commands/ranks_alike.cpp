@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace fs = std::filesystem;
 
@@ -42,14 +42,14 @@ void requireSameCommand(const std::string& command, const base::Comm& comm) {
                       std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
 }
 
-void requireAlike(const Scene& scene, const std::string& commandLine, const base::Comm& comm) {
+void requireAlike(const scene::Scene& scene, const std::string& commandLine, const base::Comm& comm) {
   if (comm.alone()) return;
-  const BuildInfo build = buildInfo();
+  const support::BuildInfo build = support::buildInfo();
   const std::pair<const char*, std::string> facts[] = {
       {"program (version, commit, compiler, hash of its file)",
-       fmt::format("{}, {}, {}, {}", build.version, build.commit, build.compiler, programHash())},
-      {"scene", resolvedToml(scene)},
-      {"files that the scene names", inputsOf(scene)},
+       fmt::format("{}, {}, {}, {}", build.version, build.commit, build.compiler, support::programHash())},
+      {"scene", scene::resolvedToml(scene)},
+      {"files that the scene names", simulation::inputsOf(scene)},
       {"command line", commandLine.substr(std::min(commandLine.find(' '), commandLine.size()))},
   };
   for (const auto& [what, mine] : facts) {
@@ -75,7 +75,7 @@ std::optional<int> rankThatMisses(const fs::path& folder, const base::Comm& comm
   bool seen = true;
   if (comm.first()) {
     try {
-      writeTextFile(sign, words, "results");
+      support::writeTextFile(sign, words, "results");
     } catch (const std::exception&) {
       seen = false;
     }
@@ -91,4 +91,4 @@ std::optional<int> rankThatMisses(const fs::path& folder, const base::Comm& comm
   return missing == all.end() ? std::nullopt : std::optional(static_cast<int>(missing - all.begin()));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

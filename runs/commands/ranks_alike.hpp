@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 /// Throws base::InputError where a rank was told another command than the first one: some of them would wait for ever
 /// for what the others never do. `command`: "run", or "bench bed".
@@ -17,11 +17,11 @@ void requireSameCommand(const std::string& command, const base::Comm& comm);
 /// Throws base::InputError, naming the rank and what differs, where the ranks run other programs or other scenes than
 /// the first one, or were told to do something else with them: the promise of one answer holds for one program and one
 /// scene. `commandLine`: the program, and all its words behind the first space.
-void requireAlike(const Scene& scene, const std::string& commandLine, const base::Comm& comm);
+void requireAlike(const scene::Scene& scene, const std::string& commandLine, const base::Comm& comm);
 
 /// A rank that does not see what the first one writes in this folder: the folder lies on a disk of each host's own, or
 /// the ranks were started in different places. None where all do; the first where it cannot write there at all. All
 /// ranks call it and learn the same; it takes seconds where something is amiss. Leaves nothing behind.
 std::optional<int> rankThatMisses(const std::filesystem::path& folder, const base::Comm& comm);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

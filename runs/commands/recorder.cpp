@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace {
 
@@ -36,8 +36,8 @@ const char* kindName(vehicle::PartKind kind) {
   return "part";
 }
 
-std::vector<FramePart> frameParts(const VehicleRig& rig) {
-  std::vector<FramePart> parts;
+std::vector<output::FramePart> frameParts(const simulation::VehicleRig& rig) {
+  std::vector<output::FramePart> parts;
   for (std::size_t p = 0; p < rig.assembly().parts.size(); ++p) {
     const vehicle::Part& part = rig.assembly().parts[p];
     parts.push_back({part.name, kindName(part.kind), rig.meshes()[rig.meshOfPart(p)]});
@@ -63,24 +63,24 @@ base::TriangleMesh groundMesh(const terrain::HeightField& field) {
   return mesh;
 }
 
-std::vector<Channel> channelsOf(const Simulation& simulation, const Scene& scene) {
-  std::vector<Channel> channels;
-  if (simulation.mechanism()) channels = mechanismChannels(simulation.mechanism()->model(), scene.output.record);
+std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation, const scene::Scene& scene) {
+  std::vector<output::Channel> channels;
+  if (simulation.mechanism()) channels = output::mechanismChannels(simulation.mechanism()->model(), scene.output.record);
   if (simulation.vehicle())
     for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
-      channels.push_back(channelOf(q));
+      channels.push_back(output::channelOf(q));
   if (simulation.ground().grains)
-    for (const Channel& c : terrainChannels()) channels.push_back(c);
-  if (const Surfaces* surfaces = simulation.surfaces())
+    for (const output::Channel& c : output::terrainChannels()) channels.push_back(c);
+  if (const simulation::Surfaces* surfaces = simulation.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
-      for (const Channel& c : surfaceChannels(surfaces->surface(i).name)) channels.push_back(c);
-  for (const Channel& c : ledgerChannels()) channels.push_back(c);
+      for (const output::Channel& c : output::surfaceChannels(surfaces->surface(i).name)) channels.push_back(c);
+  for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
 }
-RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, const base::Exec& exec,
-                                 const std::vector<Channel>& channels, const Checkpoint* former) {
-  RunWriter::Options w;
+output::RunWriter::Options writerOptions(const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
+                                 const std::vector<output::Channel>& channels, const simulation::Checkpoint* former) {
+  output::RunWriter::Options w;
   w.force = options.force;
   w.frames = scene.output.frames;
   w.comm = options.comm();
@@ -89,12 +89,12 @@ RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, 
   if (!former) return w;
   const std::int64_t step = former->state.steps;
   w.metadata["resumed_from_step"] = std::to_string(step);
-  w.former = FormerOutput{};
+  w.former = output::FormerOutput{};
   // One rank reads and rewrites them; it tells the others what it keeps.
   if (w.comm.first()) {
     try {
-      FormerOutput kept{readRows(options.folder, channels, step, former->rows), former->frames};
-      if (w.frames && kept.frames > 0) checkFrames(options.folder, step, former->frames);
+      output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
+      if (w.frames && kept.frames > 0) output::checkFrames(options.folder, step, former->frames);
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
@@ -106,7 +106,7 @@ RunWriter::Options writerOptions(const Scene& scene, const RunOptions& options, 
 }
 
 /// Where the cuts between subdomains cross the axes [m].
-std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
+std::array<std::vector<double>, 3> render::bordersOf(const terrain::Grains& grains) {
   std::array<std::vector<double>, 3> borders;
   if (const terrain::Subdomain* subdomain = grains.subdomain())
     for (int axis = 0; axis < 3; ++axis)
@@ -116,9 +116,9 @@ std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
 }
 
 /// All grains, on the first rank.
-Frame gathered(const Frame& mine, const base::Comm& comm) {
+output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
   if (comm.alone()) return mine;
-  Frame whole = mine;
+  output::Frame whole = mine;
   const auto collect = [&comm](auto& values) {
     using T = typename std::decay_t<decltype(values)>::value_type;
     std::vector<base::Bytes> to(static_cast<std::size_t>(comm.size()));
@@ -135,8 +135,8 @@ Frame gathered(const Frame& mine, const base::Comm& comm) {
 
 } // namespace
 
-Recorder::Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec,
-                   const Checkpoint* former)
+Recorder::Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
+                   const simulation::Checkpoint* former)
     : simulation_(simulation), channels_(channelsOf(simulation, scene)), row_(channels_), record_(scene.output.record),
       frames_(scene.output.frames),
       writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
@@ -148,27 +148,27 @@ Recorder::Recorder(Simulation& simulation, const Scene& scene, const RunOptions&
   }
 }
 
-void Recorder::begin(const Scene& scene, const RunOptions& options, const Checkpoint* former) {
-  if (const VehicleRig* rig = simulation_.vehicle()) {
+void Recorder::begin(const scene::Scene& scene, const RunOptions& options, const simulation::Checkpoint* former) {
+  if (const simulation::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
     writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
   }
-  if (const Mechanism* mechanism = simulation_.mechanism()) parts_ = mechanismParts(scene, mechanism->model());
-  if (const Surfaces* surfaces = simulation_.surfaces())
+  if (const simulation::Mechanism* mechanism = simulation_.mechanism()) parts_ = output::mechanismParts(scene, mechanism->model());
+  if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
-      parts_.push_back({surfaces->surface(i).name, kSurfaceKind, surfaceMesh(scene, surfaces->surface(i))});
-  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : planeMesh(scene);
+      parts_.push_back({surfaces->surface(i).name, output::kSurfaceKind, output::surfaceMesh(scene, surfaces->surface(i))});
+  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(scene);
   writer_.setParts(parts_, ground_);
   if (const auto& grains = simulation_.ground().grains;
-      grains && GrainsCsv::isWanted(scene, static_cast<std::int64_t>(grains->count())))
+      grains && output::GrainsCsv::isWanted(scene, static_cast<std::int64_t>(grains->count())))
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
 }
 
 void Recorder::row() {
   row_.begin(simulation_.steps(), simulation_.time());
-  if (const VehicleRig* rig = simulation_.vehicle()) row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
-  const Simulation::Ledger l = simulation_.ledger();
+  if (const simulation::VehicleRig* rig = simulation_.vehicle()) row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
+  const simulation::Simulation::Ledger l = simulation_.ledger();
   simulation_.checkEnergy(l);
   if (const auto& grains = simulation_.ground().grains) {
     row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
@@ -176,14 +176,14 @@ void Recorder::row() {
     row_.set("terrain/max_speed", l.fastestGrain);
     row_.set("terrain/rebuilds", static_cast<double>(grains->rebuilds()));
   }
-  if (const Surfaces* surfaces = simulation_.surfaces())
+  if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) {
-      const Surfaces::Observation o = surfaces->observe(i, simulation_.steps());
+      const simulation::Surfaces::Observation o = surfaces->observe(i, simulation_.steps());
       const std::string group = "surfaces/" + surfaces->surface(i).name + "/";
       row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
       row_.set(group + "power", o.power), row_.set(group + "position", o.position);
     }
-  if (const Mechanism* mechanism = simulation_.mechanism()) setMechanismRow(row_, *mechanism, record_);
+  if (const simulation::Mechanism* mechanism = simulation_.mechanism()) output::setMechanismRow(row_, *mechanism, record_);
   row_.set("ledger/drive_work", l.driveWork);
   row_.set("ledger/kinetic", l.kinetic);
   row_.set("ledger/potential", l.potential);
@@ -200,8 +200,8 @@ void Recorder::frame() {
   if (frames_) writer_.frame(currentFrame());
 }
 
-Frame Recorder::currentFrame() const {
-  Frame frame;
+output::Frame Recorder::currentFrame() const {
+  output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
   if (const auto& grains = simulation_.ground().grains) {
     const terrain::GrainSnapshot s = grains->snapshot();
@@ -210,23 +210,23 @@ Frame Recorder::currentFrame() const {
       frame.speeds.push_back(norm(s.velocity[i]));
       frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
     }
-    frame.borders = bordersOf(*grains);
+    frame.borders = render::bordersOf(*grains);
     frame.radii = s.radius;
     if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
   }
-  if (const VehicleRig* rig = simulation_.vehicle())
+  if (const simulation::VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
-  if (const Surfaces* surfaces = simulation_.surfaces())
+  if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
-  if (const Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
+  if (const simulation::Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
   return frame;
 }
 
 void Recorder::picture(int width) {
-  const Frame whole = gathered(currentFrame(), simulation_.comm());
+  const output::Frame whole = gathered(currentFrame(), simulation_.comm());
   if (!simulation_.comm().first()) return;
-  writePng(drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
+  render::writePng(render::drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
            writer_.folder() / "picture.png");
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -12,35 +12,35 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 /// What a run writes: channels, rows and frames of one simulation. On several ranks all of them have one.
 class Recorder {
 public:
   /// `former`: the checkpoint that the run goes on from, or null.
-  Recorder(Simulation& simulation, const Scene& scene, const RunOptions& options, const base::Exec& exec,
-           const Checkpoint* former);
+  Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
+           const simulation::Checkpoint* former);
 
   void row();
   void frame();
   /// picture.png of the present state.
   void picture(int width);
 
-  RunWriter& writer() { return writer_; }
+  output::RunWriter& writer() { return writer_; }
 
 private:
-  void begin(const Scene& scene, const RunOptions& options, const Checkpoint* former);
-  Frame currentFrame() const;
+  void begin(const scene::Scene& scene, const RunOptions& options, const simulation::Checkpoint* former);
+  output::Frame currentFrame() const;
 
-  Simulation& simulation_;
-  std::vector<Channel> channels_;
-  RowBuilder row_;
+  simulation::Simulation& simulation_;
+  std::vector<output::Channel> channels_;
+  output::RowBuilder row_;
   const std::vector<std::string> record_;
   bool frames_;
-  std::vector<FramePart> parts_;
+  std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
-  RunWriter writer_;
-  std::optional<GrainsCsv> grainsCsv_;
+  output::RunWriter writer_;
+  std::optional<output::GrainsCsv> grainsCsv_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::commands

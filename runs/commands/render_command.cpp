@@ -16,7 +16,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace fs = std::filesystem;
 
@@ -25,7 +25,7 @@ namespace {
 constexpr int kSmallest = 16, kLargest = 16384; ///< width and height of a picture [pixels]
 
 /// Frames to paint, ascending.
-std::vector<std::size_t> chosenFrames(const FramesReader& reader, const RenderCommand& c) {
+std::vector<std::size_t> chosenFrames(const output::FramesReader& reader, const RenderCommand& c) {
   const std::size_t count = reader.count();
   const std::string held = fmt::format("{} holds frames 0 to {}, from t = {:g} s to {:g} s", reader.path().string(),
                                        count - 1, reader.time(0), reader.time(count - 1));
@@ -46,10 +46,10 @@ std::vector<std::size_t> chosenFrames(const FramesReader& reader, const RenderCo
   return frames;
 }
 
-LookAt lookAtOf(const std::string& text, bool hasVehicle, base::Vec3d& point) {
-  if (text.empty()) return hasVehicle ? LookAt::Vehicle : LookAt::All;
-  if (text == "vehicle") return LookAt::Vehicle;
-  if (text == "all") return LookAt::All;
+render::LookAt lookAtOf(const std::string& text, bool hasVehicle, base::Vec3d& point) {
+  if (text.empty()) return hasVehicle ? render::LookAt::Vehicle : render::LookAt::All;
+  if (text == "vehicle") return render::LookAt::Vehicle;
+  if (text == "all") return render::LookAt::All;
   const char *at = text.data(), *end = at + text.size();
   for (int k = 0; k < 3; ++k) {
     const auto [stop, error] = std::from_chars(at, end, point[k]);
@@ -59,24 +59,24 @@ LookAt lookAtOf(const std::string& text, bool hasVehicle, base::Vec3d& point) {
           fmt::format("--look-at {}: is none of vehicle, all and a place X,Y,Z in metres, e.g. 1.5,0,0.2", text));
     at = stop + 1;
   }
-  return LookAt::Point;
+  return render::LookAt::Point;
 }
 
-PaintOptions paintOptions(const RenderCommand& c, bool hasVehicle) {
-  PaintOptions o;
-  FrameView& v = o.view;
+render::PaintOptions paintOptions(const RenderCommand& c, bool hasVehicle) {
+  render::PaintOptions o;
+  render::FrameView& v = o.view;
   v.lookAt = lookAtOf(c.lookAt, hasVehicle, v.point);
   v.azimuth = c.azimuth, v.elevation = c.elevation, v.distance = c.distance;
   std::tie(v.width, v.height) = pictureSize(c.size);
-  o.quantity = grainQuantity(c.color);
+  o.quantity = render::grainQuantity(c.color);
   if (!c.range.empty()) {
-    if (o.quantity != GrainQuantity::Depth && o.quantity != GrainQuantity::Speed)
+    if (o.quantity != render::GrainQuantity::Depth && o.quantity != render::GrainQuantity::Speed)
       throw base::InputError(fmt::format("--range: is for the colours depth and speed, not for {}", c.color));
     if (!(c.range[0] < c.range[1]))
       throw base::InputError(fmt::format("--range {:g} {:g}: give the lower end first", c.range[0], c.range[1]));
-    o.range = ValueRange{c.range[0], c.range[1]};
+    o.range = render::ValueRange{c.range[0], c.range[1]};
   }
-  o.borders = bordersOf(c.borders);
+  o.borders = render::bordersOf(c.borders);
   o.labels = c.labels;
   return o;
 }
@@ -97,7 +97,7 @@ void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vec
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw base::InputError(fmt::format("--out {}: is a file; name a folder for the pictures", folder.string()));
-  if (!c.film.empty()) checkFilm(c.film);
+  if (!c.film.empty()) render::checkFilm(c.film);
   if (c.force) return;
   for (const std::size_t frame : frames)
     if (const fs::path file = picturePath(folder, frame); fs::exists(file, error))
@@ -125,7 +125,7 @@ private:
 };
 
 /// Paints the share of this rank; its processes share it in turn.
-void paintShare(const RenderCommand& c, const FramePainter& painter, const std::vector<std::size_t>& frames,
+void paintShare(const RenderCommand& c, const render::FramePainter& painter, const std::vector<std::size_t>& frames,
                 const fs::path& folder) {
   std::vector<std::size_t> mine;
   std::vector<fs::path> pictures;
@@ -135,14 +135,14 @@ void paintShare(const RenderCommand& c, const FramePainter& painter, const std::
   const Sweeper sweeper(pictures);
   const int processes = std::max(1, std::min(c.processes, static_cast<int>(mine.size())));
   const int threads = c.threads > 0 ? c.threads : std::max(1, coresOf(c) / processes);
-  Progress progress("pictures", c.comm.first());
+  support::Progress progress("pictures", c.comm.first());
   std::size_t done = 0;
   const auto paint = [&](std::size_t i) {
     omp_set_num_threads(threads);
-    writePng(painter.paint(mine[i]), unfinished(pictures[i]));
+    render::writePng(painter.paint(mine[i]), unfinished(pictures[i]));
     fs::rename(unfinished(pictures[i]), pictures[i]);
   };
-  shareWork(processes, mine.size(), paint, [&] {
+  support::shareWork(processes, mine.size(), paint, [&] {
     ++done;
     progress.update(static_cast<double>(done) / static_cast<double>(mine.size()),
                     fmt::format("{} of {}", done, mine.size()));
@@ -167,13 +167,13 @@ std::pair<int, int> pictureSize(const std::string& text) {
 }
 
 void renderCommand(const RenderCommand& c) {
-  const FramesReader reader(c.frames);
-  const PaintOptions options = paintOptions(c, reader.hasVehicle());
+  const output::FramesReader reader(c.frames);
+  const render::PaintOptions options = paintOptions(c, reader.hasVehicle());
   const std::vector<std::size_t> frames = chosenFrames(reader, c);
   const fs::path folder =
       c.folder.empty() ? fs::absolute(c.frames).lexically_normal().parent_path() / "pictures" : fs::path(c.folder);
   checkTargets(c, folder, frames);
-  const FramePainter painter(reader, options);
+  const render::FramePainter painter(reader, options);
   c.comm.wait(); // all have looked at what is there before the first of them writes
   std::error_code error;
   fs::create_directories(folder, error);
@@ -194,9 +194,9 @@ void renderCommand(const RenderCommand& c) {
   if (c.film.empty()) return;
   std::vector<fs::path> pictures;
   for (const std::size_t frame : frames) pictures.push_back(picturePath(folder, frame));
-  makeFilm(pictures, c.framesPerSecond, c.film);
+  render::makeFilm(pictures, c.framesPerSecond, c.film);
   fmt::print("film      {}: {:g} frames/s, {:.2f} s\n", c.film, c.framesPerSecond,
              static_cast<double>(frames.size()) / c.framesPerSecond);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

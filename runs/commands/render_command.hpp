@@ -10,7 +10,7 @@
 #include <vector>
 
 /// `grouser render`: pictures and a film of a run's frames.h5.
-namespace grouser::runs {
+namespace grouser::commands {
 
 struct RenderCommand {
   std::string frames;               ///< the file
@@ -43,4 +43,4 @@ std::pair<int, int> pictureSize(const std::string& text);
 /// are whole. Throws base::InputError before anything is written, and Stopped after a signal.
 void renderCommand(const RenderCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace {
 
@@ -33,10 +33,10 @@ public:
   explicit SignalWatch(const base::Comm& comm) : comm_(comm) {}
 
   int receivedAt(std::int64_t step) {
-    if (comm_.alone()) return StopSignals::received();
+    if (comm_.alone()) return support::StopSignals::received();
     if (step < next_) return 0;
     const double perStep = since(asked_) / static_cast<double>(std::max<std::int64_t>(1, step - last_));
-    std::uint64_t all[] = {static_cast<std::uint64_t>(StopSignals::received()),
+    std::uint64_t all[] = {static_cast<std::uint64_t>(support::StopSignals::received()),
                            static_cast<std::uint64_t>(1e9 * perStep) + 1};
     comm_.maximum(all, 2);
     constexpr std::uint64_t kWithin = 200'000'000, kMost = 100; // [ns], steps
@@ -52,7 +52,7 @@ private:
 };
 
 /// How the grains are shared out.
-void describeRanks(const Simulation& simulation) {
+void describeRanks(const simulation::Simulation& simulation) {
   const auto& grains = simulation.ground().grains;
   if (!grains || !grains->subdomain()) return;
   const terrain::Subdomain& mine = *grains->subdomain();
@@ -66,7 +66,7 @@ void describeRanks(const Simulation& simulation) {
 }
 
 /// How well the work was shared while driving. `waiting`: this rank's share of that time that it waited [-].
-void describeSharing(const Simulation& simulation, double waiting, Summary& summary) {
+void describeSharing(const simulation::Simulation& simulation, double waiting, output::Summary& summary) {
   const auto& grains = simulation.ground().grains;
   const base::Comm& comm = simulation.comm();
   if (!grains || !grains->subdomain()) return;
@@ -80,7 +80,7 @@ void describeSharing(const Simulation& simulation, double waiting, Summary& summ
   summary.figures["rebalancings"] = static_cast<double>(grains->rebalancings());
 }
 
-void describeBuild(const Simulation& simulation, const base::Exec& exec, const BedCache* beds) {
+void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {} of radius {:g} m, {:.0f} bytes each\n", grains->count(), grains->model().radius,
@@ -91,30 +91,30 @@ void describeBuild(const Simulation& simulation, const base::Exec& exec, const B
     fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",
                simulation.settled().time, simulation.settled().agitation);
   if (beds && !beds->story().empty()) fmt::print("bed       {}\n", beds->story());
-  if (const VehicleRig* rig = simulation.vehicle()) {
+  if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
   }
-  if (const Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", mechanismSize(*mechanism));
+  if (const simulation::Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", output::mechanismSize(*mechanism));
   std::fflush(stdout);
 }
 
 /// The checkpoint of a run, written again and again.
 class Checkpoints {
 public:
-  Checkpoints(const Scene& scene, const RunOptions& options) : path_(options.folder / kCheckpointName) {
-    checkpoint_.scene = resolvedToml(scene);
-    checkpoint_.inputs = inputsOf(scene);
-    checkpoint_.commit = buildInfo().commit;
+  Checkpoints(const scene::Scene& scene, const RunOptions& options) : path_(options.folder / simulation::kCheckpointName) {
+    checkpoint_.scene = scene::resolvedToml(scene);
+    checkpoint_.inputs = simulation::inputsOf(scene);
+    checkpoint_.commit = support::buildInfo().commit;
   }
 
-  void write(const Simulation& simulation, RunWriter& writer) {
+  void write(const simulation::Simulation& simulation, output::RunWriter& writer) {
     if (writtenAt_ == simulation.steps()) return;
     writer.sync();
     checkpoint_.timeStep = simulation.timeStep();
     checkpoint_.rows = writer.rows(), checkpoint_.frames = writer.frames();
     checkpoint_.state = simulation.save();
-    writeCheckpoint(path_, checkpoint_, simulation.comm());
+    simulation::writeCheckpoint(path_, checkpoint_, simulation.comm());
     checkpoint_.state = {};
     writtenAt_ = simulation.steps();
   }
@@ -125,49 +125,49 @@ public:
 
 private:
   std::filesystem::path path_;
-  Checkpoint checkpoint_;
+  simulation::Checkpoint checkpoint_;
   std::int64_t writtenAt_ = -1;
 };
 
 /// Reads the checkpoint of a run to be resumed; null for one from the start.
-std::unique_ptr<Checkpoint> formerRun(const Scene& scene, const RunOptions& options) {
+std::unique_ptr<simulation::Checkpoint> formerRun(const scene::Scene& scene, const RunOptions& options) {
   if (!options.resume) return nullptr;
-  auto former = std::make_unique<Checkpoint>(readCheckpoint(*options.resume, options.comm()));
-  checkSameScene(*former, *options.resume, scene);
-  if (former->commit != buildInfo().commit && options.comm().first())
+  auto former = std::make_unique<simulation::Checkpoint>(simulation::readCheckpoint(*options.resume, options.comm()));
+  simulation::checkSameScene(*former, *options.resume, scene);
+  if (former->commit != support::buildInfo().commit && options.comm().first())
     fmt::print(stderr,
                "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
                "are\n",
-               options.resume->string(), former->commit, buildInfo().commit);
+               options.resume->string(), former->commit, support::buildInfo().commit);
   return former;
 }
 
 /// At the checkpoint, or at the start: then the bed is settled first.
-std::unique_ptr<Simulation> makeSimulation(const Scene& scene, const base::Exec& exec, const Checkpoint* former,
-                                           const base::Comm& comm, BedCache* beds) {
-  if (former) return std::make_unique<Simulation>(scene, exec, former->state, comm);
-  std::unique_ptr<Progress> settling;
+std::unique_ptr<simulation::Simulation> makeSimulation(const scene::Scene& scene, const base::Exec& exec, const simulation::Checkpoint* former,
+                                           const base::Comm& comm, simulation::BedCache* beds) {
+  if (former) return std::make_unique<simulation::Simulation>(scene, exec, former->state, comm);
+  std::unique_ptr<support::Progress> settling;
   const auto settle = [&](double time, double agitation) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
-      throw Stopped(signal,
-                    fmt::format("stopped by {} while the bed settled; nothing was written", StopSignals::name(signal)));
-    if (!settling) settling = std::make_unique<Progress>("settling", comm.first());
+      throw support::Stopped(signal,
+                    fmt::format("stopped by {} while the bed settled; nothing was written", support::StopSignals::name(signal)));
+    if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit,
                      fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   };
-  auto simulation = std::make_unique<Simulation>(scene, exec, settle, comm, beds);
+  auto simulation = std::make_unique<simulation::Simulation>(scene, exec, settle, comm, beds);
   if (settling) settling->finish("at rest");
   return simulation;
 }
 
 /// Steps to the end, with rows, frames and checkpoints on the way. Throws Stopped where a signal came.
-void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const Scene& scene,
+void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const scene::Scene& scene,
            std::int64_t total) {
   const double dt = simulation.timeStep();
   const auto stepsOf = [dt](double interval) { return std::max<std::int64_t>(1, std::llround(interval / dt)); };
   const std::int64_t rowEvery = stepsOf(scene.run.outputInterval), frameEvery = stepsOf(scene.run.frameInterval);
   const std::int64_t saveEvery = scene.run.checkpointInterval > 0 ? stepsOf(scene.run.checkpointInterval) : total + 1;
-  Progress progress("running", simulation.comm().first());
+  support::Progress progress("running", simulation.comm().first());
   SignalWatch signals(simulation.comm());
   while (simulation.steps() < total) {
     const std::int64_t now = simulation.steps();
@@ -178,8 +178,8 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
     if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
     if (const int signal = signals.receivedAt(simulation.steps())) {
       checkpoints.write(simulation, recorder.writer());
-      throw Stopped(signal, fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
-                                        StopSignals::name(signal), simulation.time(), checkpoints.last()));
+      throw support::Stopped(signal, fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
+                                        support::StopSignals::name(signal), simulation.time(), checkpoints.last()));
     }
     if (progress.due())
       progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
@@ -195,19 +195,19 @@ void drive(Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
 
 } // namespace
 
-Summary runScene(const Scene& scene, const RunOptions& options) {
+output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
   const Clock::time_point start = Clock::now();
-  const StopSignals signals;
+  const support::StopSignals signals;
   requireAlike(scene, options.commandLine, options.comm());
-  const base::Exec exec = chooseDevice(scene.run.device, scene.run.threads, options.ranks);
-  FileLock folder; // of a run that goes on; one that begins makes its folder later
-  if (options.resume && options.comm().first()) claimFolder(folder, options.folder);
-  const std::unique_ptr<Checkpoint> former = formerRun(scene, options);
-  std::optional<BedCache> beds;
-  if (options.cache && scene.terrain && scene.terrain->cache) beds = BedCache::ofUser(options.comm());
-  const std::unique_ptr<Simulation> made =
+  const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
+  support::FileLock folder; // of a run that goes on; one that begins makes its folder later
+  if (options.resume && options.comm().first()) output::claimFolder(folder, options.folder);
+  const std::unique_ptr<simulation::Checkpoint> former = formerRun(scene, options);
+  std::optional<simulation::BedCache> beds;
+  if (options.cache && scene.terrain && scene.terrain->cache) beds = simulation::BedCache::ofUser(options.comm());
+  const std::unique_ptr<simulation::Simulation> made =
       makeSimulation(scene, exec, former.get(), options.comm(), beds ? &*beds : nullptr);
-  Simulation& simulation = *made;
+  simulation::Simulation& simulation = *made;
   const std::int64_t whole = std::llround(scene.run.duration / simulation.timeStep()), begin = simulation.steps(),
                      total = std::min(whole, options.steps.value_or(whole));
   if (begin > total)
@@ -216,7 +216,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   const double prepared = since(start);
   describeBuild(simulation, exec, beds ? &*beds : nullptr);
   if (simulation.mechanism() && !former && options.comm().first())
-    if (const std::string warning = tautStartWarning(scene, simulation.timeStep()); !warning.empty())
+    if (const std::string warning = simulation::tautStartWarning(scene, simulation.timeStep()); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
 
   Recorder recorder(simulation, scene, options, exec, former.get());
@@ -230,7 +230,7 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   try {
     if (!former) recorder.row(), recorder.frame();
     drive(simulation, recorder, checkpoints, scene, total);
-  } catch (const Stopped& stopped) {
+  } catch (const support::Stopped& stopped) {
     recorder.writer().stop(stopped.what());
     throw;
   } catch (const base::SimulationError& error) {
@@ -245,14 +245,14 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   const double drove = since(driving), waiting = (options.comm().waited() - waitedBefore) / drove;
   if (scene.output.picture) recorder.picture(scene.output.pictureWidth);
 
-  Summary summary;
+  output::Summary summary;
   summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
   summary.wallTime = since(start);
   summary.figures["wall_preparation_s"] = prepared;
   summary.figures["wall_steps_s"] = drove;
   summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
   if (options.hash) summary.stateHash = simulation.stateHash();
-  const Simulation::Ledger l = simulation.ledger();
+  const simulation::Simulation::Ledger l = simulation.ledger();
   fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
              "dissipated {:+.4g}; left over {:.3g}\n",
              l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
@@ -266,4 +266,4 @@ Summary runScene(const Scene& scene, const RunOptions& options) {
   return summary;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

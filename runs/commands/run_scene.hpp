@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 /// What the command line adds to a scene.
 struct RunOptions {
@@ -29,6 +29,6 @@ struct RunOptions {
 /// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.
 /// With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the end, and where
 /// SIGINT or SIGTERM stops the run. Throws InputError, SimulationError, DeviceError, or Stopped.
-Summary runScene(const Scene& scene, const RunOptions& options);
+output::Summary runScene(const scene::Scene& scene, const RunOptions& options);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

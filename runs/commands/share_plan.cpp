@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace {
 
@@ -21,11 +21,11 @@ constexpr double kBytesPerGhost = 48; // position, velocity and spin
 
 } // namespace
 
-std::string sharePlan(const Scene& scene, int ranks) {
+std::string sharePlan(const scene::Scene& scene, int ranks) {
   const bool bed = scene.terrain && scene.terrain->granular();
   const double grains = static_cast<double>(plannedGrains(scene));
   if (grains == 0) return "";
-  const double radius = grainKinds(scene).largest;
+  const double radius = setup::grainKinds(scene).largest;
   std::array<double, 3> size{};
   if (bed) {
     const double volume = grains * (4.0 / 3.0) * 3.14159265 * radius * radius * radius / scene.terrain->packing;
@@ -33,17 +33,17 @@ std::string sharePlan(const Scene& scene, int ranks) {
   } else {
     base::Vec3d low{1e300, 1e300, 1e300}, high = -low;
     const auto include = [&](const base::Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
-    for (const Grain& g : scene.grains) include(g.position);
-    for (const GrainBlock& b : scene.blocks) {
-      for (const Grain& g : b.fromFile) include(g.position);
+    for (const scene::Grain& g : scene.grains) include(g.position);
+    for (const scene::GrainBlock& b : scene.blocks) {
+      for (const scene::Grain& g : b.fromFile) include(g.position);
       if (b.low) include(*b.low), include(*b.high);
     }
-    for (const Source& s : scene.sources) include(s.low), include(s.high);
-    for (const Plane& p : scene.planes) include(p.point);
+    for (const scene::Source& s : scene.sources) include(s.low), include(s.high);
+    for (const scene::Plane& p : scene.planes) include(p.point);
     for (int a = 0; a < 3; ++a) size[static_cast<std::size_t>(a)] = high[a] - low[a] + 2 * radius;
   }
-  checkLattice(scene, ranks);
-  const std::array<int, 3> shape = terrain::latticeShape(ranks, size, wantedSubdomains(scene));
+  setup::checkLattice(scene, ranks);
+  const std::array<int, 3> shape = terrain::latticeShape(ranks, size, setup::wantedSubdomains(scene));
 
   // A slave lies within range beyond a border; an inner subdomain has two borders on each axis that is cut.
   const double range = (2 + scene.run.skin) * radius;
@@ -59,7 +59,7 @@ std::string sharePlan(const Scene& scene, int ranks) {
   text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains a rank", each, ghosts);
   text += fmt::format("  {:<24} {:.2f} % of the grains\n", "ghosts in all", 100 * (all - 1));
   text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
-                      (each + ghosts) * grainMemory(scene).most() / 1048576.0);
+                      (each + ghosts) * setup::grainMemory(scene).most() / 1048576.0);
   text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
   for (const RankSpeed& s : kRankSpeeds) {
     // Messages travel beside the work on grains that need none.
@@ -73,4 +73,4 @@ std::string sharePlan(const Scene& scene, int ranks) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

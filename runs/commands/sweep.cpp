@@ -22,7 +22,7 @@
 #include <map>
 #include <thread>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace fs = std::filesystem;
 
@@ -31,10 +31,10 @@ namespace {
 constexpr const char* kLog = "log.txt"; // what a run printed
 
 /// What decides the result of a run, as text.
-std::string identity(Scene scene) {
+std::string identity(scene::Scene scene) {
   scene.run.device = "auto", scene.run.threads = 0;
   scene.output.folder.clear();
-  return resolvedToml(scene);
+  return scene::resolvedToml(scene);
 }
 
 std::string manifestStatus(const fs::path& folder) {
@@ -43,10 +43,10 @@ std::string manifestStatus(const fs::path& folder) {
   return json.is_object() ? json.value("status", "") : "";
 }
 
-bool isFinished(const fs::path& folder, const Scene& scene) {
+bool isFinished(const fs::path& folder, const scene::Scene& scene) {
   if (manifestStatus(folder) != "finished") return false;
   try {
-    return identity(loadScene(folder / "scene.toml")) == identity(scene);
+    return identity(scene::loadScene(folder / "scene.toml")) == identity(scene);
   } catch (const base::InputError&) {
     return false; // of another version of the program, or damaged
   }
@@ -186,7 +186,7 @@ private:
     ++ended_;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
       outcomes_[i].status = "finished";
-      progress_.note(fmt::format("{} finished in {}", title(i), Progress::duration(seconds)));
+      progress_.note(fmt::format("{} finished in {}", title(i), support::Progress::duration(seconds)));
     } else {
       outcomes_[i] = {"failed", reason(status, folder(i) / kLog)};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
@@ -211,7 +211,7 @@ private:
   std::vector<std::size_t> waiting_;
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
-  Progress progress_;
+  support::Progress progress_;
 };
 
 } // namespace
@@ -229,8 +229,8 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   const int failed = Runner(plan, options).run();
   const fs::path summary = options.folder / "summary.csv";
   fmt::print("summary   {}\n", summary.string());
-  if (options.plot) drawPicture("sweep.py", {summary}, options.folder / "summary.png");
+  if (options.plot) output::drawPicture("sweep.py", {summary}, options.folder / "summary.png");
   return failed;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -12,14 +12,14 @@
 ///
 /// Each run is a process of its own, so that one that fails, or crashes, takes no other with it, and that all memory
 /// comes back between two runs.
-namespace grouser::runs {
+namespace grouser::commands {
 
 /// One run of a sweep.
 struct SweepRun {
   std::string name;                   ///< of its folder: "sprocket_speed=0.5,seed=1"
   std::vector<std::string> values;    ///< as given, one a swept key
   std::vector<std::string> overrides; ///< "key=value", the swept ones and the fixed ones
-  Scene scene;                        ///< with the overrides applied
+  scene::Scene scene;                        ///< with the overrides applied
 };
 
 struct SweepPlan {
@@ -51,4 +51,4 @@ struct SweepOptions {
 /// anything is started, where a run's folder holds something else.
 int runSweep(const SweepPlan& plan, const SweepOptions& options);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -10,7 +10,7 @@
 #include <cctype>
 #include <set>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 using base::InputError;
 
@@ -150,7 +150,7 @@ SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::s
       run.overrides.push_back(swept[k].key + "=" + run.values.back());
     }
     run.name = folderName(swept, run.values, taken);
-    run.scene = loadScene(scene, run.overrides);
+    run.scene = scene::loadScene(scene, run.overrides);
     planText(run.scene); // reads spec and height-map, lays out the bed, chooses the step: throws where a run would
     plan.runs.push_back(std::move(run));
     // Count up, the last key fastest.
@@ -163,4 +163,4 @@ SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::s
   return plan;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

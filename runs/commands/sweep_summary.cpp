@@ -16,7 +16,7 @@
 #include <limits>
 #include <optional>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 namespace fs = std::filesystem;
 
@@ -39,7 +39,7 @@ struct Spread {
 /// The steady rows of a run's series. Without a file everything is NaN.
 class Steady {
 public:
-  Steady(const Hdf5File* file, double from) : file_(file) {
+  Steady(const support::Hdf5File* file, double from) : file_(file) {
     if (file) times_ = file->numbers("/series/time");
     while (first_ < times_.size() && !(times_[first_] >= from)) ++first_;
   }
@@ -67,7 +67,7 @@ public:
     return spread;
   }
   /// Mean of entry `k` of a vector.
-  double meanOf(const std::string& path, std::size_t k) const {
+  double studies::meanOf(const std::string& path, std::size_t k) const {
     const std::vector<double> all = rows(path);
     Spread spread;
     for (std::size_t i = k; i < all.size(); i += 3) spread.add(all[i]);
@@ -106,7 +106,7 @@ private:
     return all;
   }
 
-  const Hdf5File* file_;
+  const support::Hdf5File* file_;
   std::vector<double> times_;
   std::size_t first_ = 0;
 };
@@ -124,7 +124,7 @@ struct Columns {
   explicit Columns(const SweepPlan& plan) {
     for (const SweepRun& run : plan.runs) {
       vehicle = vehicle || run.scene.vehicle;
-      for (const SceneSurface& s : surfacesOf(run.scene))
+      for (const simulation::SceneSurface& s : simulation::surfacesOf(run.scene))
         if (std::find(surfaces.begin(), surfaces.end(), s.name) == surfaces.end()) surfaces.push_back(s.name);
     }
   }
@@ -146,7 +146,7 @@ void addSurfaces(const Steady& steady, const std::vector<std::string>& names, st
 }
 
 /// The figures of one run, all NaN where `file` is null: one list for header and rows.
-std::vector<Figure> figuresOf(const Hdf5File* file, double from, const Columns& columns) {
+std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const Columns& columns) {
   const Steady steady(file, from);
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
                               {"energy residual [J]", steady.last("ledger/residual")}};
@@ -209,9 +209,9 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
   const bool isFinished = outcome.status == "finished";
   const nlohmann::json manifest = isFinished ? readManifest(folder / run.name) : nlohmann::json::object();
   for (const char* key : {"wall_time_s", "steps", "simulated_time_s"}) cells.push_back(cell(numberOf(manifest, key)));
-  std::optional<Hdf5File> file;
+  std::optional<support::Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
-    file.emplace(Hdf5File::open(results));
+    file.emplace(support::Hdf5File::open(results));
   for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene), columns))
     cells.push_back(cell(f.value));
   cells.push_back(manifest.value("state_hash", ""));
@@ -221,7 +221,7 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
 
 } // namespace
 
-double steadyFrom(const Scene& scene) {
+double steadyFrom(const scene::Scene& scene) {
   if (!scene.vehicle) return 0.5 * scene.run.duration;
   double ramped = scene.driver.driveBegins() + scene.driver.driveRamp;
   if (scene.driver.table) ramped = std::max(ramped, scene.driver.driveBegins() + scene.driver.table->time.back());
@@ -241,8 +241,8 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
     text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, columns), ","));
 
   const fs::path path = folder / "summary.csv";
-  replaceTextFile(path, text);
+  support::replaceTextFile(path, text);
   return path;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::commands {
 
 /// How one run of a sweep stands.
 struct SweepOutcome {
@@ -17,7 +17,7 @@ struct SweepOutcome {
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a
 /// speed table), NaN where the run ends before; without a vehicle the second half of the run.
-double steadyFrom(const Scene& scene);
+double steadyFrom(const scene::Scene& scene);
 
 /// Writes summary.csv into `folder`: one row a run. Columns: run, the swept keys, status, message, what the run's
 /// manifest says of it, and means and extremes over the steady part from its results.h5; cells without a number are
@@ -25,4 +25,4 @@ double steadyFrom(const Scene& scene);
 std::filesystem::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                                    const std::filesystem::path& folder);
 
-} // namespace grouser::runs
+} // namespace grouser::commands

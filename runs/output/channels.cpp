@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace {
 const std::vector<std::string> kAxes = {"x", "y", "z"};
@@ -74,4 +74,4 @@ void RowBuilder::setFrom(const std::string& first, const std::vector<double>& va
   std::copy(values.begin(), values.end(), row_.values.begin() + static_cast<std::ptrdiff_t>(slot->second.first));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

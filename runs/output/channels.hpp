@@ -7,7 +7,7 @@
 #include <vector>
 
 /// The quantities of a time series: one list for who writes results.h5 and who reads it.
-namespace grouser::runs {
+namespace grouser::output {
 
 /// One number a shoe, in the order of the wrap; `side` is "left" or "right".
 inline std::string shoeSinkage(const std::string& side) { return "vehicle/" + side + "/sinkage"; }
@@ -44,4 +44,4 @@ private:
   Row row_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace fs = std::filesystem;
 
@@ -22,7 +22,7 @@ std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& ch
                                        path.string(), what));
   };
   try {
-    const Hdf5File file = Hdf5File::open(path);
+    const support::Hdf5File file = support::Hdf5File::open(path);
     std::vector<Row> rows;
     const std::vector<std::int64_t> steps = file.read<std::int64_t>("/series/step");
     const std::vector<double> times = file.read<double>("/series/time");
@@ -59,4 +59,4 @@ void checkFrames(const fs::path& folder, std::int64_t step, std::int64_t count) 
                                        (folder / "frames.h5").string(), count, step));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

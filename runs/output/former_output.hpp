@@ -3,7 +3,7 @@
 
 #include "runs/output/output.hpp"
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// Reads from `folder`/results.h5 its first `count` rows: those that a run keeps which is resumed at `step`. Touches
 /// nothing. Throws base::InputError where the file cannot be read, or does not hold so many rows up to that step of
@@ -14,4 +14,4 @@ std::vector<Row> readRows(const std::filesystem::path& folder, const std::vector
 /// The same for the frames of `folder`/frames.h5, which stay in the file: throws unless they are there.
 void checkFrames(const std::filesystem::path& folder, std::int64_t step, std::int64_t count);
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace {
 
@@ -59,10 +59,10 @@ std::string groupOf(std::int64_t frame) { return fmt::format("/{:06}", frame); }
 
 FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts,
                        const base::TriangleMesh& ground, const base::Comm& comm)
-    : FramesFile(folder, comm.first() ? std::optional(Hdf5File::create(folder / "frames.h5")) : std::nullopt,
+    : FramesFile(folder, comm.first() ? std::optional(support::Hdf5File::create(folder / "frames.h5")) : std::nullopt,
                  std::move(parts), ground, comm) {}
 
-FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<Hdf5File> file, std::vector<FramePart> parts,
+FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<support::Hdf5File> file, std::vector<FramePart> parts,
                        const base::TriangleMesh& ground, const base::Comm& comm)
     : folder_(folder), comm_(comm), file_(std::move(file)), parts_(std::move(parts)) {
   if (!file_) return;
@@ -95,7 +95,7 @@ FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<Hdf5Fi
 
 FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
                             const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm) {
-  FramesFile frames(folder, comm.first() ? std::optional(Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
+  FramesFile frames(folder, comm.first() ? std::optional(support::Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
                     std::move(parts), ground, comm);
   if (!frames.file_) {
     frames.count_ = kept;
@@ -124,7 +124,7 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
 }
 
 std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep) {
-  const Hdf5File file = Hdf5File::open(folder / "frames.h5");
+  const support::Hdf5File file = support::Hdf5File::open(folder / "frames.h5");
   std::int64_t count = 0;
   while (file.has(groupOf(count)) && file.number(groupOf(count), "step") <= static_cast<double>(lastStep)) ++count;
   return count;
@@ -142,11 +142,11 @@ void FramesFile::add(const Frame& frame) {
   if (total > 0 && !comm_.alone()) {
     file_.reset(); // closed by one, opened by all
     comm_.wait();
-    std::optional<Hdf5File> shared = Hdf5File::openShared(folder_ / "frames.h5", comm_);
+    std::optional<support::Hdf5File> shared = support::Hdf5File::openShared(folder_ / "frames.h5", comm_);
     writeGrains(*shared, frame, group);
     shared.reset();
     comm_.wait();
-    if (comm_.first()) file_ = Hdf5File::openToChange(folder_ / "frames.h5");
+    if (comm_.first()) file_ = support::Hdf5File::openToChange(folder_ / "frames.h5");
   }
   if (!file_) {
     ++count_;
@@ -181,7 +181,7 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
 }
 
 /// The rows of this rank's grains.
-void FramesFile::writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const {
+void FramesFile::writeGrains(support::Hdf5File& file, const Frame& frame, const std::string& group) const {
   const std::size_t grains = frame.positions.size();
   const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(grains)));
   std::vector<float> positions(3 * grains);
@@ -240,7 +240,7 @@ void FramesFile::writeXdmf() const {
   constexpr const char* kHead =
       "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n  <Grid Name=\"run\" GridType=\"Collection\" "
       "CollectionType=\"Temporal\">\n";
-  replaceTextFile(folder_ / "frames.xdmf", kHead + steps_ + "  </Grid>\n</Domain>\n</Xdmf>\n");
+  support::replaceTextFile(folder_ / "frames.xdmf", kHead + steps_ + "  </Grid>\n</Domain>\n</Xdmf>\n");
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

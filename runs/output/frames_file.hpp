@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// Grains, parts and ground over time for ParaView: numbers in frames.h5, their meaning in frames.xdmf beside it.
 ///
@@ -34,10 +34,10 @@ public:
   void add(const Frame& frame);
 
 private:
-  FramesFile(const std::filesystem::path& folder, std::optional<Hdf5File> file, std::vector<FramePart> parts,
+  FramesFile(const std::filesystem::path& folder, std::optional<support::Hdf5File> file, std::vector<FramePart> parts,
              const base::TriangleMesh& ground, const base::Comm& comm);
   void writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains);
-  void writeGrains(Hdf5File& file, const Frame& frame, const std::string& group) const;
+  void writeGrains(support::Hdf5File& file, const Frame& frame, const std::string& group) const;
   std::string listVertices(std::size_t grains);
   /// Adds the XML of the next frame, which is in the file.
   void describe(std::size_t grains, std::int64_t step, double time);
@@ -45,11 +45,11 @@ private:
 
   std::filesystem::path folder_;
   base::Comm comm_;
-  std::optional<Hdf5File> file_; ///< on the first rank
+  std::optional<support::Hdf5File> file_; ///< on the first rank
   std::vector<FramePart> parts_;
   std::size_t partVertices_ = 0, partTriangles_ = 0, groundVertices_ = 0, groundTriangles_ = 0;
   std::string steps_; ///< the frames so far, as XML
   std::int64_t count_ = 0;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::output

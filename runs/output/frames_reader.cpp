@@ -8,19 +8,19 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace {
 
 std::string groupOf(std::size_t frame) { return fmt::format("/{:06}", frame); }
 
 /// Opens the file, with what to do about it where it cannot be opened.
-Hdf5File opened(const std::filesystem::path& path) {
+support::Hdf5File opened(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw base::InputError(fmt::format("{}: there is no such file; give the frames.h5 of a run", path.string()));
   try {
-    return Hdf5File::open(path);
+    return support::Hdf5File::open(path);
   } catch (const base::InputError&) {
     throw base::InputError(fmt::format(
         "{}: is no HDF5 file, was cut short, or a run is still writing it; give the frames.h5 of a run that has ended",
@@ -126,4 +126,4 @@ StoredFrame FramesReader::read(std::size_t frame) const {
   return f;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// Kind of the part that a vehicle is known by.
 inline constexpr const char* kHullKind = "chassis";
@@ -56,10 +56,10 @@ private:
   void readParts();
   void readGround();
 
-  Hdf5File file_;
+  support::Hdf5File file_;
   std::vector<double> times_;
   std::vector<StoredPart> parts_;
   base::TriangleMesh ground_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace fs = std::filesystem;
 
@@ -47,10 +47,10 @@ template <class T> std::vector<T> onFirst(const std::vector<T>& mine, const base
 
 } // namespace
 
-bool GrainsCsv::isWanted(const Scene& scene, std::int64_t grains) {
+bool GrainsCsv::isWanted(const scene::Scene& scene, std::int64_t grains) {
   if (scene.output.grainsCsv)
     return *scene.output.grainsCsv && grains + static_cast<std::int64_t>(scene.sources.size()) > 0;
-  for (const Source& s : scene.sources) grains += s.total;
+  for (const scene::Source& s : scene.sources) grains += s.total;
   const double rows = std::floor(scene.run.duration / scene.run.outputInterval) + 2;
   return grains > 0 && grains <= kMostGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMostLines);
 }
@@ -58,7 +58,7 @@ bool GrainsCsv::isWanted(const Scene& scene, std::int64_t grains) {
 GrainsCsv::GrainsCsv(const fs::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm)
     : path_(folder / kGrainsCsvName), comm_(comm) {
   if (!comm_.first()) return;
-  replaceTextFile(path_, kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
+  support::replaceTextFile(path_, kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
   file_.open(path_, std::ios::binary | std::ios::app);
   check();
 }
@@ -83,4 +83,4 @@ void GrainsCsv::check() {
   if (!file_) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path_.string()));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

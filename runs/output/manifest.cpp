@@ -10,7 +10,7 @@
 #include <fmt/chrono.h>
 #include <fstream>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace fs = std::filesystem;
 
@@ -35,12 +35,12 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
 
 } // namespace
 
-Manifest::Manifest(const fs::path& folder, const Scene& scene, const std::map<std::string, std::string>& metadata)
+Manifest::Manifest(const fs::path& folder, const scene::Scene& scene, const std::map<std::string, std::string>& metadata)
     : path_(folder / kName), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
       overrides_(scene.overrides), notes_(metadata) {}
 
 void Manifest::write(const std::string& status) const {
-  const BuildInfo build = buildInfo();
+  const support::BuildInfo build = support::buildInfo();
   nlohmann::ordered_json json;
   json["status"] = status;
   json["scene"] = scene_;
@@ -50,7 +50,7 @@ void Manifest::write(const std::string& status) const {
                      {"commit", build.commit},
                      {"compiler", build.compiler},
                      {"cuda", build.cuda}};
-  json["machine"] = machineText();
+  json["machine"] = support::machineText();
   json["started"] = started_;
   for (const auto& [key, text] : notes_) json[key] = text;
   if (status == "finished") {
@@ -62,7 +62,7 @@ void Manifest::write(const std::string& status) const {
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
   }
   json["files"] = filesIn(path_.parent_path());
-  replaceTextFile(path_, json.dump(2) + "\n");
+  support::replaceTextFile(path_, json.dump(2) + "\n");
 }
 
 void listFiles(const fs::path& folder) {
@@ -70,7 +70,7 @@ void listFiles(const fs::path& folder) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
   if (json.is_discarded()) return;
   json["files"] = filesIn(folder);
-  replaceTextFile(folder / kName, json.dump(2) + "\n");
+  support::replaceTextFile(folder / kName, json.dump(2) + "\n");
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -7,12 +7,12 @@
 #include <map>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// manifest.json: what was run, by which program, on which machine, and what came of it.
 class Manifest {
 public:
-  Manifest(const std::filesystem::path& folder, const Scene& scene, const std::map<std::string, std::string>& metadata);
+  Manifest(const std::filesystem::path& folder, const scene::Scene& scene, const std::map<std::string, std::string>& metadata);
 
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }
   void add(const Summary& summary) { summary_ = summary; }
@@ -31,4 +31,4 @@ private:
 /// Brings the list of files in the manifest of `folder` up to date, after plots have been drawn.
 void listFiles(const std::filesystem::path& folder);
 
-} // namespace grouser::runs
+} // namespace grouser::output

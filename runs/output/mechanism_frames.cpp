@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 using base::Pose;
 using base::Vec3d;
@@ -20,28 +20,28 @@ std::string text(const Vec3d& v) { return fmt::format("({:.7g}, {:.7g}, {:.7g})"
 
 /// Direction given for a key, not zero.
 Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
-  if (!v) throw SectionFault(key, "[-] is missing, which this type of joint needs; add it, e.g. [0, 0, 1]");
-  if (norm2(*v) == 0) throw SectionFault(key, "[-] is zero; give a direction, e.g. [0, 0, 1]");
+  if (!v) throw support::SectionFault(key, "[-] is missing, which this type of joint needs; add it, e.g. [0, 0, 1]");
+  if (norm2(*v) == 0) throw support::SectionFault(key, "[-] is zero; give a direction, e.g. [0, 0, 1]");
   return normalized(*v);
 }
 
 bool hasAxis(const std::string& type) { return type != "spherical" && type != "fixed" && type != "distance"; }
 
 /// Both frames from what is said in the world.
-JointFrames placedInWorld(const JointSection& j) {
+JointFrames placedInWorld(const scene::JointSection& j) {
   for (const auto& [key, given] : {std::pair{"point_a", j.pointA.has_value()},
                                    {"point_b", j.pointB.has_value()},
                                    {"axis_a", j.axisA.has_value()},
                                    {"axis_b", j.axisB.has_value()}})
     if (given)
-      throw SectionFault(key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
+      throw support::SectionFault(key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
   if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
   const Vec3d z = direction("axis", j.axis);
   Pose X = multibody::frameWithZ(*j.point, z);
   if (j.type == "universal") {
     const Vec3d x = direction("second_axis", j.secondAxis);
     if (std::fabs(dot(x, z)) > kStartGap)
-      throw SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
+      throw support::SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
                                                     "perpendicular at the start",
                                                     std::fabs(dot(x, z))));
     X = multibody::frameWithZX(*j.point, z, x);
@@ -50,13 +50,13 @@ JointFrames placedInWorld(const JointSection& j) {
 }
 
 /// Both frames from what is said in the bodies; they must meet.
-JointFrames placedInBodies(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
-  if (!j.pointA) throw SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
-  if (!j.pointB) throw SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
+JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
+  if (!j.pointA) throw support::SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
+  if (!j.pointB) throw support::SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
   const Vec3d p_A = X_WA.toWorld(*j.pointA), p_B = X_WB.toWorld(*j.pointB);
   const auto apart = [&](const Vec3d& gap, const char* where) {
     if (!(norm(gap) <= kStartGap))
-      throw SectionFault("point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
+      throw support::SectionFault("point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
                                                 "at {}; allowed are {:g} m: correct the points or the bodies' places",
                                                 text(p_B), norm(gap), where, text(p_A), kStartGap));
   };
@@ -69,14 +69,14 @@ JointFrames placedInBodies(const JointSection& j, const Pose& X_WA, const Pose& 
   if (j.type == "universal") {
     apart(p_B - p_A, "");
     if (std::fabs(dot(z, b)) > kStartGap)
-      throw SectionFault("axis_b", fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
+      throw support::SectionFault("axis_b", fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
                                                "them perpendicular",
                                                std::fabs(dot(z, b))));
     const Pose X = multibody::frameWithZX(p_A, z, b);
     return {X, X};
   }
   if (!(norm(cross(z, b)) <= kStartGap && dot(z, b) > 0))
-    throw SectionFault("axis_b", fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
+    throw support::SectionFault("axis_b", fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
                                              "apart; turn a body or an axis so that they are parallel",
                                              text(b), text(z), norm(b - z)));
   const bool slides = j.type == "prismatic" || j.type == "cylindrical";
@@ -87,26 +87,26 @@ JointFrames placedInBodies(const JointSection& j, const Pose& X_WA, const Pose& 
 }
 
 /// Of a distance joint: two points, and no directions.
-JointFrames placedAtEnds(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
+JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.point)
-    throw SectionFault("point", "[m] has no meaning for a distance joint; give point_a and point_b in the bodies");
+    throw support::SectionFault("point", "[m] has no meaning for a distance joint; give point_a and point_b in the bodies");
   const JointFrames ends{{X_WA.toWorld(j.pointA.value_or(Vec3d{})), X_WA.orientation},
                          {X_WB.toWorld(j.pointB.value_or(Vec3d{})), X_WB.orientation}};
   if (!(norm(ends.B.position - ends.A.position) > 0))
-    throw SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the joint has no length; "
+    throw support::SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the joint has no length; "
                                   "move one, or use a spherical joint");
   return ends;
 }
 
 } // namespace
 
-JointFrames placeJoint(const JointSection& j, const Pose& X_WA, const Pose& X_WB) {
+JointFrames placeJoint(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.secondAxis && j.type != "universal")
-    throw SectionFault("second_axis", "has a meaning for a universal joint only; remove it");
+    throw support::SectionFault("second_axis", "has a meaning for a universal joint only; remove it");
   if (j.type == "distance") return placedAtEnds(j, X_WA, X_WB);
   if (!j.point && !j.pointA && !j.pointB)
-    throw SectionFault("point", "[m] is missing; add where the joint is at the start, or point_a and point_b");
+    throw support::SectionFault("point", "[m] is missing; add where the joint is at the start, or point_a and point_b");
   return j.point ? placedInWorld(j) : placedInBodies(j, X_WA, X_WB);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -4,7 +4,7 @@
 #include "base/vec.hpp"
 #include "runs/scene/mechanism_sections.hpp"
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// Where the two frames of a joint stand in the world at the start: that of its first and that of its second body.
 struct JointFrames {
@@ -12,6 +12,6 @@ struct JointFrames {
 };
 
 /// From what a section says in the world, or in the bodies; then the two must meet. Throws SectionFault.
-JointFrames placeJoint(const JointSection& joint, const base::Pose& X_WA, const base::Pose& X_WB);
+JointFrames placeJoint(const scene::JointSection& joint, const base::Pose& X_WA, const base::Pose& X_WB);
 
-} // namespace grouser::runs
+} // namespace grouser::output

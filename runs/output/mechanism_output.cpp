@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 using base::Vec3d;
 using multibody::JointType;
@@ -182,7 +182,7 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
   return c;
 }
 
-void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vector<std::string>& record) {
+void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, const std::vector<std::string>& record) {
   const multibody::Model& model = mechanism.model();
   const multibody::State& state = mechanism.state();
   const bool stepped = state.time > 0; // what acts on the bodies is found in a step: nothing is known before the first
@@ -232,7 +232,7 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
   for (std::size_t i = 0; i < model.drives().size(); ++i) {
     const std::string& name = model.drives()[i].name;
     if (!isKept(record, name)) continue;
-    const Mechanism::DriveReading r = mechanism.drive(static_cast<int>(i));
+    const simulation::Mechanism::DriveReading r = mechanism.drive(static_cast<int>(i));
     row.set("drives/" + name + "/value", r.value);
     if (stepped) row.set("drives/" + name + "/torque", r.torque);
     if (stepped) row.set("drives/" + name + "/power", r.power);
@@ -240,22 +240,22 @@ void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vec
   for (std::size_t i = 0; i < model.couplings().size(); ++i)
     if (stepped && isKept(record, model.couplings()[i].name))
       row.set("couplings/" + model.couplings()[i].name + "/force", state.coupling[i].force);
-  const Mechanism::Ledger ledger = mechanism.ledger();
+  const simulation::Mechanism::Ledger ledger = mechanism.ledger();
   row.set("momentum/linear", ledger.linearMomentum);
   row.set("momentum/angular", ledger.angularMomentum);
-  const Mechanism::Drift drift = mechanism.drift();
+  const simulation::Mechanism::Drift drift = mechanism.drift();
   row.set("constraints/position_error", drift.position);
   row.set("constraints/velocity_error", drift.velocity);
   row.set("constraints/iterations", drift.iterations);
   row.set("constraints/singular_steps", drift.singularSteps);
 }
 
-std::string integratorText(const RunSettings& run) {
+std::string integratorText(const scene::RunSettings& run) {
   if (run.integrator != "rattle") return "symplectic Euler, order 1, springs implicit";
   return fmt::format("RATTLE, order {}, springs {}", run.integratorOrder, run.springs);
 }
 
-std::string mechanismSize(const Mechanism& mechanism) {
+std::string mechanismSize(const simulation::Mechanism& mechanism) {
   const multibody::Model& model = mechanism.model();
   const multibody::Solver& solver = mechanism.solver();
   std::string text;
@@ -281,7 +281,7 @@ std::string mechanismSize(const Mechanism& mechanism) {
   return text;
 }
 
-std::vector<FramePart> mechanismParts(const Scene& scene, const multibody::Model& model) {
+std::vector<FramePart> mechanismParts(const scene::Scene& scene, const multibody::Model& model) {
   const double size = sizeOf(model);
   std::vector<FramePart> parts;
   for (std::size_t b = 0; b < model.bodies().size(); ++b) {
@@ -304,4 +304,4 @@ std::vector<FramePart> mechanismParts(const Scene& scene, const multibody::Model
   return parts;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -9,22 +9,22 @@
 #include <vector>
 
 /// What a run writes of a mechanism.
-namespace grouser::runs {
+namespace grouser::output {
 
 /// The quantities of a mechanism's rows. `record`: names of the bodies, joints, springs and drives that are written;
 /// empty: all.
 std::vector<Channel> mechanismChannels(const multibody::Model& model, const std::vector<std::string>& record);
 
 /// Fills a row of these channels but for the ledger's changes, which the simulation knows.
-void setMechanismRow(RowBuilder& row, const Mechanism& mechanism, const std::vector<std::string>& record);
+void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, const std::vector<std::string>& record);
 
 /// "RATTLE of order 2, springs implicit".
-std::string integratorText(const RunSettings& run);
+std::string integratorText(const scene::RunSettings& run);
 
 /// Lines about the size of a mechanism: bodies, joints, freedoms, rows held more than once.
-std::string mechanismSize(const Mechanism& mechanism);
+std::string mechanismSize(const simulation::Mechanism& mechanism);
 
 /// Each body as a box and thin bars to its joints, for pictures and ParaView.
-std::vector<FramePart> mechanismParts(const Scene& scene, const multibody::Model& model);
+std::vector<FramePart> mechanismParts(const scene::Scene& scene, const multibody::Model& model);
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -19,7 +19,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 namespace fs = std::filesystem;
 
@@ -32,9 +32,9 @@ constexpr int kChunkRows = 64;
 constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.h5",    "frames.xdmf",
                                   "scene.toml",       "manifest.json",  "sinkage.csv",  "sinkage.png",
                                   "shoe_heights.png", "drive.png",      "ledger.png",   "mechanism.png",
-                                  "picture.png",      "grains.csv",     kCheckpointName};
+                                  "picture.png",      "grains.csv",     simulation::kCheckpointName};
 
-fs::path prepared(fs::path folder, const RunWriter::Options& options, FileLock& lock) {
+fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
   checkOutputFolder(folder, options.force);
   std::error_code error;
@@ -78,10 +78,10 @@ void checkOutputFolder(const fs::path& folder, bool force) {
   if (!force && !fs::is_empty(folder, error))
     throw base::InputError(
         fmt::format("{}: the folder is not empty; name another with --out, {}or overwrite it with --force",
-                    folder.string(), fs::exists(folder / kCheckpointName, error) ? "go on with --resume, " : ""));
+                    folder.string(), fs::exists(folder / simulation::kCheckpointName, error) ? "go on with --resume, " : ""));
 }
 
-void claimFolder(FileLock& lock, const fs::path& folder) {
+void claimFolder(support::FileLock& lock, const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error) && !lock.take(folder))
     throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
@@ -91,13 +91,13 @@ void claimFolder(FileLock& lock, const fs::path& folder) {
 
 /// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.
 struct RunWriter::Series {
-  FileLock lock; ///< of the folder, where the run begins in it; a resumed one holds it already
+  support::FileLock lock; ///< of the folder, where the run begins in it; a resumed one holds it already
   fs::path folder;
   const Options& options;
   std::vector<Channel> channels;
-  Hdf5File results;
-  std::vector<GrowingDataset> values;
-  GrowingDataset steps, times;
+  support::Hdf5File results;
+  std::vector<support::GrowingDataset> values;
+  support::GrowingDataset steps, times;
   std::ofstream csv;
   Manifest manifest;
   std::size_t width = 0;
@@ -105,17 +105,17 @@ struct RunWriter::Series {
   /// While former rows are copied the new files have another name, so that a kill loses none.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
-  Series(const fs::path& where, const Scene& scene, std::vector<Channel> list, const Options& given)
+  Series(const fs::path& where, const scene::Scene& scene, std::vector<Channel> list, const Options& given)
       : folder(prepared(where, given, lock)), options(given), channels(std::move(list)),
-        results(Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
+        results(support::Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
         manifest(folder, scene, options.metadata) {
-    const std::string resolved = resolvedToml(scene);
-    replaceTextFile(folder / "scene.toml", resolved);
-    const BuildInfo build = buildInfo();
+    const std::string resolved = scene::resolvedToml(scene);
+    support::replaceTextFile(folder / "scene.toml", resolved);
+    const support::BuildInfo build = support::buildInfo();
     results.attribute("/", "creator", std::string("grouser"));
     results.attribute("/", "version", build.version);
     results.attribute("/", "commit", build.commit);
-    results.attribute("/", "machine", machineText());
+    results.attribute("/", "machine", support::machineText());
     results.attribute("/", "scene", resolved);
     makeSeries();
     writeHeader();
@@ -143,12 +143,12 @@ struct RunWriter::Series {
 
   /// H5MD's layout: each quantity is a group of step, time and value; step and time are one dataset under many names.
   void makeSeries() {
-    steps = results.growing("/series/step", NumberType::Int64, 0, kChunkRows);
-    times = results.growing("/series/time", NumberType::Float64, 0, kChunkRows);
+    steps = results.growing("/series/step", support::NumberType::Int64, 0, kChunkRows);
+    times = results.growing("/series/time", support::NumberType::Float64, 0, kChunkRows);
     results.attribute("/series/time", "unit", std::string("s"));
     for (const Channel& c : channels) {
       const std::string group = "/" + c.path;
-      values.push_back(results.growing(group + "/value", NumberType::Float64, c.width == 1 ? 0 : c.width, kChunkRows));
+      values.push_back(results.growing(group + "/value", support::NumberType::Float64, c.width == 1 ? 0 : c.width, kChunkRows));
       results.link("/series/step", group + "/step");
       results.link("/series/time", group + "/time");
       results.attribute(group + "/value", "unit", c.unit);
@@ -196,7 +196,7 @@ struct RunWriter::Impl {
   std::optional<FramesFile> frames;
   std::int64_t rows = 0, framesAdded = 0;
 
-  Impl(const fs::path& where, const Scene& scene, std::vector<Channel> channels, Options given)
+  Impl(const fs::path& where, const scene::Scene& scene, std::vector<Channel> channels, Options given)
       : folder(where), options(std::move(given)) {
     if (options.comm.first()) series = std::make_unique<Series>(where, scene, std::move(channels), options);
     options.comm.wait(); // the folder is there now
@@ -204,7 +204,7 @@ struct RunWriter::Impl {
   }
 };
 
-RunWriter::RunWriter(fs::path folder, const Scene& scene, std::vector<Channel> channels, Options options) {
+RunWriter::RunWriter(fs::path folder, const scene::Scene& scene, std::vector<Channel> channels, Options options) {
   for (const Channel& c : channels)
     if (!c.columns.empty() && c.columns.size() != static_cast<std::size_t>(c.width))
       throw std::logic_error("channel " + c.path + ": as many columns as numbers");
@@ -225,7 +225,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::vector<Channel> c
     takeBack(); // the disk is full: what was begun is of no use
     throw;
   }
-  if (const std::optional<int> rank = rankThatMisses(folder, impl_->options.comm); rank && *rank > 0) {
+  if (const std::optional<int> rank = commands::rankThatMisses(folder, impl_->options.comm); rank && *rank > 0) {
     impl_.reset();
     takeBack();
     throw base::InputError(fmt::format(
@@ -309,7 +309,7 @@ std::int64_t RunWriter::frames() const { return impl_->framesAdded; }
 void RunWriter::sync() {
   if (!impl_->series) return;
   impl_->series->flush();
-  for (const char* name : {"results.h5", "timeseries.csv"}) syncFile(impl_->folder / name);
+  for (const char* name : {"results.h5", "timeseries.csv"}) support::syncFile(impl_->folder / name);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -19,7 +19,7 @@
 /// What a run leaves in its folder: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
 /// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
 /// of how a simulation computes it.
-namespace grouser::runs {
+namespace grouser::output {
 
 /// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
 /// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
@@ -74,7 +74,7 @@ void checkOutputFolder(const std::filesystem::path& folder, bool force);
 
 /// Takes the lock of the folder that a run writes in, if it is there. Throws base::InputError where another run holds
 /// it.
-void claimFolder(FileLock& lock, const std::filesystem::path& folder);
+void claimFolder(support::FileLock& lock, const std::filesystem::path& folder);
 
 /// What a resumed run keeps of the folder it goes on with; what came later is cut off.
 struct FormerOutput {
@@ -95,7 +95,7 @@ public:
     base::Comm comm;                             ///< one rank writes rows, all of them frames
     std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
   };
-  RunWriter(std::filesystem::path folder, const Scene& scene, std::vector<Channel> channels, Options options);
+  RunWriter(std::filesystem::path folder, const scene::Scene& scene, std::vector<Channel> channels, Options options);
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;
@@ -131,4 +131,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::output

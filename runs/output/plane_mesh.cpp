@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 using base::Vec3d;
 
@@ -28,19 +28,19 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h
 }
 
 /// Corners of a box that holds where grains start, the planes' points, cylinders, and some room.
-std::pair<Vec3d, Vec3d> room(const Scene& scene) {
+std::pair<Vec3d, Vec3d> room(const scene::Scene& scene) {
   std::vector<Vec3d> points;
   double margin = 0;
-  for (const Grain& g : scene.grains) points.push_back(g.position), margin = std::max(margin, 4 * g.radius);
-  for (const GrainBlock& b : scene.blocks) {
-    for (const Grain& g : b.fromFile) points.push_back(g.position);
+  for (const scene::Grain& g : scene.grains) points.push_back(g.position), margin = std::max(margin, 4 * g.radius);
+  for (const scene::GrainBlock& b : scene.blocks) {
+    for (const scene::Grain& g : b.fromFile) points.push_back(g.position);
     if (b.low) points.push_back(*b.low), points.push_back(*b.high);
     margin = std::max(margin, 4 * b.largestRadius());
   }
-  for (const Source& s : scene.sources)
+  for (const scene::Source& s : scene.sources)
     points.push_back(s.low), points.push_back(s.high), margin = std::max(margin, 4 * s.radius);
-  for (const Plane& p : scene.planes) points.push_back(p.point);
-  for (const CylinderSection& c : scene.cylinders)
+  for (const scene::Plane& p : scene.planes) points.push_back(p.point);
+  for (const scene::CylinderSection& c : scene.cylinders)
     for (const double side : {-c.radius, c.radius}) points.push_back(c.position + Vec3d{side, side, side});
   if (points.empty()) points.push_back({});
   Vec3d low = points.front(), high = low;
@@ -54,12 +54,12 @@ std::pair<Vec3d, Vec3d> room(const Scene& scene) {
 
 namespace {
 
-base::TriangleMesh meshOf(const Scene& scene, const std::vector<std::size_t>& planes) {
+base::TriangleMesh meshOf(const scene::Scene& scene, const std::vector<std::size_t>& planes) {
   base::TriangleMesh mesh;
   if (planes.empty()) return mesh;
   const auto [low, high] = room(scene);
   std::vector<HalfSpace> spaces;
-  for (const Plane& p : scene.planes) {
+  for (const scene::Plane& p : scene.planes) {
     const Vec3d n = base::normalized(p.normal);
     spaces.push_back({n, dot(n, p.point)});
   }
@@ -89,13 +89,13 @@ base::TriangleMesh meshOf(const Scene& scene, const std::vector<std::size_t>& pl
 
 } // namespace
 
-base::TriangleMesh planeMesh(const Scene& scene) {
+base::TriangleMesh planeMesh(const scene::Scene& scene) {
   std::vector<std::size_t> walls;
   for (std::size_t k = 0; k < scene.planes.size(); ++k)
     if (scene.planes[k].isWall()) walls.push_back(k);
   return meshOf(scene, walls);
 }
 
-base::TriangleMesh planeMesh(const Scene& scene, std::size_t plane) { return meshOf(scene, {plane}); }
+base::TriangleMesh planeMesh(const scene::Scene& scene, std::size_t plane) { return meshOf(scene, {plane}); }
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// The plots that runs/plots/ can draw from a results.h5.
 inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage", "drive", "mechanism", "ledger"};
@@ -24,4 +24,4 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
 /// Runs a Python script with these words. False, with a `warning`, where it does not end well.
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& words, std::string& warning);
 
-} // namespace grouser::runs
+} // namespace grouser::output

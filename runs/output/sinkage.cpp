@@ -12,10 +12,10 @@
 #include <system_error>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, const std::filesystem::path& folder) {
-  const Hdf5File file = Hdf5File::open(results);
+  const support::Hdf5File file = support::Hdf5File::open(results);
   if (file.text("/", "creator") != "grouser")
     throw base::InputError(
         fmt::format("{}: was not written by grouser; give the results.h5 of a run", results.string()));
@@ -51,8 +51,8 @@ std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, cons
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   const std::filesystem::path path = folder / "sinkage.csv";
-  writeTextFile(path, text + '\n', "--out");
+  support::writeTextFile(path, text + '\n', "--out");
   return path;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

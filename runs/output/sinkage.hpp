@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// Writes sinkage.csv into `folder`: time and one column a shoe [m], NaN while the shoe is off the ground run.
 /// Throws base::InputError where `results` is no results.h5 of a run with a vehicle. Returns the file's path.
 std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, const std::filesystem::path& folder);
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -4,7 +4,7 @@
 #include "base/math.hpp"
 #include "runs/output/plane_mesh.hpp"
 
-namespace grouser::runs {
+namespace grouser::output {
 
 using base::TriangleMesh;
 using base::Vec3d;
@@ -55,7 +55,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 
 } // namespace
 
-TriangleMesh surfaceMesh(const Scene& scene, const SceneSurface& surface) {
+TriangleMesh surfaceMesh(const scene::Scene& scene, const simulation::SceneSurface& surface) {
   if (surface.mesh) return surface.mesh->mesh();
   const Vec3d& half = surface.geometry.half;
   switch (surface.geometry.shape) {
@@ -72,4 +72,4 @@ TriangleMesh surfaceMesh(const Scene& scene, const SceneSurface& surface) {
   return mesh;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::output

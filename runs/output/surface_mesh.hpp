@@ -4,13 +4,13 @@
 #include "base/sphere_set.hpp"
 #include "runs/simulation/surfaces.hpp"
 
-namespace grouser::runs {
+namespace grouser::output {
 
 /// Kind of a frame's part that is a rigid surface of the scene.
 inline constexpr const char* kSurfaceKind = "surface";
 
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
 /// cylinder shows its inside.
-base::TriangleMesh surfaceMesh(const Scene& scene, const SceneSurface& surface);
+base::TriangleMesh surfaceMesh(const scene::Scene& scene, const simulation::SceneSurface& surface);
 
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 /// Throws base::InputError where no film could be made into this file: its name is not that of a film, its folder is
 /// not there, or the program ffmpeg is not installed.
@@ -16,4 +16,4 @@ void checkFilm(const std::filesystem::path& film);
 void makeFilm(const std::vector<std::filesystem::path>& pictures, double framesPerSecond,
               const std::filesystem::path& film);
 
-} // namespace grouser::runs
+} // namespace grouser::render

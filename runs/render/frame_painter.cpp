@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 using base::Vec3d;
 
@@ -18,9 +18,9 @@ constexpr std::size_t kSamples = 8; ///< frames that colours and camera are take
 constexpr double kSteepest = 89.99; ///< elevation [deg]: straight from above there would be no upwards
 
 /// Frames evenly over the file, first and last among them.
-std::vector<StoredFrame> samplesOf(const FramesReader& reader) {
+std::vector<output::StoredFrame> samplesOf(const output::FramesReader& reader) {
   const std::size_t count = std::min(kSamples, reader.count());
-  std::vector<StoredFrame> samples;
+  std::vector<output::StoredFrame> samples;
   for (std::size_t k = 0; k < count; ++k)
     samples.push_back(reader.read(count == 1 ? 0 : k * (reader.count() - 1) / (count - 1)));
   return samples;
@@ -28,37 +28,37 @@ std::vector<StoredFrame> samplesOf(const FramesReader& reader) {
 
 } // namespace
 
-FramePainter::FramePainter(const FramesReader& reader, const PaintOptions& options)
+FramePainter::FramePainter(const output::FramesReader& reader, const PaintOptions& options)
     : reader_(reader), options_(options) {
   if (options.labels) font_ = std::make_unique<Font>();
-  const std::vector<StoredFrame> samples = samplesOf(reader);
+  const std::vector<output::StoredFrame> samples = samplesOf(reader);
   colours_ = std::make_unique<GrainColours>(options.quantity, samples.front(), samples, options.range);
   const bool needsBorders = options.quantity == GrainQuantity::Subdomain || options.quantity == GrainQuantity::Role;
   const auto hasBorders = [](const Borders& b) { return !b[0].empty() || !b[1].empty() || !b[2].empty(); };
   if (needsBorders && !hasBorders(options.borders) &&
-      std::none_of(samples.begin(), samples.end(), [&](const StoredFrame& f) { return hasBorders(f.borders); }))
+      std::none_of(samples.begin(), samples.end(), [&](const output::StoredFrame& f) { return hasBorders(f.borders); }))
     throw base::InputError(fmt::format("{}: was written by a run of one subdomain; give --borders AXIS=PLACES, e.g. "
                                        "x=0.5, or another --color",
                                        reader.path().string()));
   placeCamera(samples);
 }
 
-Vec3d FramePainter::hull(const StoredFrame& frame) const {
+Vec3d FramePainter::hull(const output::StoredFrame& frame) const {
   Vec3d sum;
   double count = 0;
-  for (const StoredPart& part : reader_.parts()) {
-    if (part.kind != kHullKind) continue;
+  for (const output::StoredPart& part : reader_.parts()) {
+    if (part.kind != output::kHullKind) continue;
     for (std::uint32_t v = 0; v < part.count; ++v) sum += frame.partVertices[part.first + v].as<double>(), count += 1;
   }
   return count > 0 ? sum * (1 / count) : sum;
 }
 
-void FramePainter::placeCamera(const std::vector<StoredFrame>& samples) {
+void FramePainter::placeCamera(const std::vector<output::StoredFrame>& samples) {
   const FrameView& view = options_.view;
   const double aspect = static_cast<double>(view.width) / view.height;
   const bool isClose = view.lookAt == LookAt::Vehicle;
   std::vector<Ball> all;
-  for (const StoredFrame& frame : samples) {
+  for (const output::StoredFrame& frame : samples) {
     for (const base::Vec3f& v : frame.partVertices) all.push_back({v.as<double>(), 0});
     if (!frame.positions.empty())
       for (const Ball& ball : seenGrains(frame.positions, frame.radii)) all.push_back(ball);
@@ -84,7 +84,7 @@ void FramePainter::placeCamera(const std::vector<StoredFrame>& samples) {
   camera_.eye = camera_.target + towardsEye;
 }
 
-Camera FramePainter::cameraOf(const StoredFrame& frame) const {
+Camera FramePainter::cameraOf(const output::StoredFrame& frame) const {
   Camera camera = camera_;
   if (hullAtCamera_) {
     const Vec3d moved = hull(frame) - *hullAtCamera_;
@@ -93,21 +93,21 @@ Camera FramePainter::cameraOf(const StoredFrame& frame) const {
   return camera;
 }
 
-const Borders& FramePainter::bordersOf(const StoredFrame& frame) const {
+const Borders& FramePainter::bordersOf(const output::StoredFrame& frame) const {
   for (const std::vector<double>& places : options_.borders)
     if (!places.empty()) return options_.borders;
   return frame.borders;
 }
 
 Image FramePainter::paint(std::size_t index) const {
-  const StoredFrame frame = reader_.read(index);
+  const output::StoredFrame frame = reader_.read(index);
   const Borders& borders = bordersOf(frame);
   const std::vector<Colour> colours = colours_->of(frame, borders);
   RenderScene scene;
   scene.spheres.reserve(colours.size());
   for (std::size_t i = 0; i < colours.size(); ++i)
     scene.spheres.push_back({frame.positions[i], frame.radii[i], colours[i]});
-  for (const StoredPart& part : reader_.parts()) {
+  for (const output::StoredPart& part : reader_.parts()) {
     RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), isSurface(part.kind)};
     for (std::uint32_t v = 0; v < part.count; ++v)
       mesh.mesh.vertices.push_back(frame.partVertices[part.first + v].as<double>());
@@ -133,4 +133,4 @@ Image FramePainter::paint(std::size_t index) const {
   return image;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::render

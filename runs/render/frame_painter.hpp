@@ -10,10 +10,10 @@
 #include <memory>
 #include <optional>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 enum class LookAt {
-  Vehicle, ///< moves with its hull
+  scene::Vehicle, ///< moves with its hull
   All,     ///< all grains, ground and parts of all frames, but a few strays
   Point
 };
@@ -43,18 +43,18 @@ struct PaintOptions {
 class FramePainter {
 public:
   /// Throws base::InputError where the file cannot show what is asked for.
-  FramePainter(const FramesReader& reader, const PaintOptions& options);
+  FramePainter(const output::FramesReader& reader, const PaintOptions& options);
 
   Image paint(std::size_t frame) const;
 
 private:
-  void placeCamera(const std::vector<StoredFrame>& samples);
-  Camera cameraOf(const StoredFrame& frame) const;
+  void placeCamera(const std::vector<output::StoredFrame>& samples);
+  Camera cameraOf(const output::StoredFrame& frame) const;
   /// The middle of the hull.
-  base::Vec3d hull(const StoredFrame& frame) const;
-  const Borders& bordersOf(const StoredFrame& frame) const;
+  base::Vec3d hull(const output::StoredFrame& frame) const;
+  const Borders& bordersOf(const output::StoredFrame& frame) const;
 
-  const FramesReader& reader_;
+  const output::FramesReader& reader_;
   PaintOptions options_;
   std::unique_ptr<GrainColours> colours_;
   std::unique_ptr<Font> font_;
@@ -62,4 +62,4 @@ private:
   std::optional<base::Vec3d> hullAtCamera_; ///< [m] where the camera follows
 };
 
-} // namespace grouser::runs
+} // namespace grouser::render

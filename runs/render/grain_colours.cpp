@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 namespace {
 
@@ -98,7 +98,7 @@ bool spans(const Borders& borders, const base::Vec3f& p_W, float radius) {
   return false;
 }
 
-BedTop::BedTop(const StoredFrame& frame) {
+BedTop::BedTop(const output::StoredFrame& frame) {
   if (frame.positions.empty()) return;
   float xMin = frame.positions[0].x, xMax = xMin, yMin = frame.positions[0].y, yMax = yMin;
   for (const base::Vec3f& p : frame.positions) {
@@ -143,14 +143,14 @@ double BedTop::height(double x, double y) const {
                      cell((x - xMin_) / edge_, columns_)]};
 }
 
-GrainColours::GrainColours(GrainQuantity quantity, const StoredFrame& first, const std::vector<StoredFrame>& samples,
+GrainColours::GrainColours(GrainQuantity quantity, const output::StoredFrame& first, const std::vector<output::StoredFrame>& samples,
                            std::optional<ValueRange> range)
     : quantity_(quantity) {
   if (quantity == GrainQuantity::Depth) top_ = BedTop(first);
   if (range) range_ = *range;
   if (range || !hasRange()) return;
   std::vector<double> values;
-  for (const StoredFrame& frame : samples) {
+  for (const output::StoredFrame& frame : samples) {
     const std::size_t step = frame.positions.size() / kValuesTaken + 1;
     for (std::size_t i = 0; i < frame.positions.size(); i += step) values.push_back(value(frame, i));
   }
@@ -163,7 +163,7 @@ GrainColours::GrainColours(GrainQuantity quantity, const StoredFrame& first, con
   if (range_.high - range_.low < least) range_.high = range_.low + least;
 }
 
-double GrainColours::value(const StoredFrame& frame, std::size_t grain) const {
+double GrainColours::value(const output::StoredFrame& frame, std::size_t grain) const {
   if (quantity_ == GrainQuantity::Speed) return double{frame.speeds[grain]};
   const base::Vec3f& p = frame.positions[grain];
   return top_.height(double{p.x}, double{p.y}) - double{p.z};
@@ -208,7 +208,7 @@ std::vector<std::pair<Colour, std::string>> GrainColours::legend(const Borders& 
   return entries;
 }
 
-std::vector<Colour> GrainColours::of(const StoredFrame& frame, const Borders& borders) const {
+std::vector<Colour> GrainColours::of(const output::StoredFrame& frame, const Borders& borders) const {
   std::vector<Colour> colours(frame.positions.size(), evenColour());
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const base::Vec3f& p = frame.positions[i];
@@ -227,4 +227,4 @@ std::vector<Colour> GrainColours::of(const StoredFrame& frame, const Borders& bo
   return colours;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::render

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 /// What the colour of a grain says.
 enum class GrainQuantity {
@@ -39,7 +39,7 @@ bool spans(const Borders& borders, const base::Vec3f& p_W, float radius);
 class BedTop {
 public:
   BedTop() = default;
-  explicit BedTop(const StoredFrame& frame);
+  explicit BedTop(const output::StoredFrame& frame);
   /// [m]; 0 where there are no grains at all.
   double height(double x, double y) const;
 
@@ -57,7 +57,7 @@ struct ValueRange {
 class GrainColours {
 public:
   /// `range` of depth or speed; without it, all but the lowest and highest hundredth of the values in `samples`.
-  GrainColours(GrainQuantity quantity, const StoredFrame& first, const std::vector<StoredFrame>& samples,
+  GrainColours(GrainQuantity quantity, const output::StoredFrame& first, const std::vector<output::StoredFrame>& samples,
                std::optional<ValueRange> range);
 
   GrainQuantity quantity() const { return quantity_; }
@@ -70,14 +70,14 @@ public:
   /// Colours with the words that they stand for; empty where there is a range, or nothing to say.
   std::vector<std::pair<Colour, std::string>> legend(const Borders& borders) const;
   /// One colour a grain.
-  std::vector<Colour> of(const StoredFrame& frame, const Borders& borders) const;
+  std::vector<Colour> of(const output::StoredFrame& frame, const Borders& borders) const;
 
 private:
-  double value(const StoredFrame& frame, std::size_t grain) const;
+  double value(const output::StoredFrame& frame, std::size_t grain) const;
 
   GrainQuantity quantity_;
   BedTop top_;
   ValueRange range_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::render

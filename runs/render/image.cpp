@@ -7,11 +7,11 @@
 
 #include <stdexcept>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 void writePng(const Image& image, const std::filesystem::path& path) {
   const int written = stbi_write_png(path.c_str(), image.width, image.height, 3, image.rgb.data(), 3 * image.width);
   if (!written) throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
 }
 
-} // namespace grouser::runs
+} // namespace grouser::render

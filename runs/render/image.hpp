@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 /// 8-bit sRGB picture; row 0 is the top.
 struct Image {
@@ -18,4 +18,4 @@ struct Image {
 /// Throws std::runtime_error where the file cannot be written.
 void writePng(const Image& image, const std::filesystem::path& path);
 
-} // namespace grouser::runs
+} // namespace grouser::render

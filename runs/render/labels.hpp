@@ -10,7 +10,7 @@
 #include <vector>
 
 /// Words and colour scales on a finished picture. Sizes follow the picture's height.
-namespace grouser::runs {
+namespace grouser::render {
 
 /// DejaVu Sans, as Debian's fonts-dejavu-core installs it.
 class Font {
@@ -46,4 +46,4 @@ void drawLegend(Image& image, const Font& font, const std::string& title,
 /// Round numbers in [low, high], about `count` of them, ascending.
 std::vector<double> ticks(double low, double high, int count);
 
-} // namespace grouser::runs
+} // namespace grouser::render

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::render {
 
 using base::Vec3d;
 
@@ -27,7 +27,7 @@ struct Box {
 
 Colour groundColour() { return srgb(168, 152, 128); }
 
-bool isSurface(const std::string& kind) { return kind == kSurfaceKind; }
+bool isSurface(const std::string& kind) { return kind == output::kSurfaceKind; }
 
 Colour partColour(const std::string& kind) {
   if (kind == "chassis") return srgb(112, 122, 92);
@@ -48,7 +48,7 @@ namespace {
 
 /// Heights between which the colours run: all but the lowest and highest hundredth, so that a thrown grain does not
 /// wash out the rest.
-std::pair<float, float> heightRange(const Frame& frame) {
+std::pair<float, float> heightRange(const output::Frame& frame) {
   std::vector<float> heights;
   for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
   std::sort(heights.begin(), heights.end());
@@ -89,7 +89,7 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
   return cameraTowards(box.middle(), std::max(1e-3, box.radius()) * kVehicleTight, azimuth, elevation, aspect);
 }
 
-Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width) {
+Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts, const base::TriangleMesh& ground, int width) {
   RenderScene scene;
   std::vector<base::Vec3f> vehicle, surfaces;
   if (!frame.positions.empty()) {
@@ -120,4 +120,4 @@ Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const b
   return render(scene, cameraAround(seen, kAzimuth, kBedElevation, kAspect), width, height);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::render

@@ -5,7 +5,7 @@
 #include "runs/output/output.hpp"
 #include "runs/render/render.hpp"
 
-namespace grouser::runs {
+namespace grouser::render {
 
 /// Elevation of the camera above a vehicle, above a bed alone, and above parts that lie flat [deg].
 inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
@@ -28,6 +28,6 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 /// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle filling the picture, or where
 /// there is none all grains but a few strays; seen from the front right above. Height of the picture: nine sixteenths
 /// of its width.
-Image drawFrame(const Frame& frame, const std::vector<FramePart>& parts, const base::TriangleMesh& ground, int width);
+Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts, const base::TriangleMesh& ground, int width);
 
-} // namespace grouser::runs
+} // namespace grouser::render

@@ -11,7 +11,7 @@
 
 /// Pictures without a GPU, a display or a library: spheres and meshes into a depth buffer, then light, shadow and
 /// ambient occlusion. For looking at a result, not for measuring it.
-namespace grouser::runs {
+namespace grouser::render {
 
 /// Linear colour, each 0 to 1.
 using Colour = base::Vec3f;
@@ -63,4 +63,4 @@ Camera cameraAround(const std::vector<Ball>& balls, double azimuth, double eleva
 /// The scene as seen by the camera, four samples a pixel.
 Image render(const RenderScene& scene, const Camera& camera, int width, int height);
 
-} // namespace grouser::runs
+} // namespace grouser::render

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::scene {
 
 using base::Section;
 
@@ -24,12 +24,12 @@ auto tableOf(const std::vector<CouplingSection>&) { return detail::couplingTable
 
 /// Reads all of [[key]] by `table`, and has the builder check each; a fault gets the place of its key.
 template <class S> void readAll(const Section& root, const std::string& key, const base::Table<S>& table,
-                                MechanismBuilder& builder, std::vector<S>& sections) {
+                                setup::MechanismBuilder& builder, std::vector<S>& sections) {
   for (const Section& section : root.list(key)) {
     sections.push_back(section.read(table));
     try {
       builder.add(sections.back());
-    } catch (const SectionFault& fault) {
+    } catch (const support::SectionFault& fault) {
       section.fail(fault.key(), fault.what());
     }
   }
@@ -39,7 +39,7 @@ template <class S> void readAll(const Section& root, const std::string& key, con
 /// messages begin with kind and name of a part, whose place in the file is put before.
 void checkWhole(const Section& root, const multibody::Model& model, const Scene& scene) {
   try {
-    const multibody::Solver solver(model, solverOptions(scene.run));
+    const multibody::Solver solver(model, simulation::solverOptions(scene.run));
   } catch (const base::InputError& error) {
     const std::string message = error.what();
     const std::size_t open = message.find(" '"), close = message.find("': ");
@@ -74,7 +74,7 @@ void writeAll(std::string& text, const std::string& key, const base::Table<S>& t
 
 void readMechanism(const Section& root, Scene& scene) {
   MechanismSections& m = scene.mechanism;
-  MechanismBuilder builder;
+  setup::MechanismBuilder builder;
   forEachKind(m, [&](const char* key, auto& sections) { readAll(root, key, tableOf(sections), builder, sections); });
   if (m.bodies.empty()) {
     for (const char* key : {"joint", "spring", "bushing", "drive", "coupling"})
@@ -84,8 +84,8 @@ void readMechanism(const Section& root, Scene& scene) {
   const std::vector<Section> joints = root.list("joint");
   for (std::size_t j = 0; j < joints.size(); ++j) {
     try {
-      checkStartVelocity(builder.model(), static_cast<int>(j));
-    } catch (const SectionFault& fault) {
+      setup::checkStartVelocity(builder.model(), static_cast<int>(j));
+    } catch (const support::SectionFault& fault) {
       joints[j].fail(fault.key(), fault.what());
     }
   }
@@ -116,4 +116,4 @@ std::string mechanismToml(const MechanismSections& m) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::scene

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::scene {
 
 /// Reads [[body]], [[joint]], [[spring]] and [[drive]] into `scene`, and checks that they make a mechanism: every
 /// error names file, line, key, value and remedy.
@@ -18,4 +18,4 @@ void checkRecord(const base::Section& output, const Scene& scene);
 /// The same sections as TOML.
 std::string mechanismToml(const MechanismSections& mechanism);
 
-} // namespace grouser::runs
+} // namespace grouser::scene

@@ -10,7 +10,7 @@
 
 /// What a scene file says of a mechanism: plain structs, one a section. Keys, units, ranges and meanings stand in
 /// runs/scene_tables.cpp.
-namespace grouser::runs {
+namespace grouser::scene {
 
 /// [[body]]
 struct BodySection {
@@ -101,4 +101,4 @@ template <class Sections, class F> void forEachKind(Sections& s, F f) {
   f("drive", s.drives), f("coupling", s.couplings);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::scene

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::scene {
 
 using base::InputError;
 using base::Section;
@@ -58,7 +58,7 @@ std::vector<Material> readMaterials(const Section& root) {
   for (const auto& [name, section] : root.named("material")) {
     if (name.find('|') != std::string::npos)
       section.fail("", "has a name with |, which separates the two of a pair; choose another name");
-    if (const std::string fault = nameFault(name); !fault.empty()) section.fail("", fault);
+    if (const std::string fault = support::nameFault(name); !fault.empty()) section.fail("", fault);
     Material m = section.read(detail::materialTable());
     m.name = name;
     checkOneLoss(section, m);
@@ -107,7 +107,7 @@ void readContacts(const Section& root, Scene& scene) {
 void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {
   if (name.empty()) section.fail(key, "is empty; give the path of a file");
   std::vector<std::filesystem::path> tried;
-  const std::filesystem::path found = findInput(name, scene.file, tried);
+  const std::filesystem::path found = support::findInput(name, scene.file, tried);
   if (found.empty()) {
     std::string places;
     std::error_code error;
@@ -369,7 +369,7 @@ Scene readScene(base::Document read, const std::filesystem::path& file, const st
     throw InputError(fmt::format(
         "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
         file.string()));
-  checkGrainSpace(scene);
+  setup::checkGrainSpace(scene);
   return scene;
 }
 
@@ -456,4 +456,4 @@ std::string fieldHelp() {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::scene

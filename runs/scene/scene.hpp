@@ -20,7 +20,7 @@ class Document;
 
 /// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
 /// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
-namespace grouser::runs {
+namespace grouser::scene {
 
 /// [run]
 struct RunSettings {
@@ -242,4 +242,4 @@ std::string resolvedToml(const Scene& scene);
 /// All keys of a scene file with unit, default, range and meaning, as Markdown.
 std::string fieldHelp();
 
-} // namespace grouser::runs
+} // namespace grouser::scene

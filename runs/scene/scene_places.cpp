@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::scene {
 
 void Scene::fail(const std::string& section, const std::string& key, const std::string& message) const {
   if (document && document->root().has(section)) document->root().section(section).fail(key, message);
@@ -35,4 +35,4 @@ std::string Scene::placeOf(const std::string& list, std::size_t number) const {
   return fmt::format("{}: {}.{}", file.string(), list, number);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::scene

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace grouser::runs::detail {
+namespace grouser::scene::detail {
 
 using base::Table;
 
@@ -250,7 +250,7 @@ Table<Driver> driverTable() {
   return t;
 }
 
-Table<SpeedTable> speedTable() {
+Table<SpeedTable> studies::speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
   t.add("time", &S::time, "s", "from the start of the drive, increasing").atLeast(0).required();
@@ -293,4 +293,4 @@ Table<Parallel> parallelTable() {
   return t;
 }
 
-} // namespace grouser::runs::detail
+} // namespace grouser::scene::detail

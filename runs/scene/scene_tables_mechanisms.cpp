@@ -2,7 +2,7 @@
 // Fields of a scene file: bodies, joints and what acts on them.
 #include "runs/scene/detail/scene_tables.hpp"
 
-namespace grouser::runs::detail {
+namespace grouser::scene::detail {
 
 using base::Table;
 
@@ -130,4 +130,4 @@ Table<CouplingSection> couplingTable() {
   return t;
 }
 
-} // namespace grouser::runs::detail
+} // namespace grouser::scene::detail

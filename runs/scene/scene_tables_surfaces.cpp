@@ -4,7 +4,7 @@
 
 #include "spheredecomp/decompose.hpp"
 
-namespace grouser::runs::detail {
+namespace grouser::scene::detail {
 
 using base::Table;
 
@@ -99,4 +99,4 @@ Table<MeshSection> meshTable() {
   return t;
 }
 
-} // namespace grouser::runs::detail
+} // namespace grouser::scene::detail

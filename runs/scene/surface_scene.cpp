@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <map>
 
-namespace grouser::runs {
+namespace grouser::scene {
 
 using base::Section;
 
@@ -60,7 +60,7 @@ void checkSurface(const Section& section, const SurfaceSection& s, std::vector<s
       section.fail(key, "[s] has no meaning for a surface that is not moved; add velocity, spin or amplitude");
   if (s.until && *s.until <= s.start.value_or(0)) section.fail("until", "[s] is not after start; raise it");
   if (!s.name) return;
-  if (const std::string fault = nameFault(*s.name); !fault.empty()) section.fail("name", fault);
+  if (const std::string fault = support::nameFault(*s.name); !fault.empty()) section.fail("name", fault);
   if (s.name->find_first_of(". ,\"") != std::string::npos)
     section.fail("name", "must be a word without blanks, dots, commas and quotes, since it names columns of the "
                          "results; choose another");
@@ -71,8 +71,8 @@ void checkSurface(const Section& section, const SurfaceSection& s, std::vector<s
 
 template <class S> void checkOrientation(const Section& section, const S& s) {
   try {
-    orientationOf(s.axis, s.angle, s.orientation.value_or(std::vector<double>{}));
-  } catch (const SectionFault& fault) {
+    support::orientationOf(s.axis, s.angle, s.orientation.value_or(std::vector<double>{}));
+  } catch (const support::SectionFault& fault) {
     section.fail(fault.key(), fault.what());
   }
 }
@@ -155,9 +155,9 @@ void checkMeshes(const Section& root, const Scene& scene) {
 
 void checkSurfaces(const Section& root, const Scene& scene) {
   checkMeshes(root, scene);
-  const GrainKinds kinds = grainKinds(scene);
+  const setup::GrainKinds kinds = setup::grainKinds(scene);
   std::map<std::string, std::string> places; // of names
-  for (const SceneSurface& s : surfacesOf(scene)) {
+  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
     const Section section = root.list(s.kind)[s.number];
     if (!kinds.any())
       section.fail("", std::string(s.kind) == "plane"
@@ -182,4 +182,4 @@ std::string surfacesToml(const Scene& scene) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::scene

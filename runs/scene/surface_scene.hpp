@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::scene {
 
 /// Reads and checks [[plane]], [[box]], [[cylinder]] and [[mesh]]; their materials are the caller's affair. Throws
 /// InputError.
@@ -18,4 +18,4 @@ void checkSurfaces(const base::Section& root, const Scene& scene);
 /// The same sections as TOML.
 std::string surfacesToml(const Scene& scene);
 
-} // namespace grouser::runs
+} // namespace grouser::scene

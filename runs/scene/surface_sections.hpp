@@ -11,7 +11,7 @@
 
 /// What a scene file says of rigid surfaces: plain structs, one a section. Keys, units, ranges and meanings stand in
 /// runs/scene_tables.cpp.
-namespace grouser::runs {
+namespace grouser::scene {
 
 /// What every rigid surface may have: a name, and a motion.
 struct SurfaceSection {
@@ -75,4 +75,4 @@ struct MeshSection : SurfaceSection {
   bool operator==(const MeshSection&) const = default;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::scene

@@ -19,12 +19,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 using base::Vec3d;
 
-terrain::HeightField readSurface(const Scene& scene) {
-  const Terrain& t = *scene.terrain;
+terrain::HeightField readSurface(const scene::Scene& scene) {
+  const scene::Terrain& t = *scene.terrain;
   terrain::HeightmapPlacement placement;
   placement.sizeX = t.size[0], placement.sizeY = t.size[1];
   placement.black = t.heightRange[0], placement.white = t.heightRange[1];
@@ -38,7 +38,7 @@ terrain::HeightField readSurface(const Scene& scene) {
 namespace {
 
 /// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them.
-Surroundings surroundingsOf(const Scene& scene, const Ground& ground) {
+Surroundings surroundingsOf(const scene::Scene& scene, const Ground& ground) {
   Surroundings around;
   around.floor = ground.rigid;
   if (scene.terrain && scene.terrain->granular()) {
@@ -54,12 +54,12 @@ Surroundings surroundingsOf(const Scene& scene, const Ground& ground) {
     around.floorMaterial = scene.terrain->material;
   }
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const Plane& plane = scene.planes[k];
+    const scene::Plane& plane = scene.planes[k];
     if (!plane.isWall()) continue;
     const Vec3d normal = base::normalized(plane.normal);
     around.walls.push_back({normal, dot(normal, plane.point), plane.material, fmt::format("plane {}", k)});
   }
-  around.surfaces = surfacesOf(scene);
+  around.surfaces = simulation::surfacesOf(scene);
   return around;
 }
 
@@ -70,7 +70,7 @@ double memoryOfMachine() { // [bytes]
 }
 
 /// Throws before any memory is taken when grains cannot fit into this machine.
-void checkBlockSizes(const Scene& scene) {
+void checkBlockSizes(const scene::Scene& scene) {
   const double bytes = grainMemory(scene).most();
   for (std::size_t k = 0; k < scene.blocks.size(); ++k) {
     const auto grains = static_cast<double>(placedCount(scene.blocks[k]));
@@ -84,9 +84,9 @@ void checkBlockSizes(const Scene& scene) {
 }
 
 /// The same of a bed.
-void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
+void checkBedSize(const scene::Scene& scene, const terrain::LayerOptions& options) {
   const double bytes = grainMemory(scene).most();
-  const Terrain& t = *scene.terrain;
+  const scene::Terrain& t = *scene.terrain;
   const double spacing = options.spacingInRadii * options.radius;
   const double layers = options.layers > 0 ? options.layers : std::max(1.0, options.depth / spacing);
   const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
@@ -98,7 +98,7 @@ void checkBedSize(const Scene& scene, const terrain::LayerOptions& options) {
                            grains, grains * bytes / kGiB, memory / kGiB));
 }
 
-terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm) {
+terrain::PartitionOptions partitionOf(const scene::Scene& scene, const base::Comm& comm) {
   terrain::PartitionOptions partition;
   partition.comm = comm;
   partition.rebalance = scene.parallel.rebalance;
@@ -114,7 +114,7 @@ terrain::PartitionOptions partitionOf(const Scene& scene, const base::Comm& comm
 }
 
 /// The terrain without its grains. Empty where it has none.
-std::optional<terrain::BedPlan> readTerrain(const Scene& scene, Ground& ground) {
+std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, Ground& ground) {
   if (!scene.terrain) return {};
   ground.surface = readSurface(scene);
   if (!scene.terrain->granular()) {
@@ -129,9 +129,9 @@ std::optional<terrain::BedPlan> readTerrain(const Scene& scene, Ground& ground) 
   return plan;
 }
 
-void layBed(const Scene& scene, const terrain::BedPlan& plan, const Surroundings& around, const base::Exec& exec,
+void layBed(const scene::Scene& scene, const terrain::BedPlan& plan, const Surroundings& around, const base::Exec& exec,
             double timeStep, const base::Comm& comm, Ground& ground) {
-  const Terrain& t = *scene.terrain;
+  const scene::Terrain& t = *scene.terrain;
   const terrain::LayerOptions options = layerOptions(scene);
   const GrainKinds kinds = grainKinds(scene);
   terrain::Boundaries boundaries;
@@ -141,7 +141,7 @@ void layBed(const Scene& scene, const terrain::BedPlan& plan, const Surroundings
   // The bed is laid around what stands in it.
   const auto taken = [&](const Vec3d& centre) {
     return std::any_of(around.surfaces.begin(), around.surfaces.end(),
-                       [&](const SceneSurface& s) { return startingOverlap(s, centre, options.radius) > 0; });
+                       [&](const simulation::SceneSurface& s) { return simulation::startingOverlap(s, centre, options.radius) > 0; });
   };
   if (t.tile) {
     tiles.emplace(scene, *ground.surface, plan, exec, timeStep);
@@ -161,11 +161,11 @@ void layBed(const Scene& scene, const terrain::BedPlan& plan, const Surroundings
   if (tiles) tiles->bringToRest(*ground.grains, floor);
 }
 
-void placeGrains(const Scene& scene, const std::vector<Grain>& grains, const Surroundings& around,
+void placeGrains(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
                  const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
   const GrainKinds kinds = grainKinds(scene);
   std::vector<terrain::GrainStart> start;
-  for (const Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+  for (const scene::Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   ground.grains =
@@ -174,8 +174,8 @@ void placeGrains(const Scene& scene, const std::vector<Grain>& grains, const Sur
 
 } // namespace
 
-terrain::LayerOptions layerOptions(const Scene& scene) {
-  const Terrain& t = *scene.terrain;
+terrain::LayerOptions layerOptions(const scene::Scene& scene) {
+  const scene::Terrain& t = *scene.terrain;
   terrain::LayerOptions options;
   options.radius = *t.grainRadius, options.layers = t.layers.value_or(0), options.depth = t.depth.value_or(0);
   options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
@@ -188,7 +188,7 @@ terrain::LayerOptions layerOptions(const Scene& scene) {
 namespace {
 
 /// What stands beside each other in a scene.
-void checkCompany(const Scene& scene) {
+void checkCompany(const scene::Scene& scene) {
   const bool placed = !scene.grains.empty() || !scene.blocks.empty(), bed = scene.terrain && scene.terrain->granular();
   if (placed && bed)
     scene.fail(
@@ -203,7 +203,7 @@ void checkCompany(const Scene& scene) {
 
 } // namespace
 
-void checkGround(const Scene& scene, double timeStep) {
+void checkGround(const scene::Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
@@ -215,7 +215,7 @@ void checkGround(const Scene& scene, double timeStep) {
   checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground), timeStep);
 }
 
-Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
+Ground buildGround(const scene::Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
   checkSpeeds(scene, timeStep);
@@ -224,7 +224,7 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, 
   if (!grainKinds(scene).any()) return ground;
   checkBlockSizes(scene);
   const Surroundings around = surroundingsOf(scene, ground);
-  const std::vector<Grain> grains = placedGrains(scene);
+  const std::vector<scene::Grain> grains = placedGrains(scene);
   checkStart(scene, grains, around, timeStep);
   if (bed)
     layBed(scene, *bed, around, exec, timeStep, comm, ground);
@@ -234,8 +234,8 @@ Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, 
   return ground;
 }
 
-SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress) {
-  const Terrain& t = *scene.terrain;
+SettleReport settle(const scene::Scene& scene, Ground& ground, const SettleProgress& progress) {
+  const scene::Terrain& t = *scene.terrain;
   terrain::Grains& grains = *ground.grains;
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
@@ -287,4 +287,4 @@ std::function<double(double, double)> surfaceHeight(const Ground& ground) {
   return [field](double x, double y) { return field->height(x, y); };
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// The terrain of a scene as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone.
 struct Ground {
@@ -35,24 +35,24 @@ struct SettleReport {
 };
 
 /// The ground's surface as the height-map says. Throws InputError where that cannot be read.
-terrain::HeightField readSurface(const Scene& scene);
+terrain::HeightField readSurface(const scene::Scene& scene);
 
 /// How the scene's bed is laid.
-terrain::LayerOptions layerOptions(const Scene& scene);
+terrain::LayerOptions layerOptions(const scene::Scene& scene);
 
 /// Throws what buildGround() would, and lays nothing: grains that overlap each other (up to a hundred thousand of
 /// them), sources in solids, surfaces too quick for the step.
-void checkGround(const Scene& scene, double timeStep);
+void checkGround(const scene::Scene& scene, double timeStep);
 
 /// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
 /// On several ranks each takes the grains of its subdomain.
-Ground buildGround(const Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});
+Ground buildGround(const scene::Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});
 
 /// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
 /// m g radius, and the mean resultant force below the scene's share of the weight where it names one, for a whole tenth
 /// of a second, but at least for the time a grain takes to fall the bed's looseness.
 /// Throws SimulationError when the scene's time limit passes first.
-SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress);
+SettleReport settle(const scene::Scene& scene, Ground& ground, const SettleProgress& progress);
 
 /// Takes the surface of a bed as it lies now for the undisturbed one, or `heights` of one taken earlier.
 void keepSurface(Ground& ground, const base::Exec& exec);
@@ -61,4 +61,4 @@ void keepSurface(Ground& ground, const std::vector<double>& heights);
 /// Height of the undisturbed bed, or of the rigid ground; null where there is neither.
 std::function<double(double x, double y)> surfaceHeight(const Ground& ground);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

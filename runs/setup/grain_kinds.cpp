@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
@@ -30,17 +30,17 @@ int GrainKinds::indexOf(const std::string& name) const {
   return at == material.end() ? -1 : static_cast<int>(at - material.begin());
 }
 
-GrainKinds grainKinds(const Scene& scene) {
+GrainKinds grainKinds(const scene::Scene& scene) {
   GrainKinds kinds;
-  for (const Grain& g : scene.grains) include(kinds, g.material, g.radius, g.radius);
-  for (const GrainBlock& b : scene.blocks) include(kinds, b.material, b.smallestRadius(), b.largestRadius());
+  for (const scene::Grain& g : scene.grains) include(kinds, g.material, g.radius, g.radius);
+  for (const scene::GrainBlock& b : scene.blocks) include(kinds, b.material, b.smallestRadius(), b.largestRadius());
   if (scene.terrain && scene.terrain->granular())
     include(kinds, scene.terrain->material, *scene.terrain->grainRadius, *scene.terrain->grainRadius);
-  for (const Source& s : scene.sources) include(kinds, s.material, s.radius, s.radius);
+  for (const scene::Source& s : scene.sources) include(kinds, s.material, s.radius, s.radius);
   return kinds;
 }
 
-terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, double timeStep,
+terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
                                const Surroundings& surroundings, terrain::Boundaries& boundaries) {
   const std::string& first = kinds.material.front();
   terrain::GrainModel model;
@@ -62,9 +62,9 @@ terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, doub
   boundaries.floor = surroundings.floor;
   boundaries.joined = joinedSides(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
-  for (const SceneSurface& s : surroundings.surfaces)
+  for (const simulation::SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)
-      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), startingPlace(s)});
+      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), simulation::startingPlace(s)});
   if (!kinds.manyMaterials()) return model;
 
   terrain::GrainMaterials& many = model.materials;
@@ -78,11 +78,11 @@ terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, doub
   if (surroundings.floor)
     for (const std::string& a : kinds.material)
       many.boundaries.push_back(pairLaw(scene, a, surroundings.floorMaterial, std::nullopt));
-  for (const SceneSurface& s : surroundings.surfaces)
+  for (const simulation::SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)
       for (const std::string& a : kinds.material)
         many.boundaries.push_back(pairLaw(scene, a, s.section.material, std::nullopt));
   return model;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

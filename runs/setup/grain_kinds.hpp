@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// What grains a scene has: those of [[grain]] and [[grains]], the bed's, and those that sources bring.
 struct GrainKinds {
@@ -27,14 +27,14 @@ struct GrainKinds {
   bool many() const { return manyRadii() || manyMaterials(); }
   int indexOf(const std::string& name) const;
 };
-GrainKinds grainKinds(const Scene& scene);
+GrainKinds grainKinds(const scene::Scene& scene);
 
 /// The single grains and those of blocks, in the order of the file: their place is their id. Reads the files that
 /// blocks name. Throws InputError: no room for all, a broken line.
-std::vector<Grain> placedGrains(const Scene& scene);
+std::vector<scene::Grain> placedGrains(const scene::Scene& scene);
 /// How many those are, without placing them.
-std::int64_t placedCount(const Scene& scene);
-std::int64_t placedCount(const GrainBlock& block);
+std::int64_t placedCount(const scene::Scene& scene);
+std::int64_t placedCount(const scene::GrainBlock& block);
 
 /// A surface that grains meet, as constants of a step.
 struct Surroundings {
@@ -47,11 +47,11 @@ struct Surroundings {
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;
   std::string floorMaterial;
-  std::vector<SceneSurface> surfaces{};
+  std::vector<simulation::SceneSurface> surfaces{};
 };
 
 /// The grains' constants, and their walls, floor and surfaces with their laws.
-terrain::GrainModel grainModel(const Scene& scene, const GrainKinds& kinds, double timeStep,
+terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
                                const Surroundings& surroundings, terrain::Boundaries& boundaries);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -5,19 +5,19 @@
 #include "runs/simulation/surfaces.hpp"
 #include "terrain/grains.hpp"
 
-namespace grouser::runs {
+namespace grouser::setup {
 
-unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
+unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds) {
   unsigned features = terrain::kLedger;
   const auto add = [&](const std::string& a, const std::string& b) { features |= pairLaw(scene, a, b, 1).features(); };
   for (const std::string& a : kinds.material) {
     for (const std::string& b : kinds.material) add(a, b);
-    for (const Plane& p : scene.planes) add(a, p.material);
-    for (const SceneSurface& surface : surfacesOf(scene)) add(a, surface.section.material);
+    for (const scene::Plane& p : scene.planes) add(a, p.material);
+    for (const simulation::SceneSurface& surface : simulation::surfacesOf(scene)) add(a, surface.section.material);
     if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
   }
   if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
-  if (surfacesOf(scene).size() > scene.meshes.size()) features |= terrain::kBoundaries | terrain::kSurfaces;
+  if (simulation::surfacesOf(scene).size() > scene.meshes.size()) features |= terrain::kBoundaries | terrain::kSurfaces;
   if (!scene.meshes.empty()) features |= terrain::kLoads;
   if (scene.run.periodic[0] || scene.run.periodic[1]) features |= terrain::kPeriodic;
   if (kinds.many()) features |= terrain::kManyRadii;
@@ -25,7 +25,7 @@ unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds) {
   return scene.vehicle ? features | terrain::kLoads : features;
 }
 
-GrainMemory grainMemory(const Scene& scene) {
+GrainMemory grainMemory(const scene::Scene& scene) {
   // Neighbours listed of a grain in a settled bed, at the skin that scenes begin with, and what lists leave free; and
   // those of them that touch.
   constexpr double kPlaces = 8, kContacts = 4;
@@ -48,4 +48,4 @@ GrainMemory grainMemory(const Scene& scene) {
   return m;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

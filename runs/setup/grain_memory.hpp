@@ -3,7 +3,7 @@
 
 #include "runs/setup/grain_kinds.hpp"
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Device memory that a grain of a scene will take, by what it is for [bytes]: sizes of the records times the places
 /// of a settled bed, before anything is allocated.
@@ -19,9 +19,9 @@ struct GrainMemory {
 };
 
 /// Features of the grains' step, as the model of the scene will have them.
-unsigned grainFeatures(const Scene& scene, const GrainKinds& kinds);
+unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds);
 
 /// Of the grains of `scene`. Those of very unlike radii have more neighbours, and take more.
-GrainMemory grainMemory(const Scene& scene);
+GrainMemory grainMemory(const scene::Scene& scene);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
-GrainPartSetup grainPartModel(const Scene& scene, const terrain::Grains& grains, double timeStep, double margin,
+GrainPartSetup grainPartModel(const scene::Scene& scene, const terrain::Grains& grains, double timeStep, double margin,
                               const PartLaw& lawOf) {
   const terrain::GrainModel& bed = grains.model();
   const GrainKinds kinds = grainKinds(scene);
@@ -35,4 +35,4 @@ GrainPartSetup grainPartModel(const Scene& scene, const terrain::Grains& grains,
   return setup;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Constants of the contacts between a scene's grains and parts made of spheres.
 struct GrainPartSetup {
@@ -19,11 +19,11 @@ struct GrainPartSetup {
 /// The law between a grain's material and the parts, for grains of one mass [kg] or (without) of many.
 using PartLaw = std::function<contact::ContactLaw(const std::string& soil, std::optional<double> mass)>;
 /// `margin`: parts may move so far before pairs are looked for anew [m].
-GrainPartSetup grainPartModel(const Scene& scene, const terrain::Grains& grains, double timeStep, double margin,
+GrainPartSetup grainPartModel(const scene::Scene& scene, const terrain::Grains& grains, double timeStep, double margin,
                               const PartLaw& lawOf);
 
 inline contact::GrainPartContacts::GrainsView viewOf(const terrain::Grains& grains) {
   return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
@@ -20,7 +20,7 @@ using base::Vec3d;
 /// Radii and places as the sections give them.
 class SpaceCheck {
 public:
-  explicit SpaceCheck(const Scene& scene)
+  explicit SpaceCheck(const scene::Scene& scene)
       : scene_(scene), kinds_(grainKinds(scene)), limit_(base::positionScale(2 * kinds_.largest).limit()) {}
 
   void grains() const {
@@ -29,13 +29,13 @@ public:
       place("grain", k, "position", scene_.grains[k].position);
     }
     for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
-      const GrainBlock& b = scene_.blocks[k];
+      const scene::GrainBlock& b = scene_.blocks[k];
       radius("grains", k, b.form == "file" ? "file" : "radius", b.smallestRadius());
       if (b.low) place("grains", k, "low", *b.low), place("grains", k, "high", *b.high);
-      for (const Grain& g : b.fromFile) place("grains", k, "file", g.position);
+      for (const scene::Grain& g : b.fromFile) place("grains", k, "file", g.position);
     }
     for (std::size_t k = 0; k < scene_.sources.size(); ++k) {
-      const Source& s = scene_.sources[k];
+      const scene::Source& s = scene_.sources[k];
       radius("source", k, "radius", s.radius);
       place("source", k, "low", s.low), place("source", k, "high", s.high);
     }
@@ -89,7 +89,7 @@ public:
   void ids() const {
     constexpr double kMostGrains = 4e9;
     for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
-      const GrainBlock& b = scene_.blocks[k];
+      const scene::GrainBlock& b = scene_.blocks[k];
       if (b.form != "lattice") continue;
       double grains = 1; // in a whole number they might not fit
       for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
@@ -126,17 +126,17 @@ private:
                        limit_, kinds_.largest);
   }
 
-  const Scene& scene_;
+  const scene::Scene& scene_;
   const GrainKinds kinds_;
   double limit_;
 };
 
 } // namespace
 
-void checkGrainSpace(const Scene& scene) {
+void checkGrainSpace(const scene::Scene& scene) {
   if (!grainKinds(scene).any()) return;
   const SpaceCheck check(scene);
   check.grains(), check.sides(), check.boundaries(), check.ids();
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

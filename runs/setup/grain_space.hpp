@@ -3,11 +3,11 @@
 
 #include "runs/scene/scene.hpp"
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// The scene must fit into what grains are made of: integer positions, whose range and resolution follow from the
 /// largest grain, and lists of at most 32 boundaries. Throws InputError with the place of what does not; the grains
 /// themselves check the same, but know of no file.
-void checkGrainSpace(const Scene& scene);
+void checkGrainSpace(const scene::Scene& scene);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

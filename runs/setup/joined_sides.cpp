@@ -7,11 +7,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
-terrain::JoinedSides joinedSides(const Scene& scene) {
+terrain::JoinedSides joinedSides(const scene::Scene& scene) {
   terrain::JoinedSides sides;
-  const RunSettings& run = scene.run;
+  const scene::RunSettings& run = scene.run;
   if (run.periodic[0]) {
     if (scene.terrain) sides[0] = {0.0, scene.terrain->size[0]};
     if (run.domainX) sides[0] = *run.domainX;
@@ -33,7 +33,7 @@ base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way) {
   return way;
 }
 
-void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
+void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains) {
   const terrain::JoinedSides sides = joinedSides(scene);
   for (std::size_t a = 0; a < 2; ++a) {
     if (!sides[a]) continue;
@@ -63,7 +63,7 @@ void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains) {
   }
 }
 
-void checkLevelAcross(const Scene& scene, const terrain::HeightField& surface) {
+void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface) {
   const terrain::HeightFieldBounds all = surface.boundsOver(surface.area());
   const double tolerance = 1e-9 * std::max(1.0, std::fabs(all.highest));
   const terrain::Rectangle& area = surface.area();
@@ -86,4 +86,4 @@ void checkLevelAcross(const Scene& scene, const terrain::HeightField& surface) {
   }
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -4,19 +4,19 @@
 #include "runs/scene/scene.hpp"
 #include "terrain/grains.hpp"
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Where the sides stand that `run.periodic` joins [m]: at the borders of the terrain, or where run.domain_x and
 /// run.domain_y say. InputError: a height-map that does not fit together across them.
-terrain::JoinedSides joinedSides(const Scene& scene);
+terrain::JoinedSides joinedSides(const scene::Scene& scene);
 
 /// The way between two places, or between one and the nearest image of the other.
 base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way);
 
 /// Grains and sources must lie between the sides. Throws InputError that names the first that does not.
-void checkBetweenSides(const Scene& scene, const std::vector<Grain>& grains);
+void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains);
 
 /// `surface` must be as high at one joined side as at the other, all along: level in that direction.
-void checkLevelAcross(const Scene& scene, const terrain::HeightField& surface);
+void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
@@ -26,7 +26,7 @@ bool fits(int ranks, const std::array<int, 3>& wanted) {
 
 } // namespace
 
-std::array<int, 3> wantedSubdomains(const Scene& scene) {
+std::array<int, 3> wantedSubdomains(const scene::Scene& scene) {
   const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
   std::array<int, 3> wanted{};
   for (int a = 0; a < 3; ++a) {
@@ -37,7 +37,7 @@ std::array<int, 3> wantedSubdomains(const Scene& scene) {
   return wanted;
 }
 
-void checkLattice(const Scene& scene, int ranks) {
+void checkLattice(const scene::Scene& scene, int ranks) {
   const std::array<int, 3> wanted = wantedSubdomains(scene);
   if (ranks == 1 || fits(ranks, wanted)) return;
   const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
@@ -57,4 +57,4 @@ void checkLattice(const Scene& scene, int ranks) {
                                      scene.file.string(), ranks, terrain::kMostSubdomainsAnAxis));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

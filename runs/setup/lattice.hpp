@@ -5,12 +5,12 @@
 
 #include <array>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Subdomains along x, y and z that the scene asks for, by their numbers or by planes between them; 0: any number.
-std::array<int, 3> wantedSubdomains(const Scene& scene);
+std::array<int, 3> wantedSubdomains(const scene::Scene& scene);
 
 /// Throws base::InputError, with the line of the key, where so many ranks make no lattice that the scene asks for.
-void checkLattice(const Scene& scene, int ranks);
+void checkLattice(const scene::Scene& scene, int ranks);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

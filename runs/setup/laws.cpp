@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
@@ -22,7 +22,7 @@ double dampingOf(const std::optional<double>& restitution, const std::optional<d
   return 2 * omega0 * contact::dampingRatioFor(restitution.value_or(1), attraction);
 }
 
-void setLinear(const Scene& scene, const Material& a, const Material& b, const ContactPair* pair,
+void setLinear(const scene::Scene& scene, const scene::Material& a, const scene::Material& b, const scene::ContactPair* pair,
                std::optional<double> effectiveMass, ContactLaw& law) {
   const double ka = *a.stiffness, kb = *b.stiffness;
   double stiffness = &a == &b ? ka : 2 * ka * kb / (ka + kb);
@@ -58,11 +58,11 @@ void setLinear(const Scene& scene, const Material& a, const Material& b, const C
   law.tangentialRootDamping = law.rootDamping * dampingRatio;
 }
 
-double shearModulus(const Material& m) { return *m.young / (2 * (1 + *m.poisson)); }
+double shearModulus(const scene::Material& m) { return *m.young / (2 * (1 + *m.poisson)); }
 
-void setHertz(const Material& a, const Material& b, const ContactPair* pair, ContactLaw& law) {
-  const auto compliance = [](const Material& m) { return (1 - *m.poisson * *m.poisson) / *m.young; };
-  const auto shearCompliance = [](const Material& m) { return (2 - *m.poisson) / shearModulus(m); };
+void setHertz(const scene::Material& a, const scene::Material& b, const scene::ContactPair* pair, ContactLaw& law) {
+  const auto compliance = [](const scene::Material& m) { return (1 - *m.poisson * *m.poisson) / *m.young; };
+  const auto shearCompliance = [](const scene::Material& m) { return (2 - *m.poisson) / shearModulus(m); };
   const double modulus = 1 / (compliance(a) + compliance(b));
   law.hertz = true;
   law.stiffness = 4.0 / 3 * modulus;
@@ -80,10 +80,10 @@ double sphereMass(double density, double radius) {
   return density * (4.0 / 3.0) * base::kPi * radius * radius * radius;
 }
 
-ContactLaw pairLaw(const Scene& scene, const std::string& nameA, const std::string& nameB,
+ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const std::string& nameB,
                    std::optional<double> effectiveMass) {
-  const Material &a = scene.material(nameA), &b = scene.material(nameB);
-  const ContactPair* pair = scene.contact(nameA, nameB);
+  const scene::Material &a = scene.material(nameA), &b = scene.material(nameB);
+  const scene::ContactPair* pair = scene.contact(nameA, nameB);
   if (a.law != b.law)
     scene.failMaterial(b.name, "law",
                        fmt::format("differs from law = \"{}\" of material.{}, which it meets; surfaces that touch must "
@@ -118,9 +118,9 @@ double contactTime(const ContactLaw& law, double effectiveMass, double effective
   return contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
 }
 
-double rayleighTimeOf(const Material& m, double radius) {
+double rayleighTimeOf(const scene::Material& m, double radius) {
   if (m.law != "hertz") return std::numeric_limits<double>::infinity();
   return contact::rayleighTime(radius, m.density, shearModulus(m), *m.poisson);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Mass of a sphere [kg].
 double sphereMass(double density, double radius);
@@ -21,7 +21,7 @@ double sphereMass(double density, double radius);
 /// - the smaller friction, rolling friction and restitution, the smaller tangential and rolling ratios; the geometric
 ///   mean of the cohesions; attraction only if both allow it.
 /// Throws InputError where one is linear and the other hertz.
-contact::ContactLaw pairLaw(const Scene& scene, const std::string& a, const std::string& b,
+contact::ContactLaw pairLaw(const scene::Scene& scene, const std::string& a, const std::string& b,
                             std::optional<double> effectiveMass);
 
 /// Coefficients of a contact as stiff as it gets: of a linear one always, of a Hertz one at the deepest overlap of an
@@ -33,6 +33,6 @@ contact::Coefficients<double> stiffest(const contact::ContactLaw& law, double ef
 double contactTime(const contact::ContactLaw& law, double effectiveMass, double effectiveRadius, double speed);
 
 /// Time of a Rayleigh wave along half a grain of a hertz material [s]; infinite for a linear one.
-double rayleighTimeOf(const Material& material, double radius);
+double rayleighTimeOf(const scene::Material& material, double radius);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

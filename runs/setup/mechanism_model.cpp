@@ -13,7 +13,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 using base::Mat3d;
 using base::Pose;
@@ -24,13 +24,13 @@ using multibody::JointType;
 
 namespace {
 
-Mat3d inertiaOf(const BodySection& b) {
+Mat3d inertiaOf(const scene::BodySection& b) {
   const std::vector<double>& i = b.inertia;
   if (i.size() == 3) return Mat3d::diagonal({i[0], i[1], i[2]});
   if (i.size() == 6) return {{{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}}};
   if (!i.empty())
-    throw SectionFault("inertia", "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
-  if (!b.box) throw SectionFault("inertia", "[kg m2] is missing; add it, or the edges of a box");
+    throw support::SectionFault("inertia", "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
+  if (!b.box) throw support::SectionFault("inertia", "[kg m2] is missing; add it, or the edges of a box");
   const Vec3d e = *b.box;
   const double m = *b.mass / 12;
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
@@ -45,30 +45,30 @@ const std::pair<const char*, JointType> kTypes[] = {
 JointType typeOf(const std::string& word) {
   for (const auto& [name, type] : kTypes)
     if (word == name) return type;
-  throw SectionFault("type", "is no type of joint");
+  throw support::SectionFault("type", "is no type of joint");
 }
 
 /// Everything that a drive says over time, added up.
-multibody::TimeLaw lawOf(const DriveSection& d) {
+multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   multibody::TimeLaw law;
   law.polynomial = d.polynomial;
   if (d.value) law.polynomial = {*d.value};
   if (d.value && !d.polynomial.empty())
-    throw SectionFault("polynomial", "stands beside value, which is its first entry; remove one of the two");
+    throw support::SectionFault("polynomial", "stands beside value, which is its first entry; remove one of the two");
   if (d.amplitude != 0) {
-    if (!(d.frequency > 0)) throw SectionFault("frequency", "[Hz] must be above 0 beside amplitude; add it");
+    if (!(d.frequency > 0)) throw support::SectionFault("frequency", "[Hz] must be above 0 beside amplitude; add it");
     law.harmonics.push_back({d.amplitude, 2 * base::kPi * d.frequency, d.phase * (base::kPi / 180)});
   }
   if (d.values.size() != d.time.size())
-    throw SectionFault("values",
+    throw support::SectionFault("values",
                        fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
-  if (d.time.size() == 1) throw SectionFault("time", "[s] has one entry; give two at least, or value");
+  if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give two at least, or value");
   for (std::size_t i = 1; i < d.time.size(); ++i)
     if (!(d.time[i] > d.time[i - 1]))
-      throw SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+      throw support::SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
   // A kink in a position would be a blow.
   (d.imposes == "position" ? law.table : law.ramps) = {d.time, d.values};
-  if (law.empty()) throw SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
+  if (law.empty()) throw support::SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
   return law;
 }
 
@@ -81,9 +81,9 @@ multibody::TimeLaw lawOf(const DriveSection& d) {
     if (rest.rfind(key, 0) == 0) {
       std::string message = rest.substr(key.size());
       message.erase(0, message.find_first_not_of(' '));
-      throw SectionFault(key, message);
+      throw support::SectionFault(key, message);
     }
-  throw SectionFault("", rest);
+  throw support::SectionFault("", rest);
 }
 
 /// Adds to the model; what it refuses becomes a fault of the key that its message begins with.
@@ -96,8 +96,8 @@ template <class Add> int handed(const std::vector<std::string>& keys, Add add) {
 }
 
 void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits, double stiffness, double damping) {
-  if (!(limits[0] < limits[1])) throw SectionFault("limits", "[rad or m] must be the lower, then the upper; swap them");
-  if (!(stiffness > 0)) throw SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
+  if (!(limits[0] < limits[1])) throw support::SectionFault("limits", "[rad or m] must be the lower, then the upper; swap them");
+  if (!(stiffness > 0)) throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
   spring.lowerLimit = limits[0], spring.upperLimit = limits[1];
   spring.stopStiffness = stiffness, spring.stopDamping = damping;
 }
@@ -105,12 +105,12 @@ void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits
 } // namespace
 
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
-  if (name == "world") throw SectionFault("name", "is the name of the ground; choose another");
-  if (const std::string fault = nameFault(name); !fault.empty()) throw SectionFault("name", fault);
+  if (name == "world") throw support::SectionFault("name", "is the name of the ground; choose another");
+  if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
   if (name.find_first_of(".\",") != std::string::npos)
-    throw SectionFault("name", "has one of the characters . , \" in it, which results use between names; leave it out");
+    throw support::SectionFault("name", "has one of the characters . , \" in it, which results use between names; leave it out");
   if (!names_.insert(kind + " " + name).second)
-    throw SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
+    throw support::SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
 }
 
 int MechanismBuilder::body(const std::string& key, const std::string& name) const {
@@ -118,13 +118,13 @@ int MechanismBuilder::body(const std::string& key, const std::string& name) cons
   if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
   std::vector<std::string> known = {"world"};
   for (const multibody::Body& b : model_.bodies()) known.push_back(b.name);
-  throw SectionFault(key,
+  throw support::SectionFault(key,
                      fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
 }
 
 std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& names) const {
   if (names.size() != 2)
-    throw SectionFault("bodies", "must name two bodies, e.g. [\"world\", \"rod\"]; correct the list");
+    throw support::SectionFault("bodies", "must name two bodies, e.g. [\"world\", \"rod\"]; correct the list");
   return {body("bodies", names[0]), body("bodies", names[1])};
 }
 
@@ -132,7 +132,7 @@ int MechanismBuilder::joint(const std::string& key, const std::string& name) con
   if (const auto found = joints_.find(name); found != joints_.end()) return found->second;
   std::vector<std::string> known;
   for (const multibody::Joint& j : model_.joints()) known.push_back(j.name);
-  throw SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
+  throw support::SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
                                         : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
                                                       base::nearestWord(name, known)));
 }
@@ -142,17 +142,17 @@ JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::s
   const bool turns = j.type == JointType::kRevolute || j.type == JointType::kCylindrical;
   const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
   if (!turns && !slides)
-    throw SectionFault("", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
+    throw support::SectionFault("", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
                                        "cylindrical joint",
                                        j.name));
   if (word.empty()) {
     if (turns && slides)
-      throw SectionFault(
+      throw support::SectionFault(
           key, fmt::format("is missing, for joint \"{}\" has two axes; add {} = \"angle\" or \"slide\"", j.name, key));
     return turns ? JointAxis::kAngle : JointAxis::kSlide;
   }
   if (word == "angle" ? !turns : !slides)
-    throw SectionFault(key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
+    throw support::SectionFault(key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
   return word == "angle" ? JointAxis::kAngle : JointAxis::kSlide;
 }
 
@@ -160,30 +160,30 @@ Pose MechanismBuilder::pose(int index) const {
   return index == multibody::kWorld ? Pose{} : model_.bodies()[static_cast<std::size_t>(index)].pose;
 }
 
-void MechanismBuilder::add(const BodySection& b) {
+void MechanismBuilder::add(const scene::BodySection& b) {
   checkName("body", b.name);
   multibody::Body body;
   body.name = b.name, body.fixed = b.fixed, body.point = b.point;
-  body.pose = {b.position, orientationOf(b.axis, b.angle, b.orientation)};
+  body.pose = {b.position, support::orientationOf(b.axis, b.angle, b.orientation)};
   body.v_WB = b.velocity, body.w_WB = b.spin;
   if (!b.fixed) {
-    if (!b.mass) throw SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
+    if (!b.mass) throw support::SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
     body.mass = *b.mass;
     if (b.point && !b.inertia.empty())
-      throw SectionFault("inertia", "[kg m2] stands beside point = true; a point has none: remove one of the two");
+      throw support::SectionFault("inertia", "[kg m2] stands beside point = true; a point has none: remove one of the two");
     if (!b.point) body.inertia_B = inertiaOf(b);
   }
   bodies_[b.name] = handed({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
 }
 
-void MechanismBuilder::add(const JointSection& j) {
+void MechanismBuilder::add(const scene::JointSection& j) {
   checkName("joint", j.name);
   multibody::Joint joint;
   joint.name = j.name, joint.type = typeOf(j.type);
   joint.damping = j.damping, joint.slideDamping = j.slideDamping, joint.length = j.length.value_or(0);
   std::tie(joint.bodyA, joint.bodyB) = twoBodies(j.bodies);
   const Pose X_WA = pose(joint.bodyA), X_WB = pose(joint.bodyB);
-  const JointFrames placed = placeJoint(j, X_WA, X_WB);
+  const output::JointFrames placed = output::placeJoint(j, X_WA, X_WB);
   joint.frame_A = multibody::compose(multibody::inverse(X_WA), placed.A);
   joint.frame_B = multibody::compose(multibody::inverse(X_WB), placed.B);
   if (j.type == "distance") {
@@ -191,7 +191,7 @@ void MechanismBuilder::add(const JointSection& j) {
     joint.frame_A.position = j.pointA.value_or(Vec3d{}), joint.frame_B.position = j.pointB.value_or(Vec3d{});
     const double apart = norm(placed.B.position - placed.A.position);
     if (j.length && !(std::fabs(apart - *j.length) <= 1e-6 * *j.length))
-      throw SectionFault("length", fmt::format("[m] is not met at the start, where the points are {:.9g} m apart; "
+      throw support::SectionFault("length", fmt::format("[m] is not met at the start, where the points are {:.9g} m apart; "
                                                "correct it or the bodies' places, or leave it out",
                                                apart));
   }
@@ -205,10 +205,10 @@ void MechanismBuilder::add(const JointSection& j) {
   handed({"limits"}, [&] { return model_.addAxisSpring(stops); });
 }
 
-void MechanismBuilder::add(const SpringSection& s) {
+void MechanismBuilder::add(const scene::SpringSection& s) {
   checkName("spring", s.name);
   if (s.bodies.empty() == s.joint.empty())
-    throw SectionFault(s.joint.empty() ? "" : "joint", s.joint.empty()
+    throw support::SectionFault(s.joint.empty() ? "" : "joint", s.joint.empty()
                                                            ? "has neither bodies nor joint; say where it acts"
                                                            : "stands beside bodies; a spring acts on one of the two");
   if (s.joint.empty())
@@ -217,9 +217,9 @@ void MechanismBuilder::add(const SpringSection& s) {
     addOnAxis(s);
 }
 
-void MechanismBuilder::addOnAxis(const SpringSection& s) {
+void MechanismBuilder::addOnAxis(const scene::SpringSection& s) {
   if (s.pointA || s.pointB)
-    throw SectionFault(s.pointA ? "point_a" : "point_b", "[m] has no meaning on the axis of a joint; remove it");
+    throw support::SectionFault(s.pointA ? "point_a" : "point_b", "[m] has no meaning on the axis of a joint; remove it");
   multibody::AxisSpring spring;
   spring.name = s.name, spring.joint = joint("joint", s.joint), spring.axis = axis(spring.joint, "acts_on", s.actsOn);
   spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
@@ -228,8 +228,8 @@ void MechanismBuilder::addOnAxis(const SpringSection& s) {
   handed({"stiffness", "damping", "preload"}, [&] { return model_.addAxisSpring(spring); });
 }
 
-void MechanismBuilder::addBetweenPoints(const SpringSection& s) {
-  if (s.limits) throw SectionFault("limits", "have a meaning on the axis of a joint only; remove them");
+void MechanismBuilder::addBetweenPoints(const scene::SpringSection& s) {
+  if (s.limits) throw support::SectionFault("limits", "have a meaning on the axis of a joint only; remove them");
   multibody::PointSpring spring;
   spring.name = s.name;
   std::tie(spring.bodyA, spring.bodyB) = twoBodies(s.bodies);
@@ -237,22 +237,22 @@ void MechanismBuilder::addBetweenPoints(const SpringSection& s) {
   spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
   const double length = norm(pose(spring.bodyB).toWorld(spring.point_B) - pose(spring.bodyA).toWorld(spring.point_A));
   if (s.freePosition && *s.freePosition < 0)
-    throw SectionFault("free_position", "[m] is a length here and must be at least 0; correct it");
+    throw support::SectionFault("free_position", "[m] is a length here and must be at least 0; correct it");
   if (!(length > 0))
-    throw SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the spring has no "
+    throw support::SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the spring has no "
                                   "direction; move one of them");
   spring.restLength = s.freePosition.value_or(length);
   handed({"stiffness", "damping", "preload"}, [&] { return model_.addPointSpring(spring); });
 }
 
-void MechanismBuilder::add(const BushingSection& b) {
+void MechanismBuilder::add(const scene::BushingSection& b) {
   checkName("bushing", b.name);
   multibody::Bushing bushing;
   bushing.name = b.name;
   std::tie(bushing.bodyA, bushing.bodyB) = twoBodies(b.bodies);
   Pose X{b.point, {}};
   if (b.axis) {
-    if (norm2(*b.axis) == 0) throw SectionFault("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
+    if (norm2(*b.axis) == 0) throw support::SectionFault("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
     X = multibody::frameWithZ(b.point, *b.axis);
   }
   bushing.frame_A = multibody::compose(multibody::inverse(pose(bushing.bodyA)), X);
@@ -262,7 +262,7 @@ void MechanismBuilder::add(const BushingSection& b) {
   handed({"stiffness", "damping"}, [&] { return model_.addBushing(bushing); });
 }
 
-void MechanismBuilder::add(const DriveSection& d) {
+void MechanismBuilder::add(const scene::DriveSection& d) {
   checkName("drive", d.name);
   multibody::Drive drive;
   drive.name = d.name, drive.joint = joint("joint", d.joint), drive.axis = axis(drive.joint, "acts_on", d.actsOn);
@@ -273,33 +273,33 @@ void MechanismBuilder::add(const DriveSection& d) {
   for (const multibody::Drive& other : model_.drives())
     if (other.joint == drive.joint && other.axis == drive.axis && other.kind != multibody::DriveKind::kForce &&
         drive.kind != multibody::DriveKind::kForce)
-      throw SectionFault("joint", fmt::format("is driven by \"{}\" already, and two drives contradict each other; "
+      throw support::SectionFault("joint", fmt::format("is driven by \"{}\" already, and two drives contradict each other; "
                                               "remove one",
                                               other.name));
   handed({"joint", "speed"}, [&] { return model_.addDrive(drive); });
 }
 
-void MechanismBuilder::add(const CouplingSection& c) {
+void MechanismBuilder::add(const scene::CouplingSection& c) {
   checkName("coupling", c.name);
-  if (c.joints.size() != 2) throw SectionFault("joints", "must name two joints; correct the list");
+  if (c.joints.size() != 2) throw support::SectionFault("joints", "must name two joints; correct the list");
   if (!c.actsOn.empty() && c.actsOn.size() != 2)
-    throw SectionFault("acts_on", "must have two entries, \"angle\" or \"slide\", one a joint; correct the list");
+    throw support::SectionFault("acts_on", "must have two entries, \"angle\" or \"slide\", one a joint; correct the list");
   multibody::Coupling coupling;
   coupling.name = c.name, coupling.ratio = c.ratio;
   coupling.joint1 = joint("joints", c.joints[0]), coupling.joint2 = joint("joints", c.joints[1]);
   coupling.axis1 = axis(coupling.joint1, "acts_on", c.actsOn.empty() ? "" : c.actsOn[0]);
   coupling.axis2 = axis(coupling.joint2, "acts_on", c.actsOn.empty() ? "" : c.actsOn[1]);
-  if (c.ratio == 0) throw SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
+  if (c.ratio == 0) throw support::SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
   if (c.offset) coupling.offset = *c.offset;
   handed({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }
 
-multibody::Model buildModel(const MechanismSections& sections) {
+multibody::Model buildModel(const scene::MechanismSections& sections) {
   MechanismBuilder builder;
-  forEachKind(sections, [&](const char*, const auto& list) {
+  scene::forEachKind(sections, [&](const char*, const auto& list) {
     for (const auto& section : list) builder.add(section);
   });
   return builder.model();
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -12,17 +12,17 @@
 #include <vector>
 
 /// From the sections of a scene file to the model that multibody/ solves.
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Adds section after section and checks each against what has been added so far. Throws SectionFault.
 class MechanismBuilder {
 public:
-  void add(const BodySection& body);
-  void add(const JointSection& joint);
-  void add(const SpringSection& spring);
-  void add(const BushingSection& bushing);
-  void add(const DriveSection& drive);
-  void add(const CouplingSection& coupling);
+  void add(const scene::BodySection& body);
+  void add(const scene::JointSection& joint);
+  void add(const scene::SpringSection& spring);
+  void add(const scene::BushingSection& bushing);
+  void add(const scene::DriveSection& drive);
+  void add(const scene::CouplingSection& coupling);
 
   const multibody::Model& model() const { return model_; }
 
@@ -35,18 +35,18 @@ private:
   multibody::JointAxis axis(int joint, const std::string& key, const std::string& word) const;
   base::Pose pose(int body) const;
   void checkName(const std::string& kind, const std::string& name);
-  void addOnAxis(const SpringSection& spring);
-  void addBetweenPoints(const SpringSection& spring);
+  void addOnAxis(const scene::SpringSection& spring);
+  void addBetweenPoints(const scene::SpringSection& spring);
 
   multibody::Model model_;
   std::map<std::string, int> bodies_, joints_;
   std::set<std::string> names_; ///< "body rod"
 };
 
-multibody::Model buildModel(const MechanismSections& sections);
+multibody::Model buildModel(const scene::MechanismSections& sections);
 
 /// Throws SectionFault, for key "" of joint `joint`, where the velocities of its two bodies at the start do not go
 /// together with it. Velocities must agree to 1e-5 of their size.
 void checkStartVelocity(const multibody::Model& model, int joint);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
@@ -47,13 +47,13 @@ double along(double direction, double low, double high, double areaLow, double a
 
 } // namespace
 
-std::optional<terrain::Rectangle> terrainArea(const Scene& scene) {
+std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene) {
   if (!scene.terrain) return {};
   const auto& size = scene.terrain->size;
   return terrain::Rectangle{0, size[0], -0.5 * size[1], 0.5 * size[1]};
 }
 
-Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec) {
+Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   const double heading = scene.vehicle->heading * base::kPi / 180;
   const std::optional<terrain::Rectangle> area = terrainArea(scene);
   if (!area) {
@@ -75,7 +75,7 @@ Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec) {
   return p;
 }
 
-void checkParts(const Scene& scene) {
+void checkParts(const scene::Scene& scene) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   const double radius = scene.vehicle->sphereRadius;
   for (const std::string& name :
@@ -109,7 +109,7 @@ double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
   return highest;
 }
 
-std::string offTerrain(const Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state) {
+std::string offTerrain(const scene::Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state) {
   const std::optional<terrain::Rectangle> area = terrainArea(scene);
   if (!area) return {};
   for (const int index : assembly.groundParts) {
@@ -124,4 +124,4 @@ std::string offTerrain(const Scene& scene, const vehicle::Assembly& assembly, co
   return {};
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

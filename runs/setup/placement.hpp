@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Where a vehicle is set down.
 struct Placement {
@@ -19,21 +19,21 @@ struct Placement {
 };
 
 /// The scene's terrain in the plane; empty without one.
-std::optional<terrain::Rectangle> terrainArea(const Scene& scene);
+std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene);
 
 /// As the scene says; else in the middle across its heading, with its rear at the terrain's border. Needs no bed yet.
 /// Throws InputError when the vehicle does not stand wholly on the terrain.
-Placement placeVehicle(const Scene& scene, const vehicle::VehicleSpec& spec);
+Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& spec);
 
 /// The parts' meshes must be there and fit the scene's vehicle.sphere_radius. Throws InputError before a bed takes its
 /// time; cutting them checks the same, but knows of no scene.
-void checkParts(const Scene& scene);
+void checkParts(const scene::Scene& scene);
 
 /// Highest ground under the tracks [m].
 double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
                    const std::function<double(double, double)>& surfaceHeight);
 
 /// Which shoe has left the terrain, in words; empty while none has.
-std::string offTerrain(const Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state);
+std::string offTerrain(const scene::Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

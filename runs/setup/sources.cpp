@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
@@ -21,10 +21,10 @@ constexpr double kRoom = 2.002; // [radii] between centres that enter together
 
 } // namespace
 
-Sources::Sources(const Scene& scene, double timeStep) : sides_(joinedSides(scene)) {
+Sources::Sources(const scene::Scene& scene, double timeStep) : sides_(joinedSides(scene)) {
   const GrainKinds kinds = grainKinds(scene);
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
-    const Source& s = scene.sources[k];
+    const scene::Source& s = scene.sources[k];
     Stream stream;
     stream.source = s, stream.index = k, stream.place = scene.placeOf("source", k);
     stream.material = kinds.indexOf(s.material);
@@ -63,7 +63,7 @@ std::optional<std::int64_t> Sources::nextEntry(std::int64_t step) const {
 
 /// Places of batch `number`: random in the box, not nearer to each other than the grains are thick.
 std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64_t number) const {
-  const Source& s = stream.source;
+  const scene::Source& s = stream.source;
   const std::int64_t count = std::min(s.number, s.total - number * s.number);
   std::vector<terrain::GrainStart> grains;
   for (std::int64_t k = 0; k < count; ++k) {
@@ -90,9 +90,9 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
   return grains;
 }
 
-void checkSources(const Scene& scene) {
+void checkSources(const scene::Scene& scene) {
   constexpr double kAllAtOnce = 1e300; // a time step [s] in which all begin
   Sources(scene, kAllAtOnce).enteringAt(0);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

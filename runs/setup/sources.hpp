@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// The [[source]]s of a scene: which grains enter at which step. A pure function of the scene and the step's number, so
 /// that there is nothing to save in a checkpoint.
 class Sources {
 public:
-  Sources(const Scene& scene, double timeStep);
+  Sources(const scene::Scene& scene, double timeStep);
 
   /// Grains that enter at the beginning of this step (the first is step 0).
   std::vector<terrain::GrainStart> enteringAt(std::int64_t step) const;
@@ -32,7 +32,7 @@ public:
 
 private:
   struct Stream {
-    Source source;
+    scene::Source source;
     std::size_t index{};                   ///< among the scene's sources
     std::string place;                     ///< "scene.toml:14: source.0"
     int material{};                        ///< among those of the scene's grains
@@ -46,6 +46,6 @@ private:
 };
 
 /// Throws base::InputError naming the source whose grains do not fit into its box beside each other.
-void checkSources(const Scene& scene);
+void checkSources(const scene::Scene& scene);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

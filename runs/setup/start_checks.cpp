@@ -13,7 +13,7 @@
 #include <string_view>
 #include <tuple>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 using base::Vec3d;
 
@@ -53,16 +53,16 @@ struct Ball {
 /// Sets balls into the scene one after the other, each where nothing may be yet.
 class Placing {
 public:
-  Placing(const Scene& scene, const Surroundings& around)
+  Placing(const scene::Scene& scene, const Surroundings& around)
       : scene_(scene), around_(around), joined_(joinedSides(scene)),
         largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, joined_[0]),
                                                     CellsAlong(2 * largest_, joined_[1]),
                                                     CellsAlong(2 * largest_, {})} {
-    for (const SceneSurface& s : around.surfaces) motions_.emplace_back(s.section, s.start.position);
+    for (const simulation::SceneSurface& s : around.surfaces) motions_.emplace_back(s.section, s.start.position);
   }
 
   /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
-  void place(const Ball& ball) {
+  void place(const render::Ball& ball) {
     for (const Surroundings::Wall& wall : around_.walls)
       if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
           isTooDeep(depth, ball.radius))
@@ -72,9 +72,9 @@ public:
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, "the terrain's floor");
     for (std::size_t i = 0; i < motions_.size(); ++i) {
-      const SceneSurface& s = around_.surfaces[i];
+      const simulation::SceneSurface& s = around_.surfaces[i];
       if (s.section.free && ball.time > 0) continue;
-      if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
+      if (const double depth = simulation::overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, fmt::format("{} {}", s.kind, s.number));
     }
@@ -87,13 +87,13 @@ private:
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
   base::Pose poseAt(std::size_t i, double time) const {
-    const SceneSurface& s = around_.surfaces[i];
+    const simulation::SceneSurface& s = around_.surfaces[i];
     if (!s.section.moves() || time <= 0) return s.start;
     const SurfaceMotion::State now = motions_[i].at(time);
     return {now.centre, now.turned * s.start.orientation};
   }
 
-  void placeAmongBalls(const Ball& ball) {
+  void placeAmongBalls(const render::Ball& ball) {
     const std::int64_t x = along_[0].of(ball.position.x), y = along_[1].of(ball.position.y),
                        z = along_[2].of(ball.position.z);
     for (std::int64_t k = 0; k < 27; ++k) {
@@ -101,7 +101,7 @@ private:
           cells_.find({along_[0].wrapped(x + k / 9 - 1), along_[1].wrapped(y + k / 3 % 3 - 1), z + k % 3 - 1});
       if (found == cells_.end()) continue;
       for (const std::size_t j : found->second) {
-        const Ball& other = balls_[j];
+        const render::Ball& other = balls_[j];
         const double depth = ball.radius + other.radius - norm(toNearestImage(joined_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
           refuse(ball, depth,
@@ -117,7 +117,7 @@ private:
   /// `radius`: of the smaller one [m].
   bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.maxOverlap * radius; }
 
-  [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
+  [[noreturn]] void refuse(const render::Ball& ball, double overlap, const std::string& with) const {
     const std::string how = fmt::format("overlaps {} by {:.3g} m, more than run.max_overlap = {:g} of its radius", with,
                                         overlap, scene_.run.maxOverlap);
     if (ball.list == "grain") scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
@@ -129,18 +129,18 @@ private:
                             ball.time, how, ball.time > 0 ? ", or change start and every" : ""));
   }
 
-  const Scene& scene_;
+  const scene::Scene& scene_;
   const Surroundings& around_;
   terrain::JoinedSides joined_;
   double largest_;
   std::array<CellsAlong, 3> along_;
   std::vector<SurfaceMotion> motions_;
-  std::vector<Ball> balls_;
+  std::vector<render::Ball> balls_;
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
 /// [[grain]] and [[grains]], in the order of their ids.
-void placeStarting(const Scene& scene, const std::vector<Grain>& grains, Placing& placing) {
+void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)
     placing.place({grains[id].position, grains[id].radius, "grain", k, 0, id});
@@ -151,7 +151,7 @@ void placeStarting(const Scene& scene, const std::vector<Grain>& grains, Placing
 
 } // namespace
 
-void checkStart(const Scene& scene, const std::vector<Grain>& grains, const Surroundings& around, double timeStep) {
+void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around, double timeStep) {
   checkBetweenSides(scene, grains);
   checkSources(scene);
   Placing placing(scene, around);
@@ -170,11 +170,11 @@ void checkStart(const Scene& scene, const std::vector<Grain>& grains, const Surr
   }
 }
 
-void watchSources(const Scene& scene, double timeStep, terrain::Grains& grains) {
+void watchSources(const scene::Scene& scene, double timeStep, terrain::Grains& grains) {
   if (scene.sources.empty()) return;
   std::vector<std::string> places, surfaces;
   for (std::size_t k = 0; k < scene.sources.size(); ++k) places.push_back(scene.placeOf("source", k));
-  for (const SceneSurface& s : surfacesOf(scene))
+  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene))
     if (!s.mesh) surfaces.push_back(s.name);
   const double maxOverlap = scene.run.maxOverlap;
   grains.onCrowding([=, sources = Sources(scene, timeStep), all = &grains](const terrain::Crowding& c) {
@@ -196,4 +196,4 @@ void watchSources(const Scene& scene, double timeStep, terrain::Grains& grains) 
   });
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -5,16 +5,16 @@
 #include "runs/scene/scene.hpp"
 #include "terrain/grains.hpp"
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Throws InputError for grains that start, or that sources will set, deeper in each other, in a plane, in the terrain
 /// or in a surface than run.max_overlap allows: whatever of it can be known before the run. Surfaces are taken where
 /// their motion has them when a grain enters; those that forces move, at the start alone. `grains`: all of [[grain]]
 /// and [[grains]].
-void checkStart(const Scene& scene, const std::vector<Grain>& grains, const Surroundings& around, double timeStep);
+void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around, double timeStep);
 
 /// Lets `grains` refuse what sources would set upon others of them, which only shows when they enter: InputError before
 /// the first step, SimulationError later, both naming the source.
-void watchSources(const Scene& scene, double timeStep, terrain::Grains& grains);
+void watchSources(const scene::Scene& scene, double timeStep, terrain::Grains& grains);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -18,7 +18,7 @@
 #include <fmt/format.h>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 using base::Vec3d;
 
@@ -45,7 +45,7 @@ struct Partner {
   double share() const { return isGrain ? 0.5 : 1; }
 };
 
-std::vector<Partner> partnersOf(const Scene& scene, const GrainKinds& kinds, const std::string& material) {
+std::vector<Partner> partnersOf(const scene::Scene& scene, const GrainKinds& kinds, const std::string& material) {
   std::vector<Partner> partners;
   for (const std::string& other : kinds.material)
     partners.push_back({other, true,
@@ -54,8 +54,8 @@ std::vector<Partner> partnersOf(const Scene& scene, const GrainKinds& kinds, con
   const auto against = [&](const std::string& other, const std::string& name) {
     partners.push_back({other.empty() ? material : other, false, name});
   };
-  for (const Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
-  for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
+  for (const scene::Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
+  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
   if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
   if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
   return partners;
@@ -82,18 +82,18 @@ void considerGrain(StepLimit& limit, const contact::ContactLaw& law, double mass
 }
 
 /// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
-double mostTouching(const Scene& scene, const SceneSurface& surface, double radius) {
+double mostTouching(const scene::Scene& scene, const simulation::SceneSurface& surface, double radius) {
   const Vec3d& h = surface.geometry.half;
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
-  const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, commands::plannedGrains(scene)));
   if (surface.geometry.shape == terrain::SurfaceShape::plane) return all;
   if (surface.geometry.shape != terrain::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
   return std::clamp(area / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
 }
 
 /// A surface that forces move, on springs of all grains that it may touch.
-void considerFreeSurfaces(StepLimit& limit, const Scene& scene, const GrainKinds& kinds) {
-  for (const SceneSurface& s : surfacesOf(scene)) {
+void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const GrainKinds& kinds) {
+  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
     if (!s.section.free) continue;
     for (const auto& [material, radius, largest] : kinds.kinds) {
       const double mass = sphereMass(scene.material(material).density, radius);
@@ -109,7 +109,7 @@ void considerFreeSurfaces(StepLimit& limit, const Scene& scene, const GrainKinds
 
 } // namespace
 
-StepLimit stepLimit(const Scene& scene) {
+StepLimit stepLimit(const scene::Scene& scene) {
   StepLimit limit;
   const GrainKinds kinds = grainKinds(scene);
   // The smallest grains are the quickest.
@@ -131,7 +131,7 @@ StepLimit stepLimit(const Scene& scene) {
   return limit;
 }
 
-double shortestContact(const Scene& scene) {
+double shortestContact(const scene::Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   const GrainKinds kinds = grainKinds(scene);
   for (const auto& [material, radius, largest] : kinds.kinds) {
@@ -146,9 +146,9 @@ double shortestContact(const Scene& scene) {
 namespace {
 
 /// Springs and dampers that the integrator cannot take at this step are found out by a step.
-double mechanismStep(const Scene& scene) {
-  const double step = scene.run.timeStep ? *scene.run.timeStep : mechanismTimeStep(scene);
-  Mechanism trial(scene, step);
+double mechanismStep(const scene::Scene& scene) {
+  const double step = scene.run.timeStep ? *scene.run.timeStep : simulation::mechanismTimeStep(scene);
+  simulation::Mechanism trial(scene, step);
   try {
     trial.advance();
   } catch (const base::InputError& error) {
@@ -170,26 +170,26 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
 
 /// Throws at the key that says how stiff two materials are against each other; `times`: how much more it would have to
 /// be.
-[[noreturn]] void failStiffness(const Scene& scene, const Material& a, const Material& b, double times,
+[[noreturn]] void failStiffness(const scene::Scene& scene, const scene::Material& a, const scene::Material& b, double times,
                                 const std::string& message) {
   const auto wanted = [&](double stiffness) {
     return fmt::format("{}; raise it to {:.3g} at least, or choose smaller grains", message, times * stiffness);
   };
   if (a.law == "hertz") {
-    const Material& soft = *b.young < *a.young ? b : a;
+    const scene::Material& soft = *b.young < *a.young ? b : a;
     scene.failMaterial(soft.name, "young", "[Pa] " + wanted(*soft.young));
   }
-  const ContactPair* pair = scene.contact(a.name, b.name);
+  const scene::ContactPair* pair = scene.contact(a.name, b.name);
   if (pair && pair->stiffness && scene.document)
     for (const auto& [name, section] : scene.document->root().named("contact"))
       if (name == pair->first + "|" + pair->second) section.fail("stiffness", "[N/m] " + wanted(*pair->stiffness));
-  const Material& soft = *b.stiffness < *a.stiffness ? b : a;
+  const scene::Material& soft = *b.stiffness < *a.stiffness ? b : a;
   scene.failMaterial(soft.name, "stiffness", "[N/m] " + wanted(*soft.stiffness));
 }
 
 /// Throws where a grain at rest sinks deeper than a run may bear: contacts so soft hold nothing up, last longer than
 /// runs do, and their energies have no scale in common with those of gravity.
-void checkSoftness(const Scene& scene) {
+void checkSoftness(const scene::Scene& scene) {
   const double gravity = norm(scene.run.gravity), most = scene.run.maxOverlap;
   if (gravity == 0) return;
   const GrainKinds kinds = grainKinds(scene);
@@ -212,7 +212,7 @@ void checkSoftness(const Scene& scene) {
 
 } // namespace
 
-double chooseTimeStep(const Scene& scene) {
+double chooseTimeStep(const scene::Scene& scene) {
   if (!scene.mechanism.empty()) return mechanismStep(scene);
   checkSoftness(scene);
   const StepLimit limit = stepLimit(scene);
@@ -224,7 +224,7 @@ double chooseTimeStep(const Scene& scene) {
   automatic = std::min({automatic, kLongestStep, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
   const bool hertz =
-      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.law == "hertz"; });
+      std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& m) { return m.law == "hertz"; });
   if (*scene.run.timeStep > limit.step)
     scene.fail("run", "time_step",
                fmt::format(
@@ -241,7 +241,7 @@ namespace {
 
 /// How far a point of a surface can be from what it turns about, but for the part of it that turning brings upon itself
 /// [m]. A plane has no end: what is far out there does not count.
-double leverOf(const SceneSurface& s) {
+double leverOf(const simulation::SceneSurface& s) {
   const Vec3d& h = s.geometry.half;
   const Vec3d turning = base::normalized(*s.section.spin);
   const double arm = s.section.pivot ? norm(cross(turning, s.start.position - *s.section.pivot)) : 0;
@@ -257,9 +257,9 @@ double leverOf(const SceneSurface& s) {
   }
 }
 
-void checkSurfaceSpeeds(const Scene& scene, double smallest, double timeStep) {
+void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeStep) {
   const double most = 0.5 * smallest / timeStep;
-  for (const SceneSurface& s : surfacesOf(scene)) {
+  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
     // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     const auto across = [&](const std::optional<Vec3d>& v) {
@@ -283,7 +283,7 @@ void checkSurfaceSpeeds(const Scene& scene, double smallest, double timeStep) {
 
 } // namespace
 
-void checkSpeeds(const Scene& scene, double timeStep) {
+void checkSpeeds(const scene::Scene& scene, double timeStep) {
   const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return;
   checkSurfaceSpeeds(scene, kinds.smallest, timeStep);
@@ -299,4 +299,4 @@ void checkSpeeds(const Scene& scene, double timeStep) {
   check("grain", scene.grains), check("grains", scene.blocks), check("source", scene.sources);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// Step of a vehicle on rigid ground, where no grain sets it [s].
 inline constexpr double kVehicleTimeStep = 1e-4;
@@ -31,18 +31,18 @@ struct StepLimit {
 /// - a free surface on the springs of all grains that may lie on it;
 /// - a shoe of the vehicle on its whole pad.
 /// `grouser study stability` measures how close the bounds are (docs/studies.md).
-StepLimit stepLimit(const Scene& scene);
+StepLimit stepLimit(const scene::Scene& scene);
 
 /// Duration [s] of the shortest contact that a grain of the scene can have: pi / sqrt(k / m_eff), undamped, of two
 /// grains or of a grain and ground, plane or vehicle (the damped one lasts longer). 0 where there are no grains.
-double shortestContact(const Scene& scene);
+double shortestContact(const scene::Scene& scene);
 
 /// Step of the run [s]: as the scene says, checked against the stability limit, or the largest sound one.
 /// Throws InputError that names the limit and what sets it.
-double chooseTimeStep(const Scene& scene);
+double chooseTimeStep(const scene::Scene& scene);
 
 /// Throws InputError where a surface goes farther in a step than half a radius: it could pass through a grain unfelt;
 /// and where a grain starts or enters more quickly than the neighbour lists can follow.
-void checkSpeeds(const Scene& scene, double timeStep);
+void checkSpeeds(const scene::Scene& scene, double timeStep);
 
-} // namespace grouser::runs
+} // namespace grouser::setup

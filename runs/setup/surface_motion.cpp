@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 using base::Vec3d;
 
@@ -18,7 +18,7 @@ double angleOf(double turns) { return 2 * base::kPi * (turns - std::floor(turns)
 
 } // namespace
 
-SurfaceMotion::SurfaceMotion(const SurfaceSection& s, const Vec3d& centre)
+SurfaceMotion::SurfaceMotion(const scene::SurfaceSection& s, const Vec3d& centre)
     : pivot_(s.pivot.value_or(centre)), arm_(centre - pivot_), velocity_(s.velocity.value_or(Vec3d{})),
       spin_(s.spin.value_or(Vec3d{})), amplitude_(s.amplitude.value_or(Vec3d{})), frequency_(s.frequency.value_or(0)),
       phase_(s.phase.value_or(0) / 360), start_(s.start.value_or(0)),
@@ -46,4 +46,4 @@ SurfaceMotion::State SurfaceMotion::at(double time) const {
   return s;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -4,7 +4,7 @@
 #include "base/vec.hpp"
 #include "runs/scene/surface_sections.hpp"
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// How a rigid surface is moved: closed functions of time, so that nothing adds up and a resumed run has the same bits.
 ///
@@ -13,7 +13,7 @@ namespace grouser::runs {
 ///   turn(s)  = |spin| s about spin,   centre(s) = pivot(s) + turn(s) (centre - pivot)
 class SurfaceMotion {
 public:
-  SurfaceMotion(const SurfaceSection& section, const base::Vec3d& centre);
+  SurfaceMotion(const scene::SurfaceSection& section, const base::Vec3d& centre);
 
   struct State {
     base::Vec3d centre;         ///< [m]
@@ -27,4 +27,4 @@ private:
   double frequency_, phase_, start_, until_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::setup

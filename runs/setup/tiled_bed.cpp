@@ -7,18 +7,18 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 namespace {
 
 /// The tile as a scene of its own: level, without all that is not bed.
-Scene tileScene(const Scene& scene, const terrain::BedPlan& plan, const std::array<double, 2>& size) {
-  Scene tile = scene;
+scene::Scene tileScene(const scene::Scene& scene, const terrain::BedPlan& plan, const std::array<double, 2>& size) {
+  scene::Scene tile = scene;
   tile.run.periodic = {true, true};
   tile.grains.clear(), tile.blocks.clear(), tile.sources.clear();
   tile.planes.clear(), tile.boxes.clear(), tile.cylinders.clear(), tile.meshes.clear();
   tile.vehicle.reset(), tile.mechanism = {}, tile.parallel = {};
-  Terrain& t = *tile.terrain;
+  scene::Terrain& t = *tile.terrain;
   t.tile.reset();
   t.size = size;
   t.heightRange = {0, 0};
@@ -30,10 +30,10 @@ Scene tileScene(const Scene& scene, const terrain::BedPlan& plan, const std::arr
 
 } // namespace
 
-TiledBed::TiledBed(const Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
+TiledBed::TiledBed(const scene::Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
                    const base::Exec& exec, double timeStep)
     : joined_(scene.run.periodic) {
-  const Terrain& t = *scene.terrain;
+  const scene::Terrain& t = *scene.terrain;
   const double radius = *t.grainRadius;
   const terrain::HeightFieldBounds floor = plan.floor.bounds();
   if (floor.highest - floor.lowest > 1e-6 * radius)
@@ -54,7 +54,7 @@ TiledBed::TiledBed(const Scene& scene, const terrain::HeightField& surface, cons
       copies_[a] = static_cast<std::int64_t>(std::ceil(t.size[a] / size[a]));
     }
   }
-  const Scene alone = tileScene(scene, plan, size);
+  const scene::Scene alone = tileScene(scene, plan, size);
   Ground ground = buildGround(alone, exec, timeStep);
   if (t.settleTimeLimit > 0) settle(alone, ground, [](double, double) {});
   tile_ = ground.grains->state(), scale_ = ground.grains->scale(), period_ = ground.grains->period();
@@ -136,4 +136,4 @@ void TiledBed::bringToRest(terrain::Grains& grains, std::size_t floor) const {
   grains.restore(s);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::setup

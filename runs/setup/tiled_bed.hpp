@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::setup {
 
 /// A bed made of copies of one settled tile.
 ///
@@ -22,13 +22,13 @@ class TiledBed {
 public:
   /// `plan` is that of `surface`. Throws InputError where the floor is not level, SimulationError where the tile does
   /// not settle.
-  TiledBed(const Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
+  TiledBed(const scene::Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
            const base::Exec& exec, double timeStep);
 
   /// Where the grains are, by id.
   std::vector<terrain::GrainStart> start(double radius, int material) const;
   /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
-  void bringToRest(terrain::Grains& grains, std::size_t floor) const;
+  void studies::bringToRest(terrain::Grains& grains, std::size_t floor) const;
 
 private:
   /// Where a grain of the tile stands in one of the copies.
@@ -49,4 +49,4 @@ private:
   std::vector<std::int64_t> id_; ///< [copies x][copies y][grains of the tile]; -1: left out
 };
 
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -22,7 +22,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 namespace fs = std::filesystem;
 
@@ -44,20 +44,20 @@ bool agreed(const base::Comm& comm, bool answer) { return comm.maximumOf(comm.fi
 bool allOf(const base::Comm& comm, bool answer) { return comm.maximumOf(answer ? 0 : 1) == 0; }
 
 /// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
-bool isOfBed(const Scene& scene, const std::string& material) {
-  const std::vector<std::string> grains = grainKinds(scene).material;
+bool isOfBed(const scene::Scene& scene, const std::string& material) {
+  const std::vector<std::string> grains = setup::grainKinds(scene).material;
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   return material == scene.terrain->groundMaterial ||
          std::find(grains.begin(), grains.end(), material) != grains.end() ||
          std::any_of(scene.planes.begin(), scene.planes.end(),
-                     [&](const Plane& plane) { return plane.material == material; }) ||
+                     [&](const scene::Plane& plane) { return plane.material == material; }) ||
          std::any_of(surfaces.begin(), surfaces.end(),
                      [&](const SceneSurface& s) { return s.section.material == material; });
 }
 
 /// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
 /// they are called. A plane that is felt as a surface stays one.
-void bringToRest(SurfaceSection& s, bool named) {
+void studies::bringToRest(scene::SurfaceSection& s, bool named) {
   const std::string material = s.material;
   s = {};
   s.material = material;
@@ -66,21 +66,21 @@ void bringToRest(SurfaceSection& s, bool named) {
 
 /// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make
 /// two beds of one, but never one of two.
-Scene bedAlone(Scene scene) {
-  const RunSettings fresh;
+scene::Scene bedAlone(scene::Scene scene) {
+  const scene::RunSettings fresh;
   scene.run.duration = fresh.duration, scene.run.outputInterval = fresh.outputInterval;
   scene.run.frameInterval = fresh.frameInterval, scene.run.checkpointInterval = fresh.checkpointInterval;
   scene.run.device = fresh.device, scene.run.threads = fresh.threads; // one answer on all
   scene.run.skin = fresh.skin;                                        // of lists, which change no bit
   scene.run.timeStep.reset();                                         // the step itself is named
-  std::erase_if(scene.materials, [&](const Material& m) { return !isOfBed(scene, m.name); });
+  std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
   std::erase_if(scene.contacts,
-                [&](const ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
+                [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
   scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
   scene.terrain->cache = true;
-  for (Plane& p : scene.planes) bringToRest(p, !p.isWall());
-  for (BoxSection& b : scene.boxes) bringToRest(b, false);
-  for (CylinderSection& c : scene.cylinders) bringToRest(c, false);
+  for (scene::Plane& p : scene.planes) studies::bringToRest(p, !p.isWall());
+  for (scene::BoxSection& b : scene.boxes) studies::bringToRest(b, false);
+  for (scene::CylinderSection& c : scene.cylinders) studies::bringToRest(c, false);
   return scene;
 }
 
@@ -109,14 +109,14 @@ std::optional<BedCache> BedCache::ofUser(const base::Comm& comm) {
   return folder.empty() ? std::nullopt : std::optional(BedCache(folder, limit));
 }
 
-std::string BedCache::origin(const Scene& scene, double timeStep) {
-  Scene bed = bedAlone(scene);
+std::string BedCache::origin(const scene::Scene& scene, double timeStep) {
+  scene::Scene bed = bedAlone(scene);
   const std::string inputs = inputsOf(bed);
   bed.terrain->heightmap.clear(); // by its bytes, not by its name
-  return fmt::format("program {}\ntime step {:a}\n{}{}", programHash(), timeStep, inputs, resolvedToml(bed));
+  return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs, scene::resolvedToml(bed));
 }
 
-SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettleProgress& progress,
+setup::SettleReport BedCache::settle(const scene::Scene& scene, setup::Ground& ground, const setup::SettleProgress& progress,
                               const base::Comm& comm) {
   const Clock::time_point start = Clock::now();
   const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -125,7 +125,7 @@ SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettlePr
   for (const char c : made) key.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   const fs::path file = folder_ / (kPrefix + comm.broadcast(key.hex()) + ".h5");
 
-  SettleReport report;
+  setup::SettleReport report;
   const auto taken = [&] {
     if (!reuse(file, made, ground, report, comm)) return false;
     story_ = fmt::format("taken from {}, in {:.2f} s", file.string(), seconds());
@@ -137,10 +137,10 @@ SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettlePr
   if (comm.first()) fs::create_directories(folder_, error);
   const bool fits = kBytesPerGrain * static_cast<double>(ground.grains->count()) <= static_cast<double>(limit_);
   const bool usable =
-      agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0) && !rankThatMisses(folder_, comm).has_value();
+      agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0) && !commands::rankThatMisses(folder_, comm).has_value();
   if (!usable) warn(comm, fmt::format("{}: settled beds cannot be kept in this folder", folder_.string()));
   // Of several runs that want one bed the first settles it.
-  FileLock lock;
+  support::FileLock lock;
   if (usable && fits) {
     const fs::path name = file.string() + ".lock";
     for (bool told = false; !agreed(comm, comm.first() && lock.take(name)); told = true) {
@@ -150,7 +150,7 @@ SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettlePr
     }
     if (taken()) return report;
   }
-  report = runs::settle(scene, ground, progress);
+  report = setup::settle(scene, ground, progress);
   const double settledIn = seconds();
   const bool kept = usable && fits && keep(file, made, ground, report, comm);
   story_ = fmt::format("settled in {:.2f} s; {}", settledIn,
@@ -160,7 +160,7 @@ SettleReport BedCache::settle(const Scene& scene, Ground& ground, const SettlePr
   return report;
 }
 
-bool BedCache::reuse(const fs::path& file, const std::string& made, Ground& ground, SettleReport& report,
+bool BedCache::reuse(const fs::path& file, const std::string& made, setup::Ground& ground, setup::SettleReport& report,
                      const base::Comm& comm) const {
   std::error_code error;
   if (!allOf(comm, fs::is_regular_file(file, error))) return false;
@@ -176,9 +176,9 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, Ground& grou
   if (damage.empty()) {
     // Another run may delete it just now: then all ranks settle.
     bool good = true;
-    std::optional<Hdf5File> open;
+    std::optional<support::Hdf5File> open;
     try {
-      open = Hdf5File::open(file);
+      open = support::Hdf5File::open(file);
     } catch (const std::exception&) {
       good = false;
     }
@@ -198,7 +198,7 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, Ground& grou
   return true;
 }
 
-bool BedCache::keep(const fs::path& file, const std::string& made, const Ground& ground, const SettleReport& report,
+bool BedCache::keep(const fs::path& file, const std::string& made, const setup::Ground& ground, const setup::SettleReport& report,
                     const base::Comm& comm) const {
   Checkpoint bed;
   bed.scene = made, bed.timeStep = ground.grains->model().timeStep;
@@ -252,4 +252,4 @@ void BedCache::deleteOldest(const fs::path& except) const {
   }
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

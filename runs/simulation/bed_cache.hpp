@@ -12,7 +12,7 @@
 
 /// Settled beds, kept from run to run: settling often takes longer than the drive, and a sweep over the vehicle settles
 /// the same bed again and again. A run that begins on a kept bed gives the same bits as one that settled it.
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// A folder of settled beds, and what became of the one that was asked for.
 class BedCache {
@@ -32,7 +32,7 @@ public:
   /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a
   /// file in it is a warning, never the end of the run. On several ranks all of them call it; the folder must be seen
   /// by all, or nothing is reused. Throws what `progress` throws, and SimulationError as settle() does.
-  SettleReport settle(const Scene& scene, Ground& ground, const SettleProgress& progress, const base::Comm& comm);
+  setup::SettleReport setup::settle(const scene::Scene& scene, setup::Ground& ground, const setup::SettleProgress& progress, const base::Comm& comm);
 
   /// One line: where the bed came from and how long that took. Empty before settle().
   const std::string& story() const { return story_; }
@@ -40,13 +40,13 @@ public:
   /// Everything that makes the bits of a settled bed, as text: the parts of the scene that have a share in it with all
   /// their values, the bytes of the height-map, the time step, and the running program. The program is known by a hash
   /// of its file, since neither a version nor a commit tells of changes that are not committed, or of a compiler.
-  static std::string origin(const Scene& scene, double timeStep);
+  static std::string origin(const scene::Scene& scene, double timeStep);
 
 private:
-  bool reuse(const std::filesystem::path& file, const std::string& origin, Ground& ground, SettleReport& report,
+  bool reuse(const std::filesystem::path& file, const std::string& origin, setup::Ground& ground, setup::SettleReport& report,
              const base::Comm& comm) const;
-  bool keep(const std::filesystem::path& file, const std::string& origin, const Ground& ground,
-            const SettleReport& report, const base::Comm& comm) const;
+  bool keep(const std::filesystem::path& file, const std::string& origin, const setup::Ground& ground,
+            const setup::SettleReport& report, const base::Comm& comm) const;
   void deleteOldest(const std::filesystem::path& except) const;
 
   std::filesystem::path folder_;
@@ -54,4 +54,4 @@ private:
   std::string story_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

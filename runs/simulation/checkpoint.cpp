@@ -16,7 +16,7 @@
 #include <sstream>
 #include <type_traits>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 namespace fs = std::filesystem;
 
@@ -138,7 +138,7 @@ private:
 /// Writes what all ranks have alike, and makes the datasets of what they share.
 class Writer {
 public:
-  Writer(Hdf5File& file, const RowCounter& counter) : file_(file), counter_(counter) {}
+  Writer(support::Hdf5File& file, const RowCounter& counter) : file_(file), counter_(counter) {}
   template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
   template <class T> void operator()(const char* name, const std::vector<T>& records) {
     file_.write(name, numbersOf(records), {records.size(), widthOf<T>()});
@@ -152,14 +152,14 @@ public:
   }
 
 private:
-  Hdf5File& file_;
+  support::Hdf5File& file_;
   const RowCounter& counter_;
 };
 
 /// Writes this rank's rows.
 class RowWriter {
 public:
-  RowWriter(Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
+  RowWriter(support::Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
   template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
   template <class T> void operator()(const char*, const T&) {}
   template <class T> void perGrain(const char* name, const std::vector<T>& rows, std::int64_t) {
@@ -171,13 +171,13 @@ public:
   }
 
 private:
-  Hdf5File& file_;
+  support::Hdf5File& file_;
   base::Comm comm_;
 };
 
 class Reader {
 public:
-  Reader(const Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
+  Reader(const support::Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
   template <class T> bool present(const char* name, std::optional<T>& part) {
     if (file_.has(name)) part.emplace();
     return part.has_value();
@@ -222,7 +222,7 @@ private:
     return shape[0];
   }
 
-  const Hdf5File& file_;
+  const support::Hdf5File& file_;
   base::Comm comm_;
 };
 
@@ -277,10 +277,10 @@ std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& re
 
 } // namespace
 
-std::string inputsOf(const Scene& scene) {
+std::string inputsOf(const scene::Scene& scene) {
   std::string text;
   if (scene.terrain) text += fmt::format("terrain.heightmap {}\n", hashOfFile(scene.terrain->heightmap));
-  for (const MeshSection& mesh : scene.meshes)
+  for (const scene::MeshSection& mesh : scene.meshes)
     text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
   if (!scene.vehicle) return text;
   text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
@@ -296,7 +296,7 @@ void writeState(const fs::path& path, const char* kind, const Checkpoint& checkp
     RowCounter counter(comm);
     exchange(counter, checkpoint.state);
     if (comm.first()) {
-      Hdf5File file = Hdf5File::create(part, kSealBytes);
+      support::Hdf5File file = support::Hdf5File::create(part, support::kSealBytes);
       file.attribute("/", "scene", checkpoint.scene);
       file.attribute("/", "inputs", checkpoint.inputs);
       file.attribute("/", "commit", checkpoint.commit);
@@ -309,17 +309,17 @@ void writeState(const fs::path& path, const char* kind, const Checkpoint& checkp
     }
     if (!checkpoint.state.grains) return;
     comm.wait();
-    Hdf5File file = Hdf5File::openShared(part, comm);
+    support::Hdf5File file = support::Hdf5File::openShared(part, comm);
     RowWriter rows(file, comm);
     exchange(rows, checkpoint.state);
     file.flush();
   };
-  writeSealed(path, kind, kVersion, write, comm);
+  support::writeSealed(path, kind, kVersion, write, comm);
 }
 
-void checkStateFile(const fs::path& path, const char* kind) { checkSeal(path, kind, kVersion); }
+void checkStateFile(const fs::path& path, const char* kind) { support::checkSeal(path, kind, kVersion); }
 
-Checkpoint readState(const Hdf5File& file, const base::Comm& comm) {
+Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
   Checkpoint checkpoint;
   checkpoint.scene = file.text("/", "scene");
   checkpoint.inputs = file.text("/", "inputs");
@@ -345,11 +345,11 @@ Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
   // Only what has every bit as it was written is handed to HDF5.
   if (comm.first()) checkStateFile(path, kCheckpointFile);
   comm.wait();
-  return readState(Hdf5File::open(path), comm);
+  return readState(support::Hdf5File::open(path), comm);
 }
 
-void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const Scene& scene) {
-  const auto was = entriesOf(checkpoint.scene), is = entriesOf(resolvedToml(scene));
+void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const scene::Scene& scene) {
+  const auto was = entriesOf(checkpoint.scene), is = entriesOf(scene::resolvedToml(scene));
   const auto refuse = [&](const std::string& what) {
     throw base::InputError(
         fmt::format("{}: {}; set it back, or start anew without --resume", scene.file.string(), what));
@@ -372,4 +372,4 @@ void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const Sc
                          file.substr(0, file.find(' ')), path.string()));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

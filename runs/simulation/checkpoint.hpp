@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 inline constexpr const char* kCheckpointName = "checkpoint.h5";
 
@@ -28,7 +28,7 @@ struct Checkpoint {
 };
 
 /// One line a file that the scene reads (height-map, vehicle, meshes): its role and a hash of its bytes.
-std::string inputsOf(const Scene& scene);
+std::string inputsOf(const scene::Scene& scene);
 
 /// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
 /// Throws std::runtime_error.
@@ -44,11 +44,11 @@ Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& c
 void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
                 const base::Comm& comm);
 void checkStateFile(const std::filesystem::path& path, const char* kind);
-Checkpoint readState(const Hdf5File& file, const base::Comm& comm);
+Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
 
 /// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
 /// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by
 /// what is in them.
-void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path, const Scene& scene);
+void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path, const scene::Scene& scene);
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 namespace {
 
@@ -28,7 +28,7 @@ constexpr double kPullShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 constexpr double kRoundedRate = 1e-12;
 
 /// The solver's errors about the mechanism as a whole, with the file.
-multibody::Solver makeSolver(const Scene& scene, const multibody::Model& model) {
+multibody::Solver makeSolver(const scene::Scene& scene, const multibody::Model& model) {
   try {
     return multibody::Solver(model, solverOptions(scene.run));
   } catch (const base::InputError& error) {
@@ -38,7 +38,7 @@ multibody::Solver makeSolver(const Scene& scene, const multibody::Model& model) 
 
 } // namespace
 
-multibody::SolverOptions solverOptions(const RunSettings& run) {
+multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   multibody::SolverOptions options;
   options.integrator =
       run.integrator == "rattle" ? multibody::Integrator::kRattle : multibody::Integrator::kSymplecticEuler;
@@ -50,8 +50,8 @@ multibody::SolverOptions solverOptions(const RunSettings& run) {
   return options;
 }
 
-Mechanism::Mechanism(const Scene& scene, double timeStep)
-    : timeStep_(timeStep), model_(buildModel(scene.mechanism)), state_(multibody::makeState(model_)),
+Mechanism::Mechanism(const scene::Scene& scene, double timeStep)
+    : timeStep_(timeStep), model_(setup::buildModel(scene.mechanism)), state_(multibody::makeState(model_)),
       loads_(multibody::makeLoads(model_)), solver_(makeSolver(scene, model_)) {
   loads_.gravity = scene.run.gravity;
   const bool imposed = std::any_of(model_.drives().begin(), model_.drives().end(),
@@ -116,12 +116,12 @@ Mechanism::Ledger Mechanism::ledger() const {
 }
 
 Mechanism::Drift Mechanism::drift() const {
-  Drift drift = worst_;
+  studies::Drift drift = worst_;
   drift.velocity = solver_.velocityError(state_);
   return drift;
 }
 
-double mechanismTimeStep(const Scene& scene) {
+double mechanismTimeStep(const scene::Scene& scene) {
   Mechanism mechanism(scene, kLongestStep);
   double shortest = std::min(kStepsPerPeriod * kLongestStep, mechanism.shortestSwing());
   for (const multibody::Twist& V : mechanism.state().twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
@@ -131,7 +131,7 @@ double mechanismTimeStep(const Scene& scene) {
   return row / std::ceil(kStepsPerPeriod * row / shortest);
 }
 
-std::string tautStartWarning(const Scene& scene, double timeStep) {
+std::string tautStartWarning(const scene::Scene& scene, double timeStep) {
   std::string part;
   const double most = Mechanism(scene, timeStep).stableStepOnPull(&part);
   if (timeStep < most) return "";
@@ -158,4 +158,4 @@ void Mechanism::restore(const MechanismState& saved) {
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

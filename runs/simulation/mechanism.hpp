@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
 class Mechanism {
 public:
   /// Throws base::InputError where the sections make no mechanism.
-  Mechanism(const Scene& scene, double timeStep);
+  Mechanism(const scene::Scene& scene, double timeStep);
   Mechanism(const Mechanism&) = delete;
   Mechanism& operator=(const Mechanism&) = delete;
 
@@ -68,7 +68,7 @@ public:
     int iterations = 0;    ///< most of a step since then
     int singularSteps = 0; ///< steps through a singular position since then
   };
-  Drift drift() const;
+  studies::Drift drift() const;
   void restartMeans() { worst_ = {}; }
 
   MechanismState save() const;
@@ -84,21 +84,21 @@ private:
   multibody::State state_;
   multibody::Loads loads_;
   multibody::Solver solver_;
-  Drift worst_;
+  studies::Drift worst_;
   double startBlow_ = 0;
   double boundedPull_ = 0; ///< up to this force in joints and springs the step is short enough [N]
   std::string tooTaut_;
 };
 
 /// The solver's options as a scene's [run] gives them.
-multibody::SolverOptions solverOptions(const RunSettings& run);
+multibody::SolverOptions solverOptions(const scene::RunSettings& run);
 
 /// The step that "auto" stands for: at the start a hundredth of the shortest swing of the springs or turn of a body, a
 /// twentieth of the shortest swing on taut joints; at most 1 ms, and a whole share of the output interval.
-double mechanismTimeStep(const Scene& scene);
+double mechanismTimeStep(const scene::Scene& scene);
 
 /// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
 /// first push. Empty where the step is short enough.
-std::string tautStartWarning(const Scene& scene, double timeStep);
+std::string tautStartWarning(const scene::Scene& scene, double timeStep);
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

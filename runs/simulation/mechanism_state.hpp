@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// All of a mechanism on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
 struct MechanismState {
@@ -15,4 +15,4 @@ struct MechanismState {
   std::vector<std::uint32_t> words() const;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -7,14 +7,14 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 using base::Vec3d;
 
-MeshContacts::MeshContacts(const Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains)
+MeshContacts::MeshContacts(const scene::Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains)
     : exec_(exec), comm_(grains.comm()), room_(0.5 * grains.smallestRadius()) {
   std::vector<contact::GrainPart> parts;
-  for (const MeshSection& mesh : scene.meshes) {
+  for (const scene::MeshSection& mesh : scene.meshes) {
     spheredecomp::DecompositionOptions options;
     options.radius = *mesh.sphereRadius, options.interior = false;
     parts.push_back({static_cast<int>(sets_.size()), {}, {}});
@@ -24,8 +24,8 @@ MeshContacts::MeshContacts(const Scene& scene, const base::Exec& exec, double ti
   std::vector<const base::SphereSet*> sets;
   for (const base::SphereSet& set : sets_) sets.push_back(&set);
   const auto [model, materials] =
-      grainPartModel(scene, grains, timeStep, room_, [&](const std::string& soil, std::optional<double> mass) {
-        return pairLaw(scene, soil, scene.meshes.front().material, mass);
+      setup::grainPartModel(scene, grains, timeStep, room_, [&](const std::string& soil, std::optional<double> mass) {
+        return setup::pairLaw(scene, soil, scene.meshes.front().material, mass);
       });
   force_ = model.force, torque_ = model.torque;
   contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, materials);
@@ -57,10 +57,10 @@ void MeshContacts::touch(const terrain::Grains& grains, const std::vector<contac
   motion_.upload();
   sums_.device().zero();
   if (slotsChanged || haveLeft(motions)) {
-    contacts_->refresh(viewOf(grains), motion_.device());
+    contacts_->refresh(setup::viewOf(grains), motion_.device());
     listedAt_ = motions;
   }
-  contacts_->compute(viewOf(grains), motion_.device(), sums_.device().data());
+  contacts_->compute(setup::viewOf(grains), motion_.device(), sums_.device().data());
   grainLoads_ = contacts_->grainLoads();
   sums_.download();
   base::synchronize(exec_);
@@ -80,4 +80,4 @@ void MeshContacts::restore(const contact::SavedGrainPatches& saved) {
   listedAt_.clear();
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

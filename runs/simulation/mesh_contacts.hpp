@@ -9,14 +9,14 @@
 #include <memory>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// Grains against the [[mesh]]es of a scene, each cut into spheres as the parts of a vehicle are. All have one
 /// material.
 class MeshContacts {
 public:
   /// Tells the grains that history must follow those that go to other ranks; so it outlives their steps.
-  MeshContacts(const Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains);
+  MeshContacts(const scene::Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;
 
@@ -49,4 +49,4 @@ private:
   double room_;                               ///< that a mesh may move between two lists [m]
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 namespace {
 constexpr double kMostCreated = 2;     // energy that may be left over, as a share of what was put in [-]
@@ -16,17 +16,17 @@ constexpr double kEnergyFloor = 1e-6;  // [J] below which nothing is judged
 constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
 } // namespace
 
-Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress,
+Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const setup::SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds)
-    : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
-      ground_(buildGround(scene, exec, timeStep_, comm)), sources_(scene, timeStep_) {
+    : scene_(scene), exec_(exec), comm_(comm), timeStep_(setup::chooseTimeStep(scene)),
+      ground_(setup::buildGround(scene, exec, timeStep_, comm)), sources_(scene, timeStep_) {
   const bool bed = scene.terrain && scene.terrain->granular();
   if (scene.vehicle)
-    placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
+    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
   if (bed && scene.terrain->settleTimeLimit > 0)
-    settled_ = beds ? beds->settle(scene, ground_, progress, comm) : settle(scene, ground_, progress);
-  if (bed) keepSurface(ground_, exec);
-  surface_ = surfaceHeight(ground_);
+    settled_ = beds ? beds->settle(scene, ground_, progress, comm) : setup::settle(scene, ground_, progress);
+  if (bed) setup::keepSurface(ground_, exec);
+  surface_ = setup::surfaceHeight(ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
   if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
   if (ground_.grains) ground_.grains->setSteps(0);
@@ -98,7 +98,7 @@ void Simulation::addGrains() {
 
 void Simulation::checkAlarm() {
   std::string alarm = vehicle_->alarm();
-  if (alarm.empty()) alarm = offTerrain(scene_, vehicle_->assembly(), vehicle_->state());
+  if (alarm.empty()) alarm = setup::offTerrain(scene_, vehicle_->assembly(), vehicle_->state());
   if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
 }
 
@@ -154,4 +154,4 @@ void Simulation::checkEnergy(const Ledger& now) {
                   now.residual, available, remedy));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -14,18 +14,18 @@
 #include <memory>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
 /// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
 class Simulation {
 public:
   /// `beds`: where settled beds are kept; null: settles by itself.
-  Simulation(const Scene& scene, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {},
+  Simulation(const scene::Scene& scene, const base::Exec& exec, const setup::SettleProgress& progress, const base::Comm& comm = {},
              BedCache* beds = nullptr);
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
-  Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {});
+  Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {});
   SimulationState save() const;
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
@@ -38,7 +38,7 @@ public:
   double time() const { return static_cast<double>(steps_) * timeStep_; } ///< since the bed has settled [s]
 
   const base::Comm& comm() const { return comm_; }
-  const Ground& ground() const { return ground_; }
+  const setup::Ground& ground() const { return ground_; }
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
@@ -48,7 +48,7 @@ public:
     if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
   }
-  const SettleReport& settled() const { return settled_; }
+  const setup::SettleReport& settled() const { return settled_; }
 
   /// Changes of all energies [J] since the first step, and what does not balance:
   /// residual = kinetic + potential + elastic + dissipated - driveWork.
@@ -74,14 +74,14 @@ private:
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
 
-  const Scene scene_;
+  const scene::Scene scene_;
   base::Exec exec_;
   base::Comm comm_;
   double timeStep_;
-  Ground ground_;
-  SettleReport settled_;
+  setup::Ground ground_;
+  setup::SettleReport settled_;
   std::function<double(double, double)> surface_;
-  Sources sources_;
+  setup::Sources sources_;
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
@@ -90,4 +90,4 @@ private:
   Ledger start_;        ///< before the first step; the ledger counts from here
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -5,7 +5,7 @@
 #include "base/hash.hpp"
 #include "runs/setup/step_limit.hpp"
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 std::string SimulationState::hash(const base::Comm& comm) const {
   base::StateHash hash;
@@ -32,9 +32,9 @@ SimulationState Simulation::save() const {
   return state;
 }
 
-Simulation::Simulation(const Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm)
-    : scene_(scene), exec_(exec), comm_(comm), timeStep_(chooseTimeStep(scene)),
-      ground_(buildGround(scene, exec, timeStep_, comm)), settled_(state.settled), sources_(scene, timeStep_),
+Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm)
+    : scene_(scene), exec_(exec), comm_(comm), timeStep_(setup::chooseTimeStep(scene)),
+      ground_(setup::buildGround(scene, exec, timeStep_, comm)), settled_(state.settled), sources_(scene, timeStep_),
       steps_(state.steps) {
   const bool bed = ground_.grains && ground_.walls;
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
@@ -42,8 +42,8 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
       state.mechanism.has_value() == scene.mechanism.empty() || state.energyAtStart.size() != 4 ||
       state.surfaces.has_value() != (ground_.grains && !surfacesOf(scene).empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
-  if (bed) keepSurface(ground_, state.surface);
-  surface_ = surfaceHeight(ground_);
+  if (bed) setup::keepSurface(ground_, state.surface);
+  surface_ = setup::surfaceHeight(ground_);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {
     ground_.grains->restore(*state.grains, !sources_.empty());
@@ -64,4 +64,4 @@ Simulation::Simulation(const Scene& scene, const base::Exec& exec, const Simulat
   mostPutIn_ = state.mostPutIn;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

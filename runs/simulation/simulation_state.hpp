@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// All of a simulation on which later bits or later output depend. Free of device, threads and lists.
 struct SimulationState {
   std::int64_t steps{};
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
-  SettleReport settled;
+  setup::SettleReport settled;
   std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
   double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
   std::optional<terrain::GrainState> grains;
@@ -30,4 +30,4 @@ struct SimulationState {
   std::string hash(const base::Comm& comm = {}) const;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

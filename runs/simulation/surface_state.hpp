@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// What a rigid surface must remember beyond its law of motion.
 struct SurfaceState {
@@ -38,4 +38,4 @@ struct SurfaceStates {
   }
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

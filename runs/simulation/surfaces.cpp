@@ -7,53 +7,53 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 using base::Vec3d;
 using terrain::SurfaceShape;
 
 namespace {
 
-Vec3d freeAxisOf(const SurfaceSection& s) {
+Vec3d freeAxisOf(const scene::SurfaceSection& s) {
   Vec3d axis;
   if (s.free) axis[(*s.free)[0] - 'x'] = 1;
   return axis;
 }
 
 /// Load on a free surface [N].
-double loadAt(const SurfaceSection& s, double time) {
+double loadAt(const scene::SurfaceSection& s, double time) {
   const double ramp = s.loadRamp.value_or(0);
   return s.load.value_or(0) * (time < ramp ? time / ramp : 1);
 }
 
 } // namespace
 
-std::vector<SceneSurface> surfacesOf(const Scene& scene) {
+std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
   std::vector<SceneSurface> all;
-  const auto add = [&](const char* kind, std::size_t number, const SurfaceSection& section, SurfaceShape shape,
+  const auto add = [&](const char* kind, std::size_t number, const scene::SurfaceSection& section, SurfaceShape shape,
                        const Vec3d& half, const base::Pose& pose) {
     all.push_back(
         {section.name.value_or(fmt::format("{}{}", kind, number)), kind, number, section, {shape, half}, pose});
   };
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const Plane& p = scene.planes[k];
-    if (!p.isWall()) add("plane", k, p, SurfaceShape::plane, {}, {p.point, turnFromZ(p.normal)});
+    const scene::Plane& p = scene.planes[k];
+    if (!p.isWall()) add("plane", k, p, SurfaceShape::plane, {}, {p.point, support::turnFromZ(p.normal)});
   }
   for (std::size_t k = 0; k < scene.boxes.size(); ++k) {
-    const BoxSection& b = scene.boxes[k];
+    const scene::BoxSection& b = scene.boxes[k];
     add("box", k, b, SurfaceShape::box, 0.5 * b.size,
-        {b.position, orientationOf(b.axis, b.angle, b.orientation.value_or(std::vector<double>{}))});
+        {b.position, support::orientationOf(b.axis, b.angle, b.orientation.value_or(std::vector<double>{}))});
   }
   for (std::size_t k = 0; k < scene.cylinders.size(); ++k) {
-    const CylinderSection& c = scene.cylinders[k];
+    const scene::CylinderSection& c = scene.cylinders[k];
     add("cylinder", k, c, c.hollow ? SurfaceShape::tube : SurfaceShape::cylinder, {c.radius, 0, 0.5 * c.length},
-        {c.position, turnFromZ(c.axis)});
+        {c.position, support::turnFromZ(c.axis)});
   }
   for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
-    const MeshSection& m = scene.meshes[k];
+    const scene::MeshSection& m = scene.meshes[k];
     const auto [low, high] = spheredecomp::bounds(m.loaded.query->mesh());
     add("mesh", k, m, SurfaceShape::box, 0.5 * (high - low),
-        {m.position, orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
+        {m.position, support::orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
     all.back().mesh = m.loaded.query;
   }
   return all;
@@ -74,7 +74,7 @@ double overlapAt(const SceneSurface& surface, const base::Pose& pose, const Vec3
   return radius - terrain::gapTo(surface.geometry, p).distance;
 }
 
-Surfaces::Surfaces(const Scene& scene, double timeStep)
+Surfaces::Surfaces(const scene::Scene& scene, double timeStep)
     : surfaces_(surfacesOf(scene)), gravity_(scene.run.gravity), timeStep_(timeStep) {
   for (const SceneSurface& s : surfaces_) {
     motions_.emplace_back(s.section, s.start.position);
@@ -85,7 +85,7 @@ Surfaces::Surfaces(const Scene& scene, double timeStep)
 }
 
 terrain::SurfacePlacement Surfaces::placement(std::size_t i, std::int64_t step) const {
-  const SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
+  const setup::SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
   const SurfaceState& s = states_.surfaces[i];
   const Vec3d centre = law.centre + freeAxes_[i] * s.offset, velocity = law.velocity + freeAxes_[i] * s.speed;
   return {{centre, (law.turned * surfaces_[i].start.orientation).matrix(), centre, velocity, law.spin},
@@ -93,11 +93,11 @@ terrain::SurfacePlacement Surfaces::placement(std::size_t i, std::int64_t step) 
 }
 
 base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {
-  const SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
+  const setup::SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
   return {law.centre + freeAxes_[i] * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
 }
 
-void Surfaces::makeMeshContacts(const Scene& scene, const base::Exec& exec, terrain::Grains& grains) {
+void Surfaces::makeMeshContacts(const scene::Scene& scene, const base::Exec& exec, terrain::Grains& grains) {
   if (shapes_ == surfaces_.size()) return;
   meshes_ = std::make_unique<MeshContacts>(scene, exec, timeStep_, grains);
   if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
@@ -139,7 +139,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const terrain::SurfaceLoad& load = i < shapes_ ? grains.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
-    const SurfaceMotion::State law = motions_[i].at(time);
+    const setup::SurfaceMotion::State law = motions_[i].at(time);
     SurfaceState& s = states_.surfaces[i];
     double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
     if (surfaces_[i].section.free) {
@@ -188,4 +188,4 @@ void Surfaces::restore(const SurfaceStates& states) {
   states_ = states;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -11,20 +11,20 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// One rigid surface of a scene as grains meet it, whatever section it stands in.
 struct SceneSurface {
   std::string name;     ///< "lid"
   const char* kind{};   ///< "box"
   std::size_t number{}; ///< among those of its kind
-  SurfaceSection section;
+  scene::SurfaceSection section;
   terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
   base::Pose start;
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
 };
 /// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
-std::vector<SceneSurface> surfacesOf(const Scene& scene);
+std::vector<SceneSurface> surfacesOf(const scene::Scene& scene);
 /// At rest where it stands at the start.
 terrain::SurfacePlacement startingPlace(const SceneSurface& surface);
 /// Overlap of a sphere with it at the start [m]; negative where they do not touch.
@@ -36,10 +36,10 @@ double overlapAt(const SceneSurface& surface, const base::Pose& pose, const base
 /// move give way. The same on all ranks.
 class Surfaces {
 public:
-  Surfaces(const Scene& scene, double timeStep);
+  Surfaces(const scene::Scene& scene, double timeStep);
 
   /// The meshes' contacts; after grains have been restored, before the first touch().
-  void makeMeshContacts(const Scene& scene, const base::Exec& exec, terrain::Grains& grains);
+  void makeMeshContacts(const scene::Scene& scene, const base::Exec& exec, terrain::Grains& grains);
 
   /// Contacts of grains with meshes in step `step`.
   void touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
@@ -81,7 +81,7 @@ private:
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
   std::vector<SceneSurface> surfaces_;
-  std::vector<SurfaceMotion> motions_;
+  std::vector<setup::SurfaceMotion> motions_;
   std::vector<base::Vec3d> freeAxes_; ///< zero where it is not free
   base::Vec3d gravity_;
   double timeStep_;
@@ -90,4 +90,4 @@ private:
   std::unique_ptr<MeshContacts> meshes_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

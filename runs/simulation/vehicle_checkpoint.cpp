@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 std::vector<std::uint32_t> VehicleState::words() const {
   std::vector<std::uint32_t> words;
@@ -51,4 +51,4 @@ void VehicleRig::restore(const VehicleState& s) {
   relativeTravel_ = absoluteTravel_ = kNeverListed;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

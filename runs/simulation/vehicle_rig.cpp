@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 #include <map>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 using base::Vec3d;
 
@@ -25,19 +25,19 @@ namespace {
 constexpr double kTrackMargin = 0.004; // [m] how far before touching a probe is listed
 constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their own skin
 
-vehicle::DriverOptions driverOptions(const Driver& d) {
+vehicle::DriverOptions driverOptions(const scene::Driver& d) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
   options.driveStart = d.driveBegins(), options.driveRamp = d.driveRamp;
-  const SpeedTable table = d.speeds();
+  const scene::SpeedTable table = d.speeds();
   options.speeds = {table.time, table.left, table.right};
   return options;
 }
 
-vehicle::AssemblyOptions assemblyOptions(const Scene& scene, const vehicle::VehicleSpec& spec,
+vehicle::AssemblyOptions assemblyOptions(const scene::Scene& scene, const vehicle::VehicleSpec& spec,
                                          const std::function<double(double, double)>& surfaceHeight) {
-  const Placement place = placeVehicle(scene, spec);
-  const double z = scene.terrain ? groundUnder(spec, place, surfaceHeight) + scene.vehicle->clearance : 0.0;
+  const setup::Placement place = setup::placeVehicle(scene, spec);
+  const double z = scene.terrain ? setup::groundUnder(spec, place, surfaceHeight) + scene.vehicle->clearance : 0.0;
   vehicle::AssemblyOptions options;
   options.fixChassis = scene.vehicle->chassis == "fixed";
   options.pose_W = vehicle::placeOnGround(spec, place.x, place.y, z, 0, place.heading);
@@ -62,7 +62,7 @@ base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
 
 } // namespace
 
-VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeStep, const Ground& ground,
+VehicleRig::VehicleRig(const scene::Scene& scene, const base::Exec& exec, double timeStep, const setup::Ground& ground,
                        const std::function<double(double, double)>& surfaceHeight)
     : exec_(exec), side_(exec), timeStep_(timeStep), driver_(driverOptions(scene.driver)),
       surfaceHeight_(surfaceHeight), gravity_(scene.run.gravity) {
@@ -78,7 +78,7 @@ VehicleRig::VehicleRig(const Scene& scene, const base::Exec& exec, double timeSt
   buildContacts(scene, ground);
 }
 
-void VehicleRig::loadMeshes(const Scene& scene) {
+void VehicleRig::loadMeshes(const scene::Scene& scene) {
   std::map<std::string, std::size_t> indexOf;
   spheredecomp::DecompositionOptions options;
   options.radius = scene.vehicle->sphereRadius;
@@ -105,7 +105,7 @@ void VehicleRig::loadMeshes(const Scene& scene) {
   }
 }
 
-void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
+void VehicleRig::buildContacts(const scene::Scene& scene, const setup::Ground& ground) {
   std::vector<const base::SphereSet*> sets;
   for (const base::SphereSet& set : sets_) sets.push_back(&set);
   std::vector<int> setOfPart, contactIndex(assembly_.parts.size(), -1);
@@ -142,10 +142,10 @@ void VehicleRig::buildContacts(const Scene& scene, const Ground& ground) {
 
   if (ground.grains) {
     groundMargin_ = kBedMargin;
-    const auto [model, materials] = grainPartModel(
+    const auto [model, materials] = setup::grainPartModel(
         scene, *ground.grains, timeStep_, groundMargin_, [&](const std::string& soil, std::optional<double> mass) {
           const std::string& part = scene.vehicle->material.empty() ? soil : scene.vehicle->material;
-          contact::ContactLaw law = pairLaw(scene, soil, part, mass);
+          contact::ContactLaw law = setup::pairLaw(scene, soil, part, mass);
           if (scene.vehicle->material.empty()) law.friction = spec.frictionGround;
           return law;
         });
@@ -197,7 +197,7 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
   }
   if (!groundIsDue) return;
   if (bed_) {
-    bed_->refresh(viewOf(*grains), motion_.device());
+    bed_->refresh(setup::viewOf(*grains), motion_.device());
     grainLoads_ = bed_->grainLoads();
   }
   if (rigidGround_) rigidGround_->refresh(motion_.device());
@@ -241,7 +241,7 @@ void VehicleRig::touchTrack() {
 
 void VehicleRig::touchGround(const terrain::Grains* grains, const base::Exec& exec) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
-  if (bed_) bed_->computeOn(exec, viewOf(*grains), motion_.device(), groundLoads);
+  if (bed_) bed_->computeOn(exec, setup::viewOf(*grains), motion_.device(), groundLoads);
   if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);
 }
 
@@ -351,4 +351,4 @@ std::size_t VehicleRig::totalSpheres() const {
   return total;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -18,13 +18,13 @@
 #include <optional>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// The vehicle of a scene: its bodies, its surfaces, and what they touch.
 class VehicleRig {
 public:
   /// Reads spec and meshes, cuts the meshes into spheres, places the vehicle above the ground.
-  VehicleRig(const Scene& scene, const base::Exec& exec, double timeStep, const Ground& ground,
+  VehicleRig(const scene::Scene& scene, const base::Exec& exec, double timeStep, const setup::Ground& ground,
              const std::function<double(double, double)>& surfaceHeight);
 
   // One step, in this order.
@@ -94,8 +94,8 @@ public:
   std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
 
 private:
-  void loadMeshes(const Scene& scene);
-  void buildContacts(const Scene& scene, const Ground& ground);
+  void loadMeshes(const scene::Scene& scene);
+  void buildContacts(const scene::Scene& scene, const setup::Ground& ground);
   contact::PartMotion motionOf(std::size_t contactPart) const;
   void sumOverRanks(contact::PartLoad* loads, std::size_t count) const;
   template <class Work> void asAllRanksDo(const Work& work);
@@ -143,4 +143,4 @@ private:
   base::Vec3l impulseOnParts_{};
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

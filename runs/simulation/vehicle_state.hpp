@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 
 /// All of a vehicle on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
 struct VehicleState {
@@ -27,4 +27,4 @@ struct VehicleState {
   std::vector<std::uint32_t> words() const;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -8,12 +8,12 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using base::Vec3d;
 
 terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
-  Scene scene = parseScene(
+  scene::Scene scene = scene::parseScene(
       fmt::format("version = 1\n[run]\nduration = 1\n[material.soil]\ndensity = {}\nstiffness = {}\n"
                   "restitution = {}\nfriction = {}\n[[grain]]\nposition = [0, 0, 0]\nradius = {}\n"
                   "material = \"soil\"\n",
@@ -44,7 +44,7 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
     start.push_back({p, v, {}});
   }
   const double edge = static_cast<double>(side) * spacing, height = box.layers * spacing;
-  Surroundings around;
+  setup::Surroundings around;
   around.walls = {{{0, 0, 1}, 0, "soil"},
                   {{1, 0, 0}, 0, "soil"},
                   {{-1, 0, 0}, -edge, "soil"},
@@ -52,7 +52,7 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
                   {{0, -1, 0}, -edge, "soil"}};
   if (box.gravity == 0) around.walls.push_back({{0, 0, -1}, -height, "soil"});
   terrain::Boundaries boundaries;
-  const terrain::GrainModel model = grainModel(scene, grainKinds(scene), StudyBox::kTimeStep, around, boundaries);
+  const terrain::GrainModel model = setup::grainModel(scene, setup::grainKinds(scene), StudyBox::kTimeStep, around, boundaries);
   return terrain::Grains(exec, model, boundaries, start);
 }
 
@@ -62,4 +62,4 @@ std::int64_t studyBoxDiameter() {
   return static_cast<std::int64_t>(std::floor(2 * StudyBox::kRadius * studyBoxScale().perMetre + 0.5));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// A box of equal spheres for studies, open at the top or closed: a jittered lattice with random velocities, of the
 /// source paper's grains (radius 27 mm, 2500 kg/m3, 1e6 N/m, 5e-5 s: 20 steps a contact).
@@ -29,4 +29,4 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec);
 base::PositionScale studyBoxScale();
 std::int64_t studyBoxDiameter();
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -13,7 +13,7 @@
 #include <map>
 #include <sstream>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using base::Vec3d;
 
@@ -189,15 +189,15 @@ std::vector<StudyCase> joints() {
 }
 
 /// Size of the force that a joint exerts [N].
-std::function<double(const Mechanism&)> forceOf(const std::string& joint) {
-  return [joint](const Mechanism& m) {
+std::function<double(const simulation::Mechanism&)> forceOf(const std::string& joint) {
+  return [joint](const simulation::Mechanism& m) {
     return norm(m.state().joint[static_cast<std::size_t>(m.model().jointIndex(joint))].force);
   };
 }
 
 } // namespace
 
-std::vector<double> readProbes(const Mechanism& mechanism, const std::vector<Probe>& probes) {
+std::vector<double> readProbes(const simulation::Mechanism& mechanism, const std::vector<Probe>& probes) {
   std::vector<double> values;
   for (const Probe& p : probes) {
     const auto b = static_cast<std::size_t>(mechanism.model().bodyIndex(p.body));
@@ -212,7 +212,7 @@ std::vector<double> readProbes(const Mechanism& mechanism, const std::vector<Pro
 }
 
 std::function<std::vector<double>(double t)> referenceFile(const std::string& name) {
-  const std::filesystem::path path = shareFolder() / "runs" / "mechanisms" / "reference" / name;
+  const std::filesystem::path path = support::shareFolder() / "runs" / "mechanisms" / "reference" / name;
   // Read when it is first needed: listing the cases must not need the file.
   return [path, rows = std::map<long long, Values>()](double t) mutable {
     constexpr double kTick = 1e-7; // [s] finer than any step between rows
@@ -266,4 +266,4 @@ std::vector<ReactionCase> reactionCases() {
   };
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

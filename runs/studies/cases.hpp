@@ -8,7 +8,7 @@
 #include <vector>
 
 /// The mechanisms whose motion is known: what `grouser study multibody` measures errors against.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// One component of the place or velocity of a point of a body.
 struct Probe {
@@ -18,7 +18,7 @@ struct Probe {
   int component = 0;   ///< x, y, z
   Kind kind = kPosition;
 };
-std::vector<double> readProbes(const Mechanism& mechanism, const std::vector<Probe>& probes);
+std::vector<double> readProbes(const simulation::Mechanism& mechanism, const std::vector<Probe>& probes);
 
 /// A mechanism with its known motion.
 struct StudyCase {
@@ -39,7 +39,7 @@ std::vector<StudyCase> studyCases();
 struct ReactionCase {
   std::string name, scene, title;
   double end = 1, step = 1e-3; ///< [s]
-  std::function<double(const Mechanism&)> measured;
+  std::function<double(const simulation::Mechanism&)> measured;
   double exact = 0;
 };
 std::vector<ReactionCase> reactionCases();
@@ -47,4 +47,4 @@ std::vector<ReactionCase> reactionCases();
 /// Positions over time from runs/mechanisms/reference/; linear in the row nearest to t, which must be there.
 std::function<std::vector<double>(double t)> referenceFile(const std::string& name);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

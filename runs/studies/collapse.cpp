@@ -14,7 +14,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -119,7 +119,7 @@ void studyCollapseCommand(const CollapseCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("collapse", command.place);
-  const StopSignals signals;
+  const support::StopSignals signals;
   const bool quick = command.place.quick;
   const int seeds = quick ? 2 : command.seeds;
   const double length = quick ? 10 : command.length;
@@ -130,7 +130,7 @@ void studyCollapseCommand(const CollapseCommand& command) {
              "between a wall and a gate,\n          {} d between joined sides; smooth floor of the same friction; {} "
              "seeds, +- their standard error; one thread\n",
              length, command.width, seeds);
-  Progress progress("collapsing");
+  support::Progress progress("collapsing");
   std::string csv = "aspect [-],seed,grains,run-out [-],deposit height [-],time [-],rests\n";
   std::string table = fmt::format("\n  {:>13} {:>7} {:>17} {:>8} {:>17} {:>8} {:>17} {:>8}\n", "h0/d0", "grains",
                                   "run-out/d0", "channel", "height/d0", "channel", "time/sqrt(h0/g)", "channel");
@@ -159,12 +159,12 @@ void studyCollapseCommand(const CollapseCommand& command) {
   fmt::print("{}\n  channel: laws fitted to experiments, which scatter by 10 to 15 %; columns of few grains run "
              "differently\n",
              table);
-  writeTextFile(folder / "collapse.csv", csv, "--out");
+  support::writeTextFile(folder / "collapse.csv", csv, "--out");
   writeStudyOrigin(
       folder, "collapse", std::chrono::duration<double>(Clock::now() - begin).count(),
       {{"length_in_diameters", length}, {"width_in_diameters", command.width}, {"seeds", seeds}, {"threads", 1}});
-  drawPicture("study_collapse.py", {folder / "collapse.csv"}, folder / "collapse.png");
+  output::drawPicture("study_collapse.py", {folder / "collapse.csv"}, folder / "collapse.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -8,7 +8,7 @@
 
 /// A column of grains whose gate is taken away: how far it runs, against the laws measured in channels (Lube et al.
 /// 2005, Lajeunesse et al. 2005).
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// One collapse.
 struct Collapse {
@@ -38,4 +38,4 @@ struct CollapseCommand {
 /// `grouser study collapse`
 void studyCollapseCommand(const CollapseCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

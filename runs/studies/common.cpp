@@ -13,31 +13,31 @@
 #include <array>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace fs = std::filesystem;
 
 std::filesystem::path beginStudy(const std::string& name, const StudyPlace& place) {
   const fs::path folder = place.folder.empty() ? fs::path("out") / ("study_" + name) : fs::path(place.folder);
-  checkOutputFolder(folder, place.force);
+  output::checkOutputFolder(folder, place.force);
   fs::create_directories(folder);
-  fmt::print("study     {}: commit {}, {}\n", name, buildInfo().commit, machineText());
+  fmt::print("study     {}: commit {}, {}\n", name, support::buildInfo().commit, support::machineText());
   std::fflush(stdout);
   return folder;
 }
 
 void writeStudyOrigin(const std::filesystem::path& folder, const std::string& name, double seconds,
                       const nlohmann::ordered_json& more) {
-  const BuildInfo build = buildInfo();
+  const support::BuildInfo build = support::buildInfo();
   nlohmann::ordered_json json;
   json["study"] = name;
-  json["machine"] = machineText();
+  json["machine"] = support::machineText();
   json["version"] = build.version;
   json["commit"] = build.commit;
   json["compiler"] = build.compiler;
   json["wall_s"] = seconds;
   json.update(more);
-  writeTextFile(folder / "study.json", json.dump(2) + "\n", "--out");
+  support::writeTextFile(folder / "study.json", json.dump(2) + "\n", "--out");
 }
 
 std::string Slope::text() const { return exists() ? fmt::format("{:.2f} +- {:.2f}", value, halfWidth) : "-"; }
@@ -91,7 +91,7 @@ double medianOf(std::vector<double> values) {
 }
 
 void stopStudyIfAsked() {
-  if (const int signal = StopSignals::received()) throw Stopped(signal, "the study was stopped");
+  if (const int signal = support::StopSignals::received()) throw support::Stopped(signal, "the study was stopped");
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

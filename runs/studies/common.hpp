@@ -8,7 +8,7 @@
 #include <vector>
 
 /// What the studies of grains have in common.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Where a study writes, and how much it does.
 struct StudyPlace {
@@ -46,4 +46,4 @@ double medianOf(std::vector<double> values);
 /// Throws Stopped after SIGINT or SIGTERM.
 void stopStudyIfAsked();
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using base::Vec3d;
 
@@ -92,4 +92,4 @@ double gershgorinFrequency(const ContactNetwork& network) {
   return std::sqrt(largest);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Equal spheres at rest and their contacts, as springs between masses.
 struct ContactNetwork {
@@ -31,4 +31,4 @@ double columnFrequency(int n);
 /// a plane [-]; frictionless.
 double gershgorinFrequency(const ContactNetwork& network);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using terrain::Grains;
 using terrain::Precision;
@@ -235,4 +235,4 @@ std::string macroCsv(const std::vector<MacroRow>& rows) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

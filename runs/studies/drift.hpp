@@ -10,7 +10,7 @@
 
 /// How far two runs of different precision drift apart: grain by grain while that means something, and in what is
 /// measured of many grains after.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Distances between the same grains of two runs.
 struct DriftSample {
@@ -55,4 +55,4 @@ std::string driftCsv(const std::vector<Drift>& drifts);
 std::string macroTable(const std::vector<MacroRow>& rows, int runs);
 std::string macroCsv(const std::vector<MacroRow>& rows);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

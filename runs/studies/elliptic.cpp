@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -45,4 +45,4 @@ Jacobi jacobi(double u, double k) {
 
 double quarterPeriod(double k) { return 0.5 * base::kPi / means(k).a[kMeans]; }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

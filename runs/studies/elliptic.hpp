@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Jacobi's elliptic functions of u and modulus k, 0 <= k < 1.
 struct Jacobi {
@@ -12,4 +12,4 @@ Jacobi jacobi(double u, double k);
 /// Complete elliptic integral of the first kind K(k), by the same mean (17.6).
 double quarterPeriod(double k);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using base::Vec3d;
 using terrain::Grains;
@@ -27,11 +27,11 @@ constexpr double kTangentialRatio = 2.0 / 7;
 constexpr double kSettleStiffness = 1e5, kSettleZeta = 0.3, kSettleStep = 0.3; // [N/m], [-], [1 / sqrt(k / m)]
 constexpr std::uint64_t kSeed = 1, kPurpose = base::purpose("study.stability");
 
-double rate(double stiffness) { return std::sqrt(stiffness / sphereMass(kDensity, kRadius)); } // [1/s]
+double rate(double stiffness) { return std::sqrt(stiffness / setup::sphereMass(kDensity, kRadius)); } // [1/s]
 
 /// The scene a user would write. Dashpots are to springs alike in all contacts: c = 2 zeta sqrt(k m), which is
 /// gamma m / 2 between grains and gamma m at a plane.
-Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta) {
+scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta) {
   std::string text = "version = 1\n[run]\nduration = 1\n";
   for (const char* name : {"grain", "wall"})
     text += fmt::format("[material.{}]\ndensity = {}\nstiffness = {}\ndamping = {}\nfriction = {}\n"
@@ -41,7 +41,7 @@ Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta) {
   text += fmt::format("[contact.\"grain|wall\"]\ndamping = {}\n", 2 * zeta * rate(stiffness));
   text += fmt::format("[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"wall\"\n");
   text += fmt::format("[[grain]]\nposition = [0, 0, {}]\nradius = {}\nmaterial = \"grain\"\n", kRadius, kRadius);
-  Scene scene = parseScene(text, "study");
+  scene::Scene scene = scene::parseScene(text, "study");
   scene.run.gravity = {0, 0, -kOwnOverlap * kRadius * rate(stiffness) * rate(stiffness)};
   return scene;
 }
@@ -49,14 +49,14 @@ Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta) {
 /// Its grains, at a step that nobody has checked.
 Grains build(const RestingGrains& grains, double stiffness, double zeta, double timeStep,
              const std::vector<terrain::GrainStart>& start) {
-  const Scene scene = sceneOf(grains, stiffness, zeta);
-  Surroundings around;
+  const scene::Scene scene = sceneOf(grains, stiffness, zeta);
+  setup::Surroundings around;
   around.walls = {{{0, 0, 1}, 0, "wall"}};
   if (grains.box)
     for (const Vec3d& n : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}})
       around.walls.push_back({n, -grains.halfWidth, "wall"});
   terrain::Boundaries boundaries;
-  const terrain::GrainModel model = grainModel(scene, grainKinds(scene), timeStep, around, boundaries);
+  const terrain::GrainModel model = setup::grainModel(scene, setup::grainKinds(scene), timeStep, around, boundaries);
   return Grains(base::cpuExec(1), model, boundaries, start);
 }
 
@@ -88,7 +88,7 @@ ContactNetwork networkOf(const RestingGrains& grains) {
 }
 
 /// Lets the grains settle, stopping all motion now and then: what is left is a rest, whatever the way to it.
-void settle(RestingGrains& resting, const std::vector<terrain::GrainStart>& start) {
+void setup::settle(RestingGrains& resting, const std::vector<terrain::GrainStart>& start) {
   Grains grains = build(resting, kSettleStiffness, kSettleZeta, kSettleStep / rate(kSettleStiffness), start);
   const auto advance = [&grains](int steps) {
     for (int i = 0; i < steps; ++i) {
@@ -119,7 +119,7 @@ void settle(RestingGrains& resting, const std::vector<terrain::GrainStart>& star
 RestingGrains oneContact() {
   RestingGrains r;
   r.name = "contact", r.title = "one sphere on a plane", r.vertical = true;
-  settle(r, {{{0, 0, kRadius * (1 - kOwnOverlap)}, {}, {}}});
+  setup::settle(r, {{{0, 0, kRadius * (1 - kOwnOverlap)}, {}, {}}});
   return r;
 }
 
@@ -133,7 +133,7 @@ RestingGrains column(int grains) {
     z += (i == 0 ? 1 : 2) * kRadius - (grains - i) * kOwnOverlap * kRadius;
     start.push_back({{0, 0, z}, {}, {}});
   }
-  settle(r, start);
+  setup::settle(r, start);
   return r;
 }
 
@@ -155,7 +155,7 @@ RestingGrains randomBed(int grains, double friction) {
                      {},
                      {}});
   }
-  settle(r, start);
+  setup::settle(r, start);
   r.title = fmt::format("random bed of {} spheres, friction {:g}", grains, friction);
   return r;
 }
@@ -165,7 +165,7 @@ double predictedLimit(const RestingGrains& grains, double zeta) {
 }
 
 double checkedLimit(const RestingGrains& grains, double stiffness, double zeta) {
-  return stepLimit(sceneOf(grains, stiffness, zeta)).step;
+  return setup::stepLimit(sceneOf(grains, stiffness, zeta)).step;
 }
 
 GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, double zeta, double timeStep) {
@@ -229,4 +229,4 @@ GrainStabilityMap stabilityMap(const RestingGrains& grains, const StabilityAxes&
   return map;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -10,7 +10,7 @@
 
 /// Which steps the grains' integrator takes: maps over time step, stiffness and damping, against what theory predicts
 /// and what a run's check of its scene refuses.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Spheres at rest under gravity, whose rest is then disturbed. Gravity grows with the stiffness, so that a sphere's
 /// own weight overlaps it by a thousandth of its radius at any stiffness.
@@ -83,4 +83,4 @@ std::string grainStabilityTable(const GrainStabilityMap& map);
 std::string grainStabilityCsv(const std::vector<GrainStabilityMap>& maps);
 std::string stabilityLimitsCsv(const std::vector<GrainStabilityMap>& maps);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

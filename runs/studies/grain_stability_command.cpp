@@ -14,7 +14,7 @@
 #include <cmath>
 #include <functional>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -109,7 +109,7 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("stability", command.place);
-  const StopSignals signals;
+  const support::StopSignals signals;
   const bool quick = command.place.quick;
   fmt::print("          radius 5 mm, 2600 kg/m3; unstable: the kinetic energy passes {:g} times that of a small "
              "disturbance within {} steps, or a guard stops the run\n",
@@ -119,7 +119,7 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   const std::vector<std::function<RestingGrains()>> makers = {
       [] { return oneContact(); }, [&] { return column(command.columnGrains); }, [&] { return randomBed(bed, 0); },
       [&] { return randomBed(bed, 0.5); }};
-  Progress progress("studying");
+  support::Progress progress("studying");
   std::vector<GrainStabilityMap> maps;
   for (const auto& make : makers) {
     progress.update(static_cast<double>(maps.size()) / static_cast<double>(makers.size()), "settling");
@@ -129,8 +129,8 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
     progress.note(grainStabilityTable(maps.back()));
   }
   progress.finish(fmt::format("{} maps", maps.size()));
-  writeTextFile(folder / "stability.csv", grainStabilityCsv(maps), "--out");
-  writeTextFile(folder / "limits.csv", stabilityLimitsCsv(maps), "--out");
+  support::writeTextFile(folder / "stability.csv", grainStabilityCsv(maps), "--out");
+  support::writeTextFile(folder / "limits.csv", stabilityLimitsCsv(maps), "--out");
   nlohmann::ordered_json counts;
   for (const GrainStabilityMap& map : maps) {
     nlohmann::ordered_json& j = counts[map.grains.name];
@@ -140,8 +140,8 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   }
   writeStudyOrigin(folder, "stability", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"steps", kStabilitySteps}, {"growth", kGrowth}, {"quick", quick}, {"maps", counts}});
-  drawPicture("study_stability.py", {folder / "stability.csv", folder / "limits.csv"}, folder / "stability.png");
+  output::drawPicture("study_stability.py", {folder / "stability.csv", folder / "limits.csv"}, folder / "stability.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -13,7 +13,7 @@
 #include <ctime>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using base::Vec3d;
 using terrain::Grains;
@@ -25,7 +25,7 @@ constexpr double kStiffness = 1e5, kEffectiveModulus = 1e9; // [N/m], [Pa]
 constexpr double kSpacing = 4 * kRadius;                    // between collisions side by side [m]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double mass() { return sphereMass(kDensity, kRadius); }
+double mass() { return setup::sphereMass(kDensity, kRadius); }
 double effectiveMass(const ImpactCase& c) { return c.binary ? 0.5 * mass() : mass(); }
 double effectiveRadius(const ImpactCase& c) { return c.binary ? 0.5 * kRadius : kRadius; }
 double omega0(const ImpactCase& c) { return std::sqrt(kStiffness / effectiveMass(c)); }
@@ -299,4 +299,4 @@ const ImpactPoint* cheapestImpact(const ImpactSeries& series, int quantity, doub
   return best;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

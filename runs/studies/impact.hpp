@@ -10,7 +10,7 @@
 #include <vector>
 
 /// Error of one collision against run time: the step of terrain::Grains against the closed forms of its contact laws.
-namespace grouser::runs {
+namespace grouser::studies {
 
 enum class ImpactLaw {
   linearFree,    ///< the dashpot may pull; the contact ends at overlap zero
@@ -99,4 +99,4 @@ struct ImpactCommand {
 };
 void studyImpactCommand(const ImpactCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -13,7 +13,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using terrain::Precision;
 
@@ -64,7 +64,7 @@ void studyImpactCommand(const ImpactCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("impact", command.place);
-  const StopSignals signals;
+  const support::StopSignals signals;
   const bool quick = command.place.quick;
   const std::vector<double> steps = stepCounts(quick);
   const std::vector<ImpactCase> cases = impactCases(quick);
@@ -73,7 +73,7 @@ void studyImpactCommand(const ImpactCommand& command) {
       "are of the undamped contact; {} phases of first touch, {} of leaving\n          CPU time: {} collisions side "
       "by side, median of {}\n",
       command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
-  Progress progress("studying");
+  support::Progress progress("studying");
   std::vector<ImpactSeries> all;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const Precision precision : {Precision::single, Precision::double_}) {
@@ -97,11 +97,11 @@ void studyImpactCommand(const ImpactCommand& command) {
   fmt::print("{}{}{}{}{}", orderTable(all), cheapestImpactTable(all), convergenceTable(convergence), speedTable(speeds),
              closedFormTable(all, steps.size() - (quick ? 1 : 5)));
 
-  writeTextFile(folder / "impact.csv", impactCsv(all), "--out");
-  writeTextFile(folder / "orders.csv", orderCsv(all), "--out");
-  writeTextFile(folder / "cheapest.csv", cheapestImpactCsv(all), "--out");
-  writeTextFile(folder / "convergence.csv", convergenceCsv(convergence), "--out");
-  writeTextFile(folder / "speeds.csv", impactCsv(speeds), "--out");
+  support::writeTextFile(folder / "impact.csv", impactCsv(all), "--out");
+  support::writeTextFile(folder / "orders.csv", orderCsv(all), "--out");
+  support::writeTextFile(folder / "cheapest.csv", cheapestImpactCsv(all), "--out");
+  support::writeTextFile(folder / "convergence.csv", convergenceCsv(convergence), "--out");
+  support::writeTextFile(folder / "speeds.csv", impactCsv(speeds), "--out");
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   writeStudyOrigin(folder, "impact", seconds,
                    {{"phases_of_first_touch", command.phases.touching},
@@ -110,8 +110,8 @@ void studyImpactCommand(const ImpactCommand& command) {
                     {"repeats", command.repeats},
                     {"threads", 1},
                     {"quick", quick}});
-  drawPicture("study_impact.py", {folder / "impact.csv"}, folder / "impact.png");
+  output::drawPicture("study_impact.py", {folder / "impact.csv"}, folder / "impact.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -211,4 +211,4 @@ std::string speedTable(const std::vector<ImpactSeries>& all) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

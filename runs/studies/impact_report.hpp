@@ -4,7 +4,7 @@
 #include "runs/studies/impact.hpp"
 
 /// The tables of `grouser study impact`, as text and as CSV.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// All steps of one collision: errors in single precision, times in both.
 std::string impactTable(const ImpactSeries& single, const ImpactSeries& double_);
@@ -32,4 +32,4 @@ std::string convergenceCsv(const std::vector<ConvergenceRow>& rows);
 /// Errors over the speed of approach, at one number of steps a contact.
 std::string speedTable(const std::vector<ImpactSeries>& all);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -21,7 +21,7 @@
 #include <ctime>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace fs = std::filesystem;
 
@@ -42,8 +42,8 @@ double cpuSeconds() {
 }
 
 /// The scene of a case; one that is not in runs/mechanisms/ is made by the script that stands there.
-Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
-  const fs::path folder = shareFolder() / "runs" / "mechanisms";
+scene::Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
+  const fs::path folder = support::shareFolder() / "runs" / "mechanisms";
   fs::path file = folder / scene;
   const bool isMade = !scene.ends_with(".toml");
   if (isMade) {
@@ -55,9 +55,9 @@ Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
     }
     words.push_back(file.string());
     std::string warning;
-    if (!runScript(folder / "make_mechanisms.py", words, warning)) throw base::InputError(warning);
+    if (!output::runScript(folder / "make_mechanisms.py", words, warning)) throw base::InputError(warning);
   }
-  Scene loaded = loadScene(file, {"run.integrator=" + integrator.word,
+  scene::Scene loaded = scene::loadScene(file, {"run.integrator=" + integrator.word,
                                   fmt::format("run.integrator_order={}", std::max(2, integrator.order))});
   if (isMade) fs::remove(file);
   return loaded;
@@ -68,11 +68,11 @@ struct Measured {
 };
 
 /// Steps through a case, comparing at its sample times; the clock runs in the steps only.
-Measured measure(const StudyCase& c, const Scene& scene, double step, std::int64_t stepsPerSample,
+Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std::int64_t stepsPerSample,
                  std::int64_t samples) {
-  Mechanism mechanism(scene, step);
+  simulation::Mechanism mechanism(scene, step);
   const auto energy = [&] {
-    const Mechanism::Ledger l = mechanism.ledger();
+    const simulation::Mechanism::Ledger l = mechanism.ledger();
     return l.kinetic + l.potential + l.elastic + l.dissipated - l.driveWork;
   };
   const double start = energy();
@@ -88,10 +88,10 @@ Measured measure(const StudyCase& c, const Scene& scene, double step, std::int64
       const double e = std::fabs(is[j] - should[j]) / std::max(std::fabs(should[j]), kThreshold);
       sum += e * e / static_cast<double>(is.size());
     }
-    const Mechanism::Drift drift = mechanism.drift();
+    const simulation::Mechanism::Drift drift = mechanism.drift();
     m.position = std::max(m.position, drift.position), m.velocity = std::max(m.velocity, drift.velocity);
     m.energy = std::max(m.energy, std::fabs(energy() - start));
-    if (const int signal = StopSignals::received()) throw Stopped(signal, "the study was stopped");
+    if (const int signal = support::StopSignals::received()) throw support::Stopped(signal, "the study was stopped");
   }
   m.error = std::sqrt(sum / static_cast<double>(samples));
   return m;
@@ -105,7 +105,7 @@ std::vector<IntegratorChoice> studyIntegrators() {
 }
 
 std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& integrator, int count, double budget) {
-  const Scene scene = loadCase(c.scene, integrator);
+  const scene::Scene scene = loadCase(c.scene, integrator);
   const std::int64_t samples = std::llround(c.end / c.sample);
   std::vector<StudyPoint> points;
   std::int64_t perSample = c.coarsest;
@@ -154,23 +154,23 @@ void studyMultibodyCommand(const StudyCommand& command) {
     return command.quick && c.isLong;
   });
   const fs::path folder = command.folder.empty() ? fs::path("out") / "study_multibody" : fs::path(command.folder);
-  checkOutputFolder(folder, command.force);
+  output::checkOutputFolder(folder, command.force);
   fs::create_directories(folder);
 
-  const StopSignals signals;
+  const support::StopSignals signals;
   const int count = command.quick ? kQuickSteps : kFullSteps;
   const double budget = command.quick ? kQuickBudget : command.budget;
   const std::vector<IntegratorChoice> integrators = studyIntegrators();
   fmt::print("study     multibody: commit {}, {}, one thread; CPU time of the steps, without set-up and output\n",
-             buildInfo().commit, machineText());
+             support::buildInfo().commit, support::machineText());
   if (command.stability) {
     const std::vector<StabilityPoint> points = studyStability();
     fmt::print("{}", stabilityTable(points));
-    writeTextFile(folder / "stability.csv", stabilityCsv(points), "--out");
+    support::writeTextFile(folder / "stability.csv", stabilityCsv(points), "--out");
     fmt::print("table     {}\n", (folder / "stability.csv").string());
     return;
   }
-  Progress progress("studying");
+  support::Progress progress("studying");
   std::vector<StudyResult> results;
   double done = 0;
   for (const StudyCase& c : cases) {
@@ -194,18 +194,18 @@ void studyMultibodyCommand(const StudyCommand& command) {
       if (integrator.order <= 2) reactions.push_back(measureReaction(r, integrator));
   }
   fmt::print("{}\n{}", cheapestTable(results), reactionTable(reactions));
-  writeTextFile(folder / "multibody.csv", pointsCsv(results), "--out");
-  writeTextFile(folder / "cheapest.csv", cheapestCsv(results), "--out");
-  writeTextFile(folder / "reactions.csv", reactionsCsv(reactions), "--out");
-  drawPicture("study.py", {folder / "multibody.csv"}, folder / "multibody.png");
+  support::writeTextFile(folder / "multibody.csv", pointsCsv(results), "--out");
+  support::writeTextFile(folder / "cheapest.csv", cheapestCsv(results), "--out");
+  support::writeTextFile(folder / "reactions.csv", reactionsCsv(reactions), "--out");
+  output::drawPicture("study.py", {folder / "multibody.csv"}, folder / "multibody.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
 ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& integrator) {
   ReactionResult result{r, integrator.name, {}, 0, ""};
   try {
-    const Scene scene = loadCase(r.scene, integrator);
-    Mechanism mechanism(scene, r.step);
+    const scene::Scene scene = loadCase(r.scene, integrator);
+    simulation::Mechanism mechanism(scene, r.step);
     const std::int64_t steps = std::llround(r.end / r.step);
     double sum = 0;
     for (std::int64_t i = 0; i < steps; ++i) {
@@ -221,4 +221,4 @@ ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& in
   return result;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -8,7 +8,7 @@
 #include <vector>
 
 /// Error against run time of the multibody solver (work-precision), for mechanisms whose motion is known.
-namespace grouser::runs {
+namespace grouser::studies {
 
 struct IntegratorChoice {
   std::string name; ///< "euler", "rattle2"
@@ -48,4 +48,4 @@ struct StudyCommand {
 };
 void studyMultibodyCommand(const StudyCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -3,7 +3,7 @@
 
 #include "runs/support/option_checks.hpp"
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -17,16 +17,16 @@ void addImpact(CLI::App& study, ImpactCommand& c) {
   CLI::App* impact = study.add_subcommand(
       "impact", "One collision against its closed form: errors, orders and CPU time over the step (3 min, one core)");
   impact->add_option("--phases", c.phases.touching, "of first touch within a step, side by side")
-      ->check(wholeNumber(1, 1000))
+      ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   impact->add_option("--leaving", c.phases.leaving, "contacts made longer by parts of a step: phases of leaving")
-      ->check(wholeNumber(1, 100))
+      ->check(support::wholeNumber(1, 100))
       ->capture_default_str();
   impact->add_option("--collisions", c.collisions, "at once where time is taken")
-      ->check(wholeNumber(1, 100'000))
+      ->check(support::wholeNumber(1, 100'000))
       ->capture_default_str();
   impact->add_option("--repeats", c.repeats, "of each timing; the median is reported")
-      ->check(wholeNumber(1, 1000))
+      ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   addPlace(*impact, c.place, "impact", "four damping ratios and steps down to 1/160 of a contact only, in seconds");
   impact->callback([&c] { studyImpactCommand(c); });
@@ -37,10 +37,10 @@ void addStability(CLI::App& study, GrainStabilityCommand& c) {
       "stability", "Maps of stable steps of grains over stiffness and damping: one contact, a column, random beds, "
                    "beside predicted limits (half a minute, one core); of mechanisms: multibody --stability");
   stability->add_option("--grains", c.bedGrains, "of the random beds; with --quick at most 60")
-      ->check(wholeNumber(8, 100'000))
+      ->check(support::wholeNumber(8, 100'000))
       ->capture_default_str();
   stability->add_option("--column", c.columnGrains, "grains of the column")
-      ->check(wholeNumber(1, 1000))
+      ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   addPlace(*stability, c.place, "stability", "one stiffness and three damping ratios only, in seconds");
   stability->callback([&c] { studyGrainStabilityCommand(c); });
@@ -52,28 +52,28 @@ void addPrecision(CLI::App& study, PrecisionCommand& c) {
                    "after (8 min, one core)");
   precision
       ->add_option("--grains", c.touch.grains, "of the bed whose touch decisions are judged; with --quick at most 2000")
-      ->check(wholeNumber(10, 100'000'000))
+      ->check(support::wholeNumber(10, 100'000'000))
       ->capture_default_str();
   precision->add_option("--configurations", c.touch.configurations, "of that bed along its run; with --quick at most 5")
-      ->check(wholeNumber(1, 1'000'000))
+      ->check(support::wholeNumber(1, 1'000'000))
       ->capture_default_str();
   precision->add_option("--every", c.touch.every, "steps from one configuration to the next")
-      ->check(wholeNumber(1, 1'000'000'000))
+      ->check(support::wholeNumber(1, 1'000'000'000))
       ->capture_default_str();
   precision->add_option("--drift-grains", c.drift.grains, "of the runs that drift apart; with --quick at most 200")
-      ->check(wholeNumber(10, 100'000'000))
+      ->check(support::wholeNumber(10, 100'000'000))
       ->capture_default_str();
   precision->add_option("--gas-time", c.drift.gasTime, "of the gas [s]")
-      ->check(positive("a time in seconds"))
+      ->check(support::positive("a time in seconds"))
       ->capture_default_str();
   precision->add_option("--bed-time", c.drift.bedTime, "of the dropped bed [s]")
-      ->check(positive("a time in seconds"))
+      ->check(support::positive("a time in seconds"))
       ->capture_default_str();
   precision->add_option("--runs", c.drift.runs, "of the dropped bed in each precision; with --quick at most 3")
-      ->check(wholeNumber(2, 10'000))
+      ->check(support::wholeNumber(2, 10'000))
       ->capture_default_str();
   precision->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
-      ->check(wholeNumber(0, 1024));
+      ->check(support::wholeNumber(0, 1024));
   addPlace(*precision, c.place, "precision", "few grains, configurations and runs, in seconds");
   precision->callback([&c] { studyPrecisionCommand(c); });
 }
@@ -81,12 +81,12 @@ void addPrecision(CLI::App& study, PrecisionCommand& c) {
 void addPacking(CLI::App& study, PackingCommand& c) {
   CLI::App* packing = study.add_subcommand(
       "packing", "How densely poured spheres lie over their friction, against random packings (10 min, one core)");
-  packing->add_option("--grains", c.grains, "of a sample")->check(wholeNumber(300, 1'000'000))->capture_default_str();
+  packing->add_option("--grains", c.grains, "of a sample")->check(support::wholeNumber(300, 1'000'000))->capture_default_str();
   packing->add_option("--seeds", c.seeds, "samples of each friction")
-      ->check(wholeNumber(2, 1000))
+      ->check(support::wholeNumber(2, 1000))
       ->capture_default_str();
   packing->add_option("--width", c.width, "between joined sides, in diameters; not with --quick")
-      ->check(between(5.0, 1000.0))
+      ->check(support::between(5.0, 1000.0))
       ->capture_default_str();
   addPlace(*packing, c.place, "packing", "two frictions, two seeds, 600 grains: in seconds");
   packing->callback([&c] { studyPackingCommand(c); });
@@ -96,16 +96,16 @@ void addCollapse(CLI::App& study, CollapseCommand& c) {
   CLI::App* collapse = study.add_subcommand(
       "collapse", "How far a column of grains runs when its gate is gone, against channels (30 min, one core)");
   collapse->add_option("--length", c.length, "of the column, in diameters; not with --quick")
-      ->check(between(5.0, 1000.0))
+      ->check(support::between(5.0, 1000.0))
       ->capture_default_str();
   collapse->add_option("--width", c.width, "between joined sides, in diameters; not with --quick")
-      ->check(between(5.0, 1000.0))
+      ->check(support::between(5.0, 1000.0))
       ->capture_default_str();
   collapse->add_option("--aspects", c.aspects, "heights of the columns over their length")
-      ->check(between(0.2, 20.0))
+      ->check(support::between(0.2, 20.0))
       ->capture_default_str();
   collapse->add_option("--seeds", c.seeds, "columns of each aspect")
-      ->check(wholeNumber(2, 1000))
+      ->check(support::wholeNumber(2, 1000))
       ->capture_default_str();
   addPlace(*collapse, c.place, "collapse", "one aspect, two columns of 10 d: in seconds");
   collapse->callback([&c] { studyCollapseCommand(c); });
@@ -115,15 +115,15 @@ void addShear(CLI::App& study, ShearCommand& c) {
   CLI::App* shear = study.add_subcommand(
       "shear", "A direct shear box under several loads: the friction angle of a bed (10 min, one core)");
   shear->add_option("--friction", c.friction, "between grains, and between grains and box [-]")
-      ->check(between(0.0, 5.0))
+      ->check(support::between(0.0, 5.0))
       ->capture_default_str();
   shear->add_option("--rolling-friction", c.rollingFriction, "the same of rolling [-]")
-      ->check(between(0.0, 5.0))
+      ->check(support::between(0.0, 5.0))
       ->capture_default_str();
   shear->add_option("--stresses", c.stresses, "of the lid on the sample [Pa]")
-      ->check(between(10.0, 1e5))
+      ->check(support::between(10.0, 1e5))
       ->capture_default_str();
-  shear->add_option("--seeds", c.seeds, "samples of each load")->check(wholeNumber(2, 1000))->capture_default_str();
+  shear->add_option("--seeds", c.seeds, "samples of each load")->check(support::wholeNumber(2, 1000))->capture_default_str();
   addPlace(*shear, c.place, "shear", "one load, two samples of 10 d: in seconds");
   shear->callback([&c] { studyShearCommand(c); });
 }
@@ -139,4 +139,4 @@ void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addShear(study, studies.shear);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

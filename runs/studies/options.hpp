@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// What `grouser study` was asked for, beside `multibody`.
 struct GrainStudies {
@@ -25,4 +25,4 @@ struct GrainStudies {
 /// Adds the studies of grains to the command `study`.
 void addGrainStudies(CLI::App& study, GrainStudies& studies);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -14,7 +14,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -106,7 +106,7 @@ void studyPackingCommand(const PackingCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("packing", command.place);
-  const StopSignals signals;
+  const support::StopSignals signals;
   const int grains = command.place.quick ? 600 : command.grains, seeds = command.place.quick ? 2 : command.seeds;
   const double width = command.place.quick ? 7 : command.width;
   const std::vector<double> frictions =
@@ -115,7 +115,7 @@ void studyPackingCommand(const PackingCommand& command) {
       "          {} spheres of 10 mm, 1e5 N/m, restitution 0.5, poured between joined sides {} d apart; {} seeds, "
       "+- their standard error\n          measured from {} d above the floor to {} d below the top; one thread\n",
       grains, width, seeds, kOffFloor, kOffTop);
-  Progress progress("pouring");
+  support::Progress progress("pouring");
   std::string csv = "friction [-],seed,solid fraction [-],coordination [-],coordination without rattlers [-],"
                     "rattlers [-],overlap [d],rest after [s]\n";
   std::string table = fmt::format("\n  {:>8} {:>18} {:>16} {:>18} {:>9} {:>10}\n", "friction", "solid fraction",
@@ -150,11 +150,11 @@ void studyPackingCommand(const PackingCommand& command) {
   if (restless > 0)
     fmt::print("  {} of {} samples still moved after {} s: their time of rest is negative in the file\n", restless,
                done, kPatience);
-  writeTextFile(folder / "packing.csv", csv, "--out");
+  support::writeTextFile(folder / "packing.csv", csv, "--out");
   writeStudyOrigin(folder, "packing", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"grains", grains}, {"seeds", seeds}, {"width_in_diameters", width}, {"threads", 1}});
-  drawPicture("study_packing.py", {folder / "packing.csv"}, folder / "packing.png");
+  output::drawPicture("study_packing.py", {folder / "packing.csv"}, folder / "packing.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

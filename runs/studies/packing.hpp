@@ -8,7 +8,7 @@
 #include <vector>
 
 /// How densely poured spheres lie, and in how many contacts: against the known limits of random packings.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Of the inside of one poured sample, away from floor and top.
 struct Packing {
@@ -32,4 +32,4 @@ struct PackingCommand {
 /// `grouser study packing`
 void studyPackingCommand(const PackingCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

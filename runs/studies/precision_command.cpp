@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -27,7 +27,7 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("precision", command.place);
-  const StopSignals signals;
+  const support::StopSignals signals;
   TouchStudy touch = command.touch;
   DriftStudy drift = command.drift;
   touch.threads = drift.threads = command.threads;
@@ -41,7 +41,7 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
       "          radius 27 mm, 2500 kg/m3, 1e6 N/m, step 5e-5 s, 20 steps a contact; a bed that falls into a box, "
       "friction 0.5, restitution 0.5; a gas of elastic grains\n");
 
-  Progress judging("judging");
+  support::Progress judging("judging");
   int judged = 0;
   const std::vector<TouchConfiguration> touches = studyTouch(touch, [&](const TouchConfiguration& c) {
     judging.update(static_cast<double>(++judged) / touch.configurations, fmt::format("step {}", c.step));
@@ -49,20 +49,20 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
   });
   judging.note(touchTable(touches, touch));
   judging.finish(fmt::format("{} configurations", touches.size()));
-  Progress drifting("drifting");
+  support::Progress drifting("drifting");
   const auto update = [&drifting](double fraction, const std::string& what) { drifting.update(fraction, what); };
   const std::vector<Drift> drifts = studyDrift(drift, update);
   drifting.note(driftTable(drifts));
   drifting.finish(fmt::format("{} pairs of runs", drifts.size()));
-  Progress many("running");
+  support::Progress many("running");
   const std::vector<MacroRow> macro =
       studyMacroscopic(drift, [&many](double fraction, const std::string& what) { many.update(fraction, what); });
   many.note(macroTable(macro, drift.runs));
   many.finish(fmt::format("{} beds", 2 * drift.runs));
 
-  writeTextFile(folder / "touch.csv", touchCsv(touches), "--out");
-  writeTextFile(folder / "drift.csv", driftCsv(drifts), "--out");
-  writeTextFile(folder / "macroscopic.csv", macroCsv(macro), "--out");
+  support::writeTextFile(folder / "touch.csv", touchCsv(touches), "--out");
+  support::writeTextFile(folder / "drift.csv", driftCsv(drifts), "--out");
+  support::writeTextFile(folder / "macroscopic.csv", macroCsv(macro), "--out");
   writeStudyOrigin(folder, "precision", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"grains", touch.grains},
                     {"configurations", touch.configurations},
@@ -70,9 +70,9 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
                     {"drift_grains", drift.grains},
                     {"runs", drift.runs},
                     {"quick", command.place.quick}});
-  drawPicture("study_precision.py", {folder / "touch.csv", folder / "drift.csv", folder / "macroscopic.csv"},
+  output::drawPicture("study_precision.py", {folder / "touch.csv", folder / "drift.csv", folder / "macroscopic.csv"},
               folder / "precision.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -4,7 +4,7 @@
 #include "runs/studies/drift.hpp"
 #include "runs/studies/touch.hpp"
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// `grouser study precision`.
 struct PrecisionCommand {
@@ -15,4 +15,4 @@ struct PrecisionCommand {
 };
 void studyPrecisionCommand(const PrecisionCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

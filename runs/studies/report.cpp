@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -111,4 +111,4 @@ std::string reactionsCsv(const std::vector<ReactionResult>& results) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

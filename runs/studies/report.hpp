@@ -8,7 +8,7 @@
 #include <vector>
 
 /// The tables of `grouser study multibody`, as text and as CSV.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Errors that a setting must stay below [-]: low and high precision of the IFToMM benchmark.
 inline constexpr double kLowPrecision = 1e-1, kHighPrecision = 1e-3;
@@ -36,4 +36,4 @@ ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& in
 std::string reactionTable(const std::vector<ReactionResult>& results);
 std::string reactionsCsv(const std::vector<ReactionResult>& results);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 double SampleGrains::mass() const { return density * 4.0 / 3.0 * base::kPi * radius * radius * radius; }
 
@@ -22,9 +22,9 @@ std::string SampleGrains::toml(const std::string& name) const {
 
 Sample buildSample(const std::string& toml, const base::Exec& exec) {
   Sample sample;
-  sample.scene = parseScene(toml, "sample.toml");
-  sample.timeStep = chooseTimeStep(sample.scene);
-  sample.ground = buildGround(sample.scene, exec, sample.timeStep);
+  sample.scene = scene::parseScene(toml, "sample.toml");
+  sample.timeStep = setup::chooseTimeStep(sample.scene);
+  sample.ground = setup::buildGround(sample.scene, exec, sample.timeStep);
   return sample;
 }
 
@@ -54,4 +54,4 @@ double bringToRest(Sample& sample, double agitation, double limit) {
   return -time;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -9,7 +9,7 @@
 #include <string>
 
 /// Samples of grains that the macroscopic studies prepare, from scenes as a user would write them.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// Spheres of one size. Stiff enough that overlaps under their own weight stay below a thousandth of a diameter.
 struct SampleGrains {
@@ -26,9 +26,9 @@ struct SampleGrains {
 
 /// A sample and the scene that made it.
 struct Sample {
-  Scene scene;
+  scene::Scene scene;
   double timeStep = 0; ///< [s]
-  Ground ground;
+  setup::Ground ground;
   terrain::Grains& grains() { return *ground.grains; }
 };
 
@@ -41,4 +41,4 @@ void advanceSample(terrain::Grains& grains, std::int64_t steps);
 /// [s] have passed. Returns the time taken [s]; negative where it did not come to rest. Throws Stopped after a signal.
 double bringToRest(Sample& sample, double agitation, double limit);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

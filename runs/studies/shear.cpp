@@ -15,7 +15,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -45,12 +45,12 @@ std::string shearScene(const SampleGrains& material, const ShearBox& box, double
   };
   const std::string drawn = fmt::format("velocity = [{:.17g}, 0, 0]\nstart = {:.17g}\n", box.speed, kRest);
   const double high = top + 2 * d;
-  put("floor", 0, -0.5 * depth - 0.5 * wall, l + 2 * wall, wall, "");
-  put("lower_left", -0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
-  put("lower_right", 0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
-  put("upper_left", -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
-  put("upper_right", 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
-  put("lid", 0, top + 0.5 * d, l, d,
+  test::put("floor", 0, -0.5 * depth - 0.5 * wall, l + 2 * wall, wall, "");
+  test::put("lower_left", -0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
+  test::put("lower_right", 0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
+  test::put("upper_left", -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
+  test::put("upper_right", 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
+  test::put("lid", 0, top + 0.5 * d, l, d,
       drawn + fmt::format("free = \"z\"\nmass = {}\nload = {:.17g}\nload_ramp = {:.17g}\n", kLidMass, -stress * l * w,
                           0.5 * kRest));
   return text;
@@ -62,8 +62,8 @@ double degrees(double t) { return std::atan(t) * 180 / base::kPi; }
 } // namespace
 
 std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& box, double stress, std::int64_t seed) {
-  const Scene scene = parseScene(shearScene(material, box, stress, seed), "shear.toml");
-  Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+  const scene::Scene scene = scene::parseScene(shearScene(material, box, stress, seed), "shear.toml");
+  simulation::Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
   const auto steps = [&](double seconds) { return static_cast<std::int64_t>(seconds / simulation.timeStep() + 0.5); };
   const std::int64_t every = std::max<std::int64_t>(1, steps(kRow)), all = steps(scene.run.duration);
   std::vector<ShearRow> rows;
@@ -72,7 +72,7 @@ std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& 
     if (step % every != 0) continue;
     stopStudyIfAsked();
     simulation.checkEnergy(simulation.ledger());
-    const Surfaces& surfaces = *simulation.surfaces();
+    const simulation::Surfaces& surfaces = *simulation.surfaces();
     ShearRow row;
     row.displacement = std::max(0.0, simulation.time() - kRest) * box.speed;
     double weightBelow = 0;
@@ -85,7 +85,7 @@ std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& 
     row.normal = -weightBelow;
     for (std::size_t i = 0; i < surfaces.count(); ++i) {
       const std::string& name = surfaces.surface(i).name;
-      const Surfaces::Observation o = surfaces.observe(i, step);
+      const simulation::Surfaces::Observation o = surfaces.observe(i, step);
       if (name.starts_with("lower") || name == "floor")
         row.normal -= o.force.z;
       else
@@ -102,7 +102,7 @@ void studyShearCommand(const ShearCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("shear", command.place);
-  const StopSignals signals;
+  const support::StopSignals signals;
   const bool quick = command.place.quick;
   ShearBox box;
   if (quick) box.length = 10, box.depth = 8, box.speed = 0.05;
@@ -116,7 +116,7 @@ void studyShearCommand(const ShearCommand& command) {
       "their standard error; one thread\n",
       100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
       box.travel, seeds);
-  Progress progress("shearing");
+  support::Progress progress("shearing");
   std::string csv = "stress [Pa],seed,displacement [m],shear force [N],normal force [N],lid [m]\n";
   std::string table = fmt::format("\n  {:>10} {:>18} {:>18} {:>22} {:>20}\n", "load [Pa]", "peak T/N", "residual T/N",
                                   "residual angle [deg]", "lid rises [d]");
@@ -163,7 +163,7 @@ void studyShearCommand(const ShearCommand& command) {
                degrees(line.value), meanOf(tau).mean - line.value * meanOf(sigma).mean);
   fmt::print("  T, N: forces on the upper half, and across the plane between the halves; residual: second half of the "
              "travel\n");
-  writeTextFile(folder / "shear.csv", csv, "--out");
+  support::writeTextFile(folder / "shear.csv", csv, "--out");
   writeStudyOrigin(folder, "shear", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"friction", material.friction},
                     {"rolling_friction", material.rollingFriction},
@@ -171,8 +171,8 @@ void studyShearCommand(const ShearCommand& command) {
                     {"length_in_diameters", box.length},
                     {"speed_m_s", box.speed},
                     {"threads", 1}});
-  drawPicture("study_shear.py", {folder / "shear.csv"}, folder / "shear.png");
+  output::drawPicture("study_shear.py", {folder / "shear.csv"}, folder / "shear.png");
   fmt::print("tables    {}\n", folder.string());
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// A direct shear box: the friction angle of a bed of grains.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// One look at a sample while its upper half is drawn over the lower one.
 struct ShearRow {
@@ -36,4 +36,4 @@ struct ShearCommand {
 /// `grouser study shear`
 void studyShearCommand(const ShearCommand& command);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

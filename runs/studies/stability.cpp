@@ -11,7 +11,7 @@
 #include <functional>
 #include <limits>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 namespace {
 
@@ -25,8 +25,8 @@ const std::vector<Choice> kChoices = {{"euler", "symplectic_euler", "implicit"},
                                       {"rattle2, springs implicit", "rattle", "implicit"},
                                       {"rattle2, springs explicit", "rattle", "explicit"}};
 
-Scene sceneOf(const MechanismSections& sections, const Choice& choice, const base::Vec3d& gravity) {
-  Scene scene;
+scene::Scene sceneOf(const scene::MechanismSections& sections, const Choice& choice, const base::Vec3d& gravity) {
+  scene::Scene scene;
   scene.file = "study";
   scene.run.gravity = gravity;
   scene.run.integrator = choice.integrator, scene.run.springs = choice.springs;
@@ -35,11 +35,11 @@ Scene sceneOf(const MechanismSections& sections, const Choice& choice, const bas
 }
 
 /// Steps along; stable as long as `size` stays below `bound`.
-void tryStep(const Scene& scene, StabilityPoint& point, const std::function<double(const Mechanism&)>& size,
+void tryStep(const scene::Scene& scene, StabilityPoint& point, const std::function<double(const simulation::Mechanism&)>& size,
              double bound) {
   point.predicted = point.step < point.limit;
   try {
-    Mechanism mechanism(scene, point.step);
+    simulation::Mechanism mechanism(scene, point.step);
     for (int i = 0; i < kSteps && point.stable; ++i) {
       mechanism.advance();
       point.stable = size(mechanism) <= bound; // false for what is no number, too
@@ -66,15 +66,15 @@ std::vector<double> stepsFor(double limit, double longest) {
 void springs(std::vector<StabilityPoint>& points) {
   constexpr double kMass = 2, kStiffness = 200, kPull = 10;
   for (const double factor : {1e-3, 1.0, 1e3, 1e6}) {
-    MechanismSections m;
-    BodySection body;
+    scene::MechanismSections m;
+    scene::BodySection body;
     body.name = "block", body.mass = kMass, body.inertia = {0.1, 0.1, 0.1};
     m.bodies.push_back(body);
-    JointSection slide;
+    scene::JointSection slide;
     slide.name = "slide", slide.type = "prismatic", slide.bodies = {"world", "block"};
     slide.point = base::Vec3d{}, slide.axis = base::Vec3d{1, 0, 0};
     m.joints.push_back(slide);
-    SpringSection spring;
+    scene::SpringSection spring;
     spring.name = "spring", spring.joint = "slide", spring.stiffness = factor * kStiffness;
     m.springs.push_back(spring);
     const double omega = std::sqrt(spring.stiffness / kMass);
@@ -86,7 +86,7 @@ void springs(std::vector<StabilityPoint>& points) {
         // It swings about kPull / k by as much; twice as far again is no swing of its own.
         tryStep(
             sceneOf(m, choice, {kPull / kMass, 0, 0}), p,
-            [](const Mechanism& now) { return std::fabs(now.state().pose[0].position.x); },
+            [](const simulation::Mechanism& now) { return std::fabs(now.state().pose[0].position.x); },
             4 * kPull / spring.stiffness + kPull / kMass * step * step);
         points.push_back(p);
       }
@@ -139,16 +139,16 @@ void massRatios(std::vector<StabilityPoint>& points) {
   constexpr int kLinks = 10;
   constexpr double kLength = 0.15, kMass = 1, kInertia = 0.002, kGravity = 9.81, kTilt = 1e-3;
   for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
-    MechanismSections m;
+    scene::MechanismSections m;
     for (int i = 0; i <= kLinks; ++i) {
       const bool isTip = i == kLinks;
-      BodySection body;
+      scene::BodySection body;
       body.name = isTip ? "tip" : fmt::format("link {}", i), body.mass = isTip ? ratio * kMass : kMass;
       body.point = isTip;
       if (!isTip) body.inertia = {kInertia, kInertia, 2e-4};
       body.position = {0, 0, -(isTip ? kLinks : i + 0.5) * kLength};
       m.bodies.push_back(body);
-      JointSection pin;
+      scene::JointSection pin;
       pin.name = fmt::format("pin {}", i), pin.type = isTip ? "spherical" : "revolute";
       pin.bodies = {i == 0 ? "world" : fmt::format("link {}", i - 1), body.name};
       pin.point = base::Vec3d{0, 0, -i * kLength};
@@ -160,7 +160,7 @@ void massRatios(std::vector<StabilityPoint>& points) {
       for (const double step : stepsFor(limit, 1)) {
         StabilityPoint p{fmt::format("tip mass x {:g}", ratio), choice.name, limit, step};
         // It swings as a whole to twice the tilt; the fastest swing is a zigzag, with large angles in its pins.
-        const auto widest = [](const Mechanism& now) {
+        const auto widest = [](const simulation::Mechanism& now) {
           double angle = 0;
           for (const multibody::JointReading& joint : now.state().joint)
             angle = std::max(angle, std::fabs(joint.position));
@@ -175,8 +175,8 @@ void massRatios(std::vector<StabilityPoint>& points) {
 void inertiaRatios(std::vector<StabilityPoint>& points) {
   constexpr double kSpin = 10; // [rad/s]
   for (const double ratio : {1.0, 10.0, 1e2, 1e4}) {
-    MechanismSections m;
-    BodySection body;
+    scene::MechanismSections m;
+    scene::BodySection body;
     body.name = "top", body.mass = 1, body.inertia = {1, ratio, ratio + 0.5};
     body.spin = base::Vec3d{1, 1, 1} * (kSpin / std::sqrt(3.0));
     m.bodies.push_back(body);
@@ -188,7 +188,7 @@ void inertiaRatios(std::vector<StabilityPoint>& points) {
         StabilityPoint p{fmt::format("moments 1 to {:g}", ratio), choice.name, limit, step};
         tryStep(
             sceneOf(m, choice, {}), p,
-            [start](const Mechanism& now) { return std::fabs(now.ledger().kinetic / start - 1); }, 0.5);
+            [start](const simulation::Mechanism& now) { return std::fabs(now.ledger().kinetic / start - 1); }, 0.5);
         points.push_back(p);
       }
   }
@@ -235,4 +235,4 @@ std::string stabilityCsv(const std::vector<StabilityPoint>& points) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

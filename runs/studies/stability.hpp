@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Which steps the multibody solver takes, against what theory says.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// One run of many steps.
 struct StabilityPoint {
@@ -26,4 +26,4 @@ std::vector<StabilityPoint> studyStability();
 std::string stabilityTable(const std::vector<StabilityPoint>& points);
 std::string stabilityCsv(const std::vector<StabilityPoint>& points);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace grouser::runs {
+namespace grouser::studies {
 
 using base::Position;
 using base::Vec3;
@@ -208,4 +208,4 @@ std::string touchCsv(const std::vector<TouchConfiguration>& all) {
   return text;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::studies

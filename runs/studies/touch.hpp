@@ -9,7 +9,7 @@
 
 /// Whether two spheres touch, decided in several arithmetics, on the configurations of a run. The step itself decides
 /// with exact integers, whatever the precision of its forces: that is the truth here.
-namespace grouser::runs {
+namespace grouser::studies {
 
 /// In what the squared distance is formed and compared with the squared diameter.
 enum TouchArithmetic {
@@ -67,4 +67,4 @@ std::vector<TouchConfiguration> studyTouch(const TouchStudy& study,
 std::string touchTable(const std::vector<TouchConfiguration>& all, const TouchStudy& study);
 std::string touchCsv(const std::vector<TouchConfiguration>& all);
 
-} // namespace grouser::runs
+} // namespace grouser::studies

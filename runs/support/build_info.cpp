@@ -15,7 +15,7 @@
 #include <fstream>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::string machineText() {
                      system.sysname, system.release);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

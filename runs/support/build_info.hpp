@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// What this program was built from, and with.
 struct BuildInfo {
@@ -24,4 +24,4 @@ std::string versionText();
 /// The machine this runs on: processor, logical cores, memory, system.
 std::string machineText();
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 base::Exec chooseDevice(const std::string& device, int threads, const base::Ranks* ranks) {
   if (device != "auto" && device != "cpu" && device != "cuda")
@@ -19,4 +19,4 @@ base::Exec chooseDevice(const std::string& device, int threads, const base::Rank
   return base::cpuExec(threads);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

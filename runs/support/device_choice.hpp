@@ -6,11 +6,11 @@
 
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Where to compute: `device` is auto (the GPU where there is one), cpu or cuda; `threads` 0 takes all cores. Ranks of
 /// one host take its GPUs in turn and share its cores. Throws InputError for another word, DeviceError where there is
 /// no such device.
 base::Exec chooseDevice(const std::string& device, int threads, const base::Ranks* ranks);
 
-} // namespace grouser::runs
+} // namespace grouser::support

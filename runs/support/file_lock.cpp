@@ -6,7 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 FileLock::~FileLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -19,4 +19,4 @@ bool FileLock::take(const std::filesystem::path& path) {
   return descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Held by one program at a time; given back when it is destroyed, or when the program ends in whatever way.
 class FileLock {
@@ -21,4 +21,4 @@ private:
   int descriptor_ = -1;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
@@ -398,4 +398,4 @@ std::vector<std::string> Hdf5File::texts(const std::string& object, const std::s
   return values;
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

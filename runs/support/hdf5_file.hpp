@@ -11,7 +11,7 @@
 
 /// A thin owner of HDF5 handles. One process writes or reads a file; the rows of a dataset can also be written by all
 /// ranks together. Failures throw; HDF5's own error stack is kept off the terminal.
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Number types that go into a file; always stored little-endian.
 enum class NumberType { Float32, Float64, Int64, Int32, UInt32 };
@@ -103,7 +103,7 @@ public:
   }
   /// `count` rows from `first` on, as read() does all.
   template <class T>
-  std::vector<T> readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
+  std::vector<T> output::readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
     std::vector<T> values;
     const std::vector<std::uint64_t> extent = shape(dataset);
     std::uint64_t width = 1;
@@ -135,4 +135,4 @@ private:
   bool shared_ = false;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::support

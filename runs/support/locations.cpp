@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace fs = std::filesystem;
 
@@ -36,4 +36,4 @@ fs::path findInput(const std::string& name, const fs::path& scene, std::vector<f
   return {};
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// The folder that holds assets/ and runs/plots/: GROUSER_SHARE of the environment if set, else beside the program
 /// (../share/grouser), else the source folder that the program was built from.
@@ -17,4 +17,4 @@ std::filesystem::path shareFolder();
 std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
                                 std::vector<std::filesystem::path>& tried);
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string unknownCommand(const CLI::App& app, int argc, const char* const* arg
   return "";
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -8,7 +8,7 @@
 #include <string>
 
 /// What the words of the command line may be, said in one line: "--steps: -1 is not a whole number of at least 1".
-namespace grouser::runs {
+namespace grouser::support {
 
 /// A whole number in [low, high].
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high = std::numeric_limits<std::int64_t>::max());
@@ -26,4 +26,4 @@ CLI::Validator between(double low, double high);
 /// where there is none such.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
 
-} // namespace grouser::runs
+} // namespace grouser::support

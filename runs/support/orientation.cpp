@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 using base::Quat;
 using base::Vec3d;
@@ -47,4 +47,4 @@ Quat turnFromZ(const Vec3d& direction) {
   return Quat{1 + d.z, -d.y, d.x, 0}.normalized();
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

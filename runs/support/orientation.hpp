@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// From the keys `axis` with `angle` [deg], or `orientation` = w, x, y, z instead (empty: not given); without any of
 /// them no turn. Throws SectionFault.
@@ -16,4 +16,4 @@ base::Quat orientationOf(const std::optional<base::Vec3d>& axis, const std::opti
 /// The least turn that takes z to `direction`, which is not zero.
 base::Quat turnFromZ(const base::Vec3d& direction);
 
-} // namespace grouser::runs
+} // namespace grouser::support

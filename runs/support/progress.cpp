@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::string Progress::line(const std::string& what, double fraction, double elap
   return fmt::format("{}: {:5.1f} %, {}, {}", what, 100 * fraction, detail, left);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

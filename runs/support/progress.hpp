@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Progress with time left, on stderr: one line rewritten in place on a terminal, a plain line every few seconds
 /// elsewhere.
@@ -40,4 +40,4 @@ private:
   Clock::time_point start_, next_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// What is wrong with a name that a user has given to something and that files of results then bear: a control
 /// character or a slash, which HDF5 takes for a group's border. Empty where nothing is.
@@ -17,4 +17,4 @@ inline std::string nameFault(const std::string& name) {
   return "";
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -14,7 +14,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace fs = std::filesystem;
 
@@ -142,4 +142,4 @@ void checkSeal(const fs::path& path, const char* kind, int version) {
                                        path.string(), kind));
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

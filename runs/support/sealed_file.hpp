@@ -9,7 +9,7 @@
 
 /// Files that are either whole or not there: written under another name, sealed with length and checksum, put in place
 /// by renaming. A program killed at any time leaves the former file as it was.
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Bytes at the start of a file that the seal takes; the writer leaves them free. HDF5 calls this a user block.
 inline constexpr std::size_t kSealBytes = 512;
@@ -27,4 +27,4 @@ void checkSeal(const std::filesystem::path& path, const char* kind, int version)
 /// Waits until what was written to a file is on the disk.
 void syncFile(const std::filesystem::path& path);
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// What is wrong with one key of a section; who reads the file adds its place and the key's value.
 class SectionFault : public base::InputError {
@@ -18,4 +18,4 @@ private:
   std::string key_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::support

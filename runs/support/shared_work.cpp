@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace {
 
@@ -153,4 +153,4 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
   }
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

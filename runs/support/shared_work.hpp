@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Calls `work(i)` for each i in [0, count), dealt in turn to `processes` processes: child k does k, k + processes,
 /// ... With one process the work is done in this one. `done` is called here, each time one more is ready.
@@ -15,4 +15,4 @@ namespace grouser::runs {
 void shareWork(int processes, std::size_t count, const std::function<void(std::size_t)>& work,
                const std::function<void()>& done);
 
-} // namespace grouser::runs
+} // namespace grouser::support

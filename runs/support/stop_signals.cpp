@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace {
 
@@ -34,4 +34,4 @@ int StopSignals::received() { return signalReceived; }
 
 const char* StopSignals::name(int signal) { return signal == SIGTERM ? "SIGTERM" : "SIGINT"; }
 
-} // namespace grouser::runs
+} // namespace grouser::support

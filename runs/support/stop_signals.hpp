@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// A signal has stopped the run, in good order. Exit code 128 + signal, as shells have it: 130 or 143.
 class Stopped : public std::runtime_error {
@@ -31,4 +31,4 @@ public:
   static const char* name(int signal);
 };
 
-} // namespace grouser::runs
+} // namespace grouser::support

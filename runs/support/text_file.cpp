@@ -10,7 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 namespace fs = std::filesystem;
 
@@ -41,4 +41,4 @@ void replaceTextFile(const fs::path& path, const std::string& text) {
   fs::rename(part, path);
 }
 
-} // namespace grouser::runs
+} // namespace grouser::support

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::support {
 
 /// Writes a whole text file. Throws base::InputError where it cannot be begun, naming `option` as the way to another
 /// place, and std::runtime_error where it cannot be ended, as on a full disk: no part of it is left then.
@@ -15,4 +15,4 @@ void writeTextFile(const std::filesystem::path& path, const std::string& text, c
 /// fails.
 void replaceTextFile(const std::filesystem::path& path, const std::string& text);
 
-} // namespace grouser::runs
+} // namespace grouser::support

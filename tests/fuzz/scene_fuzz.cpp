@@ -49,10 +49,10 @@ bool namesLine(const std::string& message) {
 /// The message of a refusal; empty where the scene was loaded.
 std::string tryScene(std::string_view input) {
   try {
-    const runs::Scene scene = runs::parseScene(input, kName);
-    const std::string resolved = runs::resolvedToml(scene);
+    const scene::Scene scene = scene::parseScene(input, kName);
+    const std::string resolved = scene::resolvedToml(scene);
     try {
-      if (runs::resolvedToml(runs::parseScene(resolved, kName)) != resolved)
+      if (scene::resolvedToml(scene::parseScene(resolved, kName)) != resolved)
         fault(input, "the resolved copy reads back as another scene");
     } catch (const std::exception& error) {
       fault(input, std::string("the resolved copy is refused: ") + error.what() + "\n" + resolved);
@@ -213,7 +213,7 @@ private:
   std::mt19937_64 random_; // specified by the standard to the bit
 };
 
-std::string contents(const fs::path& path) {
+std::string test::contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -228,7 +228,7 @@ std::vector<std::string> readCorpus(const std::vector<fs::path>& places) {
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> corpus;
-  for (const fs::path& file : files) corpus.push_back(contents(file));
+  for (const fs::path& file : files) corpus.push_back(test::contents(file));
   return corpus;
 }
 

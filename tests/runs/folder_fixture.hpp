@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::test {
 
 /// The bytes of a file; none where there is no file.
 inline std::string contents(const std::filesystem::path& path) {
@@ -39,4 +39,4 @@ protected:
   std::filesystem::path folder_;
 };
 
-} // namespace grouser::runs
+} // namespace grouser::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "folder_fixture.hpp"
+#include "tests/runs/folder_fixture.hpp"
 
 #include <sys/wait.h>
 
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <regex>
 
-namespace grouser::runs {
+namespace grouser::test {
 
 /// What a call of the program left.
 struct Outcome {
@@ -65,4 +65,4 @@ protected:
   }
 };
 
-} // namespace grouser::runs
+} // namespace grouser::test

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "program_fixture.hpp"
+#include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::test {
 
 /// A test that starts the program on several ranks, in a folder of its own that holds a small bed.
 class OnRanks : public ProgramTest {
@@ -53,4 +53,4 @@ plots = false
 )";
 };
 
-} // namespace grouser::runs
+} // namespace grouser::test

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace grouser::runs {
+namespace grouser::test {
 
 /// A scene in which every section stands, for tests that break one line of it.
 inline std::string wholeScene() {
@@ -47,4 +47,4 @@ inline std::string replaced(std::string text, const std::string& from, const std
 /// The scene without mistakes.
 inline std::string goodScene() { return replaced(wholeScene(), "pictures = false", "picture = false"); }
 
-} // namespace grouser::runs
+} // namespace grouser::test

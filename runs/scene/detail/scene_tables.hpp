@@ -4,7 +4,7 @@
 #include "base/table.hpp"
 #include "runs/scene/scene.hpp"
 
-namespace grouser::runs::detail {
+namespace grouser::scene::detail {
 
 base::Table<RunSettings> runTable();
 base::Table<Material> materialTable();
@@ -25,8 +25,8 @@ base::Table<DriveSection> driveTable();
 base::Table<CouplingSection> couplingTable();
 base::Table<Vehicle> vehicleTable();
 base::Table<Driver> driverTable();
-base::Table<SpeedTable> speedTable();
+base::Table<SpeedTable> studies::speedTable();
 base::Table<Output> outputTable();
 base::Table<Parallel> parallelTable();
 
-} // namespace grouser::runs::detail
+} // namespace grouser::scene::detail

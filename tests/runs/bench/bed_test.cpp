@@ -3,7 +3,7 @@
 #include "runs/bench/bench.hpp"
 
 #include "base/error.hpp"
-#include "program_fixture.hpp"
+#include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace grouser::runs {
+namespace grouser::bench {
 namespace {
 
 BedBench tinyBed() {
@@ -21,16 +21,16 @@ BedBench tinyBed() {
 }
 
 /// The coupled scene, unsettled and coarse: what is compared are bits.
-Scene shortScene() {
-  return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
+scene::Scene shortScene() {
+  return scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
                    {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
                     "driver.tension_ramp=0.005", "driver.weight_ramp=0.005"});
 }
 
 TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
-  const Scene scene = shortScene();
+  const scene::Scene scene = shortScene();
   const auto quiet = [](double, double) {};
-  Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  simulation::Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
   StepBench bench(timed, base::cpuExec(1));
   for (int i = 0; i < 150; ++i) bench.step(), plain.step();
   EXPECT_EQ(timed.stateHash(), plain.stateHash());
@@ -44,9 +44,9 @@ TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
 }
 
 TEST(StepBench, ComputesTheSameBitsForAMechanism) {
-  const Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
+  const scene::Scene scene = scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
   const auto quiet = [](double, double) {};
-  Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  simulation::Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
   const std::string atRest = plain.stateHash();
   StepBench bench(timed, base::cpuExec(1));
   for (int i = 0; i < 150; ++i) bench.step(), plain.step();
@@ -87,16 +87,16 @@ TEST(BenchBed, UnstableStepIsAnInputError) {
   EXPECT_THROW(benchBed(b, base::cpuExec(1)), base::InputError);
 }
 
-class BenchCommands : public ProgramTest {};
+class BenchCommands : public test::ProgramTest {};
 
 TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
-  const Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
+  const test::Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
                            "--json bed.json");
   ASSERT_EQ(bed.code, 0) << bed.errors;
   for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes a grain",
                            "machine ", "commit ", "state-hash "})
     EXPECT_NE(bed.out.find(part), std::string::npos) << part << "\n" << bed.out;
-  const nlohmann::json b = nlohmann::json::parse(contents(folder_ / "bed.json"));
+  const nlohmann::json b = nlohmann::json::parse(test::contents(folder_ / "bed.json"));
   for (const char* key :
        {"device", "machine", "commit", "grains", "microseconds_a_step", "particle_steps_per_second", "contacts_a_grain",
         "neighbours_listed_a_grain", "steps_between_rebuilds", "rebuild_microseconds", "bytes_a_grain", "state_hash"})
@@ -106,14 +106,14 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
               100 * 1e6, 1);
 
   const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml";
-  const Outcome step = call("bench step " + scene +
+  const test::Outcome step = call("bench step " + scene +
                             " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03 --after 0.03 "
                             "--steps 10 --batches 2 --threads 1 --device cpu --json step.json");
   ASSERT_EQ(step.code, 0) << step.errors;
   for (const char* part : {"without clocks", "sum is larger", "grain kernel", "multibody", "track contacts",
                            "grain on grain", "grain on part", "memory "})
     EXPECT_NE(step.out.find(part), std::string::npos) << part << "\n" << step.out;
-  const nlohmann::json s = nlohmann::json::parse(contents(folder_ / "step.json"));
+  const nlohmann::json s = nlohmann::json::parse(test::contents(folder_ / "step.json"));
   double sum = 0;
   for (const auto& [name, microseconds] : s["instrumented_microseconds_a_step"].items())
     if (name != "sum") sum += microseconds.get<double>();
@@ -126,4 +126,4 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::bench

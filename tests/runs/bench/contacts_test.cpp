@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace grouser::runs {
+namespace grouser::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ TEST(BenchBullet, FindsThePairsThatOverlapAndNoOthers) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::bench

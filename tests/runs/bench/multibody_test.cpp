@@ -2,7 +2,7 @@
 // The bench of the multibody solver steps what it says, and its figures are whole.
 #include "runs/bench/multibody.hpp"
 
-#include "program_fixture.hpp"
+#include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace grouser::runs {
+namespace grouser::bench {
 namespace {
 
 MultibodyBench tinyBench() {
@@ -50,14 +50,14 @@ TEST(BenchMultibody, WorkGrowsLinearlyWithTheShoes) {
   EXPECT_GE(f46.iterations, 1);
 }
 
-class BenchMultibodyCommand : public ProgramTest {};
+class BenchMultibodyCommand : public test::ProgramTest {};
 
 TEST_F(BenchMultibodyCommand, PrintsFiguresAndWritesThemAsJson) {
-  const Outcome o = call("bench multibody --steps 5 --batches 2 --json figures.json");
+  const test::Outcome o = call("bench multibody --steps 5 --batches 2 --json figures.json");
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* part : {"machine ", "commit ", "125 bodies", "us (median", "each iteration", "growth", "184"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
-  const nlohmann::json j = nlohmann::json::parse(contents(folder_ / "figures.json"));
+  const nlohmann::json j = nlohmann::json::parse(test::contents(folder_ / "figures.json"));
   for (const char* key : {"device", "machine", "commit", "compiler", "vehicle", "growth", "goal_microseconds"})
     EXPECT_TRUE(j.contains(key)) << key;
   ASSERT_EQ(j["growth"].size(), 3u);
@@ -70,4 +70,4 @@ TEST_F(BenchMultibodyCommand, PrintsFiguresAndWritesThemAsJson) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::bench

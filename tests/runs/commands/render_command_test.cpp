@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
-#include "folder_fixture.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
 #include "runs/output/frames_file.hpp"
@@ -16,7 +16,7 @@
 #include <csignal>
 #include <fstream>
 
-namespace grouser::runs {
+namespace grouser::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,24 +31,24 @@ std::string messageOf(const std::function<void()>& call) {
 }
 
 /// Six frames, 0.1 s apart, of a row of grains along x and a cube that moves 1 m a frame.
-class RenderFrames : public FolderTest {
+class RenderFrames : public test::FolderTest {
 protected:
   static constexpr std::size_t kFrames = 6;
 
   void SetUp() override {
-    FolderTest::SetUp();
+    test::FolderTest::SetUp();
     base::TriangleMesh cube;
     for (const double x : {-0.5, 0.5})
       for (const double y : {-0.5, 0.5})
         for (const double z : {-0.5, 0.5}) cube.vertices.push_back({x, y, z});
     cube.indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
                     2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-    FramesFile file(folder_, {{"hull", "chassis", cube}}, {});
+    output::FramesFile file(folder_, {{"hull", "chassis", cube}}, {});
     for (std::size_t k = 0; k < kFrames; ++k) file.add(frame(k));
   }
 
-  static Frame frame(std::size_t k) {
-    Frame f;
+  static output::Frame frame(std::size_t k) {
+    output::Frame f;
     f.step = static_cast<std::int64_t>(k), f.time = 0.1 * static_cast<double>(k);
     for (int i = 0; i < 20; ++i) {
       f.positions.push_back({0.3f * float(i), 0, -1.0f - 0.01f * float(k)});
@@ -76,10 +76,10 @@ protected:
 };
 
 TEST_F(RenderFrames, ReaderGivesBackWhatTheFileWasGiven) {
-  const FramesReader reader(folder_ / "frames.h5");
+  const output::FramesReader reader(folder_ / "frames.h5");
   ASSERT_EQ(reader.count(), kFrames);
   EXPECT_EQ(reader.time(3), frame(3).time);
-  const StoredFrame f = reader.read(3);
+  const output::StoredFrame f = reader.read(3);
   EXPECT_EQ(f.positions, frame(3).positions);
   EXPECT_EQ(f.speeds, frame(3).speeds);
   EXPECT_EQ(f.borders[0], frame(3).borders[0]);
@@ -92,7 +92,7 @@ TEST_F(RenderFrames, ReaderGivesBackWhatTheFileWasGiven) {
 TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
   const fs::path path = folder_ / "frames.h5";
   {
-    Hdf5File file = Hdf5File::openToChange(path);
+    support::Hdf5File file = support::Hdf5File::openToChange(path);
     file.remove("/000002/grains/radius");
     file.write("/000002/grains/radius", std::vector<float>(19, 0.1f), {19});
     file.remove("/000004/parts/position");
@@ -100,14 +100,14 @@ TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
     file.remove("/000005/grains/position");
     file.write("/000005/grains/position", std::vector<float>(60, NAN), {20, 3});
   }
-  const FramesReader reader(path);
+  const output::FramesReader reader(path);
   EXPECT_NE(messageOf([&] { reader.read(2); }).find("/000002/grains/radius"), std::string::npos);
   EXPECT_NE(messageOf([&] { reader.read(4); }).find("hull"), std::string::npos);
   EXPECT_NE(messageOf([&] { reader.read(5); }).find("is no place"), std::string::npos);
   const fs::path other = folder_ / "other.h5";
   std::ofstream(other, std::ios::binary) << "no HDF5";
-  EXPECT_NE(messageOf([&] { FramesReader again(other); }).find("is no HDF5 file"), std::string::npos);
-  EXPECT_NE(messageOf([&] { FramesReader none(folder_ / "none.h5"); }).find("there is no such file"),
+  EXPECT_NE(messageOf([&] { output::FramesReader again(other); }).find("is no HDF5 file"), std::string::npos);
+  EXPECT_NE(messageOf([&] { output::FramesReader none(folder_ / "none.h5"); }).find("there is no such file"),
             std::string::npos);
 }
 
@@ -117,14 +117,14 @@ TEST_F(RenderFrames, PicturesAreTheSameByOneProcessAndByThree) {
   const std::vector<std::string> names = written();
   ASSERT_EQ(names.size(), kFrames);
   std::vector<std::string> pictures;
-  for (const std::string& name : names) pictures.push_back(contents(folder_ / "out" / name));
+  for (const std::string& name : names) pictures.push_back(test::contents(folder_ / "out" / name));
   EXPECT_NE(pictures[1], pictures[4]);
   c.processes = 3, c.force = true;
   fs::remove_all(c.folder);
   renderCommand(c);
   EXPECT_EQ(written(), names);
   for (std::size_t i = 0; i < names.size(); ++i)
-    EXPECT_EQ(contents(folder_ / "out" / names[i]), pictures[i]) << names[i];
+    EXPECT_EQ(test::contents(folder_ / "out" / names[i]), pictures[i]) << names[i];
 }
 
 TEST_F(RenderFrames, FramesAreChosenByTimeCountAndNumber) {
@@ -145,10 +145,10 @@ TEST_F(RenderFrames, WhatIsThereIsOverwrittenOnlyByForce) {
   renderCommand(c);
   std::ofstream(folder_ / "out" / "frame_000002.png") << "mine";
   EXPECT_NE(messageOf([&] { renderCommand(c); }).find("--force"), std::string::npos);
-  EXPECT_EQ(contents(folder_ / "out" / "frame_000002.png"), "mine");
+  EXPECT_EQ(test::contents(folder_ / "out" / "frame_000002.png"), "mine");
   c.force = true;
   renderCommand(c);
-  EXPECT_NE(contents(folder_ / "out" / "frame_000002.png"), "mine");
+  EXPECT_NE(test::contents(folder_ / "out" / "frame_000002.png"), "mine");
 }
 
 TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
@@ -171,13 +171,13 @@ TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
 }
 
 TEST_F(RenderFrames, CameraMovesWithTheVehicle) {
-  const FramesReader reader(folder_ / "frames.h5");
-  PaintOptions o;
+  const output::FramesReader reader(folder_ / "frames.h5");
+  render::PaintOptions o;
   o.view.width = 96, o.view.height = 54, o.labels = false;
   // Each frame's cube alone: grains far below stay out of the comparison.
-  const auto cubeColumns = [&](LookAt lookAt, std::size_t frame) {
+  const auto cubeColumns = [&](render::LookAt lookAt, std::size_t frame) {
     o.view.lookAt = lookAt, o.view.azimuth = -90, o.view.elevation = 0;
-    const Image image = FramePainter(reader, o).paint(frame);
+    const render::Image image = render::FramePainter(reader, o).paint(frame);
     double sum = 0, count = 0;
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
@@ -186,9 +186,9 @@ TEST_F(RenderFrames, CameraMovesWithTheVehicle) {
       }
     return count > 0 ? sum / count : -1;
   };
-  EXPECT_NEAR(cubeColumns(LookAt::Vehicle, 0), 47.5, 1); // a pixel
-  EXPECT_NEAR(cubeColumns(LookAt::Vehicle, 5), 47.5, 1);
-  EXPECT_GT(cubeColumns(LookAt::All, 5), cubeColumns(LookAt::All, 0) + 30);
+  EXPECT_NEAR(cubeColumns(render::LookAt::Vehicle, 0), 47.5, 1); // a pixel
+  EXPECT_NEAR(cubeColumns(render::LookAt::Vehicle, 5), 47.5, 1);
+  EXPECT_GT(cubeColumns(render::LookAt::All, 5), cubeColumns(render::LookAt::All, 0) + 30);
 }
 
 TEST_F(RenderFrames, FilmHoldsAllPicturesOrIsNotThere) {
@@ -200,62 +200,62 @@ TEST_F(RenderFrames, FilmHoldsAllPicturesOrIsNotThere) {
     return;
   }
   renderCommand(c);
-  EXPECT_EQ(contents(c.film).substr(4, 4), "ftyp"); // how MP4 files begin
+  EXPECT_EQ(test::contents(c.film).substr(4, 4), "ftyp"); // how MP4 files begin
   EXPECT_FALSE(fs::exists(folder_ / ".film.part.mp4"));
   EXPECT_FALSE(fs::exists(folder_ / ".film.log"));
   std::ofstream(folder_ / "bad.png") << "no picture";
-  EXPECT_THROW(makeFilm({folder_ / "bad.png"}, 25, folder_ / "bad.mp4"), std::runtime_error);
+  EXPECT_THROW(render::makeFilm({folder_ / "bad.png"}, 25, folder_ / "bad.mp4"), std::runtime_error);
   EXPECT_FALSE(fs::exists(folder_ / "bad.mp4"));
 }
 
-TEST(GrainColours, GrainSpansWhereItsSurfaceCrossesABorder) {
-  const Borders borders = bordersOf({"x=0.5", "z=-1,2"});
+TEST(render::GrainColours, GrainSpansWhereItsSurfaceCrossesABorder) {
+  const render::Borders borders = render::bordersOf({"x=0.5", "z=-1,2"});
   EXPECT_EQ(borders[2], (std::vector<double>{-1, 2}));
-  EXPECT_TRUE(spans(borders, {0.45f, 0, 0}, 0.1f));
-  EXPECT_FALSE(spans(borders, {0.25f, 0, 0}, 0.25f)); // touches it
-  EXPECT_TRUE(spans(borders, {0, 0, -0.9f}, 0.2f));
-  EXPECT_EQ(subdomainAt(borders, {0.5f, 0, 3}), (std::array<int, 3>{1, 0, 2}));
-  EXPECT_EQ(subdomainAt(borders, {0.4f, 9, 0}), (std::array<int, 3>{0, 0, 1}));
+  EXPECT_TRUE(render::spans(borders, {0.45f, 0, 0}, 0.1f));
+  EXPECT_FALSE(render::spans(borders, {0.25f, 0, 0}, 0.25f)); // touches it
+  EXPECT_TRUE(render::spans(borders, {0, 0, -0.9f}, 0.2f));
+  EXPECT_EQ(render::subdomainAt(borders, {0.5f, 0, 3}), (std::array<int, 3>{1, 0, 2}));
+  EXPECT_EQ(render::subdomainAt(borders, {0.4f, 9, 0}), (std::array<int, 3>{0, 0, 1}));
 }
 
-TEST(GrainColours, RolesHaveThePapersColours) {
-  StoredFrame f;
+TEST(render::GrainColours, RolesHaveThePapersColours) {
+  output::StoredFrame f;
   f.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}}, f.radii = {0.1f, 0.1f, 0.1f}, f.speeds = {0, 0, 0};
-  const GrainColours colours(GrainQuantity::Role, f, {f}, {});
-  const std::vector<Colour> c = colours.of(f, bordersOf({"x=0.5"}));
-  EXPECT_GT(toSrgb(c[0])[1], 230);                  // white
-  EXPECT_LT(toSrgb(c[1])[0], 90);                   // dark grey
-  EXPECT_NEAR(toSrgb(c[1])[0], toSrgb(c[1])[2], 8); // grey, not coloured
-  EXPECT_GT(toSrgb(c[2])[0], 5 * toSrgb(c[2])[1]);  // red
-  EXPECT_EQ(colours.legend(bordersOf({"x=0.5"})).size(), 3u);
+  const render::GrainColours colours(render::GrainQuantity::Role, f, {f}, {});
+  const std::vector<render::Colour> c = colours.of(f, render::bordersOf({"x=0.5"}));
+  EXPECT_GT(render::toSrgb(c[0])[1], 230);                  // white
+  EXPECT_LT(render::toSrgb(c[1])[0], 90);                   // dark grey
+  EXPECT_NEAR(render::toSrgb(c[1])[0], render::toSrgb(c[1])[2], 8); // grey, not coloured
+  EXPECT_GT(render::toSrgb(c[2])[0], 5 * render::toSrgb(c[2])[1]);  // red
+  EXPECT_EQ(colours.legend(render::bordersOf({"x=0.5"})).size(), 3u);
 }
 
-TEST(GrainColours, DepthIsMeasuredFromTheFirstFramesSurface) {
+TEST(render::GrainColours, DepthIsMeasuredFromTheFirstFramesSurface) {
   // A sloping bed of three layers; one grain of the top layer is pushed down by 0.05 m.
-  StoredFrame first;
+  output::StoredFrame first;
   for (int x = 0; x < 20; ++x)
     for (int y = 0; y < 20; ++y)
       for (int layer = 0; layer < 3; ++layer) {
         first.positions.push_back({0.02f * float(x), 0.02f * float(y), 0.01f * float(x) - 0.02f * float(layer)});
         first.radii.push_back(0.01f), first.speeds.push_back(0);
       }
-  StoredFrame later = first;
+  output::StoredFrame later = first;
   later.positions[0].z -= 0.05f;
-  const GrainColours colours(GrainQuantity::Depth, first, {first}, ValueRange{0, 0.12});
-  const auto light = [](const Colour& c) { return c.x + c.y + c.z; };
-  const std::vector<Colour> before = colours.of(first, {}), after = colours.of(later, {});
+  const render::GrainColours colours(render::GrainQuantity::Depth, first, {first}, render::ValueRange{0, 0.12});
+  const auto light = [](const render::Colour& c) { return c.x + c.y + c.z; };
+  const std::vector<render::Colour> before = colours.of(first, {}), after = colours.of(later, {});
   EXPECT_LT(light(before[1]), light(before[0])); // deeper is darker
   EXPECT_LT(light(before[2]), light(before[1]));
   EXPECT_LT(light(after[0]), light(before[2]));
-  const BedTop top(first);
+  const render::BedTop top(first);
   EXPECT_NEAR(top.height(0.01, 0.01), 0.02, 0.011); // cells of 0.04 m on a slope of one half
   EXPECT_NEAR(top.height(99, 99), 0.2, 0.011);      // beyond the edge: as at the edge
 }
 
 TEST(Labels, TicksAreRoundAndWithinTheRange) {
-  EXPECT_EQ(ticks(0, 1, 5), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
+  EXPECT_EQ(render::ticks(0, 1, 5), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
   for (const auto& [low, high] : {std::pair{-0.013, 0.14}, {0.0, 3.7e-5}, {-2e4, 7e6}}) {
-    const std::vector<double> t = ticks(low, high, 5);
+    const std::vector<double> t = render::ticks(low, high, 5);
     EXPECT_GE(t.size(), 3u);
     EXPECT_LE(t.size(), 7u);
     EXPECT_GE(t.front(), low - 1e-9 * (high - low));
@@ -264,8 +264,8 @@ TEST(Labels, TicksAreRoundAndWithinTheRange) {
 }
 
 TEST(Labels, CaptionIsDarkOnLightAndStaysInItsCorner) {
-  Image image{1280, 720, std::vector<std::uint8_t>(1280 * 720 * 3, 100)};
-  drawCaption(image, Font(), "t = 1.250 s");
+  render::Image image{1280, 720, std::vector<std::uint8_t>(1280 * 720 * 3, 100)};
+  render::drawCaption(image, render::Font(), "t = 1.250 s");
   int dark = 0, light = 0, elsewhere = 0;
   for (int y = 0; y < 720; ++y)
     for (int x = 0; x < 1280; ++x) {
@@ -280,14 +280,14 @@ TEST(Labels, CaptionIsDarkOnLightAndStaysInItsCorner) {
   EXPECT_EQ(elsewhere, 0);
 }
 
-class SharedWork : public FolderTest {};
+class SharedWork : public test::FolderTest {};
 
 TEST_F(SharedWork, EveryPieceIsDoneOnceWhoeverDoesIt) {
   for (const int processes : {1, 3, 8}) {
     const fs::path folder = folder_ / std::to_string(processes);
     fs::create_directories(folder);
     int done = 0;
-    shareWork(
+    support::shareWork(
         processes, 5,
         [&](std::size_t i) { std::ofstream(folder / std::to_string(i), std::ios::app) << getpid() << '\n'; },
         [&] { ++done; });
@@ -311,16 +311,16 @@ TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
     if (i != 0) usleep(20'000'000); // far beyond the test's time: it must be ended
   };
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(messageOf([&] { shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(messageOf([&] { support::shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)); // nobody was waited for
-  EXPECT_THROW(shareWork(
+  EXPECT_THROW(support::shareWork(
                    2, 2,
                    [](std::size_t i) {
                      if (i) std::raise(SIGKILL);
                    },
                    [] {}),
                std::runtime_error);
-  EXPECT_THROW(shareWork(
+  EXPECT_THROW(support::shareWork(
                    2, 2,
                    [](std::size_t i) {
                      if (i) _exit(0);
@@ -330,4 +330,4 @@ TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::commands

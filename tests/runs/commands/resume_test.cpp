@@ -3,7 +3,7 @@
 #include "runs/commands/run_scene.hpp"
 
 #include "base/error.hpp"
-#include "folder_fixture.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -18,7 +18,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace grouser::runs {
+namespace grouser::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> snapshot(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    files[entry.path().filename().string()] = contents(entry.path());
+    files[entry.path().filename().string()] = test::contents(entry.path());
   return files;
 }
 
@@ -63,24 +63,24 @@ picture = false
 )";
 constexpr std::int64_t kEnd = 2000;
 
-class ResumedRun : public FolderTest {
+class ResumedRun : public test::FolderTest {
 protected:
   void SetUp() override {
-    FolderTest::SetUp();
+    test::FolderTest::SetUp();
     resumed_ = folder_ / "resumed";
   }
 
-  static Scene bed(const std::vector<std::string>& overrides = {}) { return parseScene(kBed, "bed.toml", overrides); }
+  static scene::Scene bed(const std::vector<std::string>& overrides = {}) { return scene::parseScene(kBed, "bed.toml", overrides); }
 
-  Summary run(const fs::path& folder, const Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
+  output::Summary run(const fs::path& folder, const scene::Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
     RunOptions options;
     options.folder = folder, options.hash = true, options.steps = steps, options.force = force;
     return runScene(scene, options);
   }
-  Summary resume(const Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
+  output::Summary resume(const scene::Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
     RunOptions options;
     options.folder = resumed_, options.hash = true, options.steps = steps, options.force = force;
-    options.resume = resumed_ / kCheckpointName;
+    options.resume = resumed_ / simulation::kCheckpointName;
     return runScene(scene, options);
   }
   /// Hash of the run straight through, in folder "straight".
@@ -89,21 +89,21 @@ protected:
   /// All that the two runs left is the same: rows, frames, state.
   void expectSameFolders() {
     const fs::path whole = folder_ / "straight";
-    EXPECT_EQ(contents(resumed_ / "timeseries.csv"), contents(whole / "timeseries.csv"));
-    EXPECT_EQ(contents(resumed_ / "frames.xdmf"), contents(whole / "frames.xdmf"));
-    const Hdf5File a = Hdf5File::open(resumed_ / "results.h5"), b = Hdf5File::open(whole / "results.h5");
+    EXPECT_EQ(test::contents(resumed_ / "timeseries.csv"), test::contents(whole / "timeseries.csv"));
+    EXPECT_EQ(test::contents(resumed_ / "frames.xdmf"), test::contents(whole / "frames.xdmf"));
+    const support::Hdf5File a = support::Hdf5File::open(resumed_ / "results.h5"), b = support::Hdf5File::open(whole / "results.h5");
     EXPECT_EQ(a.numbers("/series/step").size(), 21u);
     for (const char* name : {"/series/step", "/series/time", "/terrain/rebuilds/value", "/terrain/contacts/value",
                              "/ledger/residual/value", "/ledger/impulse_residual/value", "/terrain/max_overlap/step"})
       EXPECT_EQ(bits(a.numbers(name)), bits(b.numbers(name))) << name;
-    const Hdf5File p = Hdf5File::open(resumed_ / "frames.h5"), q = Hdf5File::open(whole / "frames.h5");
+    const support::Hdf5File p = support::Hdf5File::open(resumed_ / "frames.h5"), q = support::Hdf5File::open(whole / "frames.h5");
     for (int i = 0; i < 8; ++i)
       for (const char* name : {"position", "speed"}) {
         const std::string dataset = "/00000" + std::to_string(i) + "/grains/" + name;
         EXPECT_EQ(p.numbers(dataset), q.numbers(dataset)) << dataset;
       }
     EXPECT_FALSE(p.has("/000008"));
-    const Checkpoint c = readCheckpoint(resumed_ / kCheckpointName), d = readCheckpoint(whole / kCheckpointName);
+    const simulation::Checkpoint c = simulation::readCheckpoint(resumed_ / simulation::kCheckpointName), d = simulation::readCheckpoint(whole / simulation::kCheckpointName);
     EXPECT_EQ(c.state.hash(), d.state.hash());
     EXPECT_EQ(c.rows, d.rows);
     EXPECT_EQ(c.frames, d.frames);
@@ -124,10 +124,10 @@ TEST_F(ResumedRun, BedStoppedBetweenRowsEndsAsIfItHadNotBeenStopped) {
 TEST_F(ResumedRun, RowsAndFramesAfterTheCheckpointAreCut) {
   const std::string hash = straight();
   run(resumed_, bed(), 850);
-  fs::copy(resumed_ / kCheckpointName, folder_ / "earlier.h5");
+  fs::copy(resumed_ / simulation::kCheckpointName, folder_ / "earlier.h5");
   resume(bed(), 1710);
   // As after a kill at step 1710 or later whose last checkpoint was of step 850.
-  fs::rename(folder_ / "earlier.h5", resumed_ / kCheckpointName);
+  fs::rename(folder_ / "earlier.h5", resumed_ / simulation::kCheckpointName);
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
 }
@@ -135,7 +135,7 @@ TEST_F(ResumedRun, RowsAndFramesAfterTheCheckpointAreCut) {
 TEST_F(ResumedRun, LastRowAndFrameOfAShorterRunAreCut) {
   const std::string hash = straight();
   run(resumed_, bed(), 1234);
-  ASSERT_EQ(Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").back(), 1234) << "a row for its own end";
+  ASSERT_EQ(support::Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").back(), 1234) << "a row for its own end";
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
   EXPECT_EQ(resume(bed()).stateHash, hash) << "nothing left to do";
@@ -148,7 +148,7 @@ TEST_F(ResumedRun, KilledRunGoesOnFromItsLastCheckpoint) {
   if (child == 0) {
     // A step of this bed takes well under a millisecond: the run is cut at an arbitrary place.
     std::thread([this] {
-      while (!fs::exists(resumed_ / kCheckpointName)) usleep(200);
+      while (!fs::exists(resumed_ / simulation::kCheckpointName)) usleep(200);
       usleep(30'000);
       kill(getpid(), SIGKILL);
     }).detach();
@@ -172,14 +172,14 @@ TEST_F(ResumedRun, SignalStopsWithACheckpointAndGoesOn) {
   try {
     run(resumed_, bed({"run.checkpoint_interval=0"}));
     ADD_FAILURE() << "the run went on to its end";
-  } catch (const Stopped& stopped) {
+  } catch (const support::Stopped& stopped) {
     EXPECT_EQ(stopped.signal(), SIGINT);
     EXPECT_NE(std::string(stopped.what()).find("--resume"), std::string::npos) << stopped.what();
   }
   interrupter.join();
-  EXPECT_NE(contents(resumed_ / "manifest.json").find("\"status\": \"stopped\""), std::string::npos);
+  EXPECT_NE(test::contents(resumed_ / "manifest.json").find("\"status\": \"stopped\""), std::string::npos);
   EXPECT_EQ(resume(bed()).stateHash, hash);
-  EXPECT_NE(contents(resumed_ / "manifest.json").find("\"status\": \"finished\""), std::string::npos);
+  EXPECT_NE(test::contents(resumed_ / "manifest.json").find("\"status\": \"finished\""), std::string::npos);
   expectSameFolders();
 }
 
@@ -192,7 +192,7 @@ TEST_F(ResumedRun, LongerDurationGoesOnFromTheEnd) {
 
 TEST_F(ResumedRun, SingleGrainsGoOnToTheSameHash) {
   const auto scene = [] {
-    return parseScene("version = 1\n[run]\nduration = 0.05\ntime_step = 1e-5\noutput_interval = 0.01\n"
+    return scene::parseScene("version = 1\n[run]\nduration = 0.05\ntime_step = 1e-5\noutput_interval = 0.01\n"
                       "[material.glass]\nfriction = 0.3\n[[plane]]\nmaterial = \"glass\"\n[[plane]]\npoint = [0.05, 0, "
                       "0]\nnormal = [-1, 0, 1]\nmaterial = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\nvelocity = "
                       "[1, 0, 0]\nspin = [0, 9, 0]\nradius = 0.01\nmaterial = \"glass\"\n[[grain]]\nposition = [0.021, "
@@ -203,7 +203,7 @@ TEST_F(ResumedRun, SingleGrainsGoOnToTheSameHash) {
   run(resumed_, scene(), 1);
   for (const std::int64_t step : {900, 1700, 3000}) resume(scene(), step);
   EXPECT_EQ(resume(scene()).stateHash, hash);
-  EXPECT_EQ(contents(resumed_ / "timeseries.csv"), contents(folder_ / "straight/timeseries.csv"));
+  EXPECT_EQ(test::contents(resumed_ / "timeseries.csv"), test::contents(folder_ / "straight/timeseries.csv"));
 }
 
 TEST_F(ResumedRun, WhatIsRefusedTouchesNothing) {
@@ -211,23 +211,23 @@ TEST_F(ResumedRun, WhatIsRefusedTouchesNothing) {
   const auto before = snapshot(resumed_);
   EXPECT_THROW(resume(bed({"run.seed=2"})), base::InputError) << "another scene";
   EXPECT_THROW(resume(bed(), 899), base::InputError) << "beyond the end";
-  const std::string whole = before.at(kCheckpointName);
+  const std::string whole = before.at(simulation::kCheckpointName);
   const auto put = [&](const char* name, const std::string& bytes) {
     std::ofstream(resumed_ / name, std::ios::binary) << bytes;
     return snapshot(resumed_);
   };
-  const auto damaged = put(kCheckpointName, whole.substr(0, whole.size() - 100));
+  const auto damaged = test::put(simulation::kCheckpointName, whole.substr(0, whole.size() - 100));
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), damaged);
-  put(kCheckpointName, whole);
-  const auto noRows = put("results.h5", before.at("results.h5").substr(0, 3000));
+  test::put(simulation::kCheckpointName, whole);
+  const auto noRows = test::put("results.h5", before.at("results.h5").substr(0, 3000));
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), noRows);
-  put("results.h5", before.at("results.h5"));
-  const auto noFrames = put("frames.h5", "no frames");
+  test::put("results.h5", before.at("results.h5"));
+  const auto noFrames = test::put("frames.h5", "no frames");
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), noFrames);
-  put("frames.h5", before.at("frames.h5"));
+  test::put("frames.h5", before.at("frames.h5"));
   EXPECT_EQ(snapshot(resumed_), before);
   EXPECT_EQ(resume(bed()).stateHash, straight());
 }
@@ -237,12 +237,12 @@ TEST_F(ResumedRun, WithoutItsRowsItGoesOnByForce) {
   fs::remove(resumed_ / "results.h5");
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(resume(bed(), {}, true).stateHash, straight());
-  EXPECT_EQ(Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").front(), 1000);
+  EXPECT_EQ(support::Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").front(), 1000);
 }
 
 /// A grain that falls for 45 ms and hits the plane harder than is allowed.
-Scene unsound(const std::string& checkpointInterval) {
-  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\nmax_overlap = 1e-4\ncheckpoint_interval = " +
+scene::Scene unsound(const std::string& checkpointInterval) {
+  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\nmax_overlap = 1e-4\ncheckpoint_interval = " +
                         checkpointInterval +
                         "\n[material.glass]\n[[plane]]\nmaterial = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\n"
                         "radius = 0.01\nmaterial = \"glass\"\n",
@@ -256,14 +256,14 @@ TEST_F(ResumedRun, UnsoundRunKeepsItsLastSoundCheckpoint) {
   } catch (const base::SimulationError& error) {
     EXPECT_NE(std::string(error.what()).find("checkpoint.h5, step 4000"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(readCheckpoint(resumed_ / kCheckpointName).state.steps, 4000);
+  EXPECT_EQ(simulation::readCheckpoint(resumed_ / simulation::kCheckpointName).state.steps, 4000);
 }
 
 TEST_F(ResumedRun, NewRunByForceTakesTheFormerCheckpointAway) {
   run(resumed_, bed(), 900);
   EXPECT_THROW(run(resumed_, unsound("0"), {}, true), base::SimulationError);
-  EXPECT_FALSE(fs::exists(resumed_ / kCheckpointName)) << "it would be of another run";
+  EXPECT_FALSE(fs::exists(resumed_ / simulation::kCheckpointName)) << "it would be of another run";
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::commands

@@ -3,10 +3,10 @@
 #include "runs/commands/sweep.hpp"
 
 #include "base/error.hpp"
-#include "program_fixture.hpp"
+#include "tests/runs/program_fixture.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/commands/sweep_summary.hpp"
-#include "scene_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace grouser::runs {
+namespace grouser::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,7 @@ struct Csv {
   std::vector<Words> rows;
 
   explicit Csv(const fs::path& path) {
-    std::istringstream stream(contents(path));
+    std::istringstream stream(test::contents(path));
     for (std::string line; std::getline(stream, line);) {
       Words cells(1);
       bool inQuotes = false;
@@ -49,10 +49,10 @@ struct Csv {
   }
 };
 
-class Sweep : public ProgramTest {
+class Sweep : public test::ProgramTest {
 protected:
   void SetUp() override {
-    ProgramTest::SetUp();
+    test::ProgramTest::SetUp();
     writeScene("1e-3");
   }
 
@@ -70,7 +70,7 @@ protected:
 
   SweepOptions options() const {
     SweepOptions o;
-    o.program = programUnderTest(), o.folder = out(), o.plot = false;
+    o.program = test::programUnderTest(), o.folder = out(), o.plot = false;
     return o;
   }
   int sweep(const Words& sets, int jobs = 1, bool force = false) const {
@@ -173,7 +173,7 @@ TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
   ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
   const auto one = ended("seed=1"), two = ended("seed=2");
   // One value more, and a run that was killed in between.
-  std::string manifest = contents(out() / "seed=2/manifest.json");
+  std::string manifest = test::contents(out() / "seed=2/manifest.json");
   manifest.replace(manifest.find("finished"), 8, "running");
   std::ofstream(out() / "seed=2/manifest.json") << manifest;
   ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
@@ -224,28 +224,28 @@ TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
   EXPECT_THROW(sweep({"run.seed=1,2"}), base::InputError);
   EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
   EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
-  EXPECT_EQ(contents(out() / "seed=2/thesis.txt"), "precious");
+  EXPECT_EQ(test::contents(out() / "seed=2/thesis.txt"), "precious");
 }
 
 TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
-  const Outcome sound = call("sweep fall.toml --set run.seed=1,2");
+  const test::Outcome sound = call("sweep fall.toml --set run.seed=1,2");
   EXPECT_EQ(sound.code, 0) << sound.errors;
   EXPECT_TRUE(fs::exists(folder_ / "out/fall_sweep/seed=2/results.h5"));
   EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
   EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
+  const test::Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
   EXPECT_EQ(unsound.code, 3);
   EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
 }
 
-class SweepSummary : public FolderTest {};
+class SweepSummary : public test::FolderTest {};
 
 TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
-  Scene scene = parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
+  scene::Scene scene = scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
-  scene.driver.table = SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
+  scene.driver.table = scene::SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.5);
   scene.run.duration = 1;
   EXPECT_TRUE(std::isnan(steadyFrom(scene)));
@@ -258,11 +258,11 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   SweepPlan plan;
   plan.keys = {"driver.sprocket_speed"};
   plan.runs = {
-      {"sprocket_speed=2", {"2"}, {}, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
-  Scene& scene = plan.runs[0].scene;
+      {"sprocket_speed=2", {"2"}, {}, scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
+  scene::Scene& scene = plan.runs[0].scene;
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
 
-  std::vector<Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
+  std::vector<output::Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
                                    {"ledger/residual", "J", "", 1, {}},
                                    {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
@@ -271,9 +271,9 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
     for (const char* shoes : {"sinkage", "tension"})
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
   }
-  RunWriter writer(folder_ / "sprocket_speed=2", scene, channels, {});
+  output::RunWriter writer(folder_ / "sprocket_speed=2", scene, channels, {});
   writer.constant("vehicle/pitch_radius", "m", 0.25);
-  RowBuilder row(channels);
+  output::RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
     const bool isSteady = r >= 20;
     row.begin(100 * r, 0.1 * r);
@@ -293,7 +293,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
     row.set("ledger/impulse_residual", base::Vec3d{0, 3, 4});
     writer.row(row.row());
   }
-  Summary summary;
+  output::Summary summary;
   summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
   writer.finish(summary);
 
@@ -320,4 +320,4 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::commands

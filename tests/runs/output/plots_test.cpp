@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/plots.hpp"
 
-#include "folder_fixture.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "runs/output/channels.hpp"
-#include "scene_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-namespace grouser::runs {
+namespace grouser::output {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,16 +19,16 @@ constexpr int kShoes = 12, kRows = 80;
 
 /// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
 /// comes down at row 60 only.
-class Plots : public FolderTest {
+class Plots : public test::FolderTest {
 protected:
   void SetUp() override {
-    FolderTest::SetUp();
+    test::FolderTest::SetUp();
     std::vector<Channel> channels = {
         {"vehicle/left/sinkage", "m", "", kShoes, {}}, {"vehicle/left/pad_height", "m", "", kShoes, {}},
         {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
         {"vehicle/left/speed", "m/s", "", 1, {}},      {"vehicle/left/drive_torque", "N m", "", 1, {}}};
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
-    RunWriter writer(folder_, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    RunWriter writer(folder_, scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
     RowBuilder row(channels);
     for (int r = 0; r < kRows; ++r) {
@@ -54,7 +54,7 @@ protected:
   }
   void TearDown() override {
     unsetenv("GROUSER_SHARE");
-    FolderTest::TearDown();
+    test::FolderTest::TearDown();
   }
 };
 
@@ -74,7 +74,7 @@ TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
   const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},
                                          {"vehicle/left/pad_height", "m", "", kShoes, {}}};
   {
-    RunWriter writer(hanging, parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    RunWriter writer(hanging, scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
     RowBuilder row(channels);
     row.begin(0, 0); // all NaN
     writer.row(row.row());
@@ -113,4 +113,4 @@ TEST_F(Plots, FourShoesAreConsecutiveAndPickedUp) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::output

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <omp.h>
 
-namespace grouser::runs {
+namespace grouser::render {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
@@ -123,7 +123,7 @@ TEST(Render, ColourMapRunsFromDarkToLight) {
 }
 
 TEST(Picture, ShowsGrainsPartsAndGroundAndIsWritten) {
-  Frame frame;
+  output::Frame frame;
   for (int i = 0; i < 100; ++i)
     frame.positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10), 0}), frame.radii.push_back(0.05f);
   const base::TriangleMesh plate = square(0, 0.3, {}).mesh;
@@ -159,7 +159,7 @@ TEST(Picture, FewGrainsOfAnySizeAreSeenWhole) {
   const Image empty = drawFrame({}, {}, {}, 320);
   for (const float radius : {1e-4f, 0.01f, 2.0f})
     for (const int count : {1, 2, 30}) {
-      Frame frame;
+      output::Frame frame;
       for (int i = 0; i < count; ++i)
         frame.positions.push_back({3 * radius * float(i), radius * float(i % 5), 1 + radius * float(i % 3)}),
             frame.radii.push_back(radius);
@@ -172,7 +172,7 @@ TEST(Picture, FewGrainsOfAnySizeAreSeenWhole) {
 
 TEST(Picture, StrayGrainDoesNotShrinkABed) {
   const Image empty = drawFrame({}, {}, {}, 320);
-  Frame frame;
+  output::Frame frame;
   for (int i = 0; i < 400; ++i)
     frame.positions.push_back({0.1f * float(i % 20), 0.1f * float(i / 20), 0}), frame.radii.push_back(0.05f);
   frame.positions[57] = {1, 1, -500};
@@ -182,4 +182,4 @@ TEST(Picture, StrayGrainDoesNotShrinkABed) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::render

@@ -2,13 +2,13 @@
 // Mechanisms in scene files: what is read, and one clear error for each mistake.
 #include "runs/setup/mechanism_model.hpp"
 #include "runs/scene/scene.hpp"
-#include "scene_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-namespace grouser::runs {
+namespace grouser::scene {
 namespace {
 
 /// Two rods on hinges, a spring, a bushing, a drive and a coupling; line numbers count from 1.
@@ -69,7 +69,7 @@ std::string errorOf(const std::string& text) {
 
 TEST(MechanismScene, HoldsWhatTheFileSays) {
   const Scene scene = parseScene(kScene, "scene.toml");
-  const multibody::Model model = buildModel(scene.mechanism);
+  const multibody::Model model = setup::buildModel(scene.mechanism);
   ASSERT_EQ(model.bodies().size(), 2u);
   EXPECT_EQ(model.bodies()[0].inertia_B.m[1][1], 0.2);
   EXPECT_DOUBLE_EQ(model.bodies()[1].inertia_B.m[0][0], 1.0 / 12 * (0.01 + 0.01)) << "of the box";
@@ -93,8 +93,8 @@ TEST(MechanismScene, ResolvedCopyLoadsToTheSameMechanism) {
 
 TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
   const Scene scene =
-      parseScene(replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
-  const auto& I = buildModel(scene.mechanism).bodies()[0].inertia_B.m;
+      parseScene(test::replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
+  const auto& I = setup::buildModel(scene.mechanism).bodies()[0].inertia_B.m;
   EXPECT_EQ(I[0][1], 0.01);
   EXPECT_EQ(I[0][2], 0.02);
   EXPECT_EQ(I[2][1], 0.03);
@@ -102,11 +102,11 @@ TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
 
 TEST(MechanismScene, QuaternionAndAxisWithAngleMeanTheSameTurn) {
   const Scene turned = parseScene(kScene, "scene.toml");
-  const Scene given = parseScene(replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
+  const Scene given = parseScene(test::replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
                                           "orientation = [0.70710678118654757, 0, 0.70710678118654757, 0]"),
                                  "scene.toml");
-  const base::Quat a = buildModel(turned.mechanism).bodies()[1].pose.orientation,
-                   b = buildModel(given.mechanism).bodies()[1].pose.orientation;
+  const base::Quat a = setup::buildModel(turned.mechanism).bodies()[1].pose.orientation,
+                   b = setup::buildModel(given.mechanism).bodies()[1].pose.orientation;
   EXPECT_NEAR(a.w, b.w, 1e-15); // a few units in the last place
   EXPECT_NEAR(a.y, b.y, 1e-15);
 }
@@ -120,7 +120,7 @@ class MechanismMistakes : public testing::TestWithParam<Mistake> {};
 
 TEST_P(MechanismMistakes, NamePlaceValueAndRemedy) {
   const auto& [from, to, message] = GetParam();
-  const std::string text = replaced(kScene, from, to);
+  const std::string text = test::replaced(kScene, from, to);
   ASSERT_FALSE(text.empty()) << from;
   const std::string error = errorOf(text);
   EXPECT_NE(error.find(message), std::string::npos) << error;
@@ -246,4 +246,4 @@ TEST(MechanismScene, EveryFileOfTheFolderLoads) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::scene

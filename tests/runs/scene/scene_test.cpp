@@ -3,14 +3,14 @@
 
 #include "base/error.hpp"
 #include "runs/support/locations.hpp"
-#include "scene_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 
-namespace grouser::runs {
+namespace grouser::scene {
 namespace {
 
 Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -18,7 +18,7 @@ Scene parse(const std::string& text, const std::vector<std::string>& overrides =
 }
 
 TEST(Scene, EverySectionIsRead) {
-  const Scene s = parse(goodScene());
+  const Scene s = parse(test::goodScene());
   EXPECT_EQ(s.run.duration, 2);
   EXPECT_EQ(s.run.timeStep, 1e-4);
   ASSERT_EQ(s.materials.size(), 2u);
@@ -45,7 +45,7 @@ TEST(Scene, WhatIsAbsentIsNotBuilt) {
 }
 
 TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
-  std::string text = replaced(goodScene(), "sprocket_speed = 1\n",
+  std::string text = test::replaced(test::goodScene(), "sprocket_speed = 1\n",
                               "[driver.table]\ntime = [0, 1.5]\nleft = [0, 1]\nright = [0, -1]\n");
   text += "[[plane]]\nnormal = [0, 0.1, 1]\nmaterial = \"soil\"\n[material.\"wet clay\"]\ndamping = 12.5\nattraction = "
           "true\n"
@@ -75,27 +75,27 @@ TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
   std::filesystem::create_directories(folder / "heightmaps");
   std::filesystem::copy_file(std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/hills.png",
                              folder / "heightmaps/hills.png", std::filesystem::copy_options::overwrite_existing);
-  const Scene s = parseScene(goodScene(), folder / "scene.toml");
+  const Scene s = parseScene(test::goodScene(), folder / "scene.toml");
   EXPECT_EQ(s.terrain->heightmap, std::filesystem::canonical(folder / "heightmaps/hills.png").string());
   std::filesystem::remove_all(folder);
 }
 
 TEST(Scene, PlacesLookedAtAreNamedOnce) {
   std::vector<std::filesystem::path> tried;
-  EXPECT_TRUE(findInput("nosuch.png", "scene.toml", tried).empty());
+  EXPECT_TRUE(support::findInput("nosuch.png", "scene.toml", tried).empty());
   EXPECT_EQ(tried.size(), 2u); // the scene's folder is the current one; the other is assets/
-  EXPECT_TRUE(findInput("/nosuch.png", "scene.toml", tried).empty());
+  EXPECT_TRUE(support::findInput("/nosuch.png", "scene.toml", tried).empty());
   EXPECT_EQ(tried, std::vector<std::filesystem::path>{"/nosuch.png"});
 }
 
 TEST(Scene, DriverFormsGiveTheSameSpeeds) {
-  const SpeedTable both = parse(goodScene(), {"driver.sprocket_speed=2"}).driver.speeds();
+  const SpeedTable both = parse(test::goodScene(), {"driver.sprocket_speed=2"}).driver.speeds();
   EXPECT_EQ(both.left, std::vector<double>{2});
-  const SpeedTable sides = parse(replaced(goodScene(), "sprocket_speed = 1", "left = 1\nright = -1")).driver.speeds();
+  const SpeedTable sides = parse(test::replaced(test::goodScene(), "sprocket_speed = 1", "left = 1\nright = -1")).driver.speeds();
   EXPECT_EQ(sides.left, std::vector<double>{1});
   EXPECT_EQ(sides.right, std::vector<double>{-1});
-  EXPECT_DOUBLE_EQ(parse(goodScene()).driver.driveBegins(), 0.45);
-  EXPECT_EQ(parse(goodScene(), {"driver.drive_start=2"}).driver.driveBegins(), 2);
+  EXPECT_DOUBLE_EQ(parse(test::goodScene()).driver.driveBegins(), 0.45);
+  EXPECT_EQ(parse(test::goodScene(), {"driver.drive_start=2"}).driver.driveBegins(), 2);
 }
 
 /// One mistake in a good scene, and what the message must hold: the place or key, and the remedy.
@@ -110,7 +110,7 @@ struct Broken {
 class BrokenScene : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenScene, GivesOneErrorWithKeyAndRemedy) {
-  const std::string text = replaced(goodScene(), GetParam().from, GetParam().to);
+  const std::string text = test::replaced(test::goodScene(), GetParam().from, GetParam().to);
   ASSERT_NE(text, "") << "the good scene has no such line";
   try {
     parse(text);
@@ -304,19 +304,19 @@ TEST(Scene, VehicleOverNothingMustBeFixed) {
 
 TEST(Scene, OverridesAreCheckedLikeTheFile) {
   try {
-    parse(goodScene(), {"driver.sproket_speed=2"});
+    parse(test::goodScene(), {"driver.sproket_speed=2"});
     FAIL();
   } catch (const base::InputError& e) {
     EXPECT_EQ(std::string(e.what()).find("--set: unknown key driver.sproket_speed; did you mean sprocket_speed?"), 0u)
         << e.what();
   }
-  EXPECT_THROW(parse(goodScene(), {"driver.sprocket_speed=1e9"}), base::InputError);
-  EXPECT_THROW(parse(goodScene(), {"terrain.grain_radius=0"}), base::InputError);
+  EXPECT_THROW(parse(test::goodScene(), {"driver.sprocket_speed=1e9"}), base::InputError);
+  EXPECT_THROW(parse(test::goodScene(), {"terrain.grain_radius=0"}), base::InputError);
 }
 
 TEST(Scene, HelpListsEveryKeyOfTheResolvedCopy) {
   const std::string help = fieldHelp();
-  const std::string resolved = resolvedToml(parse(goodScene()));
+  const std::string resolved = resolvedToml(parse(test::goodScene()));
   std::size_t keys = 0;
   for (std::size_t begin = 0; begin < resolved.size();) {
     const std::size_t end = resolved.find('\n', begin), equals = resolved.find(" = ", begin);
@@ -331,4 +331,4 @@ TEST(Scene, HelpListsEveryKeyOfTheResolvedCopy) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::scene

@@ -14,11 +14,11 @@
 #include <filesystem>
 #include <fstream>
 
-namespace grouser::runs {
+namespace grouser::setup {
 namespace {
 
-Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parseScene("version = 1\n[run]\nduration = 0.02\n" + text, testing::TempDir() + "/scene.toml", overrides);
+scene::Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return scene::parseScene("version = 1\n[run]\nduration = 0.02\n" + text, testing::TempDir() + "/scene.toml", overrides);
 }
 
 const char* kMixed = R"([material.glass]
@@ -55,7 +55,7 @@ material = "clay"
 )";
 
 TEST(PairLaw, HertzMixesModuliAndTakesTheSmallerOfTheRest) {
-  const Scene s = parse(kMixed);
+  const scene::Scene s = parse(kMixed);
   const auto law = pairLaw(s, "glass", "clay", std::nullopt);
   const double effective = 1 / ((1 - 0.04) / 1e8 + (1 - 0.16) / 2e7);
   const double shear = 1 / (1.8 / (1e8 / 2.4) + 1.6 / (2e7 / 2.8));
@@ -66,19 +66,19 @@ TEST(PairLaw, HertzMixesModuliAndTakesTheSmallerOfTheRest) {
   EXPECT_EQ(law.rollingFriction, 0.02);
   EXPECT_EQ(law.pullPerRadius, 0) << "geometric mean with no cohesion";
   EXPECT_NEAR(pairLaw(s, "clay", "clay", std::nullopt).pullPerRadius, 2 * base::kPi * 0.2, 1e-12);
-  const Scene over = parse(std::string(kMixed) + "[contact.\"clay|glass\"]\nrolling_friction = 0.3\ncohesion = 1\n");
+  const scene::Scene over = parse(std::string(kMixed) + "[contact.\"clay|glass\"]\nrolling_friction = 0.3\ncohesion = 1\n");
   EXPECT_EQ(pairLaw(over, "glass", "clay", std::nullopt).rollingFriction, 0.3);
   EXPECT_NEAR(pairLaw(over, "glass", "clay", std::nullopt).pullPerRadius, 2 * base::kPi, 1e-12);
 }
 
 TEST(PairLaw, LinearAndHertzDoNotMeet) {
-  const Scene s = parse("[material.a]\n[material.b]\nlaw = \"hertz\"\nyoung = 1e8\n[[grain]]\nposition = [0, 0, 1]\n"
+  const scene::Scene s = parse("[material.a]\n[material.b]\nlaw = \"hertz\"\nyoung = 1e8\n[[grain]]\nposition = [0, 0, 1]\n"
                         "radius = 0.1\nmaterial = \"a\"\n");
   EXPECT_THROW(pairLaw(s, "a", "b", 1.0), base::InputError);
 }
 
 TEST(PairLaw, LinearOfManyMassesGivesTheSameRestitutionToAll) {
-  const Scene s = parse("[material.a]\nrestitution = 0.4\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.1\nmaterial = "
+  const scene::Scene s = parse("[material.a]\nrestitution = 0.4\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.1\nmaterial = "
                         "\"a\"\n");
   for (const double mass : {0.01, 3.0}) {
     const auto one = pairLaw(s, "a", "a", mass), any = pairLaw(s, "a", "a", std::nullopt);
@@ -88,12 +88,12 @@ TEST(PairLaw, LinearOfManyMassesGivesTheSameRestitutionToAll) {
 }
 
 TEST(Blocks, LatticeFillsItsBoxAndRandomGrainsDoNotTouch) {
-  Scene s = parse("[material.a]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 0.5, 0.25]\nradius = 0.05\nspacing = 2\n"
+  scene::Scene s = parse("[material.a]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 0.5, 0.25]\nradius = 0.05\nspacing = 2\n"
                   "material = \"a\"\n");
   EXPECT_EQ(placedCount(s), 10 * 5 * 2);
   EXPECT_EQ(placedGrains(s).size(), 100u);
   s = parse(kMixed);
-  const std::vector<Grain> all = placedGrains(s);
+  const std::vector<scene::Grain> all = placedGrains(s);
   ASSERT_EQ(all.size(), 151u);
   double smallest = 1, largest = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {
@@ -111,12 +111,12 @@ TEST(Blocks, LatticeFillsItsBoxAndRandomGrainsDoNotTouch) {
 }
 
 TEST(Blocks, LatticeThatIsShiftedStaysInItsBox) {
-  const Scene s =
+  const scene::Scene s =
       parse("[material.a]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 0.5, 0.25]\nradius = 0.05\nspacing = 2.6\n"
             "jitter = 1.0\nmaterial = \"a\"\n");
-  const std::vector<Grain> all = placedGrains(s);
+  const std::vector<scene::Grain> all = placedGrains(s);
   EXPECT_EQ(placedCount(s), 7 * 3 * 1);
-  for (const Grain& g : all)
+  for (const scene::Grain& g : all)
     for (int a = 0; a < 3; ++a) {
       EXPECT_GE(g.position[a] - g.radius, 0);
       EXPECT_LE(g.position[a] + g.radius, (*s.blocks[0].high)[a]);
@@ -128,7 +128,7 @@ TEST(Blocks, FileIsReadAndABrokenLineNamed) {
   std::ofstream(good) << "# x y z r\n0, 0, 1, 0.1\n0.5 0 1 0.2  # larger\n\n";
   std::ofstream(bad) << "0 0 1 0.1\n0 0 2\n";
   const std::string scene = "[material.a]\n[[grains]]\nform = \"file\"\nmaterial = \"a\"\nfile = ";
-  const Scene s = parse(scene + "\"" + good + "\"\n");
+  const scene::Scene s = parse(scene + "\"" + good + "\"\n");
   ASSERT_EQ(placedGrains(s).size(), 2u);
   EXPECT_EQ(placedGrains(s)[1].radius, 0.2);
   EXPECT_EQ(grainKinds(s).smallest, 0.1);
@@ -142,14 +142,14 @@ TEST(Blocks, FileIsReadAndABrokenLineNamed) {
 
 TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
   for (const std::string precision : {"single", "double"}) {
-    const Scene s = parse(kMixed, {"run.precision=" + precision});
+    const scene::Scene s = parse(kMixed, {"run.precision=" + precision});
     const auto quiet = [](double, double) {};
-    Simulation one(s, base::cpuExec(1), quiet), two(s, base::cpuExec(2), quiet);
+    simulation::Simulation one(s, base::cpuExec(1), quiet), two(s, base::cpuExec(2), quiet);
     EXPECT_EQ(one.ground().grains->features() & contact::kRollingFriction, contact::kRollingFriction);
     for (int i = 0; i < 300; ++i) one.step(), two.step();
-    const SimulationState saved = one.save();
+    const simulation::SimulationState saved = one.save();
     EXPECT_EQ(one.stateHash(), two.stateHash());
-    Simulation resumed(s, base::cpuExec(1), saved);
+    simulation::Simulation resumed(s, base::cpuExec(1), saved);
     for (int i = 0; i < 200; ++i) one.step(), resumed.step();
     EXPECT_EQ(one.stateHash(), resumed.stateHash());
     const auto ledger = one.ledger();
@@ -158,7 +158,7 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
 }
 
 TEST(ManyKindsScene, StepFollowsTheImpactSpeedAndTheSmallestGrain) {
-  const Scene s = parse(kMixed);
+  const scene::Scene s = parse(kMixed);
   const double automatic = chooseTimeStep(s), limit = stepLimit(s).step;
   EXPECT_LE(automatic, 0.5 * limit);
   // Glass against the plane, the stiffest: contact time at 1 m/s over 20, or the Rayleigh time.
@@ -169,13 +169,13 @@ TEST(ManyKindsScene, StepFollowsTheImpactSpeedAndTheSmallestGrain) {
 }
 
 TEST(Plan, SaysWhatGrainsHaveAndWhichKernelRuns) {
-  const std::string mixed = planText(parse(kMixed));
+  const std::string mixed = commands::planText(parse(kMixed));
   EXPECT_NE(mixed.find("on   rolling history"), std::string::npos) << mixed;
   EXPECT_NE(mixed.find("on   radius of each grain"), std::string::npos) << mixed;
   EXPECT_NE(mixed.find("general: hertz, friction, rolling friction, cohesion, many radii, many materials"),
             std::string::npos)
       << mixed;
-  const std::string plain = planText(parse("[material.a]\n[[plane]]\nmaterial = \"a\"\n[[grain]]\nposition = [0, 0, "
+  const std::string plain = commands::planText(parse("[material.a]\n[[plane]]\nmaterial = \"a\"\n[[grain]]\nposition = [0, 0, "
                                            "1]\nradius = 0.1\nmaterial = \"a\"\n"));
   EXPECT_NE(plain.find("off  rolling history"), std::string::npos) << plain;
   EXPECT_NE(plain.find("off  radius of each grain"), std::string::npos) << plain;
@@ -183,4 +183,4 @@ TEST(Plan, SaysWhatGrainsHaveAndWhichKernelRuns) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::setup

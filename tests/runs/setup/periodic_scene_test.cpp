@@ -11,13 +11,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::setup {
 namespace {
 
 constexpr double kStep = 1e-4, kRadius = 0.03;
 
-Scene bed(const std::vector<std::string>& overrides = {}) {
-  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
+scene::Scene bed(const std::vector<std::string>& overrides = {}) {
+  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
                     "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\n"
                     "height_range = [0.1, 0.1]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 3\n"
                     "settle_kinetic_energy = 1e-4\ncache = false\n",
@@ -30,7 +30,7 @@ std::vector<std::string> with(std::vector<std::string> list, const std::vector<s
   return list;
 }
 
-SettleReport settled(const Scene& scene, Ground& ground) {
+SettleReport settled(const scene::Scene& scene, Ground& ground) {
   ground = buildGround(scene, base::cpuExec(1), kStep);
   return settle(scene, ground, [](double, double) {});
 }
@@ -91,7 +91,7 @@ TEST(TiledBed, BetweenWallsIsABedLikeOneThatFell) {
 }
 
 TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
-  const Scene scene = bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.3]",
+  const scene::Scene scene = bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.3]",
                            "terrain.floor=flat", "terrain.tile=[0.5, 0.4]"});
   Ground ground = buildGround(scene, base::cpuExec(1), kStep);
   for (const base::Vec3d& x : ground.grains->snapshot().position)
@@ -111,7 +111,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
         "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\nheight_range = [0, 0]\n"
         "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\ntile = [0.5, 0.4]\ncache = false\n" +
         box;
-    Ground ground = buildGround(parseScene(text, "bed.toml"), base::cpuExec(1), kStep);
+    Ground ground = buildGround(scene::parseScene(text, "bed.toml"), base::cpuExec(1), kStep);
     for (int k = 0; k < 20; ++k) ground.grains->refreshNeighbours(), ground.grains->step();
     return ground.grains->ledger();
   };
@@ -126,8 +126,8 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
 
 TEST(JoinedSides, GrainsOfASourceDoNotEnterInEachOthersImages) {
   for (int seed = 1; seed <= 20; ++seed) {
-    const Scene scene =
-        parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
+    const scene::Scene scene =
+        scene::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
                    "[-0.1, 0.1]\nseed = " +
                        std::to_string(seed) +
                        "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
@@ -143,7 +143,7 @@ TEST(JoinedSides, GrainsOfASourceDoNotEnterInEachOthersImages) {
 
 TEST(JoinedSides, GrainsOfASceneTouchAcrossThem) {
   const auto scene = [](const std::string& x) {
-    return parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
+    return scene::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
                       "[material.soil]\nstiffness = 1e5\n[[grain]]\nposition = [0.48, 0, 0]\nradius = 0.03\n"
                       "material = \"soil\"\n[[grain]]\nposition = [" +
                           x + ", 0, 0]\nradius = 0.03\nmaterial = \"soil\"\n",
@@ -153,8 +153,8 @@ TEST(JoinedSides, GrainsOfASceneTouchAcrossThem) {
   EXPECT_EQ(buildGround(scene("-0.459"), base::cpuExec(1), kStep).grains->ledger().contacts, 0);
   EXPECT_THROW(buildGround(scene("-0.49"), base::cpuExec(1), kStep), base::InputError) << "too deep at the start";
   EXPECT_THROW(buildGround(scene("-0.51"), base::cpuExec(1), kStep), base::InputError) << "outside";
-  EXPECT_NE(planText(scene("0")).find("on   joined sides               x"), std::string::npos) << planText(scene("0"));
+  EXPECT_NE(commands::planText(scene("0")).find("on   joined sides               x"), std::string::npos) << commands::planText(scene("0"));
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::setup

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::runs {
+namespace grouser::setup {
 namespace {
 
-Scene bed(const std::vector<std::string>& overrides) {
-  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+scene::Scene bed(const std::vector<std::string>& overrides) {
+  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
                     "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
                     "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
                     "settle_kinetic_energy = 1e-2\n",
@@ -17,7 +17,7 @@ Scene bed(const std::vector<std::string>& overrides) {
 }
 
 TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
-  const auto settled = [](const Scene& scene, double& ratio) {
+  const auto settled = [](const scene::Scene& scene, double& ratio) {
     Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
     const SettleReport report = settle(scene, ground, [](double, double) {});
     ground.grains->refreshNeighbours();
@@ -34,7 +34,7 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
 }
 
 TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
-  const Scene scene = bed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
+  const scene::Scene scene = bed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
   Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
   try {
     settle(scene, ground, [](double, double) {});
@@ -46,4 +46,4 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::setup

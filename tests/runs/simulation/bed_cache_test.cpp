@@ -3,7 +3,7 @@
 #include "runs/simulation/bed_cache.hpp"
 
 #include "base/error.hpp"
-#include "folder_fixture.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
@@ -16,21 +16,21 @@
 #include <thread>
 #include <unistd.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 namespace fs = std::filesystem;
 
-class KeptBed : public FolderTest {
+class KeptBed : public test::FolderTest {
 protected:
   void SetUp() override {
-    FolderTest::SetUp();
+    test::FolderTest::SetUp();
     fs::remove(folder_); // the first bed makes it
   }
 
   /// 180 grains that come to rest, and one that falls onto them.
-  static Scene scene(const std::vector<std::string>& overrides = {}, const std::string& more = "") {
-    return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+  static scene::Scene scene(const std::vector<std::string>& overrides = {}, const std::string& more = "") {
+    return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
                       "restitution = 0.2\n[material.steel]\nstiffness = 1e7\n[terrain]\nheightmap = "
                       "\"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 0.03]\nmaterial = \"soil\"\n"
                       "grain_radius = 0.03\nlayers = 2\nsettle_kinetic_energy = 1e-2\n[[source]]\nlow = [0.3, 0, "
@@ -45,9 +45,9 @@ protected:
     bool settled = false;
     std::vector<double> row;
   };
-  Outcome run(BedCache* beds, const std::vector<std::string>& overrides = {},
+  test::Outcome run(BedCache* beds, const std::vector<std::string>& overrides = {},
               const base::Exec& exec = base::cpuExec(1)) const {
-    Outcome o;
+    test::Outcome o;
     Simulation simulation(
         scene(overrides), exec, [&](double, double) { o.settled = true; }, {}, beds);
     const auto note = [&] {
@@ -64,7 +64,7 @@ protected:
     if (beds) o.story = beds->story();
     return o;
   }
-  Outcome runIn(const fs::path& folder, const std::vector<std::string>& overrides = {}) const {
+  test::Outcome runIn(const fs::path& folder, const std::vector<std::string>& overrides = {}) const {
     BedCache beds(folder);
     return run(&beds, overrides);
   }
@@ -77,10 +77,10 @@ protected:
 };
 
 TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
-  const Outcome alone = run(nullptr), first = runIn(folder_), second = runIn(folder_);
+  const test::Outcome alone = run(nullptr), first = runIn(folder_), second = runIn(folder_);
   EXPECT_TRUE(first.settled);
   EXPECT_FALSE(second.settled);
-  for (const Outcome& o : {first, second}) {
+  for (const test::Outcome& o : {first, second}) {
     EXPECT_EQ(o.hash, alone.hash);
     EXPECT_EQ(o.row, alone.row);
   }
@@ -90,18 +90,18 @@ TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
 }
 
 TEST_F(KeptBed, ServesEverySkinAndEveryNumberOfThreads) {
-  const Outcome first = runIn(folder_);
+  const test::Outcome first = runIn(folder_);
   BedCache beds(folder_);
-  const Outcome other = run(&beds, {"run.skin=0.6"}, base::cpuExec(2));
+  const test::Outcome other = run(&beds, {"run.skin=0.6"}, base::cpuExec(2));
   EXPECT_FALSE(other.settled);
   EXPECT_EQ(other.hash, first.hash);
 }
 
 TEST_F(KeptBed, ServesCuda) {
   if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
-  const Outcome first = runIn(folder_);
+  const test::Outcome first = runIn(folder_);
   BedCache beds(folder_);
-  const Outcome other = run(&beds, {}, base::cudaExec());
+  const test::Outcome other = run(&beds, {}, base::cudaExec());
   EXPECT_FALSE(other.settled);
   EXPECT_EQ(other.hash, first.hash);
 }
@@ -146,16 +146,16 @@ TEST_F(KeptBed, KnowsWhereASurfaceStandsAndNotHowItWillMove) {
 }
 
 TEST_F(KeptBed, DamagedOrForeignIsToldAndSettledAnew) {
-  const Outcome first = runIn(folder_);
+  const test::Outcome first = runIn(folder_);
   ASSERT_EQ(files().size(), 1u);
   const fs::path file = files().front();
-  const std::string whole = contents(file);
+  const std::string whole = test::contents(file);
   std::string flipped = whole;
   flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
   for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 1), std::string("no bed"), std::string()}) {
     std::ofstream(file, std::ios::binary) << bad;
     testing::internal::CaptureStderr();
-    const Outcome again = runIn(folder_);
+    const test::Outcome again = runIn(folder_);
     const std::string told = testing::internal::GetCapturedStderr();
     EXPECT_NE(told.find(file.string()), std::string::npos) << told;
     EXPECT_TRUE(again.settled);
@@ -168,11 +168,11 @@ TEST_F(KeptBed, OfAnotherNameIsNotTaken) {
   runIn(folder_);
   const fs::path one = files().front();
   fs::rename(one, folder_ / "kept");
-  const Outcome other = runIn(folder_, {"run.seed=2"});
+  const test::Outcome other = runIn(folder_, {"run.seed=2"});
   const fs::path two = files().front();
   fs::rename(folder_ / "kept", two); // as if two origins had one hash
   testing::internal::CaptureStderr();
-  const Outcome again = runIn(folder_, {"run.seed=2"});
+  const test::Outcome again = runIn(folder_, {"run.seed=2"});
   EXPECT_NE(testing::internal::GetCapturedStderr().find("another bed"), std::string::npos);
   EXPECT_TRUE(again.settled);
   EXPECT_EQ(again.hash, other.hash);
@@ -181,7 +181,7 @@ TEST_F(KeptBed, OfAnotherNameIsNotTaken) {
 TEST_F(KeptBed, UnusableFolderIsAWarning) {
   std::ofstream(folder_) << "a file where the folder should be";
   testing::internal::CaptureStderr();
-  const Outcome o = runIn(folder_ / "below");
+  const test::Outcome o = runIn(folder_ / "below");
   EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot be kept"), std::string::npos);
   EXPECT_EQ(o.hash, run(nullptr).hash);
   EXPECT_NE(o.story.find("not kept"), std::string::npos);
@@ -206,7 +206,7 @@ TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {
 }
 
 TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
-  Outcome a, b;
+  test::Outcome a, b;
   std::thread first([&] { a = runIn(folder_); });
   std::thread second([&] { b = runIn(folder_); });
   first.join(), second.join();
@@ -238,11 +238,11 @@ TEST_F(KeptBed, FolderComesFromTheSurroundings) {
   }
 }
 
-TEST(FileLock, IsHeldByOneAtATime) {
+TEST(support::FileLock, IsHeldByOneAtATime) {
   const fs::path file = fs::path(testing::TempDir()) / ("grouser_lock_" + std::to_string(getpid()));
-  FileLock second;
+  support::FileLock second;
   {
-    FileLock first;
+    support::FileLock first;
     EXPECT_TRUE(first.take(file));
     EXPECT_TRUE(first.take(file)) << "it is mine";
     EXPECT_FALSE(second.take(file));
@@ -252,4 +252,4 @@ TEST(FileLock, IsHeldByOneAtATime) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
-#include "folder_fixture.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/sealed_file.hpp"
 #include "runs/simulation/simulation.hpp"
@@ -20,7 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,15 +40,15 @@ std::vector<std::uint64_t> rowOf(Simulation& simulation) {
   return bits;
 }
 
-class CheckpointFile : public FolderTest {
+class CheckpointFile : public test::FolderTest {
 protected:
   void SetUp() override {
-    FolderTest::SetUp();
+    test::FolderTest::SetUp();
     path_ = folder_ / "checkpoint.h5";
   }
 
-  static Scene grains(const std::vector<std::string>& overrides = {}) {
-    return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[plane]]\n"
+  static scene::Scene grains(const std::vector<std::string>& overrides = {}) {
+    return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[plane]]\n"
                       "material = \"glass\"\n[[grain]]\nposition = [0, 0, 0.0098]\nradius = 0.01\nmaterial = "
                       "\"glass\"\n[[grain]]\nposition = [0.0195, 0.001, 0.0101]\nvelocity = [-1, 0, 0]\nradius = "
                       "0.01\nmaterial = \"glass\"\n",
@@ -60,14 +60,14 @@ protected:
     Simulation simulation(grains(), base::cpuExec(1), quiet);
     while (simulation.steps() < steps) simulation.step();
     Checkpoint c;
-    c.scene = resolvedToml(grains()), c.inputs = inputsOf(grains()), c.commit = "here";
+    c.scene = scene::resolvedToml(grains()), c.inputs = inputsOf(grains()), c.commit = "here";
     c.timeStep = simulation.timeStep(), c.rows = 3, c.frames = 2;
     c.state = simulation.save();
     return c;
   }
 
   std::string refusal(const std::string& bytes) const {
-    put(path_, bytes);
+    test::put(path_, bytes);
     try {
       readCheckpoint(path_);
     } catch (const base::InputError& error) {
@@ -87,15 +87,15 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
                                           "driver.drive_ramp=0.02"};
   overrides.insert(overrides.end(), ramps.begin(), ramps.end());
-  Simulation straight(loadScene(file, ramps), base::cpuExec(1), quiet);
+  Simulation straight(scene::loadScene(file, ramps), base::cpuExec(1), quiet);
   while (straight.steps() < stop - 37) straight.step();
   straight.restartMeans(); // a row was written: its means go on from here
   while (straight.steps() < stop) straight.step();
   const Simulation::Ledger touching = straight.ledger();
   ASSERT_GT(touching.partContacts + touching.patches, 20) << "there must be history to carry over";
-  const Scene again = loadScene(file, overrides);
+  const scene::Scene again = scene::loadScene(file, overrides);
   Checkpoint c;
-  c.scene = resolvedToml(loadScene(file, ramps)), c.inputs = inputsOf(again), c.state = straight.save();
+  c.scene = scene::resolvedToml(scene::loadScene(file, ramps)), c.inputs = inputsOf(again), c.state = straight.save();
   writeCheckpoint(path, c);
   const Checkpoint read = readCheckpoint(path);
   EXPECT_NO_THROW(checkSameScene(read, path, again));
@@ -146,9 +146,9 @@ TEST_F(CheckpointFile, ReadsBackToTheSameBits) {
 
 TEST_F(CheckpointFile, AnyByteThatDiffersIsSeen) {
   writeCheckpoint(path_, small());
-  const std::string whole = contents(path_);
+  const std::string whole = test::contents(path_);
   ASSERT_EQ(refusal(whole), "");
-  for (std::size_t i = 0; i < whole.size(); i += i < kSealBytes ? 1 : 61) {
+  for (std::size_t i = 0; i < whole.size(); i += i < support::kSealBytes ? 1 : 61) {
     std::string bytes = whole;
     bytes[i] = static_cast<char>(bytes[i] ^ (1 << i % 8));
     EXPECT_NE(refusal(bytes), "") << "byte " << i;
@@ -157,14 +157,14 @@ TEST_F(CheckpointFile, AnyByteThatDiffersIsSeen) {
 
 TEST_F(CheckpointFile, CutForeignAndOtherVersionsAreRefusedByName) {
   writeCheckpoint(path_, small());
-  const std::string whole = contents(path_);
-  for (const std::size_t length : {whole.size() - 1, whole.size() / 2, kSealBytes, kSealBytes - 1, std::size_t{10}})
+  const std::string whole = test::contents(path_);
+  for (const std::size_t length : {whole.size() - 1, whole.size() / 2, support::kSealBytes, support::kSealBytes - 1, std::size_t{10}})
     EXPECT_NE(refusal(whole.substr(0, length)).find("damaged"), std::string::npos) << length;
   EXPECT_NE(refusal(whole + '\0').find("damaged"), std::string::npos);
   EXPECT_NE(refusal("").find("no checkpoint"), std::string::npos);
   EXPECT_NE(refusal("version = 1\n").find("no checkpoint"), std::string::npos);
-  { Hdf5File::create(path_).write("/steps", std::vector<std::int64_t>{1}, {1}); }
-  EXPECT_NE(refusal(contents(path_)).find("no checkpoint"), std::string::npos) << "results.h5 is HDF5 too";
+  { support::Hdf5File::create(path_).write("/steps", std::vector<std::int64_t>{1}, {1}); }
+  EXPECT_NE(refusal(test::contents(path_)).find("no checkpoint"), std::string::npos) << "results.h5 is HDF5 too";
   std::string other = whole;
   const std::size_t version = other.find("\nversion ") + 9;
   other[version] = static_cast<char>(other[version] + 1);
@@ -195,14 +195,14 @@ TEST_F(CheckpointFile, AnotherSceneIsRefusedByItsKey) {
 TEST_F(CheckpointFile, FilesOfTheSceneAreComparedByWhatIsInThem) {
   const fs::path assets = fs::path(GROUSER_SOURCE_DIR) / "assets";
   const auto terrain = [&](const std::string& map) {
-    return parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[terrain]\nheightmap = \"" + map +
+    return scene::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[terrain]\nheightmap = \"" + map +
                           "\"\nsize = [1, 1]\nheight_range = [0, 0.1]\nmaterial = \"soil\"\nkind = \"rigid\"\n",
                       folder_ / "scene.toml");
   };
   fs::copy(assets / "heightmaps/hills.png", folder_ / "map.png");
   fs::copy(assets / "heightmaps/hills.png", folder_ / "copy.png");
   Checkpoint c;
-  c.scene = resolvedToml(terrain("map.png")), c.inputs = inputsOf(terrain("map.png"));
+  c.scene = scene::resolvedToml(terrain("map.png")), c.inputs = inputsOf(terrain("map.png"));
   EXPECT_NO_THROW(checkSameScene(c, path_, terrain("copy.png")));
   fs::copy(assets / "heightmaps/flat.png", folder_ / "map.png", fs::copy_options::overwrite_existing);
   try {
@@ -222,7 +222,7 @@ TEST_F(CheckpointFile, EveryByteOfAFileOfTheSceneCounts) {
     std::ofstream(folder_ / "map.png", std::ios::binary) << bytes;
     base::StateHash hash;
     for (const char c : bytes) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
-    Scene scene = grains();
+    scene::Scene scene = grains();
     scene.terrain.emplace().heightmap = (folder_ / "map.png").string();
     EXPECT_EQ(inputsOf(scene), "terrain.heightmap " + hash.hex() + "\n") << size;
   }
@@ -230,7 +230,7 @@ TEST_F(CheckpointFile, EveryByteOfAFileOfTheSceneCounts) {
 
 TEST_F(CheckpointFile, FullDiskLeavesTheFormerOneAsItWas) {
   writeCheckpoint(path_, small(5));
-  const std::string former = contents(path_);
+  const std::string former = test::contents(path_);
   const auto oldHandler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit limit{}, narrow{};
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -240,7 +240,7 @@ TEST_F(CheckpointFile, FullDiskLeavesTheFormerOneAsItWas) {
     setrlimit(RLIMIT_FSIZE, &narrow);
     EXPECT_THROW(writeCheckpoint(path_, next), std::runtime_error) << bytes;
     setrlimit(RLIMIT_FSIZE, &limit);
-    EXPECT_EQ(contents(path_), former) << bytes;
+    EXPECT_EQ(test::contents(path_), former) << bytes;
     EXPECT_FALSE(fs::exists(path_.string() + ".part")) << bytes;
   }
   std::signal(SIGXFSZ, oldHandler);
@@ -267,4 +267,4 @@ TEST_F(CheckpointFile, KilledAtAnyTimeItIsWhole) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

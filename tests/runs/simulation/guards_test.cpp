@@ -11,32 +11,32 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
-Scene rigid(const std::vector<std::string>& overrides) {
-  return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides);
+scene::Scene rigid(const std::vector<std::string>& overrides) {
+  return scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides);
 }
 
-TEST(Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
+TEST(setup::Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
   for (const char* heading : {"0", "45", "90", "180", "270"}) {
-    const Scene scene = rigid({std::string("vehicle.heading=") + heading, "terrain.size=[5, 5]"});
-    EXPECT_NO_THROW(placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec))) << heading;
+    const scene::Scene scene = rigid({std::string("vehicle.heading=") + heading, "terrain.size=[5, 5]"});
+    EXPECT_NO_THROW(setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec))) << heading;
   }
 }
 
-TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
-  const Scene scene = rigid({"vehicle.position=[7.0, 0]"});
+TEST(setup::Placement, OutsideIsRefusedWithTheRoomItNeeds) {
+  const scene::Scene scene = rigid({"vehicle.position=[7.0, 0]"});
   try {
-    placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
+    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
     FAIL() << "the front would hang over the edge";
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("it needs 3.4"), std::string::npos) << error.what();
   }
 }
 
-TEST(Placement, DrivingOffTheTerrainStopsTheRun) {
-  const Scene scene = rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
+TEST(setup::Placement, DrivingOffTheTerrainStopsTheRun) {
+  const scene::Scene scene = rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
   Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
   EXPECT_THROW(while (simulation.time() < 1.0) simulation.step(), base::SimulationError);
 }
@@ -61,28 +61,28 @@ material = "hard"
 )";
 
 TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
-  const double soft = stepLimit(parseScene(kBall, "ball.toml")).step;
+  const double soft = setup::stepLimit(scene::parseScene(kBall, "ball.toml")).step;
   std::string stiff = kBall;
   stiff += "[contact.\"soil|hard\"]\nstiffness = 1e9\n";
   // A plane alone: omega^2 = 2 k / m against 8 k / m of a grain among twelve others, so 250 times softer a limit
   // squared.
-  EXPECT_NEAR(soft / stepLimit(parseScene(stiff, "ball.toml")).step, std::sqrt(2e9 / 8e6), 1e-3);
-  EXPECT_THROW(chooseTimeStep(parseScene(stiff, "ball.toml")), base::InputError);
+  EXPECT_NEAR(soft / setup::stepLimit(scene::parseScene(stiff, "ball.toml")).step, std::sqrt(2e9 / 8e6), 1e-3);
+  EXPECT_THROW(setup::chooseTimeStep(scene::parseScene(stiff, "ball.toml")), base::InputError);
 }
 
 TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
   // Restitution 0.1, clamped: zeta 1.24318785 of a pair. Each of a grain's contacts has c = zeta sqrt(2 k m); the mode
   // of 8 k / m has 8 c / m: dt = 4 / (C + sqrt(C^2 + 4 K)).
-  Scene s = parseScene(kBall, "ball.toml", {"material.soil.restitution=0.1", "material.soil.friction=0"});
+  scene::Scene s = scene::parseScene(kBall, "ball.toml", {"material.soil.restitution=0.1", "material.soil.friction=0"});
   s.planes.clear();
   const double mass = 2500 * 4.0 / 3 * base::kPi * 0.027 * 0.027 * 0.027, k = 1e6;
   const double damping = 8 * 1.24318785 * std::sqrt(2 * k * mass) / mass, stiffness = 8 * k / mass;
   const double limit = 4 / (damping + std::sqrt(damping * damping + 4 * stiffness));
-  EXPECT_NEAR(stepLimit(s).step / limit, 1, 1e-6);
+  EXPECT_NEAR(setup::stepLimit(s).step / limit, 1, 1e-6);
 }
 
 TEST(Energy, FromNowhereStopsTheRun) {
-  Simulation simulation(parseScene(kBall, "ball.toml"), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(scene::parseScene(kBall, "ball.toml"), base::cpuExec(1), [](double, double) {});
   for (int i = 0; i < 2000; ++i) simulation.step();
   Simulation::Ledger now = simulation.ledger();
   EXPECT_NO_THROW(simulation.checkEnergy(now));
@@ -91,4 +91,4 @@ TEST(Energy, FromNowhereStopsTheRun) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

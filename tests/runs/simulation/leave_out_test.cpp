@@ -5,47 +5,47 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 /// A layer of grains on a rough floor, and a plane far away.
-Scene bed(const std::vector<std::string>& overrides = {}) {
-  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
+scene::Scene bed(const std::vector<std::string>& overrides = {}) {
+  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
                     "friction = 0.5\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
                     "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
                     "settle_time_limit = 0.0\n",
                     "bed.toml", overrides);
 }
 
-Scene pendulum() {
-  return parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\n"
+scene::Scene pendulum() {
+  return scene::parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\n"
                     "inertia = [1, 1, 1]\nposition = [1, 0, 0]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", "
                     "\"bob\"]\npoint = [0, 0, 0]\naxis = [0, 1, 0]\n",
                     "pendulum.toml");
 }
 
-Scene rigid() { return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.04"}); }
+scene::Scene rigid() { return scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.04"}); }
 
-std::unique_ptr<Simulation> made(const Scene& scene, int steps = 3) {
+std::unique_ptr<Simulation> made(const scene::Scene& scene, int steps = 3) {
   auto s = std::make_unique<Simulation>(scene, base::cpuExec(1), [](double, double) {});
   while (s->steps() < steps) s->step();
   return s;
 }
 
 /// The line of the plan that speaks of `what`.
-std::string planLine(const Scene& scene, const std::string& what) {
-  const std::string text = planText(scene);
+std::string planLine(const scene::Scene& scene, const std::string& what) {
+  const std::string text = commands::planText(scene);
   const std::size_t at = text.find(what);
   if (at == std::string::npos) return "";
   const std::size_t begin = text.rfind('\n', at) + 1;
   return text.substr(begin, text.find('\n', at) - begin);
 }
 
-bool isOn(const Scene& scene, const std::string& what) { return planLine(scene, "on   " + what) != ""; }
-bool isOff(const Scene& scene, const std::string& what) { return planLine(scene, "off  " + what) != ""; }
+bool isOn(const scene::Scene& scene, const std::string& what) { return planLine(scene, "on   " + what) != ""; }
+bool isOff(const scene::Scene& scene, const std::string& what) { return planLine(scene, "off  " + what) != ""; }
 
 TEST(LeaveOut, FrictionlessSceneHasNoHistory) {
-  const Scene rough = bed(), smooth = bed({"material.soil.friction=0"});
+  const scene::Scene rough = bed(), smooth = bed({"material.soil.friction=0"});
   const auto with = made(rough), without = made(smooth);
   const terrain::Grains &a = *with->ground().grains, &b = *without->ground().grains;
   EXPECT_FALSE(a.neighbours().toHost().history.empty());
@@ -106,7 +106,7 @@ TEST(LeaveOut, OneRankHasNoSubdomainAndNoGhosts) {
 
 TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
   for (const char* friction : {"material.soil.friction=0.5", "material.soil.friction=0"}) {
-    const Scene scene = bed({friction, "terrain.size=[3, 3]"});
+    const scene::Scene scene = bed({friction, "terrain.size=[3, 3]"});
     Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
     terrain::Grains& grains = *simulation.ground().grains;
     grains.refreshNeighbours();
@@ -125,7 +125,7 @@ TEST(LeaveOut, PlanNamesTheCost) {
 }
 
 TEST(LeaveOut, GrainsAloneHaveNoBoundaries) {
-  const Scene free = parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[grain]]\n"
+  const scene::Scene free = scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[grain]]\n"
                                 "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n",
                                 "free.toml");
   const auto simulation = made(free);
@@ -135,4 +135,4 @@ TEST(LeaveOut, GrainsAloneHaveNoBoundaries) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

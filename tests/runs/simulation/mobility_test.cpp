@@ -10,7 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 /// Hash of tests/scenes/coupled.toml: the vehicle on 4,992 grains after 2,000 steps. A change of it is a change of
@@ -20,7 +20,7 @@ constexpr const char* kCoupledHash = "1b51b847c6bb1914";
 void quiet(double, double) {}
 
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {}) {
-  Simulation simulation(loadScene(testScene("coupled.toml"), overrides), exec, quiet);
+  Simulation simulation(scene::loadScene(testScene("coupled.toml"), overrides), exec, quiet);
   while (simulation.steps() < 2000) simulation.step();
   EXPECT_EQ(simulation.ledger().impulseResidual, base::Vec3d{}) << "vehicle and bed exchange exact opposites";
   return simulation.stateHash();
@@ -123,7 +123,7 @@ std::size_t fourShoes(const Drive& d, double from) {
 }
 
 TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
-  Simulation simulation(loadScene(testScene("rigid.toml")), testExec(), quiet);
+  Simulation simulation(scene::loadScene(testScene("rigid.toml")), testExec(), quiet);
   const double omega = 2, begin = 0.5;
   const Drive d = drive(simulation, 4.0);
   const vehicle::VehicleSpec& spec = simulation.vehicle()->assembly().spec;
@@ -153,7 +153,7 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
 }
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
-  Simulation simulation(loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2", "terrain.size=[4.7,2.6]"}),
+  Simulation simulation(scene::loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2", "terrain.size=[4.7,2.6]"}),
                         testExec(), quiet);
   const double begin = 0.5;
   const Drive d = drive(simulation, 2.6);
@@ -164,7 +164,7 @@ TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
 }
 
 TEST(GranularBed, CarriesTheWholeWeightAtRest) {
-  Simulation simulation(loadScene(testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"}),
+  Simulation simulation(scene::loadScene(testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"}),
                         testExec(), quiet);
   while (simulation.time() < 1.0) simulation.step();
   simulation.restartMeans();
@@ -176,4 +176,4 @@ TEST(GranularBed, CarriesTheWholeWeightAtRest) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

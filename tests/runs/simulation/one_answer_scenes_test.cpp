@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <ostream>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 /// A change of a hash is a change of the physics or of its order of operations, and needs a stated reason in the
@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const Golden& g) { return out << g.s
 class OneAnswerScenes : public testing::TestWithParam<Golden> {};
 
 Simulation begin(const Golden& g, int threads, const std::vector<std::string>& overrides = {}) {
-  return Simulation(loadScene(testScene(std::string(g.scene) + ".toml"), overrides), testExec(threads),
+  return Simulation(scene::loadScene(testScene(std::string(g.scene) + ".toml"), overrides), testExec(threads),
                     [](double, double) {});
 }
 
@@ -47,7 +47,7 @@ TEST_P(OneAnswerScenes, HashIsThatOfAResumedRun) {
   const Golden& g = GetParam();
   Simulation first = begin(g, 1);
   advance(first, g.steps / 3);
-  Simulation second(loadScene(testScene(std::string(g.scene) + ".toml")), testExec(2), first.save());
+  Simulation second(scene::loadScene(testScene(std::string(g.scene) + ".toml")), testExec(2), first.save());
   advance(second, g.steps);
   EXPECT_EQ(second.stateHash(), g.hash);
 }
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OneAnswerScenes,
                          [](const testing::TestParamInfo<Golden>& each) { return std::string(each.param.scene); });
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "scene_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 /// Two materials, a plane, grains of 2 and 5 cm.
@@ -38,13 +38,13 @@ material = "a"
 )";
 
 std::string with(const std::string& law) {
-  const std::string first = replaced(kScene, "LAW", law);
-  return replaced(first, "LAW", law);
+  const std::string first = test::replaced(kScene, "LAW", law);
+  return test::replaced(first, "LAW", law);
 }
 
 std::string errorOf(const std::string& text, const std::vector<std::string>& overrides) {
   try {
-    chooseTimeStep(parseScene(text, "scene.toml", overrides));
+    setup::chooseTimeStep(scene::parseScene(text, "scene.toml", overrides));
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -90,8 +90,8 @@ TEST(Softness, IsNoneWithoutWeight) {
   const std::vector<std::string> floating = {"run.gravity=[0,0,0]", "material.a.stiffness=0.001"};
   EXPECT_EQ(errorOf(with("stiffness = 1e6"), floating), "");
   // The stability rule would allow 0.9 s there: no longer than the run, nor than may be given.
-  EXPECT_EQ(chooseTimeStep(parseScene(with("stiffness = 1e6"), "scene.toml", floating)), 1e-2);
-  EXPECT_EQ(chooseTimeStep(parseScene(with("stiffness = 1e-3"), "scene.toml",
+  EXPECT_EQ(setup::chooseTimeStep(scene::parseScene(with("stiffness = 1e6"), "scene.toml", floating)), 1e-2);
+  EXPECT_EQ(setup::chooseTimeStep(scene::parseScene(with("stiffness = 1e-3"), "scene.toml",
                                       {"run.gravity=[0,0,0]", "run.duration=100", "material.a.stiffness=0.001"})),
             0.1);
 }
@@ -108,4 +108,4 @@ TEST(Softness, ExtremesOfEveryMaterialAreOutOfTheirRange) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace grouser::runs {
+namespace grouser::simulation {
 namespace {
 
 using base::Vec3d;
@@ -37,21 +37,21 @@ std::string grainAt(const std::string& position) {
   return "[[grain]]\nposition = " + position + "\nradius = 0.01\nmaterial = \"glass\"\n";
 }
 
-Scene sceneOf(const std::string& rest, const std::vector<std::string>& overrides = {}) {
-  return parseScene(kHead + rest, "surfaces.toml", overrides);
+scene::Scene sceneOf(const std::string& rest, const std::vector<std::string>& overrides = {}) {
+  return scene::parseScene(kHead + rest, "surfaces.toml", overrides);
 }
 
-std::unique_ptr<Simulation> made(const Scene& scene, std::int64_t steps = 0, int threads = 1) {
+std::unique_ptr<Simulation> made(const scene::Scene& scene, std::int64_t steps = 0, int threads = 1) {
   auto s = std::make_unique<Simulation>(scene, base::cpuExec(threads), [](double, double) {});
   while (s->steps() < steps) s->step();
   return s;
 }
 
-TEST(SurfaceMotion, VelocityIsTheSlopeOfThePlaceAndEndsWithIt) {
-  SurfaceSection s;
+TEST(setup::SurfaceMotion, VelocityIsTheSlopeOfThePlaceAndEndsWithIt) {
+  scene::SurfaceSection s;
   s.velocity = {0.3, -0.1, 0}, s.spin = {1, 2, -2}, s.pivot = {1, 0, 0}, s.amplitude = {0, 0.02, 0.01};
   s.frequency = 3, s.phase = 40, s.start = 0.25, s.until = 1.75;
-  const SurfaceMotion motion(s, {0.2, 0.5, 0});
+  const setup::SurfaceMotion motion(s, {0.2, 0.5, 0});
   EXPECT_LT(norm(motion.at(0.1).centre - Vec3d{0.2, 0.5, 0}), 1e-15);
   EXPECT_EQ(norm(motion.at(0.1).velocity), 0);
   constexpr double kStep = 1e-5;
@@ -88,11 +88,11 @@ load = -50
                            grainAt("[-0.02, -0.02, 0.01]");
 
 TEST(FreeSurface, RestsWhereGrainsCarryLoadAndWeight) {
-  const Scene scene = sceneOf(kPress);
+  const scene::Scene scene = sceneOf(kPress);
   const auto s = made(scene, 40000);
   const Surfaces& surfaces = *s->surfaces();
   ASSERT_EQ(surfaces.count(), 2u);
-  const double weight = sphereMass(2500, 0.01) * 9.81, pressed = (50 + 2 * 9.81) / 4, k = 1e5;
+  const double weight = setup::sphereMass(2500, 0.01) * 9.81, pressed = (50 + 2 * 9.81) / 4, k = 1e5;
   const double height = 0.02 - pressed / k - (pressed + weight) / k + 0.01;
   EXPECT_NEAR(surfaces.pose(1, s->steps()).position.z, height, 1e-3 * pressed / k) << "what is left of its swing";
   auto fresh = made(scene, 40000);
@@ -108,7 +108,7 @@ TEST(FreeSurface, RestsWhereGrainsCarryLoadAndWeight) {
 }
 
 TEST(FreeSurface, IsCarriedAcrossWhileFreeAlongAnotherAxis) {
-  const Scene scene = sceneOf(kPress, {"box.lid.velocity=[0.05,0,0]", "box.lid.start=0.2"});
+  const scene::Scene scene = sceneOf(kPress, {"box.lid.velocity=[0.05,0,0]", "box.lid.start=0.2"});
   const auto s = made(scene, 15000);
   EXPECT_NEAR(s->surfaces()->pose(0 + 1, 15000).position.x, 0.05 * 0.1, 1e-15);
   // The grains roll below it with half its speed.
@@ -116,9 +116,9 @@ TEST(FreeSurface, IsCarriedAcrossWhileFreeAlongAnotherAxis) {
 }
 
 TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
-  const Scene light = sceneOf(kPress, {"box.lid.mass=1e-4"});
+  const scene::Scene light = sceneOf(kPress, {"box.lid.mass=1e-4"});
   try {
-    chooseTimeStep(light);
+    setup::chooseTimeStep(light);
     FAIL();
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("is above 1.55e-06 s, where the stiffest contact of the scene (lid of"),
@@ -129,7 +129,7 @@ TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
 
 TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
   const auto built = [](const std::string& surface) {
-    return buildGround(parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
+    return setup::buildGround(scene::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
                                   "radius = 0.01\nposition = [0, 0, 1]\n" +
                                       surface + "material = \"soil\"\n",
                                   "quick.toml"),
@@ -149,7 +149,7 @@ TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
 
 TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {
   const auto stop = [](const std::string& load) -> std::string {
-    Simulation s(parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
+    Simulation s(scene::parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
                             "0.01\nposition = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"lid\"\nmaterial = "
                             "\"soil\"\nposition = [5, 0, 0]\nsize = [1, 1, 1]\nfree = \"z\"\nmass = 1\nload = " +
                                 load + "\n",
@@ -177,7 +177,7 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
   for (int k = 0; k < 16; ++k)
     text += "[[grain]]\nmaterial = \"soil\"\nradius = 0.01\nposition = [" + std::to_string(0.03 * (k % 4)) + ", " +
             std::to_string(0.03 * (k / 4)) + ", 0.01]\n";
-  Simulation simulation(parseScene(text, "lid.toml"), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(scene::parseScene(text, "lid.toml"), base::cpuExec(1), [](double, double) {});
   // Sixteen springs on the lid: omega^2 = k (1 / m + 16 / M); undamped limit 2 / omega.
   const double grain = 2500 * 4.0 / 3 * base::kPi * 1e-6, omega = std::sqrt(1e5 * (1 / grain + 16 / 0.02));
   EXPECT_LT(simulation.timeStep(), 2 / omega);
@@ -190,11 +190,11 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
 
 TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
   // 10 Hz and 1 mm: 3.9 m/s2, the grain stays on it.
-  const Scene scene = sceneOf("[[box]]\nposition = [0, 0, -0.01]\nsize = [0.1, 0.1, 0.02]\nmaterial = \"glass\"\n"
+  const scene::Scene scene = sceneOf("[[box]]\nposition = [0, 0, -0.01]\nsize = [0.1, 0.1, 0.02]\nmaterial = \"glass\"\n"
                               "amplitude = [0, 0, 1e-3]\nfrequency = 10\nphase = -90\n" +
                               grainAt("[0, 0, 0.01]"));
   const auto s = made(scene, 5000);
-  const double mass = sphereMass(2500, 0.01), omega = 20 * base::kPi;
+  const double mass = setup::sphereMass(2500, 0.01), omega = 20 * base::kPi;
   for (int k = 0; k < 40; ++k) {
     s->restartMeans();
     const double from = s->time();
@@ -208,7 +208,7 @@ TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
 
 TEST(Box, TurnedIsASlopeThatABallRollsDown) {
   const double angle = base::kPi / 6;
-  const Scene scene = sceneOf("[[box]]\nposition = [0, 0, 0]\nsize = [2, 0.2, 0.04]\naxis = [0, 1, 0]\nangle = 30\n"
+  const scene::Scene scene = sceneOf("[[box]]\nposition = [0, 0, 0]\nsize = [2, 0.2, 0.04]\naxis = [0, 1, 0]\nangle = 30\n"
                               "material = \"glass\"\n" +
                               grainAt(fmt::format("[{}, 0, {}]", 0.03 * base::sin(angle) - 0.8 * base::cos(angle),
                                                   0.03 * base::cos(angle) + 0.8 * base::sin(angle))));
@@ -261,7 +261,7 @@ total = 24
 )";
 
 TEST(Mill, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
-  const Scene scene = sceneOf(kMill);
+  const scene::Scene scene = sceneOf(kMill);
   const auto straight = made(scene, 9000, 1), two = made(scene, 9000, 2);
   EXPECT_EQ(two->stateHash(), straight->stateHash());
   EXPECT_GT(std::fabs(straight->surfaces()->save().surfaces[1].work), 0) << "the lifter has worked";
@@ -294,7 +294,7 @@ TEST(Mill, EnergyOfTheGrainsIsTheWorkOfItsSurfaces) {
 }
 
 TEST(Surfaces, PlanSaysWhichThereAre) {
-  const std::string with = planText(sceneOf(kMill)), without = planText(sceneOf(grainAt("[0, 0, 0]")));
+  const std::string with = commands::planText(sceneOf(kMill)), without = commands::planText(sceneOf(grainAt("[0, 0, 0]")));
   EXPECT_NE(with.find("plane0, box0, drum, cylinder1; 3 moved, 1 free"), std::string::npos) << with;
   EXPECT_NE(with.find("moving surfaces"), std::string::npos);
   EXPECT_NE(without.find("off  surfaces"), std::string::npos) << without;
@@ -302,25 +302,25 @@ TEST(Surfaces, PlanSaysWhichThereAre) {
 }
 
 TEST(Surfaces, ResolvedCopyLoadsToTheSameScene) {
-  const Scene first = sceneOf(kMill + "[[box]]\nname = \"ramp\"\nposition = [1, 0, 0]\nsize = [1, 1, 0.1]\n"
+  const scene::Scene first = sceneOf(kMill + "[[box]]\nname = \"ramp\"\nposition = [1, 0, 0]\nsize = [1, 1, 0.1]\n"
                                       "orientation = [0.8, 0, 0.6, 0]\nmaterial = \"glass\"\n");
-  const Scene second = parseScene(resolvedToml(first), "copy.toml");
+  const scene::Scene second = scene::parseScene(scene::resolvedToml(first), "copy.toml");
   EXPECT_EQ(second.planes, first.planes);
   EXPECT_EQ(second.boxes, first.boxes);
   EXPECT_EQ(second.cylinders, first.cylinders);
 }
 
 TEST(Surfaces, PicturesShowThemFromWhereGrainsAre) {
-  const Scene scene = sceneOf(kMill);
+  const scene::Scene scene = sceneOf(kMill);
   const auto surfaces = surfacesOf(scene);
-  const auto volume = [&](std::size_t i) { return spheredecomp::signedVolume(surfaceMesh(scene, surfaces[i])); };
-  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(surfaceMesh(scene, surfaces[1])), "box"));
-  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(surfaceMesh(scene, surfaces[3])), "rod"));
+  const auto volume = [&](std::size_t i) { return spheredecomp::signedVolume(output::surfaceMesh(scene, surfaces[i])); };
+  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(scene, surfaces[1])), "box"));
+  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(scene, surfaces[3])), "rod"));
   EXPECT_NEAR(volume(1), 0.012 * 0.1 * 0.02, 1e-12);
   EXPECT_NEAR(volume(3), base::kPi * 0.08 * 0.08 * 0.02, 0.002 * volume(3)) << "a prism of 64 sides";
   // The wall of a drum looks inwards: without its ends the theorem gives two thirds of the volume.
   EXPECT_NEAR(volume(2), -2.0 / 3 * base::kPi * 0.08 * 0.08 * 0.1, -0.002 * volume(2));
-  const base::TriangleMesh plane = surfaceMesh(scene, surfaces[0]);
+  const base::TriangleMesh plane = output::surfaceMesh(scene, surfaces[0]);
   ASSERT_FALSE(plane.indices.empty());
   for (const Vec3d& v : plane.vertices) EXPECT_NEAR(v.z, 0, 1e-12) << "in its own frame";
 }
@@ -369,7 +369,7 @@ TEST(Mesh, CubeActsAsTheBoxDoes) {
 }
 
 TEST(Mesh, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
-  const Scene scene = sceneOf(movingBlock(meshHead()));
+  const scene::Scene scene = sceneOf(movingBlock(meshHead()));
   const auto straight = made(scene, 5000, 1);
   EXPECT_EQ(made(scene, 5000, 2)->stateHash(), straight->stateHash());
   for (const std::int64_t stop : {0, 2500}) {
@@ -382,7 +382,7 @@ TEST(Mesh, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
 }
 
 TEST(Mesh, ThatComesFromAfarMeetsAGrainThatHasNotMoved) {
-  const Scene scene = sceneOf(meshHead() + "position = [0, 0, -0.1]\nvelocity = [0, 0, 0.5]\nmaterial = \"glass\"\n" +
+  const scene::Scene scene = sceneOf(meshHead() + "position = [0, 0, -0.1]\nvelocity = [0, 0, 0.5]\nmaterial = \"glass\"\n" +
                                   grainAt("[0, 0, 0.01]"),
                               {"run.gravity=[0,0,0]"});
   // Struck off with the restitution of 0.3.
@@ -445,4 +445,4 @@ TEST(Surfaces, WhatCannotBeIsRefusedByName) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::simulation

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 namespace {
 
 ContactNetwork closePacked(int cells, double tangentialRatio) {
@@ -106,4 +106,4 @@ TEST(StudyGrainStability, GuardsCountAsUnstable) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 namespace {
 
 using terrain::Precision;
@@ -136,4 +136,4 @@ TEST(StudySlope, IsThatOfAPowerWithItsConfidence) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 namespace {
 
 const StudyCase& caseOf(const std::vector<StudyCase>& cases, const std::string& name) {
@@ -115,4 +115,4 @@ TEST(StudyStability, IsAsPredicted) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::studies

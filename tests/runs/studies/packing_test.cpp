@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::runs {
+namespace grouser::studies {
 namespace {
 
 TEST(StudyPacking, FrictionlessIsDenserAndHoldsMoreContacts) {
@@ -21,4 +21,4 @@ TEST(StudyPacking, FrictionlessIsDenserAndHoldsMoreContacts) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::studies

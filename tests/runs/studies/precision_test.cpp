@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grouser::runs {
+namespace grouser::studies {
 namespace {
 
 constexpr TouchArithmetic kAll[] = {kFloatFromOrigin, kFloatFromCell, kFloatDifference, kDoubleMetres};
@@ -120,4 +120,4 @@ TEST(StudyDrift, RowsOfManyRunsHaveTheirErrors) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::studies

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::runs {
+namespace grouser::support {
 namespace {
 
 TEST(Progress, TimeLeftIsThatOfTheShareDone) {
@@ -25,4 +25,4 @@ TEST(Progress, NothingIsDueAtOnce) {
 }
 
 } // namespace
-} // namespace grouser::runs
+} // namespace grouser::support
