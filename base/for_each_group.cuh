@@ -7,11 +7,11 @@ namespace grouser::base {
 
 /// The threads that share one item of forEachGroup: `width` neighbours within a warp on the GPU, one on the CPU. They
 /// walk a list together (for k = lane; k < n; k += width) and agree on the best entry.
-template <int kWidth> struct Lanes {
+template <int kWidth> struct ThreadGroup {
   static constexpr int width = kWidth;
-  int lane;
+  int rank;
 
-  /// After this every lane has the greatest `value` of all and, among equal values, the smallest `key`: what one thread
+  /// After this every thread has the greatest `value` of all and, among equal values, the smallest `key`: what one thread
   /// would have found that keeps the first of the greatest.
   template <class T> GROUSER_HD void agreeOnGreatest(T& value, std::uint32_t& key) const {
 #if defined(__CUDA_ARCH__)
@@ -34,12 +34,12 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(128)
     forEachGroupKernel(Body body, std::int64_t count) {
   const std::int64_t thread = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
   const std::int64_t i = thread / kWidth;
-  if (i < count) body(static_cast<int>(i), Lanes<kWidth>{static_cast<int>(thread % kWidth)});
+  if (i < count) body(static_cast<int>(i), ThreadGroup<kWidth>{static_cast<int>(thread % kWidth)});
 }
 } // namespace detail
 #endif
 
-/// Runs `body(i, lanes)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
+/// Runs `body(i, group)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
 /// work on each item. For items that walk lists long enough to keep a thread waiting.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
@@ -48,7 +48,7 @@ void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const 
     const int n = static_cast<int>(count);
     [[maybe_unused]] const int threads = count < 64 ? 1 : exec.threads;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int i = 0; i < n; ++i) body(i, Lanes<1>{0});
+    for (int i = 0; i < n; ++i) body(i, ThreadGroup<1>{0});
     return;
   }
 #if defined(__CUDACC__)

@@ -67,14 +67,14 @@ template <class T> struct BasicLaw {
 using ContactLaw = BasicLaw<double>;
 
 /// Two surfaces in touch, seen from side i. The normal points from i to j.
-template <class T> struct BasicTouch {
+template <class T> struct BasicContactGeometry {
   base::Vec3<T> normal;   ///< unit, from i to j
   T overlap;              ///< [m], > 0
   base::Vec3<T> velocity; ///< of i's material point relative to j's at the contact point [m/s]
   T effectiveMass;        ///< m_i m_j / (m_i + m_j) [kg]
   T effectiveRadius{};    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
 };
-using Touch = BasicTouch<float>;
+using ContactGeometry = BasicContactGeometry<float>;
 
 /// What one contact does in one step.
 template <class T> struct BasicReaction {
@@ -124,7 +124,7 @@ GROUSER_HD Coefficients<T> coefficientsOf(const BasicLaw<T>& law, T overlap, T e
 /// would make it (second order in the step for a single collision), and of friction (first order). The energy that a
 /// loaded tangential spring gains or loses because k_t follows the contact radius is booked there too.
 template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T>
-contactForce(const BasicLaw<T>& law, const BasicTouch<T>& touch, T dt, base::Vec3<T>& shear) {
+contactForce(const BasicLaw<T>& law, const BasicContactGeometry<T>& touch, T dt, base::Vec3<T>& shear) {
   const base::Vec3<T>& n = touch.normal;
   const T approach = dot(touch.velocity, n);
   const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);

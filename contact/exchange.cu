@@ -28,7 +28,7 @@ Fields collect(std::span<const ExchangeField> fields) {
 /// One word of one element between its field and the buffer, in which elements lie one after the other.
 template <bool kPack> struct MoveWord {
   Fields fields;
-  std::uint32_t first; ///< place on the route of the first element of this launch
+  std::uint32_t first; ///< place in the plan of the first element of this launch
   const std::uint32_t* slots;
   std::uint32_t* buffer; ///< from that element on
   GROUSER_HD void operator()(int i) const {
@@ -98,12 +98,12 @@ Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, const Exchang
       packed_(exec, comm, options.peers), received_(exec), sendHost_(exec), receiveHost_(exec),
       sentBy_(static_cast<std::size_t>(comm.size())), messages_(comm) {}
 
-void Exchange::route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count) {
-  if (underWay()) throw std::logic_error("a route is changed while elements are on it");
+void Exchange::setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count) {
+  if (underWay()) throw std::logic_error("the plan is changed while elements are under way");
   const auto size = static_cast<std::size_t>(comm_.size());
   base::sortByKey(exec_, ranks.data(), slots.data(), count);
   base::Array<std::uint32_t> starts(exec_, size + 1);
-  base::forEach(exec_, "find starts of a route", static_cast<std::int64_t>(size) + 1,
+  base::forEach(exec_, "find starts of a plan", static_cast<std::int64_t>(size) + 1,
                 FindStarts{ranks.data(), static_cast<std::uint32_t>(count), starts.data()});
   sendStart_ = starts.toHost();
   sendSlots_.resize(count);
@@ -116,26 +116,26 @@ void Exchange::route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_
     mine[r] = base::Comm::bytesOf(std::vector<std::uint32_t>{sendStart_[r], sendStart_[r + 1] - sendStart_[r],
                                                              static_cast<std::uint32_t>(count)});
   const std::vector<base::Bytes> theirs = comm_.allToAll(mine);
-  mostLeaving_ = 0;
+  mostExported_ = 0;
   for (std::size_t r = 0; r < size; ++r) {
     const std::vector<std::uint32_t> said = base::Comm::valuesOf<std::uint32_t>(theirs[r]);
     startAtSource_[r] = said[0];
     receiveStart_[r + 1] = receiveStart_[r] + said[1];
-    mostLeaving_ = std::max<std::size_t>(mostLeaving_, said[2]);
+    mostExported_ = std::max<std::size_t>(mostExported_, said[2]);
   }
-  coming_ = receiveStart_.back();
-  putFrom(0);
+  importCount_ = receiveStart_.back();
+  setImportSlots(0);
 }
 
-void Exchange::putFrom(std::size_t first) {
-  receiveSlots_.resize(coming_);
-  base::forEach(exec_, "places of what comes", static_cast<std::int64_t>(coming_),
+void Exchange::setImportSlots(std::size_t first) {
+  receiveSlots_.resize(importCount_);
+  base::forEach(exec_, "places of what comes", static_cast<std::int64_t>(importCount_),
                 CountUp{static_cast<std::uint32_t>(first), receiveSlots_.data()});
 }
 
 void Exchange::renumber(const std::uint32_t* newSlot) {
   for (base::Array<std::uint32_t>* slots : {&sendSlots_, &receiveSlots_})
-    base::forEach(exec_, "renumber a route", static_cast<std::int64_t>(slots->size()),
+    base::forEach(exec_, "renumber a plan", static_cast<std::int64_t>(slots->size()),
                   Renumber{newSlot, slots->data()});
 }
 
@@ -143,7 +143,7 @@ void Exchange::renumber(const std::uint32_t* newSlot) {
 std::uint32_t* Exchange::packedBy(int rank) const {
   void* memory = rank == comm_.rank() ? packed_.own() : packed_.of(rank);
   if (!memory) return nullptr;
-  return static_cast<std::uint32_t*>(memory) + (packed_.shares() ? turn_ * (packed_.size() / 8) : 0);
+  return static_cast<std::uint32_t*>(memory) + (packed_.shares() ? bufferIndex_ * (packed_.size() / 8) : 0);
 }
 
 /// Calls `each(first, end, peer)` for ranks [first, end) that go the same way: one peer, or any number of others.
@@ -160,16 +160,16 @@ void Exchange::pack(const base::Exec& exec, std::span<const ExchangeField> field
   if (underWay()) throw std::logic_error("elements are packed while others are under way");
   const Fields all = collect(fields);
   words_ = all.words;
-  turn_ ^= 1u;
-  packed_.reserve((packed_.shares() ? 2 * mostLeaving_ : leaving()) * words_ * sizeof(std::uint32_t));
+  bufferIndex_ ^= 1u;
+  packed_.reserve((packed_.shares() ? 2 * mostExported_ : exportCount()) * words_ * sizeof(std::uint32_t));
   std::uint32_t* const out = packedBy(comm_.rank());
-  moveWords<true>(exec, all, sendSlots_.data(), 0, leaving(), out, wordsAtATime_);
+  moveWords<true>(exec, all, sendSlots_.data(), 0, exportCount(), out, wordsAtATime_);
   stage_ = Stage::packed;
   if (direct_) return;
   forWays([&](int first, int end, bool peer) {
     const std::size_t from = placeOf(sendStart_, first) * words_, words = placeOf(sendStart_, end) * words_ - from;
     if (peer || words == 0) return;
-    sendHost_.reserve(leaving() * words_);
+    sendHost_.reserve(exportCount() * words_);
     base::copyToHostLater(exec, sendHost_.data() + from, out + from, words * sizeof(std::uint32_t));
   });
 }
@@ -178,8 +178,8 @@ void Exchange::send() {
   if (stage_ != Stage::packed) throw std::logic_error("elements are sent that have not been packed");
   forWays([&](int first, int end, bool peer) {
     if (peer || placeOf(receiveStart_, first) == placeOf(receiveStart_, end)) return;
-    received_.reserve(coming_ * words_);
-    if (!direct_) receiveHost_.reserve(coming_ * words_);
+    received_.reserve(importCount_ * words_);
+    if (!direct_) receiveHost_.reserve(importCount_ * words_);
   });
   std::uint32_t* const out = direct_ ? packedBy(comm_.rank()) : sendHost_.data();
   std::uint32_t* const in = direct_ ? received_.data() : receiveHost_.data();
@@ -207,18 +207,18 @@ void Exchange::arrive() {
   stage_ = Stage::arrived;
 }
 
-void Exchange::passOn() {
+void Exchange::publish() {
   if (stage_ != Stage::packed || !peersOnly()) throw std::logic_error("elements are passed on that others cannot see");
-  stage_ = Stage::passedOn;
+  stage_ = Stage::published;
 }
 
-void Exchange::dropPassedOn() {
+void Exchange::discard() {
   if (stage_ == Stage::sent) throw std::logic_error("elements that were sent are dropped");
   stage_ = Stage::idle;
 }
 
 void Exchange::countRuns(std::int64_t runs) {
-  bytesSent_ += runs * static_cast<std::int64_t>(leaving() * words_ * sizeof(std::uint32_t));
+  bytesSent_ += runs * static_cast<std::int64_t>(exportCount() * words_ * sizeof(std::uint32_t));
   runs_ += runs;
 }
 

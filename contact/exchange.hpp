@@ -14,7 +14,7 @@ namespace grouser::contact {
 
 /// One field of an element type, as it lies on the device: `words` 32-bit words for each element.
 struct ExchangeField {
-  void* data;          ///< by slot, or by place on the route where `byPlace`
+  void* data;          ///< by slot, or by place in the plan where `byPlace`
   std::uint32_t words; ///< of one element
   bool byPlace = false;
 };
@@ -32,8 +32,8 @@ struct ExchangeOptions {
 };
 
 /// Moves elements between ranks. It knows nothing of what an element is: whoever owns the elements says which slots go
-/// to which ranks (a route) and names the fields that travel; what comes is put where they want it. Full state on a
-/// hand-over and less on a ghost update are two routes, or one route with two lists of fields.
+/// to which ranks (a communication plan) and names the fields that travel; what comes is put where they want it. Full state on a
+/// migration and less on a ghost update are two plans, or one plan with two lists of fields.
 ///
 /// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device. Where the
 /// GPU of the receiver sees the memory of the sender's, it unpacks from there, and MPI carries only the word that it
@@ -46,15 +46,15 @@ public:
   Exchange(const base::Exec& exec, const base::Comm& comm, const ExchangeOptions& options);
 
   /// Sends `slots[k]` to rank `ranks[k]`, for k < count. Both are device arrays and are sorted by rank, stable, here.
-  void route(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count);
+  void setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count);
 
-  std::size_t leaving() const { return sendSlots_.size(); }
-  std::size_t coming() const { return coming_; }
-  /// Slots of the elements that leave, by place on the route (grouped by rank).
-  const std::uint32_t* leavingSlots() const { return sendSlots_.data(); }
+  std::size_t exportCount() const { return sendSlots_.size(); }
+  std::size_t importCount() const { return importCount_; }
+  /// Slots of the elements that leave, by place in the plan (grouped by rank).
+  const std::uint32_t* exportSlots() const { return sendSlots_.data(); }
 
   /// What comes goes to slots first, first + 1...
-  void putFrom(std::size_t first);
+  void setImportSlots(std::size_t first);
   /// The elements have moved: slot s is now newSlot[s] (device array), here and at the places of what comes.
   void renumber(const std::uint32_t* newSlot);
 
@@ -79,7 +79,7 @@ public:
   // stream of it.
 
   /// On the device, without waiting; only where memory has to grow it waits, for all ranks: not in the second of two
-  /// runs of as many words on one route. What was packed may be packed anew, by all ranks, and the former is forgotten.
+  /// runs of as many words on one plan. What was packed may be packed anew, by all ranks, and the former is forgotten.
   void pack(const base::Exec& exec, std::span<const ExchangeField> fields);
   void send();   ///< what has been packed: that work has ended
   void arrive(); ///< waits for what comes, where it was sent
@@ -87,13 +87,13 @@ public:
   void unpack(const base::Exec& exec, std::span<const ExchangeField> fields);
 
   /// Every rank sees the memory of all others. Then GPUs that agree in their streams that all have packed
-  /// (base::PeerAgreement) need no message: passOn() takes the place of send() and arrive().
+  /// (base::PeerReduction) need no message: publish() takes the place of send() and arrive().
   bool peersOnly() const { return packed_.allSeeAll(); }
   bool sharesMemory() const { return packed_.seesAny(); } ///< with one other rank at least
-  void passOn();
-  void dropPassedOn();                    ///< nobody wants it any more
+  void publish();
+  void discard();                    ///< nobody wants it any more
   void countRuns(std::int64_t runs);      ///< of those that were passed on
-  unsigned turn() const { return turn_; } ///< which half of the memory was packed last: what is recorded depends on it
+  unsigned bufferIndex() const { return bufferIndex_; } ///< which half of the memory was packed last: what is recorded depends on it
 
   std::int64_t bytesSent() const { return bytesSent_; } ///< by this rank since the start
   std::int64_t runs() const { return runs_; }
@@ -113,23 +113,23 @@ private:
   base::Comm comm_;
   std::size_t wordsAtATime_;
   bool direct_;                                         ///< MPI takes pointers to the buffers of the device
-  std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] places on the route
-  std::vector<std::uint32_t> startAtSource_;            ///< [ranks] this rank's first place on the route of another
-  std::size_t mostLeaving_{0};                          ///< of all ranks
+  std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] places in the plan
+  std::vector<std::uint32_t> startAtSource_;            ///< [ranks] this rank's first place in the plan of another
+  std::size_t mostExported_{0};                          ///< of all ranks
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
-  std::size_t coming_{0};
+  std::size_t importCount_{0};
   /// Two runs take turns, each in its half. A rank packs run n + 2 into the half of run n only after every reader of n
   /// has told it so: with its word of run n + 1, sent after its work on n had ended, or by what all ranks have agreed
-  /// upon in between. A new route ends with such an agreement.
+  /// upon in between. A new plan ends with such an agreement.
   base::PeerMemory packed_;
-  unsigned turn_{0};
+  unsigned bufferIndex_{0};
   base::DeviceMessage received_;
   base::HostMessage sendHost_, receiveHost_;
   std::size_t words_{0};              ///< of one element in the buffers
   std::uint32_t sent_{0};             ///< runs sent: the word for peers
   std::vector<std::uint32_t> sentBy_; ///< by rank: their word
   base::Messages messages_;           ///< waits, at the latest when it goes, for what comes into all of the above
-  enum class Stage { idle, packed, sent, arrived, passedOn } stage_{Stage::idle};
+  enum class Stage { idle, packed, sent, arrived, published } stage_{Stage::idle};
   std::int64_t bytesSent_{0}, runs_{0};
 };
 

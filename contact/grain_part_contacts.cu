@@ -155,7 +155,7 @@ std::vector<ExchangeField> GrainPartContacts::history() {
   return fields;
 }
 
-void GrainPartContacts::handOver(const std::uint32_t* destination) {
+void GrainPartContacts::migrate(const std::uint32_t* destination) {
   if (held_ == Held::everywhere) return;
   // Twice between two steps: nobody knows slots any more, so all ranks take all pairs.
   if (held_ == Held::handedOver) return restore(save());
@@ -169,17 +169,17 @@ void GrainPartContacts::handOver(const std::uint32_t* destination) {
   base::Array<std::uint64_t> ranks(exec_, leaving.size());
   base::forEach(exec_, "read destinations of pairs", static_cast<std::int64_t>(leaving.size()),
                 ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
-  exchange_->route(ranks, leaving, leaving.size());
+  exchange_->setPlan(ranks, leaving, leaving.size());
   exchange_->start(history());
   // Those that leave are found by no grain of the next list, and are not saved here.
   base::forEach(exec_, "forget pairs that leave", static_cast<std::int64_t>(leaving.size()),
-                Forget{exchange_->leavingSlots(), memory_.data()});
-  key_.resizeKeeping(pairs_ + exchange_->coming());
+                Forget{exchange_->exportSlots(), memory_.data()});
+  key_.resizeKeeping(pairs_ + exchange_->importCount());
   memory_.resizeKeeping(kPatches * key_.size());
   if (rolling_) angle_.resizeKeeping(kPatches * key_.size());
-  exchange_->putFrom(pairs_);
+  exchange_->setImportSlots(pairs_);
   exchange_->finish(history());
-  pairs_ += exchange_->coming();
+  pairs_ += exchange_->importCount();
   held_ = Held::handedOver;
 }
 

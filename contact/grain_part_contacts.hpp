@@ -68,9 +68,9 @@ public:
     std::size_t count;
     const std::uint32_t* ghost = nullptr; ///< not 0 for grains of other ranks; null where there are none
   };
-  /// Grains go to other ranks (see terrain::Grains::onHandOver): sends the history of their pairs after them. Refresh
+  /// Grains go to other ranks (see terrain::Grains::onMigrate): sends the history of their pairs after them. Refresh
   /// before the next compute. All ranks call it.
-  void handOver(const std::uint32_t* destination);
+  void migrate(const std::uint32_t* destination);
 
   /// Lists the pairs for grains in their present slots; history is carried over by grain id and part.
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);

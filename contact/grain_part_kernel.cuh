@@ -19,7 +19,7 @@ struct TouchedPatch {
   float overlap;
 };
 
-/// Loads of one listed pair, by one thread or by the lanes of a group that share its discs.
+/// Loads of one listed pair, by one thread or by the threads of a group that share its discs.
 template <unsigned kFeatures> struct GrainPartForces {
   GrainPartModel model;
   const BasicLaw<float>* laws;
@@ -36,7 +36,7 @@ template <unsigned kFeatures> struct GrainPartForces {
   PartLoad* partLoad;
   std::int64_t* sums;
 
-  template <class Lanes> GROUSER_HD void operator()(int e, const Lanes& lanes) const {
+  template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
     const int i = static_cast<int>(slot[e]);
     const int p = static_cast<int>(key[e] & 0xFFFFu);
     const PartMotion part = motion[p];
@@ -44,8 +44,8 @@ template <unsigned kFeatures> struct GrainPartForces {
     const base::Vec3d c = part.toPart(x);
     const Ball ball = ballOf(i);
     TouchedPatch patches[kPatches];
-    const int found = findPatches(grids[parts[p].surface], c, ball.radius, lanes, patches);
-    if (lanes.lane != 0) return; // the rest is for one thread
+    const int found = findPatches(grids[parts[p].surface], c, ball.radius, group, patches);
+    if (group.rank != 0) return; // the rest is for one thread
     GrainLoad result{};
     PatchMemory fresh[kPatches] = {};
     base::Vec3f freshAngle[kPatches] = {};
@@ -92,8 +92,8 @@ private:
   }
 
   /// The deepest touch first, then the deepest that belongs to none of the patches so far.
-  template <class Lanes> GROUSER_HD int findPatches(const SurfaceGridView& grid, const base::Vec3d& c,
-                                                    double ballRadius, const Lanes& lanes,
+  template <class Group> GROUSER_HD int findPatches(const SurfaceGridView& grid, const base::Vec3d& c,
+                                                    double ballRadius, const Group& group,
                                                     TouchedPatch* patches) const {
     const std::int64_t cell = grid.cellAt(c);
     if (cell < 0) return 0;
@@ -103,7 +103,7 @@ private:
     for (; found < kPatches; ++found) {
       float deepest = 0;
       std::uint32_t at = last;
-      for (std::uint32_t k = first + static_cast<std::uint32_t>(lanes.lane); k < last; k += Lanes::width) {
+      for (std::uint32_t k = first + static_cast<std::uint32_t>(group.rank); k < last; k += Group::width) {
         const Disc& disc = grid.disc[grid.entry[k]];
         if (outOfReach(disc, c, ballRadius)) continue;
         const DiscDistance d = distanceTo(disc, c);
@@ -115,7 +115,7 @@ private:
               taken || dot(d.normal, patches[q].normal) > kSameNormal || dot(disc.normal, patches[q].face) > kSameFace;
         if (!taken) deepest = overlap, at = k;
       }
-      lanes.agreeOnGreatest(deepest, at);
+      group.agreeOnGreatest(deepest, at);
       if (deepest <= 0) break;
       const Disc& disc = grid.disc[grid.entry[at]];
       patches[found] = {distanceTo(disc, c).normal, disc.normal, deepest};
@@ -148,7 +148,7 @@ private:
         grains.velocity[i].xyz().template as<double>() + cross(spin, arm) - part.velocityAt(point);
     const float mass = static_cast<float>(ball.mass), radius = static_cast<float>(ball.radius);
     const float dt = static_cast<float>(model.timeStep);
-    const Touch touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(), mass,
+    const ContactGeometry touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(), mass,
                       radius};
     const Reaction reaction = contactForce<kFeatures>(law, touch, dt, shear);
     const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.template as<double>());

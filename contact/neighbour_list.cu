@@ -113,7 +113,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
     const std::uint32_t kept = base::exclusiveScan(exec_, keptStart.data(), keptStart.data(), std::size_t{former} + 1);
     keptId.resize(kept), keptHistory.resize(std::size_t{kept} * static_cast<std::size_t>(width_));
   }
-  const KeptContacts kept{keptStart.data(), keptId.data(), keptHistory.data()};
+  const ContactCache kept{keptStart.data(), keptId.data(), keptHistory.data()};
   if (former > 0) base::forEach(exec_, "keep contacts", former, KeepRow{contacts(), kept});
 
   const NearSpheres near{grid_,
@@ -141,7 +141,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
     touching_.zero();
   else
     base::forEach(exec_, "carry contact history", n,
-                  CarryHistory{origins ? origins->origin : order_.data(),
+                  RestoreHistory{origins ? origins->origin : order_.data(),
                                id,
                                count_.data(),
                                slot_.data(),

@@ -51,7 +51,7 @@ struct RowOrigins {
 };
 
 /// Dense grid over the cells in use; z runs fastest, so the three cells of a column are neighbours in memory. Along
-/// joined sides it is a ring of cells that fills the period, none narrower than `edge` asks.
+/// periodic boundaries it is a ring of cells that fills the period, none narrower than `edge` asks.
 struct CellGrid {
   using Cell = base::Vec3<std::uint32_t>;
   base::Period period;
@@ -63,7 +63,7 @@ struct CellGrid {
   GROUSER_HD std::uint64_t key(const Cell& c) const {
     return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
   }
-  /// Counted from the lowest representable position, or from the lower of two joined sides.
+  /// Counted from the lowest representable position, or from the lower of two periodic boundaries.
   GROUSER_HD Cell cellOf(const base::Position& p) const {
     constexpr std::int64_t kBias = std::int64_t{1} << 41;
     const base::Vec3l u = base::toUnits(p);
@@ -92,7 +92,7 @@ struct TouchingRows;
 class NeighbourList {
 public:
   /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: numbers of history
-  /// that each contact has, 0 for none. `period`: joined sides, at least three diameters and skins apart.
+  /// that each contact has, 0 for none. `period`: periodic boundaries, at least three diameters and skins apart.
   NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                 const base::Period& period = {});
 

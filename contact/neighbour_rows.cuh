@@ -81,7 +81,7 @@ struct ExportRow {
 };
 
 /// What is kept of a list while the next takes its place: contacts alone, row behind row.
-struct KeptContacts {
+struct ContactCache {
   std::uint32_t* start; ///< [rows + 1]
   std::uint32_t* id;
   float* history; ///< [contact][width]
@@ -89,7 +89,7 @@ struct KeptContacts {
 
 struct KeepRow {
   TouchingRows from;
-  KeptContacts to;
+  ContactCache to;
   GROUSER_HD void operator()(int i) const {
     from.copy(static_cast<std::uint32_t>(i), to.id + to.start[i],
               to.history + static_cast<std::int64_t>(to.start[i]) * from.width);
@@ -97,7 +97,7 @@ struct KeepRow {
 };
 
 /// Takes the history of pairs that touched in the former list.
-struct CarryHistory {
+struct RestoreHistory {
   const std::uint32_t* origin; ///< former row of each new slot, or as in RowOrigins
   const std::uint32_t *id, *count, *slot;
   NeighbourRows rows;
@@ -105,7 +105,7 @@ struct CarryHistory {
   int width; ///< numbers of history of a contact
   float* history;
   std::uint64_t* touching;
-  KeptContacts kept;
+  ContactCache kept;
   std::uint32_t former; ///< rows in the former list; later ones are in `arrived`
   TravellingRows arrived;
 

@@ -46,7 +46,7 @@ struct NearSpheres {
   }
 
 private:
-  /// Whether there is such a cell beside one in use along x or y; across joined sides it is at the other end.
+  /// Whether there is such a cell beside one in use along x or y; across periodic boundaries it is at the other end.
   GROUSER_HD bool besides(int axis, std::uint32_t& c) const {
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;

@@ -81,8 +81,8 @@ private:
   base::Vec3i cells_;
 };
 
-/// Surface spheres of a part as probes that feel other surfaces: each stands for a share of the part's area.
-struct Probe {
+/// Surface spheres of a part as samples that feel other surfaces: each stands for a share of the part's area.
+struct SurfaceSample {
   base::Vec3f centre;
   float radius;          ///< [m]
   float area;            ///< [m2]
@@ -91,9 +91,9 @@ struct Probe {
 
 inline constexpr int kClusters = 6;
 
-/// Discs and probes of a sphere set, in its order.
+/// Discs and samples of a sphere set, in its order.
 std::vector<Disc> discsOf(const base::SphereSet& set);
-std::vector<Probe> probesOf(const base::SphereSet& set);
+std::vector<SurfaceSample> surfaceSamplesOf(const base::SphereSet& set);
 
 /// Radius about the frame's origin that encloses the set [m].
 double enclosingRadius(const base::SphereSet& set);

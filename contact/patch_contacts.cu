@@ -22,11 +22,11 @@ PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::Sp
     : exec(e), pairs(probedParts.size()), setOfPart(e, setOf), near(e, pairs), entry(e), gap(e),
       sums(e, pairs * kClusters), states(e, pairs * kClusters) {
   constexpr std::uint32_t kProbesPerChunk = 8;
-  std::vector<Probe> all;
+  std::vector<SurfaceSample> all;
   std::vector<std::uint32_t> start{0};
   for (const base::SphereSet* set : sets) {
-    const std::vector<Probe> probes = probesOf(*set);
-    all.insert(all.end(), probes.begin(), probes.end());
+    const std::vector<SurfaceSample> samples = surfaceSamplesOf(*set);
+    all.insert(all.end(), samples.begin(), samples.end());
     start.push_back(static_cast<std::uint32_t>(all.size()));
   }
   std::vector<ProbeChunk> list;
@@ -35,7 +35,7 @@ PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::Sp
     for (std::uint32_t k = start[set]; k < start[set + 1]; k += kProbesPerChunk)
       list.push_back({p, k, std::min(k + kProbesPerChunk, start[set + 1])});
   }
-  probe = base::Array<Probe>(e, all);
+  sample = base::Array<SurfaceSample>(e, all);
   chunks = base::Array<ProbeChunk>(e, list);
   count = base::Array<std::uint32_t>(e, list.size());
   first = base::Array<std::uint32_t>(e, list.size());

@@ -10,20 +10,20 @@
 
 namespace grouser::contact {
 
-/// Some probes of one pair: the unit of work when probes are listed.
+/// Some samples of one pair: the unit of work when samples are listed.
 struct ProbeChunk {
-  std::uint32_t pair, first, last; ///< probes [first, last)
+  std::uint32_t pair, first, last; ///< samples [first, last)
 };
 
 /// The lists and sums that contacts of extended surfaces share, whatever the other side is.
 struct PatchBuffers {
-  /// `probedParts`: for each pair the part whose probes feel.
+  /// `probedParts`: for each pair the part whose samples feel.
   PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
                const std::vector<int>& setOfPart, const std::vector<int>& probedParts);
 
   base::Exec exec;
   std::size_t pairs;
-  base::Array<Probe> probe;
+  base::Array<SurfaceSample> sample;
   base::Array<int> setOfPart;
   base::Array<ProbeChunk> chunks;
   base::Array<std::uint32_t> near, count, first;
@@ -39,12 +39,12 @@ struct PatchBuffers {
     std::int64_t patches{};
   };
   Ledger ledger(const PatchQuanta& quanta) const;
-  /// For hashes and checkpoints. Throws InputError when what was saved is of other pairs; list the probes afterwards.
+  /// For hashes and checkpoints. Throws InputError when what was saved is of other pairs; list the samples afterwards.
   SavedPatches save() const;
   void restore(const SavedPatches& saved);
 };
 
-/// A pair of parts that may meet; `a` is felt by its probes, `b` by its table.
+/// A pair of parts that may meet; `a` is felt by its samples, `b` by its table.
 struct PartPair {
   int a{}, b{}; ///< parts
 };
@@ -56,13 +56,13 @@ public:
     PatchLaw law;
     PatchQuanta quanta;
     double timeStep{};
-    double margin{}; ///< probes are listed this far before they touch [m]
+    double margin{}; ///< samples are listed this far before they touch [m]
   };
   /// `sets`: unique sphere sets; `setOfPart`: which one each part has.
   PartPartContacts(const base::Exec& exec, const Model& model, const std::vector<const base::SphereSet*>& sets,
                    const std::vector<int>& setOfPart, const std::vector<PartPair>& pairs);
 
-  /// Lists the probes within the margin, at the parts' present places.
+  /// Lists the samples within the margin, at the parts' present places.
   void refresh(const base::Array<PartMotion>& motion);
   /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
   /// relative to each other since the refresh [m]; at most the margin.
@@ -89,8 +89,8 @@ public:
       const double r = reach[setOfPart[pair[p].a]] + reach[setOfPart[pair[p].b]] + margin;
       return norm2(motion[pair[p].a].origin - motion[pair[p].b].origin) < r * r;
     }
-    template <class Lanes> GROUSER_HD bool touch(int p, const PartMotion* motion, const base::Vec3d& x, double radius,
-                                                 const Lanes& lanes, base::Vec3d& normal, double& overlap) const {
+    template <class Group> GROUSER_HD bool findContact(int p, const PartMotion* motion, const base::Vec3d& x, double radius,
+                                                 const Group& group, base::Vec3d& normal, double& overlap) const {
       const PartMotion& b = motion[pair[p].b];
       const base::Vec3d local = b.toPart(x);
       const SurfaceGridView& grid = grids[setOfPart[pair[p].b]];
@@ -99,14 +99,14 @@ public:
       const std::uint32_t last = grid.start[cell + 1];
       std::uint32_t deepest = last;
       overlap = 0;
-      for (std::uint32_t k = grid.start[cell] + static_cast<std::uint32_t>(lanes.lane); k < last; k += Lanes::width) {
+      for (std::uint32_t k = grid.start[cell] + static_cast<std::uint32_t>(group.rank); k < last; k += Group::width) {
         const Disc& disc = grid.disc[grid.entry[k]];
         if (outOfReach(disc, local, radius)) continue;
         const double depth =
             radius + static_cast<double>(disc.radius) - static_cast<double>(distanceTo(disc, local).distance);
         if (depth > overlap) overlap = depth, deepest = k;
       }
-      lanes.agreeOnGreatest(overlap, deepest);
+      group.agreeOnGreatest(overlap, deepest);
       if (overlap <= 0) return false;
       const base::Vec3f outward = distanceTo(grid.disc[grid.entry[deepest]], local).normal;
       normal = b.rotation * outward.as<double>();

@@ -18,12 +18,12 @@ struct PatchLaw {
   double tangentialRatio{}; ///< [-], >= 0
 };
 
-/// Quanta of the sums over probes, from the scene alone.
+/// Quanta of the sums over samples, from the scene alone.
 struct PatchQuanta {
   base::FixedPoint force, torque, energy, area, moment; ///< [N], [N m], [J], [m2], [N m] of weighted places
 };
 
-/// Sums over the probes of one patch in one step, in quanta; free of order.
+/// Sums over the samples of one patch in one step, in quanta; free of order.
 struct PatchSums {
   std::int64_t area, weight; ///< touching area; sum of the normal forces' sizes
   base::Vec3l place;         ///< sum of size * (place - centre of part A)

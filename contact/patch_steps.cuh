@@ -3,39 +3,39 @@
 
 #include "base/algorithms.hpp"
 #include "contact/patch_contacts.hpp"
-#include "contact/probe_kernels.cuh"
+#include "contact/surface_sample_kernels.cuh"
 
 namespace grouser::contact {
 
-/// Lists the probes of every pair that are within `margin` of touching the target.
+/// Lists the samples of every pair that are within `margin` of touching the target.
 template <class Target>
 void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<PartMotion>& motion, double margin) {
   base::forEach(buffers.exec, "mark near pairs", static_cast<std::int64_t>(buffers.pairs),
                 MarkNearPairs<Target>{target, motion.data(), margin, buffers.near.data()});
-  ListProbes<Target> list{target, buffers.probe.data(), buffers.chunks.data(), motion.data(), buffers.near.data(),
+  ListProbes<Target> list{target, buffers.sample.data(), buffers.chunks.data(), motion.data(), buffers.near.data(),
                           margin, buffers.count.data(), buffers.first.data(),  nullptr,       nullptr};
   const auto chunks = static_cast<std::int64_t>(buffers.chunks.size());
-  base::forEach(buffers.exec, "count probes", chunks, list);
+  base::forEach(buffers.exec, "count samples", chunks, list);
   buffers.entries =
       base::exclusiveScan(buffers.exec, buffers.count.data(), buffers.first.data(), buffers.chunks.size());
   buffers.entry.resize(buffers.entries);
   buffers.gap.resize(buffers.entries);
   list.entry = buffers.entry.data(), list.gap = buffers.gap.data();
-  if (buffers.entries) base::forEach(buffers.exec, "list probes", chunks, list);
+  if (buffers.entries) base::forEach(buffers.exec, "list samples", chunks, list);
 }
 
-/// Pressure on every listed probe, then friction on every patch. `travelled`: bound of the relative motion of any pair
-/// since the probes were listed [m], on the device.
+/// Pressure on every listed sample, then friction on every patch. `travelled`: bound of the relative motion of any pair
+/// since the samples were listed [m], on the device.
 template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
                                          double timeStep, const double* travelled,
                                          const base::Array<PartMotion>& motion, PartLoad* loads) {
   buffers.sums.zero();
-  base::forEachGroup<8>(buffers.exec, "press probes", static_cast<std::int64_t>(buffers.entries),
-                        PressProbe<Target>{target, buffers.probe.data(), quanta, motion.data(), buffers.entry.data(),
+  base::forEachGroup<8>(buffers.exec, "press samples", static_cast<std::int64_t>(buffers.entries),
+                        PressProbe<Target>{target, buffers.sample.data(), quanta, motion.data(), buffers.entry.data(),
                                            buffers.gap.data(), travelled, buffers.sums.data(), loads, timeStep});
   base::forEach(
       buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
-      RubPatch<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads, timeStep});
+      PatchFriction<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads, timeStep});
 }
 
 } // namespace grouser::contact

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "multibody/detail/euler_step.hpp"
 #include "multibody/detail/index.hpp"
-#include "multibody/detail/pull.hpp"
+#include "multibody/detail/geometric_stiffness.hpp"
 #include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/start.hpp"
@@ -65,7 +65,7 @@ struct Solver::Impl {
     return options.integrator == Integrator::kRattle ? detail::stableTurn(options.order) : 2;
   }
   double stableStep(const State& state, const Loads& loads, std::string* spring);
-  double pullRate(const State& state, const Loads& loads, std::string* part);
+  double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part);
   void checkDampers(double dt);
   void checkStable(const State& state, const Loads& loads, double dt);
 
@@ -158,7 +158,7 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
   return highest > 0 ? stableTurn() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
 }
 
-double Solver::Impl::pullRate(const State& state, const Loads& loads, std::string* name) {
+double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loads, std::string* name) {
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
   const SoftRows softRows(model, system, start);
@@ -253,9 +253,9 @@ double Solver::stableStep(const State& state, const Loads& loads, std::string* s
   return impl_->stableStep(state, loads, spring);
 }
 
-double Solver::pullRate(const State& state, const Loads& loads, std::string* part) {
+double Solver::geometricStiffnessRate(const State& state, const Loads& loads, std::string* part) {
   impl_->checkFits(state, loads);
-  return impl_->pullRate(state, loads, part);
+  return impl_->geometricStiffnessRate(state, loads, part);
 }
 
 double Solver::stableTurn() const { return impl_->stableTurn(); }

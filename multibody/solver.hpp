@@ -101,7 +101,7 @@ public:
   /// chain or spring lets them swing across it, a pressed one lets them fall to the side (detail/pull.hpp). All schemes
   /// need dt < stableTurn() / rate; beyond that a swing grows. 0 where nothing pulls. `part`, if given, receives the
   /// name of what has the greatest part in it.
-  double pullRate(const State& state, const Loads& loads, std::string* part = nullptr);
+  double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part = nullptr);
 
   /// Largest omega dt [rad] of a swing that the scheme takes explicitly: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
   double stableTurn() const;

@@ -30,7 +30,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     const int i = static_cast<int>(d.nearBoundary[k]);
     const Vec v = d.velocity[i].xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
-    const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.wallTouching[i]};
+    const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
     const double radius = static_cast<double>(grain.size.radius);
     BoundaryLoad<Real> sum{};
     std::uint32_t now = 0;
@@ -50,7 +50,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
       }
     }
     if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum);
-    if (now != grain.before) d.wallTouching[i] = now;
+    if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
   }
 
@@ -59,7 +59,7 @@ private:
                              BoundaryLoad<Real>& sum) const {
     const Vec normal = -outward; // from the grain to the wall
     const Vec arm = normal * (grain.size.radius - overlap);
-    const contact::BasicTouch<Real> touch{normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass,
+    const contact::BasicContactGeometry<Real> touch{normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass,
                                           grain.size.radius};
     const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum);
     sum.force += reaction.force;
@@ -83,7 +83,7 @@ private:
       const Vec arm = normal * (grain.size.radius - overlap);
       const base::Vec3d point = grain.x + arm.template as<double>();
       const Vec velocity = grain.v + cross(grain.w, arm) - motion.velocityAt(point).template as<Real>();
-      const contact::BasicTouch<Real> touch{normal, overlap, velocity, grain.size.mass, grain.size.radius};
+      const contact::BasicContactGeometry<Real> touch{normal, overlap, velocity, grain.size.mass, grain.size.radius};
       const Reaction reaction =
           react(grain, boundary, touch, grain.w - motion.spin.template as<Real>(), &d.placements[s].turned, sum);
       const base::Vec3l quanta = d.surfaceForce.quantise(reaction.force.template as<double>());
@@ -106,12 +106,12 @@ private:
   }
 
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
-  GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicTouch<Real>& touch, const Vec& spin,
+  GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch, const Vec& spin,
                             const base::Mat3d* turned, BoundaryLoad<Real>& sum) const {
     const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + grain.size.material];
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory()
-                         ? d.wallHistory + (static_cast<std::int64_t>(grain.slot) * d.boundaryCount + boundary) *
+                         ? d.boundaryHistory + (static_cast<std::int64_t>(grain.slot) * d.boundaryCount + boundary) *
                                                Kernel::historyWidth()
                          : nullptr;
     Vec shear{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains on several ranks: hand-over of those that have crossed a border, ghosts of those near one.
+// Grains on several ranks: migration of those that have crossed a border, ghosts of those near one.
 #include "terrain/grains.hpp"
 
 #include "base/algorithms.hpp"
@@ -15,7 +15,7 @@ using contact::fieldOf;
 
 namespace {
 
-/// Where the row of each grain is found after the hand-over, before sorting, as if none had moved.
+/// Where the row of each grain is found after the migration, before sorting, as if none had moved.
 struct NoteOrigins {
   std::uint32_t kept, owned, former;
   std::uint32_t* origin;
@@ -57,31 +57,31 @@ template <class Each> void Grains::forOwnArrays(const Each& each) {
   each(remainders_, 1), each(id_, 1);
   if (!dissipated_.empty() || model_.ledger) each(dissipated_, 1);
   if (period_.any()) each(crossings_, 1);
-  if (boundaryCount_ > 0) each(wallTouching_, 1);
+  if (boundaryCount_ > 0) each(boundaryContactMask_, 1);
   if (boundaryCount_ > 0 && historyWidth_ > 0)
-    each(wallHistory_, static_cast<std::uint32_t>(boundaryCount_ * historyWidth_));
+    each(boundaryHistory_, static_cast<std::uint32_t>(boundaryCount_ * historyWidth_));
 }
 
 /// Every grain goes to the rank that its centre lies with, and ghosts are made of those near the borders. Afterwards
 /// the slots hold the grains that stayed, those that came, and the ghosts, in this order.
-void Grains::shareOut() {
+void Grains::migrate() {
   Subdomain& subdomain = *subdomain_;
-  completeGhosts();
+  finishGhostUpdate();
   if (subdomain.rebalances()) rebalance();
   subdomain.findLeaving(position_[0].data(), slots_);
-  if (handOver_) handOver_(subdomain.destination());
+  if (onMigrate_) onMigrate_(subdomain.destination());
 
   // The rows of the neighbour list travel with their grains, as ids and springs.
-  Exchange& exchange = subdomain.handOver();
-  const std::size_t kept = subdomain.kept(), owned = kept + exchange.coming();
+  Exchange& exchange = subdomain.migration();
+  const std::size_t kept = subdomain.kept(), owned = kept + exchange.importCount();
   const auto moves = static_cast<std::int64_t>(subdomain.moves());
   contact::TravellingRows rows{nullptr, 0, static_cast<std::uint32_t>(historyWidth_)};
   rows.capacity = static_cast<std::uint32_t>(
-      subdomain.comm().maximumOf(neighbours_.mostTouching(exchange.leavingSlots(), exchange.leaving())));
-  base::Array<std::uint32_t> leavingRows(exec_, exchange.leaving() * rows.words());
+      subdomain.comm().maximumOf(neighbours_.mostTouching(exchange.exportSlots(), exchange.exportCount())));
+  base::Array<std::uint32_t> leavingRows(exec_, exchange.exportCount() * rows.words());
   rows.data = leavingRows.data();
-  neighbours_.exportRows(exchange.leavingSlots(), exchange.leaving(), rows);
-  arrivedRows_.resize(exchange.coming() * rows.words());
+  neighbours_.exportRows(exchange.exportSlots(), exchange.exportCount(), rows);
+  arrivedRows_.resize(exchange.importCount() * rows.words());
 
   std::vector<ExchangeField> fields;
   forOwnArrays([&](auto& array, std::uint32_t width) {
@@ -99,7 +99,7 @@ void Grains::shareOut() {
     fields.push_back({field.data, field.words * width});
   });
   fields.push_back({arrivedRows_.data(), rows.words(), true});
-  exchange.putFrom(kept);
+  exchange.setImportSlots(kept);
   exchange.finish(fields);
   rows.data = arrivedRows_.data();
 
@@ -109,7 +109,7 @@ void Grains::shareOut() {
   forOwnArrays([&](auto& array, std::uint32_t width) { array.resizeKeeping(slots_ * width); });
   position_[1].resizeInLeaps(slots_), velocity_[1].resizeInLeaps(slots_), spin_[1].resizeInLeaps(slots_);
   const ExchangeField ghosts[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0]), fieldOf(id_)};
-  subdomain.ghostUpdate().run(ghosts);
+  subdomain.haloExchange().run(ghosts);
 
   origin_.resize(slots_);
   base::forEach(
@@ -125,14 +125,14 @@ std::array<ExchangeField, 3> Grains::ghostFields(int buffer) {
 }
 
 /// The ghosts take what their masters sent, where they have not yet.
-void Grains::completeGhosts(const base::Exec& exec) {
-  if (!subdomain_ || !subdomain_->ghostUpdate().underWay()) return;
-  subdomain_->ghostUpdate().arrive();
-  subdomain_->ghostUpdate().unpack(exec, ghostFields(0));
+void Grains::finishGhostUpdate(const base::Exec& exec) {
+  if (!subdomain_ || !subdomain_->haloExchange().underWay()) return;
+  subdomain_->haloExchange().arrive();
+  subdomain_->haloExchange().unpack(exec, ghostFields(0));
 }
 
 /// The ghosts are made what their masters are now.
-void Grains::updateGhosts() { subdomain_->ghostUpdate().run(ghostFields(0)); }
+void Grains::updateGhosts() { subdomain_->haloExchange().run(ghostFields(0)); }
 
 /// Moves the cuts where one rank has had clearly more to do than the mean. Time is only measured, so no two runs cut
 /// alike; no bit of the answer depends on it.

@@ -55,20 +55,20 @@ struct FindCrowded {
 
 } // namespace
 
-std::optional<Crowding> Grains::crowdingBy(const std::vector<GrainStart>& entering) const {
+std::optional<InsertionOverlap> Grains::insertionOverlapOf(const std::vector<GrainSpec>& entering) const {
   if (entering.empty()) return {};
-  const auto radiusOf = [&](const GrainStart& g) { return g.radius > 0 ? g.radius : model_.radius; };
+  const auto radiusOf = [&](const GrainSpec& g) { return g.radius > 0 ? g.radius : model_.radius; };
   for (std::size_t k = 0; k < entering.size(); ++k)
     for (std::size_t s = 0; s < geometries_.size(); ++s) {
       const Vec3d p_S = placements_.host()[s].motion.toPart(entering[k].position);
       const double overlap = radiusOf(entering[k]) - gapTo(geometries_[s], p_S).distance;
-      if (overlap > model_.maxOverlap * radiusOf(entering[k])) return Crowding{k, overlap, {}, {}, s};
+      if (overlap > model_.maxOverlap * radiusOf(entering[k])) return InsertionOverlap{k, overlap, {}, {}, s};
     }
 
   std::vector<Entering> all;
   Vec3d low = entering.front().position, high = low;
   double largest = 0;
-  for (const GrainStart& g : entering) {
+  for (const GrainSpec& g : entering) {
     all.push_back({scale_.fromMetres(g.position), radiusOf(g) * scale_.perMetre});
     low = base::min(low, g.position), high = base::max(high, g.position);
     largest = std::max(largest, radiusOf(g));
@@ -87,9 +87,9 @@ std::optional<Crowding> Grains::crowdingBy(const std::vector<GrainStart>& enteri
   comm_.minimum(&key, 1);
   if (key == kNobody) return {};
 
-  Crowding crowding;
-  crowding.overlap = static_cast<double>(kMostUnits - (key >> 32)) * scale_.unit;
-  crowding.grain = static_cast<std::uint32_t>(key);
+  InsertionOverlap insertionOverlap;
+  insertionOverlap.overlap = static_cast<double>(kMostUnits - (key >> 32)) * scale_.unit;
+  insertionOverlap.grain = static_cast<std::uint32_t>(key);
   // Only the rank that integrates the other grain knows where it is.
   const std::vector<std::uint32_t> id = id_.toHost();
   const std::vector<std::uint32_t> roles =
@@ -97,23 +97,23 @@ std::optional<Crowding> Grains::crowdingBy(const std::vector<GrainStart>& enteri
   double found[] = {-1e300, -1e300, -1e300};
   double nearest = 1e300; // to the overlap that was found [m]
   for (std::size_t i = 0; i < slots_; ++i) {
-    if (id[i] != *crowding.grain || (!roles.empty() && roles[i])) continue;
+    if (id[i] != *insertionOverlap.grain || (!roles.empty() && roles[i])) continue;
     const base::Position place = position_[0].at(i);
     const Vec3d x = scale_.toMetres(place);
     found[0] = x.x, found[1] = x.y, found[2] = x.z;
     const double own = manyRadii() ? double{velocity_[0].at(i).w} : model_.radius;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double apart = norm(period_.apart(all[k].position, place).as<double>()) * scale_.unit;
-      const double miss = std::fabs(own + radiusOf(entering[k]) - apart - crowding.overlap);
-      if (miss < nearest) nearest = miss, crowding.entering = k;
+      const double miss = std::fabs(own + radiusOf(entering[k]) - apart - insertionOverlap.overlap);
+      if (miss < nearest) nearest = miss, insertionOverlap.entering = k;
     }
   }
   comm_.maximum(found, 3);
-  crowding.position = {found[0], found[1], found[2]};
-  std::uint64_t which = nearest < 1e300 ? crowding.entering : kNobody;
+  insertionOverlap.position = {found[0], found[1], found[2]};
+  std::uint64_t which = nearest < 1e300 ? insertionOverlap.entering : kNobody;
   comm_.minimum(&which, 1);
-  crowding.entering = which;
-  return crowding;
+  insertionOverlap.entering = which;
+  return insertionOverlap;
 }
 
 } // namespace grouser::terrain

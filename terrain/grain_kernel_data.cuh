@@ -16,7 +16,7 @@ namespace grouser::terrain {
 struct GrainKernelData {
   // Constants.
   unsigned features;
-  int mostLanes; ///< GrainModel::mostLanes
+  int mostSimdLanes; ///< GrainModel::mostSimdLanes
   std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
   double timeStep, stepPerMass, stepPerInertia, unitsPerSpeed; // dt, dt/m, dt/I, dt/unit
   double unitLength;
@@ -29,7 +29,7 @@ struct GrainKernelData {
   HeightFieldView floor;
   base::Period period;
   const SurfaceGeometry* surfaces;
-  const SurfacePlacement* placements; ///< of the surfaces in this step
+  const SurfacePose* placements; ///< of the surfaces in this step
   int surfaceCount;
   base::FixedPoint surfaceForce, surfaceTorque; ///< quanta of the surfaces' loads
   int materials;                                ///< at least 1
@@ -46,12 +46,12 @@ struct GrainKernelData {
   Remainders* remainders;
   const std::uint32_t* id;
   base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
-  Crossings* crossings;                 ///< of joined sides; null without them
+  Crossings* crossings;                 ///< of periodic boundaries; null without them
   contact::NeighbourView neighbours;
   const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
   const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
-  float* wallHistory;                ///< [slot][boundary][width of the neighbours' history]
-  std::uint32_t* wallTouching;       ///< a bit for each boundary
+  float* boundaryHistory;                ///< [slot][boundary][width of the neighbours' history]
+  std::uint32_t* boundaryContactMask;       ///< a bit for each boundary
   base::Vec3d* fromSurfaces;         ///< [N] forces of the surfaces, by place in the list of grains near boundaries
   contact::PartLoad* surfaceLoads;   ///< sums of this step
   double* dissipated;

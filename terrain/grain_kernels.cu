@@ -3,7 +3,7 @@
 #include "terrain/grain_kernels.cuh"
 
 #include "terrain/boundary_contacts.cuh"
-#include "terrain/grain_lanes.hpp"
+#include "terrain/grain_simd.hpp"
 #include "terrain/grain_step.cuh"
 
 namespace grouser::terrain {
@@ -56,8 +56,8 @@ void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, c
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                               std::int64_t count, bool specialised) {
   const unsigned features = specialised ? d.features & ~kFloor : kGeneral;
-  if (const int width = exec.onCpu() ? laneWidth(features, f.law, d.mostLanes) : 1; width > 1)
-    return runGrainLanes(exec, d, f, count, width);
+  if (const int width = exec.onCpu() ? simdWidth(features, f.law, d.mostSimdLanes) : 1; width > 1)
+    return runGrainSimd(exec, d, f, count, width);
   runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
@@ -86,7 +86,7 @@ std::string featureText(unsigned features) {
   };
   add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
   add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
-  add(kPeriodic, "joined sides"), add(kBoundaries, "planes or floor"), add(kSurfaces, "moving surfaces");
+  add(kPeriodic, "periodic boundaries"), add(kBoundaries, "planes or floor"), add(kSurfaces, "moving surfaces");
   add(kLoads, "rigid parts"), add(kLedger, "ledger");
   return text;
 }

@@ -43,7 +43,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
     add(0, energy.quantise(0.5 * m * dot(v, v)));
     add(1, energy.quantise(0.5 * inertia * dot(w, w)));
-    // Along joined sides the way counts, not the place: a grain that has crossed has fallen on.
+    // Along periodic boundaries the way counts, not the place: a grain that has crossed has fallen on.
     Vec3d way = x;
     if (has(kPeriodic)) {
       way.x += d.crossings[i].x * (static_cast<double>(d.period.length.x) * d.unitLength);
@@ -87,10 +87,10 @@ private:
     for (int b = 0; b < d.boundaryCount; ++b) {
       const double overlap = radius - distanceTo(b, x, radius);
       if (overlap <= 0) continue;
-      const bool touched = d.wallTouching[i] >> b & 1;
+      const bool touched = d.boundaryContactMask[i] >> b & 1;
       const float* history =
           touched && Kernel::hasHistory()
-              ? d.wallHistory + (static_cast<std::int64_t>(i) * d.boundaryCount + b) * Kernel::historyWidth()
+              ? d.boundaryHistory + (static_cast<std::int64_t>(i) * d.boundaryCount + b) * Kernel::historyWidth()
               : nullptr;
       held.elastic += stored(f.boundaryLaws[b * d.materials + size.material], overlap, radius,
                              static_cast<double>(size.mass), history);
@@ -134,7 +134,7 @@ double strongest(const contact::ContactLaw& law, double radius) {
 
 GrainLedger Grains::ledger() {
   if (stale_) rebuild();
-  completeGhosts();
+  finishGhostUpdate();
   double force = strongest(model_.law, model_.radius);
   for (const contact::ContactLaw& law : model_.materials.grains) force = std::max(force, strongest(law, model_.radius));
   const base::FixedPoint energy = base::fixedPointFor(force * model_.radius, 32);

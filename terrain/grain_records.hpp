@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "terrain/kept_remainder.hpp"
+#include "terrain/compensated_sum.hpp"
 
 #include <cstddef>
 #include <cstdint>

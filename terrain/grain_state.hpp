@@ -37,7 +37,7 @@ struct GrainState {
   std::vector<float> radius;               ///< [rows] [m]; empty where all are alike
   std::vector<std::uint32_t> material;     ///< [rows]; empty where there is one
   std::vector<double> dissipated;          ///< [rows] since the start [J]; empty without a ledger
-  std::vector<Crossings> crossings;        ///< [rows] of joined sides; empty without them
+  std::vector<Crossings> crossings;        ///< [rows] of periodic boundaries; empty without them
   std::vector<std::uint32_t> wallBits;     ///< [rows] bit a wall or floor in touch; empty without them
   std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], zero out of touch; empty without friction
   std::vector<std::uint32_t> contacts;     ///< [rows] neighbours in touch

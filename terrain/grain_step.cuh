@@ -129,7 +129,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   GROUSER_HD void touchGrain(float* history, bool held, const base::Vec3f& spring, const Vec& normal, Real overlap,
                              Real distance, const GrainSize<Real>& own, const GrainSize<Real>& other,
                              const Vec& relative, const Vec& w, const Vec& wj, Sum& sum) const {
-    contact::BasicTouch<Real> touch{normal, overlap, relative, f.halfMass, Real(0.5) * f.radius};
+    contact::BasicContactGeometry<Real> touch{normal, overlap, relative, f.halfMass, Real(0.5) * f.radius};
     // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
     Real arm = Real(0.5) * distance;
     if (has(kManyRadii)) {
@@ -197,7 +197,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
-  /// A grain that has left through a joined side enters through the opposite one. What the lists hold of it moves
+  /// A grain that has left through a periodic boundary enters through the opposite one. What the lists hold of it moves
   /// along, so that they stay valid.
   GROUSER_HD void crossSides(int i, base::Vec3l& place, base::Vec3<std::uint32_t>& reference) const {
     for (int a = 0; a < 2; ++a) {
@@ -228,8 +228,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3l moved = base::toUnits(now.position);
     for (int a = 0; a < 3; ++a) {
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
-      const double speed = addKeeping(v[a], rv, force[a] * stepPerMass + d.gravityStep[a]);
-      if (Kernel::hasHistory() || has(kLoads)) addKeeping(w[a], rw, torque[a] * stepPerInertia);
+      const double speed = addCompensated(v[a], rv, force[a] * stepPerMass + d.gravityStep[a]);
+      if (Kernel::hasHistory() || has(kLoads)) addCompensated(w[a], rw, torque[a] * stepPerInertia);
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.

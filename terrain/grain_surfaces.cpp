@@ -8,7 +8,7 @@
 namespace grouser::terrain {
 
 void Grains::makeSurfaces(const Boundaries& boundaries) {
-  std::vector<SurfacePlacement> start;
+  std::vector<SurfacePose> start;
   // A contact as stiff as it gets takes 2^40 quanta: room for eight million of them on one surface.
   double pressed = 0;
   const auto consider = [&](const contact::ContactLaw& law) {
@@ -22,14 +22,14 @@ void Grains::makeSurfaces(const Boundaries& boundaries) {
   surfaces_ = base::Array<SurfaceGeometry>(exec_, geometries_);
   fromSurfaces_ = base::Array<base::Vec3d>(exec_);
   if (start.empty()) return;
-  placements_ = base::Mirrored<SurfacePlacement>(exec_, start.size());
+  placements_ = base::Mirrored<SurfacePose>(exec_, start.size());
   surfaceSums_ = base::Mirrored<contact::PartLoad>(exec_, start.size());
   surfaceLoads_.resize(start.size());
   surfaceForce_ = surfaceTorque_ = base::fixedPointFor(pressed, 40);
-  placeSurfaces(start);
+  setSurfacePoses(start);
 }
 
-void Grains::placeSurfaces(const std::vector<SurfacePlacement>& placements) {
+void Grains::setSurfacePoses(const std::vector<SurfacePose>& placements) {
   if (placements.size() != geometries_.size()) throw std::logic_error("as many placements as surfaces");
   std::copy(placements.begin(), placements.end(), placements_.host());
   placements_.upload();

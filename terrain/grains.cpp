@@ -51,9 +51,9 @@ int historyWidthOf(unsigned features) {
   return features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
 }
 
-double smallestOf(const GrainModel& model, const std::vector<GrainStart>& start) {
+double smallestOf(const GrainModel& model, const std::vector<GrainSpec>& start) {
   double least = model.smallestRadius > 0 ? model.smallestRadius : model.radius;
-  for (const GrainStart& g : start) least = g.radius > 0 ? std::min(least, g.radius) : least;
+  for (const GrainSpec& g : start) least = g.radius > 0 ? std::min(least, g.radius) : least;
   return least;
 }
 
@@ -76,12 +76,12 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
     const auto [from, to] = *sides;
     if (!(std::fabs(from) < scale.limit() && std::fabs(to) < scale.limit()))
       throw base::InputError(
-          fmt::format("joined sides {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a], from,
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a], from,
                       to, scale.limit()));
     period.low[a] = wholeUnits(from, scale), period.length[a] = wholeUnits(to, scale) - period.low[a];
     if (period.length[a] < 3 * reach)
       throw base::InputError(
-          fmt::format("joined sides {} = {:g} m and {:g} m are too near: a grain could touch another "
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are too near: a grain could touch another "
                       "from both sides; they must be at least {:.6g} m apart, three diameters and "
                       "skins",
                       "xy"[a], from, to, static_cast<double>(3 * reach) * scale.unit));
@@ -106,7 +106,7 @@ void checkDistinct(const std::vector<Position>& position, const std::vector<std:
 }
 
 /// Where the grains start; the first of them has the id `first`.
-std::vector<Position> placesOf(const std::vector<GrainStart>& start, std::size_t first,
+std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first,
                                const base::PositionScale& scale, double radius, const base::Period& period) {
   std::vector<Position> places(start.size());
   const double limit = scale.limit();
@@ -121,7 +121,7 @@ std::vector<Position> placesOf(const std::vector<GrainStart>& start, std::size_t
     for (int a = 0; a < 2; ++a)
       if (period.periodsBack(a, base::toUnits(places[i])[a]) != 0)
         throw base::InputError(fmt::format(
-            "grain {} at ({}, {}, {}) m lies outside the joined sides {} = {:.9g} m and {:.9g} m; move it between them",
+            "grain {} at ({}, {}, {}) m lies outside the periodic boundaries {} = {:.9g} m and {:.9g} m; move it between them",
             first + i, x.x, x.y, x.z, "xy"[a], static_cast<double>(period.low[a]) * scale.unit,
             static_cast<double>(period.low[a] + period.length[a]) * scale.unit));
   }
@@ -168,7 +168,7 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
 } // namespace
 
 Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries,
-               const std::vector<GrainStart>& start, const PartitionOptions& partition)
+               const std::vector<GrainSpec>& start, const PartitionOptions& partition)
     : exec_(exec), model_(model), scale_(base::positionScale(2 * model.radius)), comm_(partition.comm),
       count_(start.size()), slots_(0), smallestRadius_(smallestOf(model, start)),
       diameterUnits_(wholeUnits(2 * model.radius, scale_)),
@@ -216,17 +216,17 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   id_ = base::Array<std::uint32_t>(exec, id);
   reference_ = base::Array<base::Vec3<std::uint32_t>>(exec, slots_);
   const std::size_t perBoundary = boundaryCount_ > 0 ? slots_ : 0;
-  wallHistory_ = base::Array<float>(exec, perBoundary * static_cast<std::size_t>(boundaryCount_ * historyWidth_));
-  wallTouching_ = base::Array<std::uint32_t>(exec, perBoundary);
+  boundaryHistory_ = base::Array<float>(exec, perBoundary * static_cast<std::size_t>(boundaryCount_ * historyWidth_));
+  boundaryContactMask_ = base::Array<std::uint32_t>(exec, perBoundary);
   nearBoundary_ = base::Array<std::uint32_t>(exec);
   boundaryOf_ = base::Array<std::uint32_t>(exec, perBoundary);
   dissipated_ = base::Array<double>(exec, model.ledger ? slots_ : 0);
   crossings_ = base::Array<Crossings>(exec, period_.any() ? slots_ : 0);
   origin_ = base::Array<std::uint32_t>(exec), arrivedRows_ = base::Array<std::uint32_t>(exec);
-  flags_ = base::Mirrored<StepFlags>(exec, kAtOnce);
+  flags_ = base::Mirrored<StepFlags>(exec, kStepsPerGraph);
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
-  someSteps_ = base::AlternatingReplay(exec);
+  stepGraph_ = base::DoubleBufferedGraph(exec);
   side_ = base::SideStream(exec, true);
   walls_ = base::Array<Wall>(exec, boundaries.walls);
   std::vector<double> massPerCube;
@@ -246,11 +246,11 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, Boundaries bound
   makeSurfaces(boundaries);
 }
 
-void Grains::add(const std::vector<GrainStart>& more) {
-  completeGhosts();
+void Grains::add(const std::vector<GrainSpec>& more) {
+  finishGhostUpdate();
   const std::vector<Position> all = placesOf(more, count_, scale_, model_.radius, period_);
-  if (crowdingAlarm_)
-    if (const std::optional<Crowding> crowding = crowdingBy(more)) crowdingAlarm_(*crowding);
+  if (insertionOverlapAlarm_)
+    if (const std::optional<InsertionOverlap> insertionOverlap = insertionOverlapOf(more)) insertionOverlapAlarm_(*insertionOverlap);
   std::vector<Position> position;
   std::vector<Vec4f> velocity, spin;
   std::vector<std::uint32_t> id;
@@ -275,15 +275,15 @@ void Grains::add(const std::vector<GrainStart>& more) {
   if (model_.ledger) append(dissipated_, std::vector<double>(fresh));
   if (period_.any()) append(crossings_, std::vector<Crossings>(fresh));
   const auto boundaries = static_cast<std::size_t>(boundaryCount_);
-  if (boundaries > 0) append(wallTouching_, std::vector<std::uint32_t>(fresh));
-  append(wallHistory_, std::vector<float>(fresh * boundaries * static_cast<std::size_t>(historyWidth_)));
+  if (boundaries > 0) append(boundaryContactMask_, std::vector<std::uint32_t>(fresh));
+  append(boundaryHistory_, std::vector<float>(fresh * boundaries * static_cast<std::size_t>(historyWidth_)));
   slots_ += fresh, count_ += more.size();
   position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
   if (subdomain_) subdomain_->appended(fresh);
   invalidateNeighbours();
 }
 
-float Grains::radiusInW(const GrainStart& grain) const {
+float Grains::radiusInW(const GrainSpec& grain) const {
   return manyRadii() ? storedRadius(grain.radius > 0 ? grain.radius : model_.radius, scale_) : 0.0f;
 }
 
@@ -316,27 +316,27 @@ void Grains::setPartition(const Partition& partition) {
 void Grains::endStep() {
   readFlags(1);
   if (!geometries_.empty()) collectSurfaceLoads();
-  if (subdomain_ && !stale_) subdomain_->ghostUpdate().send(); // a rebuild would fetch them anew
+  if (subdomain_ && !stale_) subdomain_->haloExchange().send(); // a rebuild would fetch them anew
 }
 
 /// Whether the next steps need no host in between. A CPU gains nothing by it, and its lanes do not ask whether an
 /// earlier step was the last; without them it can. The first step after a rebuild has no ghosts under way.
-bool Grains::goesAtOnce() const {
-  const bool lanes = exec_.onCpu() && model_.mostLanes > 1;
+bool Grains::canBatchSteps() const {
+  const bool lanes = exec_.onCpu() && model_.mostSimdLanes > 1;
   if (lanes || !geometries_.empty()) return false;
-  return !subdomain_ || (subdomain_->stepsTogether() && subdomain_->ghostUpdate().underWay());
+  return !subdomain_ || (subdomain_->stepsTogether() && subdomain_->haloExchange().underWay());
 }
 
 std::int64_t Grains::advance(std::int64_t most) {
   if (refreshNeighbours()) slotsChanged_ = true; // nobody else has been told
-  if (most < kAtOnce || !goesAtOnce()) {
+  if (most < kStepsPerGraph || !canBatchSteps()) {
     step();
     return 1;
   }
-  if (subdomain_) subdomain_->ghostUpdate().arrive();
-  const unsigned turn = subdomain_ ? subdomain_->ghostUpdate().turn() : 0;
-  someSteps_.from(position_[0].data(), turn).run([this] { launchSteps(); });
-  return readFlags(kAtOnce);
+  if (subdomain_) subdomain_->haloExchange().arrive();
+  const unsigned bufferIndex = subdomain_ ? subdomain_->haloExchange().bufferIndex() : 0;
+  stepGraph_.from(position_[0].data(), bufferIndex).run([this] { launchSteps(); });
+  return readFlags(kStepsPerGraph);
 }
 
 /// Waits for the `steps` given to the device. Returns how many were taken: a list that is no longer valid, or a fault,
@@ -356,8 +356,8 @@ int Grains::readFlags(int steps) {
     comm_.minimum(all, 2);
     last.fault = all[0], last.stale = all[1] == 0;
   } else if (subdomain_) { // the GPUs have agreed
-    subdomain_->ghostUpdate().countRuns(taken - (last.stale ? 1 : 0));
-    if (last.stale) subdomain_->ghostUpdate().dropPassedOn();
+    subdomain_->haloExchange().countRuns(taken - (last.stale ? 1 : 0));
+    if (last.stale) subdomain_->haloExchange().discard();
   }
   steps_ += taken;
   if ((steps - taken) % 2 != 0) swapBuffers(); // they have been swapped for all of the steps
@@ -409,7 +409,7 @@ void Grains::stop() {
 
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
-                      wallHistory_.bytes() + wallTouching_.bytes() + dissipated_.bytes() + crossings_.bytes() +
+                      boundaryHistory_.bytes() + boundaryContactMask_.bytes() + dissipated_.bytes() + crossings_.bytes() +
                       nearBoundary_.bytes() + boundaryOf_.bytes() + single_.boundaryLoads.bytes() +
                       double_.boundaryLoads.bytes() + fromSurfaces_.bytes() + origin_.bytes() + arrivedRows_.bytes() +
                       (subdomain_ ? subdomain_->bytes() : 0);

@@ -45,7 +45,7 @@ struct MarkNearBoundary {
     for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
     mark[i] = near ? 1u : 0u;
     // A surface that jumps away leaves nothing to go on with.
-    if (d.surfaceCount > 0 && !near) d.wallTouching[i] = 0;
+    if (d.surfaceCount > 0 && !near) d.boundaryContactMask[i] = 0;
   }
 
 private:
@@ -76,7 +76,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads, int pla
   GrainKernelData d{};
   const double dt = model_.timeStep, r = model_.radius;
   d.features = features_ | (loads ? kLoads : 0u) | (hasFloor_ ? kFloor : 0u);
-  d.mostLanes = model_.mostLanes;
+  d.mostSimdLanes = model_.mostSimdLanes;
   d.timeStep = dt;
   d.diameter = static_cast<float>(2 * r);
   d.unitLength = scale_.unit, d.unitsPerLength = static_cast<float>(scale_.perMetre);
@@ -106,7 +106,7 @@ GrainKernelData Grains::kernelData(const contact::GrainLoadsView* loads, int pla
   d.reference = reference_.data();
   d.neighbours = neighbours_.view();
   d.nearBoundary = nearBoundary_.data(), d.boundaryOf = boundaryOf_.data();
-  d.wallHistory = wallHistory_.data(), d.wallTouching = wallTouching_.data();
+  d.boundaryHistory = boundaryHistory_.data(), d.boundaryContactMask = boundaryContactMask_.data();
   d.dissipated = dissipated_.data();
   if (loads) d.loads = *loads;
   d.flags = flags_.device().data() + place;
@@ -134,7 +134,7 @@ bool Grains::refreshNeighbours() {
 
 void Grains::rebuild() {
   if (boundariesBegun_) throw std::logic_error("grains are listed anew while their walls are being touched");
-  if (subdomain_) shareOut();
+  if (subdomain_) migrate();
   neighbours_.sort(position_[0].data(), slots_);
   permute();
   if (subdomain_) {
@@ -148,7 +148,7 @@ void Grains::rebuild() {
                 KeepReference{position_[0].data(), reference_.data()});
   stale_ = false;
   slotsChanged_ = true;
-  someSteps_.forget();
+  stepGraph_.forget();
   ++rebuilds_;
 }
 
@@ -189,7 +189,7 @@ void Grains::permute() {
   // By way of one place for all, and back: an array that changed its memory at each rebuild would ask for more of it.
   std::size_t most = 0;
   const auto atMost = [&]<class T>(const base::Array<T>& array) { most = std::max(most, array.size() * sizeof(T)); };
-  atMost(remainders_), atMost(id_), atMost(wallHistory_), atMost(wallTouching_), atMost(dissipated_);
+  atMost(remainders_), atMost(id_), atMost(boundaryHistory_), atMost(boundaryContactMask_), atMost(dissipated_);
   atMost(crossings_), atMost(origin_);
   base::Array<std::byte> place = base::Array<std::byte>::unset(exec_, most);
   const auto gatherOwn = [&]<class T>(base::Array<T>& array, int width = 1) {
@@ -200,8 +200,8 @@ void Grains::permute() {
   };
   gatherOwn(remainders_);
   gatherOwn(id_);
-  gatherOwn(wallHistory_, boundaryCount_ * historyWidth_);
-  gatherOwn(wallTouching_);
+  gatherOwn(boundaryHistory_, boundaryCount_ * historyWidth_);
+  gatherOwn(boundaryContactMask_);
   gatherOwn(dissipated_);
   gatherOwn(crossings_);
   gatherOwn(origin_);
@@ -225,7 +225,7 @@ void Grains::advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView*
   runGrainStep(exec_, d, forceData(forces), d.count, model_.specialised);
 }
 
-void Grains::touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place) {
+void Grains::computeBoundaryContacts(const base::Exec& exec, const contact::GrainLoadsView* loads, int place) {
   if (!geometries_.empty()) surfaceSums_.device().zero();
   if (boundaryCount_ == 0) return;
   const auto near = static_cast<std::int64_t>(nearBoundary_.size());
@@ -238,7 +238,7 @@ void Grains::touchBoundaries(const base::Exec& exec, const contact::GrainLoadsVi
 void Grains::beginBoundaries() {
   if (!geometries_.empty()) return; // nobody has placed the surfaces yet
   side_.fork();
-  touchBoundaries(side_.exec(), nullptr, 0);
+  computeBoundaryContacts(side_.exec(), nullptr, 0);
   boundariesBegun_ = true;
 }
 
@@ -246,15 +246,15 @@ template <class Real> void Grains::stepWith(Forces<Real>& forces, const contact:
   if (std::exchange(boundariesBegun_, false))
     side_.join();
   else
-    touchBoundaries(exec_, loads, place);
+    computeBoundaryContacts(exec_, loads, place);
   if (!subdomain_) return advanceGrains(exec_, forces, loads, place, nullptr);
   // Uniques need no ghost, and go while the ghosts' new states are on their way. Beside them, and first where both
   // could go, the masters, whose own new states others will need.
   side_.fork();
   advanceUniques(forces, loads, place);
-  completeGhosts(side_.exec());
+  finishGhostUpdate(side_.exec());
   advanceGrains(side_.exec(), forces, loads, place, &subdomain_->masters());
-  subdomain_->ghostUpdate().pack(side_.exec(), ghostFields(1));
+  subdomain_->haloExchange().pack(side_.exec(), ghostFields(1));
   side_.join();
 }
 
@@ -280,11 +280,11 @@ void Grains::beginStep(const contact::GrainLoadsView* loads) {
 
 /// Without a host in between: it is the GPUs that agree after each step whether that was the last.
 void Grains::launchSteps() {
-  for (int place = 0; place < kAtOnce; ++place) {
+  for (int place = 0; place < kStepsPerGraph; ++place) {
     launchStep(nullptr, place);
     if (!subdomain_) continue;
     subdomain_->agreement().run(exec_, reinterpret_cast<std::uint64_t*>(flags_.device().data() + place));
-    subdomain_->ghostUpdate().passOn();
+    subdomain_->haloExchange().publish();
   }
   flags_.download();
 }

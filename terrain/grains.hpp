@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "base/replay.hpp"
+#include "base/device_graph.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/neighbour_list.hpp"
 #include "terrain/grain_model.hpp"
@@ -24,7 +24,7 @@ struct GrainKernelData;
 template <class Real> struct ForceData;
 
 /// One grain as the user sets it; its id is its place in the list.
-struct GrainStart {
+struct GrainSpec {
   base::Vec3d position; ///< [m]
   base::Vec3d velocity; ///< [m/s]
   base::Vec3d spin;     ///< [rad/s]
@@ -43,19 +43,19 @@ struct GrainSnapshot {
 
 /// Along x and y: the places [m] of two sides that are joined, where they are. What leaves through one enters through
 /// the other, and grains touch across them.
-using JoinedSides = std::array<std::optional<std::array<double, 2>>, 2>;
+using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
 
 /// Rigid surroundings of the grains: plane walls, a height-field floor, and surfaces that may move; at most 32
 /// together.
 struct Boundaries {
   std::vector<Wall> walls;
   std::optional<HeightField> floor;
-  JoinedSides joined{}; ///< walls, floor and surfaces do not know of it: they must look alike at both sides
+  PeriodicBoundaries joined{}; ///< walls, floor and surfaces do not know of it: they must look alike at both sides
   std::vector<RigidSurface> surfaces{};
 };
 
 /// What keeps a grain from entering: it would lie in another grain or in a surface, deeper than the model allows.
-struct Crowding {
+struct InsertionOverlap {
   std::size_t entering{};             ///< its place in the list of those that enter
   double overlap{};                   ///< [m]
   std::optional<std::uint32_t> grain; ///< id of the other one; none: it is a surface
@@ -75,7 +75,7 @@ class Grains {
 public:
   /// `start`: all grains of the scene, on every rank. Throws InputError when a grain lies outside the range of the
   /// integer positions, two grains coincide, or radii are too unlike for their positions' scale.
-  Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries, const std::vector<GrainStart>& start,
+  Grains(const base::Exec& exec, const GrainModel& model, Boundaries boundaries, const std::vector<GrainSpec>& start,
          const PartitionOptions& partition = {});
 
   std::size_t count() const { return count_; } ///< of the scene; local
@@ -85,11 +85,11 @@ public:
   /// Sum of features of laws and grains, without loads; local.
   unsigned features() const { return features_; }
   bool manyRadii() const;
-  const base::Period& period() const { return period_; }    ///< of joined sides; local
+  const base::Period& period() const { return period_; }    ///< of periodic boundaries; local
   double smallestRadius() const { return smallestRadius_; } ///< of the scene [m]; local
 
   /// Where the surfaces are in the next step, one a surface of the boundaries; on all ranks the same.
-  void placeSurfaces(const std::vector<SurfacePlacement>& placements);
+  void setSurfacePoses(const std::vector<SurfacePose>& placements);
   /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
   const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
   std::int64_t surfaceListings() const { return surfaceListings_; } ///< lists of grains near boundaries made so far
@@ -100,11 +100,11 @@ public:
   void invalidateNeighbours() { stale_ = true; }
 
   /// More grains, with the ids that follow; between steps. Throws InputError as the constructor does.
-  void add(const std::vector<GrainStart>& more);
+  void add(const std::vector<GrainSpec>& more);
   /// Called by add() on all ranks, before anything has changed, where there is no room; must throw. Without it add()
   /// does not look.
-  using CrowdingAlarm = std::function<void(const Crowding&)>;
-  void onCrowding(CrowdingAlarm alarm) { crowdingAlarm_ = std::move(alarm); }
+  using InsertionOverlapAlarm = std::function<void(const InsertionOverlap&)>;
+  void onInsertionOverlap(InsertionOverlapAlarm alarm) { insertionOverlapAlarm_ = std::move(alarm); }
 
   /// Forces and one advance. `loads` come from rigid parts; null without them. The list must be valid.
   /// Throws SimulationError at a fault, with step, time, grain, place and remedy.
@@ -132,8 +132,8 @@ public:
   const std::uint32_t* ghosts() const { return subdomain_ ? subdomain_->ghostMarks() : nullptr; }
   /// Called when grains go to other ranks, before they do: with the rank that the grain of each slot now belongs to
   /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after.
-  using HandOver = std::function<void(const std::uint32_t* destination)>;
-  void onHandOver(HandOver handOver) { handOver_ = std::move(handOver); }
+  using OnMigrate = std::function<void(const std::uint32_t* destination)>;
+  void onMigrate(OnMigrate onMigrate) { onMigrate_ = std::move(onMigrate); }
   /// Null on one rank.
   const Subdomain* subdomain() const { return subdomain_.get(); }
   const base::Comm& comm() const { return comm_; }
@@ -178,7 +178,7 @@ private:
   template <class Real> ForceData<Real> forceData(Forces<Real>& forces);
   template <class Real> void makeForces(Forces<Real>& forces, const std::vector<contact::ContactLaw>& boundaries);
   template <class Real> void advanceUniques(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place);
-  void touchBoundaries(const base::Exec& exec, const contact::GrainLoadsView* loads, int place);
+  void computeBoundaryContacts(const base::Exec& exec, const contact::GrainLoadsView* loads, int place);
   template <class Real> void stepWith(Forces<Real>& forces, const contact::GrainLoadsView* loads, int place);
   void launchStep(const contact::GrainLoadsView* loads, int place);
   void launchSteps();
@@ -187,17 +187,17 @@ private:
                                            const contact::GrainLoadsView* loads, int place,
                                            const base::Array<std::uint32_t>* active);
   contact::RadiiInW radii() const;
-  float radiusInW(const GrainStart& grain) const;
+  float radiusInW(const GrainSpec& grain) const;
   void rebuild();
   void permute();
-  std::optional<Crowding> crowdingBy(const std::vector<GrainStart>& entering) const; // grain_entry.cu
+  std::optional<InsertionOverlap> insertionOverlapOf(const std::vector<GrainSpec>& entering) const; // grain_entry.cu
   void listNearBoundaries();
   // Of surfaces: grain_surfaces.cpp.
   void makeSurfaces(const Boundaries& boundaries);
   bool surfacesHaveLeft() const;
   double surfaceWay() const { return 0.5 * smallestRadius_; } ///< that they may move between two lists [m]
   void collectSurfaceLoads();
-  bool goesAtOnce() const;
+  bool canBatchSteps() const;
   int readFlags(int steps);
   [[noreturn]] void stopFor(std::uint64_t fault) const;
   GrainLayout layout() const;
@@ -209,10 +209,10 @@ private:
 
   // On several ranks: grain_distribution.cu.
   template <class Each> void forOwnArrays(const Each& each);
-  void shareOut();
+  void migrate();
   std::array<contact::ExchangeField, 3> ghostFields(int buffer);
-  void completeGhosts() { completeGhosts(exec_); }
-  void completeGhosts(const base::Exec& exec);
+  void finishGhostUpdate() { finishGhostUpdate(exec_); }
+  void finishGhostUpdate(const base::Exec& exec);
   void updateGhosts();
   void rebalance();
 
@@ -233,18 +233,18 @@ private:
   base::Array<Remainders> remainders_;
   base::Array<std::uint32_t> id_;
   base::Array<base::Vec3<std::uint32_t>> reference_;
-  base::Array<float> wallHistory_; ///< [slot][wall, floor or surface][historyWidth_]
-  base::Array<std::uint32_t> wallTouching_;
+  base::Array<float> boundaryHistory_; ///< [slot][wall, floor or surface][historyWidth_]
+  base::Array<std::uint32_t> boundaryContactMask_;
   base::Array<double> dissipated_;
   base::Array<Crossings> crossings_;
   base::Array<std::uint32_t> nearBoundary_, boundaryOf_;
   base::Array<double> massPerCube_;
   Forces<float> single_;
   Forces<double> double_;
-  static constexpr int kAtOnce = 16; ///< steps that go as one
-  static_assert(kAtOnce % 2 == 0); ///< so that the buffers, and the turns of the ghosts' exchange, end where they began
+  static constexpr int kStepsPerGraph = 16; ///< steps that go as one
+  static_assert(kStepsPerGraph % 2 == 0); ///< so that the buffers, and the turns of the ghosts' exchange, end where they began
   base::Mirrored<StepFlags> flags_; ///< of each of them
-  base::AlternatingReplay someSteps_;
+  base::DoubleBufferedGraph stepGraph_;
   base::Array<Wall> walls_;
   base::Array<double> floorHeights_;
   HeightFieldView floorView_{};
@@ -252,8 +252,8 @@ private:
 
   base::Array<SurfaceGeometry> surfaces_;
   std::vector<SurfaceGeometry> geometries_;
-  base::Mirrored<SurfacePlacement> placements_;
-  std::vector<SurfacePlacement> listedAt_; ///< the surfaces when the grains near them were listed
+  base::Mirrored<SurfacePose> placements_;
+  std::vector<SurfacePose> listedAt_; ///< the surfaces when the grains near them were listed
   base::Mirrored<contact::PartLoad> surfaceSums_;
   base::Array<base::Vec3d> fromSurfaces_;
   base::FixedPoint surfaceForce_, surfaceTorque_;
@@ -264,8 +264,8 @@ private:
   std::unique_ptr<Subdomain> subdomain_; ///< null on one rank
   base::SideStream side_;
   bool boundariesBegun_{false};
-  HandOver handOver_;
-  CrowdingAlarm crowdingAlarm_;
+  OnMigrate onMigrate_;
+  InsertionOverlapAlarm insertionOverlapAlarm_;
   base::Array<std::uint32_t> origin_, arrivedRows_;
   contact::RowOrigins origins_{};
   Clock::time_point measuredFrom_{Clock::now()};

@@ -128,8 +128,8 @@ GrainState Grains::ownRows() const {
   const auto position = position_[0].toHost();
   const auto velocity = velocity_[0].toHost(), spin = spin_[0].toHost();
   const auto remainders = remainders_.toHost();
-  const auto id = id_.toHost(), wallBits = wallTouching_.toHost();
-  const auto wallHistory = wallHistory_.toHost();
+  const auto id = id_.toHost(), wallBits = boundaryContactMask_.toHost();
+  const auto boundaryHistory = boundaryHistory_.toHost();
   const auto dissipated = dissipated_.toHost();
   const auto crossings = crossings_.toHost();
   const auto reference = reference_.toHost();
@@ -168,8 +168,8 @@ GrainState Grains::ownRows() const {
     for (std::size_t b = 0; b < walls && width > 0; ++b) {
       const bool held = wallBits[i] >> b & 1;
       const std::size_t at = (i * walls + b) * width;
-      s.wallShear.push_back(held ? vectorAt(wallHistory, at) : Vec3f{});
-      if (width > 3) s.wallRolling.push_back(held ? vectorAt(wallHistory, at + 3) : Vec3f{});
+      s.wallShear.push_back(held ? vectorAt(boundaryHistory, at) : Vec3f{});
+      if (width > 3) s.wallRolling.push_back(held ? vectorAt(boundaryHistory, at + 3) : Vec3f{});
     }
   }
   return s;
@@ -195,7 +195,7 @@ void Grains::restore(const GrainState& saved, bool grows) {
       owner.push_back(subdomain_->partition().view().ownerOf(period_.wrapped(base::toUnits(placed(saved, k)))));
   const GrainState s = redistribute(comm_, saved, owner);
 
-  completeGhosts(); // those on their way are of the grains that go
+  finishGhostUpdate(); // those on their way are of the grains that go
   slots_ = s.rows(), count_ = static_cast<std::size_t>(saved.total);
   std::vector<Position> position(slots_);
   std::vector<Vec4f> velocity(slots_), spin(slots_);
@@ -209,7 +209,7 @@ void Grains::restore(const GrainState& saved, bool grows) {
   position_[1].resize(slots_), velocity_[1].resize(slots_), spin_[1].resize(slots_);
   remainders_.assign(s.remainders), id_.assign(s.id), dissipated_.assign(s.dissipated);
   crossings_.assign(s.crossings);
-  wallTouching_.assign(s.wallBits), wallHistory_.assign(historyOf(s.wallShear, s.wallRolling));
+  boundaryContactMask_.assign(s.wallBits), boundaryHistory_.assign(historyOf(s.wallShear, s.wallRolling));
   if (subdomain_) subdomain_->forgetRoles();
   neighbours_.forget();
   invalidateNeighbours();

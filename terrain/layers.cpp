@@ -39,7 +39,7 @@ void check(const LayerOptions& o) {
 struct Axis {
   double start{}, spacing{}, offset{};
   int count[2]{};
-  double period{0}; ///< of joined sides; 0: walls
+  double period{0}; ///< of periodic boundaries; 0: walls
 
   double at(int i, int layer) const { return start + (layer & 1) * offset + i * spacing; }
   /// From `a` to `b`, or to the nearest image of it.
@@ -57,7 +57,7 @@ Axis fit(double from, double length, double spacing) {
   return {from + left / 2, spacing, spacing / 2, {n, n - 1}};
 }
 
-/// A ring of points, as many as fit between joined sides; odd layers sit in between.
+/// A ring of points, as many as fit between periodic boundaries; odd layers sit in between.
 Axis ring(double from, double length, double spacing) {
   const int n = static_cast<int>(std::floor(length / spacing * (1 + 1e-12)));
   const double pitch = length / std::max(1, n);

@@ -12,7 +12,7 @@ namespace {
 
 /// Planes between `parts` slabs that hold nearly equal weights. Strictly ascending, so that no two planes fall together
 /// even where all of the weight lies in one bin.
-std::vector<std::int64_t> shareOut(int parts, std::int64_t low, std::int64_t high,
+std::vector<std::int64_t> migrate(int parts, std::int64_t low, std::int64_t high,
                                    const std::vector<std::int64_t>& weights) {
   std::int64_t total = 0;
   for (const std::int64_t w : weights) total += w;
@@ -44,7 +44,7 @@ Partition::Partition(const std::array<int, 3>& shape, const base::Vec3l& low, co
       throw base::InputError(fmt::format("{} subdomains along {}: 1 to {} are possible; choose another "
                                          "parallel.subdomains",
                                          shape[a], "xyz"[a], kMostSubdomainsAnAxis));
-    cuts_[a] = shareOut(shape[a], low[static_cast<int>(a)], high[static_cast<int>(a)], weights[a]);
+    cuts_[a] = migrate(shape[a], low[static_cast<int>(a)], high[static_cast<int>(a)], weights[a]);
   }
 }
 

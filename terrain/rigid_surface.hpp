@@ -25,7 +25,7 @@ struct SurfaceGeometry {
 
 /// Where a surface is and how it moves in one step. `motion.origin` and `motion.centre` are one point, about which
 /// loads are taken.
-struct SurfacePlacement {
+struct SurfacePose {
   contact::PartMotion motion;                   ///< frame S in the world, velocity and spin
   base::Mat3d turned = base::Mat3d::identity(); ///< since the start, in world components: springs turn with the surface
 
@@ -39,7 +39,7 @@ struct SurfacePlacement {
 struct RigidSurface {
   SurfaceGeometry geometry;
   contact::ContactLaw law; ///< between grain and surface
-  SurfacePlacement start;
+  SurfacePose start;
 };
 
 /// Load that the grains put on a surface in one step, about its centre.
@@ -116,7 +116,7 @@ struct SurfaceTravel {
 
 /// In the frame of a rigid body p moves by no more than |shift of the centre| + |I - Q| |p - centre|, Q the turn; |I -
 /// Q| is the chord 2 sin(angle / 2), of an axis alone the distance between its two ends.
-inline SurfaceTravel travelBetween(const SurfaceGeometry& g, const SurfacePlacement& a, const SurfacePlacement& b) {
+inline SurfaceTravel travelBetween(const SurfaceGeometry& g, const SurfacePose& a, const SurfacePose& b) {
   const auto chordOf = [&](int column) {
     base::Vec3d chord;
     for (int row = 0; row < 3; ++row) chord[row] = b.motion.rotation.m[row][column] - a.motion.rotation.m[row][column];

@@ -54,7 +54,7 @@ struct ReadRanks {
 };
 
 /// The other subdomains within range of one grain: counted, or listed where `ranks` is not null.
-struct FindNeedy {
+struct FindGhostTargets {
   PartitionView partition;
   base::Period period;
   const Position* position;
@@ -87,7 +87,7 @@ struct FindNeedy {
   }
 
 private:
-  /// Bit k: slab k of this axis, or an image of it across joined sides, is within range of `u`.
+  /// Bit k: slab k of this axis, or an image of it across periodic boundaries, is within range of `u`.
   GROUSER_HD std::uint64_t slabsNear(int axis, std::int64_t u) const {
     const std::int64_t low = u - range, high = u + range;
     if (!period.along(axis)) return slabs(axis, low, high);
@@ -108,12 +108,12 @@ private:
 
 /// Roles in the order before sorting: owned grains by who needs them, then ghosts.
 struct AssignRoles {
-  const std::uint32_t* needy;
+  const std::uint32_t* ghostTargets;
   std::uint32_t owned;
   std::uint32_t* role;
   GROUSER_HD void operator()(int i) const {
     const auto slot = static_cast<std::uint32_t>(i);
-    role[i] = static_cast<std::uint32_t>(slot >= owned ? Role::slave : needy[i] > 0 ? Role::master : Role::unique);
+    role[i] = static_cast<std::uint32_t>(slot >= owned ? Role::slave : ghostTargets[i] > 0 ? Role::master : Role::unique);
   }
 };
 
@@ -168,8 +168,8 @@ struct FindExtent {
 Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
                      const base::Period& period)
     : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), period_(period),
-      handOver_(exec, options.comm, {.peers = options.peers}),
-      ghostUpdate_(exec, options.comm, {.peers = options.peers}), agreement_(exec, options.comm, options.peers),
+      migration_(exec, options.comm, {.peers = options.peers}),
+      haloExchange_(exec, options.comm, {.peers = options.peers}), reduction_(exec, options.comm, options.peers),
       role_(exec), ghostMark_(exec), destination_(exec), movesFrom_(exec), movesTo_(exec), uniques_(exec),
       masters_(exec) {}
 
@@ -190,7 +190,7 @@ void Subdomain::findLeaving(const Position* position, std::size_t slots) {
   base::Array<std::uint64_t> ranks(exec_, leaving.size());
   base::forEach(exec_, "read destinations", static_cast<std::int64_t>(leaving.size()),
                 ReadRanks{leaving.data(), destination_.data(), ranks.data()});
-  handOver_.route(ranks, leaving, leaving.size());
+  migration_.setPlan(ranks, leaving, leaving.size());
 }
 
 void Subdomain::appended(std::size_t count) {
@@ -205,15 +205,15 @@ void Subdomain::appended(std::size_t count) {
 void Subdomain::findMasters(const Position* position, std::size_t owned) {
   const auto n = static_cast<std::int64_t>(owned);
   base::Array<std::uint32_t> count(exec_, owned), first(exec_, owned);
-  FindNeedy find{partition_.view(), period_, position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};
+  FindGhostTargets find{partition_.view(), period_, position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};
   base::forEach(exec_, "count who needs a grain", n, find);
   const std::uint32_t total = base::exclusiveScan(exec_, count.data(), first.data(), owned);
   base::Array<std::uint64_t> ranks(exec_, total);
   base::Array<std::uint32_t> slots(exec_, total);
   find.first = first.data(), find.ranks = ranks.data(), find.slots = slots.data();
   if (total > 0) base::forEach(exec_, "list who needs a grain", n, find);
-  ghostUpdate_.route(ranks, slots, total);
-  ghostUpdate_.putFrom(owned);
+  haloExchange_.setPlan(ranks, slots, total);
+  haloExchange_.setImportSlots(owned);
   role_.resize(owned + ghosts());
   base::forEach(exec_, "assign roles", static_cast<std::int64_t>(role_.size()),
                 AssignRoles{count.data(), static_cast<std::uint32_t>(owned), role_.data()});
@@ -229,7 +229,7 @@ void Subdomain::sorted(const std::uint32_t* order, std::size_t slots) {
   haveRoles_ = true;
   if (exec_.onCpu()) base::listMarked(exec_, unique.data(), slots, uniques_);
   base::listMarked(exec_, master.data(), slots, masters_);
-  ghostUpdate_.renumber(newSlot.data());
+  haloExchange_.renumber(newSlot.data());
 }
 
 Partition Subdomain::balanced(const Position* position, std::size_t slots, double costPerGrain) const {
@@ -264,10 +264,10 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
 }
 
 const char* Subdomain::way() const {
-  if (exec_.onCpu()) return ghostUpdate_.peersOnly() ? "shared memory" : "messages";
+  if (exec_.onCpu()) return haloExchange_.peersOnly() ? "shared memory" : "messages";
   if (stepsTogether()) return "GPU to GPU, steps agreed upon by the GPUs";
-  if (ghostUpdate_.peersOnly()) return "GPU to GPU";
-  return ghostUpdate_.sharesMemory() ? "GPU to GPU where they see each other, messages" : "messages";
+  if (haloExchange_.peersOnly()) return "GPU to GPU";
+  return haloExchange_.sharesMemory() ? "GPU to GPU where they see each other, messages" : "messages";
 }
 
 std::size_t Subdomain::bytes() const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "base/peer_agreement.hpp"
+#include "base/peer_reduction.hpp"
 #include "base/period.hpp"
 #include "contact/exchange.hpp"
 #include "terrain/partition.hpp"
@@ -41,9 +41,9 @@ public:
   const Partition& partition() const { return partition_; }
   void setPartition(const Partition& partition) { partition_ = partition; }
 
-  /// Grains whose centre now lies in another subdomain: fills the route of the hand-over, and what is kept.
+  /// Grains whose centre now lies in another subdomain: fills the plan of the migration, and what is kept.
   void findLeaving(const base::Position* position, std::size_t slots);
-  /// By slot, until the next hand-over: the rank that the grain of this slot now belongs to, or kNobody for a slave.
+  /// By slot, until the next migration: the rank that the grain of this slot now belongs to, or kNobody for a slave.
   static constexpr std::uint32_t kNobody = ~0u;
   const std::uint32_t* destination() const { return destination_.data(); }
   /// The grains that stay fill the first `kept()` slots when those of them that are farther back have moved to where
@@ -52,20 +52,20 @@ public:
   std::size_t moves() const { return movesFrom_.size(); }
   const std::uint32_t* movesFrom() const { return movesFrom_.data(); }
   const std::uint32_t* movesTo() const { return movesTo_.data(); }
-  contact::Exchange& handOver() { return handOver_; }
+  contact::Exchange& migration() { return migration_; }
 
-  /// Masters among the first `owned` grains: fills the route of the ghost updates; ghosts go to the slots from `owned`
+  /// Masters among the first `owned` grains: fills the plan of the ghost updates; ghosts go to the slots from `owned`
   /// on, `ghosts()` of them.
   void findMasters(const base::Position* position, std::size_t owned);
-  std::size_t ghosts() const { return ghostUpdate_.coming(); }
-  contact::Exchange& ghostUpdate() { return ghostUpdate_; }
-  base::PeerAgreement& agreement() { return agreement_; }
+  std::size_t ghosts() const { return haloExchange_.importCount(); }
+  contact::Exchange& haloExchange() { return haloExchange_; }
+  base::PeerReduction& agreement() { return reduction_; }
   /// GPUs can go through steps together, without their hosts.
-  bool stepsTogether() const { return agreement_.possible() && ghostUpdate_.peersOnly(); }
+  bool stepsTogether() const { return reduction_.possible() && haloExchange_.peersOnly(); }
 
   /// The grains were sorted: slot i now holds what was in slot order[i].
   void sorted(const std::uint32_t* order, std::size_t slots);
-  /// Grains were appended that belong here until the next hand-over.
+  /// Grains were appended that belong here until the next migration.
   void appended(std::size_t count);
   /// The slots hold owned grains only: they were loaded, not sorted.
   void forgetRoles() { haveRoles_ = false; }
@@ -79,10 +79,10 @@ public:
   bool rebalances() const { return rebalance_; }
   std::size_t bytes() const;
   /// Time that this rank or its GPU has spent waiting for others since the start [s]. Waits for the GPU's work.
-  double waited() const { return comm_.waited() + agreement_.waited(); }
+  double waited() const { return comm_.waited() + reduction_.waited(); }
   /// How elements travel, for the reader.
   const char* way() const;
-  std::int64_t bytesSent() const { return handOver_.bytesSent() + ghostUpdate_.bytesSent(); }
+  std::int64_t bytesSent() const { return migration_.bytesSent() + haloExchange_.bytesSent(); }
 
 private:
   base::Exec exec_;
@@ -91,8 +91,8 @@ private:
   std::int64_t range_;
   base::Period period_;
   Partition partition_;
-  contact::Exchange handOver_, ghostUpdate_;
-  base::PeerAgreement agreement_;
+  contact::Exchange migration_, haloExchange_;
+  base::PeerReduction reduction_;
   bool haveRoles_{false};
   std::size_t kept_{0};
   base::Array<std::uint32_t> role_, ghostMark_, destination_, movesFrom_, movesTo_, uniques_, masters_;

@@ -96,7 +96,7 @@ struct Neighbourhood {
   std::int64_t reach2;
   bool checkFar; ///< cells are so wide that 32-bit differences may wrap
 
-  GROUSER_HD bool touch(const Position& a, const Position& b) const {
+  GROUSER_HD bool overlaps(const Position& a, const Position& b) const {
     if (checkFar && !differencesHold(base::toUnits(b) - base::toUnits(a))) return false;
     return base::squaredNorm(base::difference(a, b)) < reach2;
   }
@@ -119,7 +119,7 @@ struct Neighbourhood {
 private:
   template <class Visit>
   GROUSER_HD void across(const Position& p, std::uint32_t first, std::uint32_t last, Visit& visit) const {
-    for (std::uint32_t j = first; j < last; ++j) visit(j, touch(p, position[j]));
+    for (std::uint32_t j = first; j < last; ++j) visit(j, overlaps(p, position[j]));
   }
 };
 

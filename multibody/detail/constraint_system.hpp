@@ -3,7 +3,7 @@
 
 #include "multibody/detail/constraint.hpp"
 #include "multibody/detail/elimination.hpp"
-#include "multibody/detail/link_lanes.hpp"
+#include "multibody/detail/link_simd.hpp"
 #include "multibody/state.hpp"
 
 #include <array>

@@ -4,7 +4,7 @@
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/integrator.hpp"
 #include "multibody/detail/mixing.hpp"
-#include "multibody/detail/rotation_lanes.hpp"
+#include "multibody/detail/rotation_simd.hpp"
 
 #include <array>
 #include <vector>

@@ -41,7 +41,7 @@ terrain::GrainModel modelOf(const BedBench& b) {
   model.mass = setup::sphereMass(b.density, b.radius);
   model.timeStep = b.timeStep;
   model.gravity = {0, 0, -kGravity};
-  model.skin = b.skin, model.mostLanes = b.lanes;
+  model.skin = b.skin, model.mostSimdLanes = b.lanes;
   model.ledger = b.ledger;
   // A pair of grains weighs half a grain; 2/7 and 1/2 are the scene's defaults of the tangential ratios.
   const double damping =
@@ -67,11 +67,11 @@ std::int64_t sideOf(std::int64_t grains) {
   return side;
 }
 
-std::vector<terrain::GrainStart> lattice(const BedBench& b) {
+std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
   const std::int64_t side = sideOf(b.grains);
   const double spacing = kSpacing * b.radius;
   const double shift = 0.5 * b.jitter * (kSpacing - 2) * b.radius; // grains never touch at the start
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   start.reserve(static_cast<std::size_t>(b.grains));
   for (std::int64_t i = 0; i < b.grains; ++i) {
     const auto id = static_cast<std::uint64_t>(i);

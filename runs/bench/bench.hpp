@@ -28,7 +28,7 @@ struct BedBench {
   double radius = 0.027;    ///< [m]
   double jitter = 0.9;      ///< of the lattice, as a share of its free gap [-], 0 to 1
   double skin = 0.3;        ///< [-] of the radius
-  int lanes = 16;           ///< GrainModel::mostLanes
+  int lanes = 16;           ///< GrainModel::mostSimdLanes
   double friction = 0.5;    ///< [-]
   double restitution = 0.5; ///< [-]
   double stiffness = 1e6;   ///< [N/m]

@@ -28,7 +28,7 @@ void StepBench::step() {
   simulation::VehicleRig* vehicle = s.vehicle_.get();
   base::synchronize(exec_);
   last_ = now();
-  if (vehicle) vehicle->placeSurfaces();
+  if (vehicle) vehicle->setSurfacePoses();
   mark(kPlace);
   const bool slotsChanged = grains && grains->refreshNeighbours();
   rebuilds_ += slotsChanged;
@@ -39,15 +39,15 @@ void StepBench::step() {
     vehicle->noteTravel();
     vehicle->uploadPoses();
     mark(kUpload);
-    vehicle->touchTrack();
+    vehicle->computeTrackContacts();
     mark(kTrack);
-    vehicle->touchGround(grains, exec_);
+    vehicle->computeGroundContacts(grains, exec_);
     mark(kGround);
     vehicle->downloadLoads();
     vehicle->collectLoads();
     mark(kCollect);
   }
-  if (s.surfaces_) s.surfaces_->touch(*grains, s.steps_, slotsChanged);
+  if (s.surfaces_) s.surfaces_->computeContacts(*grains, s.steps_, slotsChanged);
   if (grains) grains->beginStep(s.partLoads());
   mark(kGrains);
   if (vehicle) vehicle->advance();

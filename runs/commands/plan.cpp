@@ -101,7 +101,7 @@ std::string switches(const scene::Scene& scene) {
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
   const auto [alongX, alongY] = scene.run.periodic;
-  text += onOff(alongX || alongY, "joined sides",
+  text += onOff(alongX || alongY, "periodic boundaries",
                 alongX && alongY ? "x and y"
                 : alongX         ? "x"
                 : alongY         ? "y"
@@ -163,7 +163,7 @@ std::string planText(const scene::Scene& scene) {
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
                         contact / step, resolved);
   if (!scene.mechanism.empty())
-    if (const std::string warning = simulation::tautStartWarning(scene, step); !warning.empty())
+    if (const std::string warning = simulation::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);
   return text;
 }

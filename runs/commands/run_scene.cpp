@@ -90,7 +90,7 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
   if (simulation.settled().steps > 0)
     fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",
                simulation.settled().time, simulation.settled().agitation);
-  if (beds && !beds->story().empty()) fmt::print("bed       {}\n", beds->story());
+  if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
@@ -216,7 +216,7 @@ output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
   const double prepared = since(start);
   describeBuild(simulation, exec, beds ? &*beds : nullptr);
   if (simulation.mechanism() && !former && options.comm().first())
-    if (const std::string warning = simulation::tautStartWarning(scene, simulation.timeStep()); !warning.empty())
+    if (const std::string warning = simulation::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
 
   Recorder recorder(simulation, scene, options, exec, former.get());

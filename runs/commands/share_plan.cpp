@@ -34,7 +34,7 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
     base::Vec3d low{1e300, 1e300, 1e300}, high = -low;
     const auto include = [&](const base::Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
     for (const scene::Grain& g : scene.grains) include(g.position);
-    for (const scene::GrainBlock& b : scene.blocks) {
+    for (const scene::GrainFill& b : scene.fills) {
       for (const scene::Grain& g : b.fromFile) include(g.position);
       if (b.low) include(*b.low), include(*b.high);
     }

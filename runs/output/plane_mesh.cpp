@@ -32,7 +32,7 @@ std::pair<Vec3d, Vec3d> room(const scene::Scene& scene) {
   std::vector<Vec3d> points;
   double margin = 0;
   for (const scene::Grain& g : scene.grains) points.push_back(g.position), margin = std::max(margin, 4 * g.radius);
-  for (const scene::GrainBlock& b : scene.blocks) {
+  for (const scene::GrainFill& b : scene.fills) {
     for (const scene::Grain& g : b.fromFile) points.push_back(g.position);
     if (b.low) points.push_back(*b.low), points.push_back(*b.high);
     margin = std::max(margin, 4 * b.largestRadius());

@@ -122,7 +122,7 @@ void resolveFile(const Scene& scene, const Section& section, const std::string& 
 }
 
 void readBlock(const Section& section, Scene& scene) {
-  GrainBlock b = section.read(detail::blockTable());
+  GrainFill b = section.read(detail::fillTable());
   checkMaterial(scene, section, "material", b.material);
   const bool file = b.form == "file";
   for (const char* key : {"low", "high", "radius"})
@@ -145,7 +145,7 @@ void readBlock(const Section& section, Scene& scene) {
     resolveFile(scene, section, "file", *b.file);
     b.fromFile = readGrainFile(*b.file, b);
   }
-  scene.blocks.push_back(std::move(b));
+  scene.fills.push_back(std::move(b));
 }
 
 void readGrainsAndSurfaces(const Section& root, Scene& scene) {
@@ -274,7 +274,7 @@ void readParallel(const Section& section, Scene& scene) {
   }
 }
 
-/// What stands at one of two joined sides must stand at the other, too.
+/// What stands at one of two periodic boundaries must stand at the other, too.
 void checkPlanesAcross(const std::vector<Section>& sections, const Scene& scene) {
   for (std::size_t k = 0; k < scene.planes.size(); ++k)
     for (int a = 0; a < 2; ++a)
@@ -323,7 +323,7 @@ void checkPeriodic(const Section& section, const Scene& scene) {
   }
   if (!run.periodic[0] && !run.periodic[1]) return;
   if (scene.vehicle) section.fail("periodic", "is not possible beside a [vehicle]; set it to [false, false]");
-  if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() &&
+  if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() &&
       !(scene.terrain && scene.terrain->granular()))
     section.fail("periodic", "joins sides for grains, of which this scene has none; remove it");
 }
@@ -364,7 +364,7 @@ Scene readScene(base::Document read, const std::filesystem::path& file, const st
   checkPlanesAcross(root.list("plane"), scene);
   checkSettling(root.section("run"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
-  if (scene.grains.empty() && scene.blocks.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
+  if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
       scene.mechanism.empty())
     throw InputError(fmt::format(
         "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
@@ -387,13 +387,13 @@ SpeedTable Driver::speeds() const {
   return {{0}, {left.value_or(sprocketSpeed.value_or(0))}, {right.value_or(sprocketSpeed.value_or(0))}};
 }
 
-double GrainBlock::smallestRadius() const {
+double GrainFill::smallestRadius() const {
   double least = radius.value_or(1e300);
   for (const Grain& g : fromFile) least = std::min(least, g.radius);
   return least;
 }
 
-double GrainBlock::largestRadius() const {
+double GrainFill::largestRadius() const {
   double most = radiusTo.value_or(radius.value_or(0));
   for (const Grain& g : fromFile) most = std::max(most, g.radius);
   return most;
@@ -426,7 +426,7 @@ std::string resolvedToml(const Scene& scene) {
   for (const ContactPair& p : scene.contacts)
     text += block("[contact." + key(p.first + "|" + p.second) + "]", detail::contactTable(), p);
   for (const Grain& g : scene.grains) text += block("[[grain]]", detail::grainTable(), g);
-  for (const GrainBlock& b : scene.blocks) text += block("[[grains]]", detail::blockTable(), b);
+  for (const GrainFill& b : scene.fills) text += block("[[grains]]", detail::fillTable(), b);
   for (const Source& s : scene.sources) text += block("[[source]]", detail::sourceTable(), s);
   text += surfacesToml(scene);
   if (scene.terrain) text += block("[terrain]", detail::terrainTable(), *scene.terrain);
@@ -446,7 +446,7 @@ std::string fieldHelp() {
       "that is absent is not built.\n";
   const auto add = [&](const auto& table) { text += "\n" + base::describe(table); };
   add(detail::runTable()), add(detail::materialTable()), add(detail::contactTable());
-  add(detail::grainTable()), add(detail::blockTable()), add(detail::sourceTable()), add(detail::planeTable());
+  add(detail::grainTable()), add(detail::fillTable()), add(detail::sourceTable()), add(detail::planeTable());
   add(detail::boxTable()), add(detail::cylinderTable()), add(detail::meshTable());
   add(detail::terrainTable());
   add(detail::bodyTable()), add(detail::jointTable()), add(detail::springTable());

@@ -81,7 +81,7 @@ struct Grain {
 };
 
 /// [[grains]]: many grains at once.
-struct GrainBlock {
+struct GrainFill {
   std::string form = "lattice";         ///< lattice | random | file
   std::optional<base::Vec3d> low, high; ///< corners of the box that holds them whole [m]
   std::optional<double> radius;         ///< [m]
@@ -95,10 +95,10 @@ struct GrainBlock {
   std::vector<Grain> fromFile; ///< what the file held when the scene was loaded
   double smallestRadius() const;
   double largestRadius() const;
-  bool operator==(const GrainBlock&) const = default;
+  bool operator==(const GrainFill&) const = default;
 };
 /// Grains of a text file with lines "x, y, z, r" [m]. Throws InputError with the line that is none.
-std::vector<Grain> readGrainFile(const std::string& file, const GrainBlock& block);
+std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& block);
 
 /// [[source]]: grains that enter while the run goes.
 struct Source {
@@ -200,7 +200,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<ContactPair> contacts;
   std::vector<Grain> grains;
-  std::vector<GrainBlock> blocks;
+  std::vector<GrainFill> fills;
   std::vector<Source> sources;
   std::vector<Plane> planes;
   std::vector<BoxSection> boxes;

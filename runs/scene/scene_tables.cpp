@@ -63,7 +63,7 @@ Table<RunSettings> runTable() {
       .atMost(1);
   t.add("periodic", &S::periodic, "",
         "whether opposite sides along x, y are joined: grains that leave through one enter through the other");
-  t.add("domain_x", &S::domainX, "m", "where joined sides stand along x; without it at the borders of the terrain");
+  t.add("domain_x", &S::domainX, "m", "where periodic boundaries stand along x; without it at the borders of the terrain");
   t.add("domain_y", &S::domainY, "m", "the same along y");
   return t;
 }
@@ -136,8 +136,8 @@ Table<Grain> grainTable() {
   return t;
 }
 
-Table<GrainBlock> blockTable() {
-  using S = GrainBlock;
+Table<GrainFill> fillTable() {
+  using S = GrainFill;
   Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of places and radii");
   t.add("form", &S::form, "", "lattice and random fill a box, file reads lines of x, y, z, r [m]")
       .oneOf({"lattice", "random", "file"});
@@ -192,7 +192,7 @@ Table<Terrain> terrainTable() {
       .atMost(1);
   t.add("packing", &S::packing, "-", "solid fraction expected once settled").atLeast(0.3).atMost(0.74);
   t.add("tile", &S::tile, "m",
-        "x, y of a piece that is settled alone, with joined sides, and copied over the terrain; needs a level floor")
+        "x, y of a piece that is settled alone, with periodic boundaries, and copied over the terrain; needs a level floor")
       .above(0);
   t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat").oneOf({"follow", "flat"});
   t.add("walls", &S::walls, "", "upright walls along the edges of the map, that hold the bed");

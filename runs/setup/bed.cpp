@@ -5,7 +5,7 @@
 #include "base/math.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/start_checks.hpp"
@@ -72,13 +72,13 @@ double memoryOfMachine() { // [bytes]
 /// Throws before any memory is taken when grains cannot fit into this machine.
 void checkBlockSizes(const scene::Scene& scene) {
   const double bytes = grainMemory(scene).most();
-  for (std::size_t k = 0; k < scene.blocks.size(); ++k) {
-    const auto grains = static_cast<double>(placedCount(scene.blocks[k]));
+  for (std::size_t k = 0; k < scene.fills.size(); ++k) {
+    const auto grains = static_cast<double>(placedCount(scene.fills[k]));
     if (grains * bytes > memoryOfMachine())
       scene.fail(
-          "grains", k, scene.blocks[k].form == "random" ? "number" : "radius",
+          "grains", k, scene.fills[k].form == "random" ? "number" : "radius",
           fmt::format("{} makes {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use fewer or larger grains",
-                      scene.blocks[k].form == "random" ? "[-]" : "[m]", grains, grains * bytes / kGiB,
+                      scene.fills[k].form == "random" ? "[-]" : "[m]", grains, grains * bytes / kGiB,
                       memoryOfMachine() / kGiB));
   }
 }
@@ -137,7 +137,7 @@ void layBed(const scene::Scene& scene, const terrain::BedPlan& plan, const Surro
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   std::optional<TiledBed> tiles;
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   // The bed is laid around what stands in it.
   const auto taken = [&](const Vec3d& centre) {
     return std::any_of(around.surfaces.begin(), around.surfaces.end(),
@@ -164,7 +164,7 @@ void layBed(const scene::Scene& scene, const terrain::BedPlan& plan, const Surro
 void placeGrains(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
                  const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
   const GrainKinds kinds = grainKinds(scene);
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   for (const scene::Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
@@ -189,7 +189,7 @@ namespace {
 
 /// What stands beside each other in a scene.
 void checkCompany(const scene::Scene& scene) {
-  const bool placed = !scene.grains.empty() || !scene.blocks.empty(), bed = scene.terrain && scene.terrain->granular();
+  const bool placed = !scene.grains.empty() || !scene.fills.empty(), bed = scene.terrain && scene.terrain->granular();
   if (placed && bed)
     scene.fail(
         "terrain", "kind",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_kinds.hpp"
 
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/laws.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ int GrainKinds::indexOf(const std::string& name) const {
 GrainKinds grainKinds(const scene::Scene& scene) {
   GrainKinds kinds;
   for (const scene::Grain& g : scene.grains) include(kinds, g.material, g.radius, g.radius);
-  for (const scene::GrainBlock& b : scene.blocks) include(kinds, b.material, b.smallestRadius(), b.largestRadius());
+  for (const scene::GrainFill& b : scene.fills) include(kinds, b.material, b.smallestRadius(), b.largestRadius());
   if (scene.terrain && scene.terrain->granular())
     include(kinds, scene.terrain->material, *scene.terrain->grainRadius, *scene.terrain->grainRadius);
   for (const scene::Source& s : scene.sources) include(kinds, s.material, s.radius, s.radius);
@@ -60,11 +60,11 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   for (const Surroundings::Wall& w : surroundings.walls)
     boundaries.walls.push_back({w.normal, w.offset, pairLaw(scene, first, w.material, mass(1))});
   boundaries.floor = surroundings.floor;
-  boundaries.joined = joinedSides(scene);
+  boundaries.joined = periodicBoundaries(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
   for (const simulation::SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)
-      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), simulation::startingPlace(s)});
+      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), simulation::startingPose(s)});
   if (!kinds.manyMaterials()) return model;
 
   terrain::GrainMaterials& many = model.materials;

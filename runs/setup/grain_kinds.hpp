@@ -34,7 +34,7 @@ GrainKinds grainKinds(const scene::Scene& scene);
 std::vector<scene::Grain> placedGrains(const scene::Scene& scene);
 /// How many those are, without placing them.
 std::int64_t placedCount(const scene::Scene& scene);
-std::int64_t placedCount(const scene::GrainBlock& block);
+std::int64_t placedCount(const scene::GrainFill& block);
 
 /// A surface that grains meet, as constants of a step.
 struct Surroundings {

@@ -3,7 +3,7 @@
 
 #include "base/position.hpp"
 #include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "terrain/grains.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +28,8 @@ public:
       radius("grain", k, "radius", scene_.grains[k].radius);
       place("grain", k, "position", scene_.grains[k].position);
     }
-    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
-      const scene::GrainBlock& b = scene_.blocks[k];
+    for (std::size_t k = 0; k < scene_.fills.size(); ++k) {
+      const scene::GrainFill& b = scene_.fills[k];
       radius("grains", k, b.form == "file" ? "file" : "radius", b.smallestRadius());
       if (b.low) place("grains", k, "low", *b.low), place("grains", k, "high", *b.high);
       for (const scene::Grain& g : b.fromFile) place("grains", k, "file", g.position);
@@ -50,7 +50,7 @@ public:
 
   /// A grain must not touch two images of another: three cells of the search fit in between.
   void sides() const {
-    const terrain::JoinedSides sides = joinedSides(scene_);
+    const terrain::PeriodicBoundaries sides = periodicBoundaries(scene_);
     const double least = 3 * (2 * kinds_.largest + scene_.run.skin * kinds_.smallest);
     for (std::size_t a = 0; a < 2; ++a) {
       if (!sides[a]) continue;
@@ -88,8 +88,8 @@ public:
   /// Ids are 32-bit numbers.
   void ids() const {
     constexpr double kMostGrains = 4e9;
-    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
-      const scene::GrainBlock& b = scene_.blocks[k];
+    for (std::size_t k = 0; k < scene_.fills.size(); ++k) {
+      const scene::GrainFill& b = scene_.fills[k];
       if (b.form != "lattice") continue;
       double grains = 1; // in a whole number they might not fit
       for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ constexpr double kRoom = 2.002; // [radii] between centres that enter together
 
 } // namespace
 
-Sources::Sources(const scene::Scene& scene, double timeStep) : sides_(joinedSides(scene)) {
+Sources::Sources(const scene::Scene& scene, double timeStep) : sides_(periodicBoundaries(scene)) {
   const GrainKinds kinds = grainKinds(scene);
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const scene::Source& s = scene.sources[k];
@@ -45,8 +45,8 @@ std::vector<Sources::Batch> Sources::batchesAt(std::int64_t step) const {
   return batches;
 }
 
-std::vector<terrain::GrainStart> Sources::enteringAt(std::int64_t step) const {
-  std::vector<terrain::GrainStart> entering;
+std::vector<terrain::GrainSpec> Sources::enteringAt(std::int64_t step) const {
+  std::vector<terrain::GrainSpec> entering;
   for (const Batch& b : batchesAt(step)) entering.insert(entering.end(), b.grains.begin(), b.grains.end());
   return entering;
 }
@@ -62,10 +62,10 @@ std::optional<std::int64_t> Sources::nextEntry(std::int64_t step) const {
 }
 
 /// Places of batch `number`: random in the box, not nearer to each other than the grains are thick.
-std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64_t number) const {
+std::vector<terrain::GrainSpec> Sources::batch(const Stream& stream, std::int64_t number) const {
   const scene::Source& s = stream.source;
   const std::int64_t count = std::min(s.number, s.total - number * s.number);
-  std::vector<terrain::GrainStart> grains;
+  std::vector<terrain::GrainSpec> grains;
   for (std::int64_t k = 0; k < count; ++k) {
     const auto id = static_cast<std::uint64_t>(number * s.number + k);
     for (int attempt = 0;; ++attempt) {
@@ -79,7 +79,7 @@ std::vector<terrain::GrainStart> Sources::batch(const Stream& stream, std::int64
         const double u = base::uniform(stream.seed, kPurpose, id, static_cast<std::uint64_t>(3 * attempt + a));
         place[a] = s.low[a] + u * (s.high[a] - s.low[a]);
       }
-      const bool taken = std::any_of(grains.begin(), grains.end(), [&](const terrain::GrainStart& g) {
+      const bool taken = std::any_of(grains.begin(), grains.end(), [&](const terrain::GrainSpec& g) {
         return norm(toNearestImage(sides_, g.position - place)) < kRoom * s.radius;
       });
       if (taken) continue;

@@ -18,13 +18,13 @@ public:
   Sources(const scene::Scene& scene, double timeStep);
 
   /// Grains that enter at the beginning of this step (the first is step 0).
-  std::vector<terrain::GrainStart> enteringAt(std::int64_t step) const;
+  std::vector<terrain::GrainSpec> enteringAt(std::int64_t step) const;
   bool empty() const { return sources_.empty(); }
 
   /// What one source sets at a step.
   struct Batch {
     std::size_t source{}; ///< among the scene's
-    std::vector<terrain::GrainStart> grains;
+    std::vector<terrain::GrainSpec> grains;
   };
   std::vector<Batch> batchesAt(std::int64_t step) const; ///< in the order of enteringAt()
   /// The first step, not before `step`, at which grains enter.
@@ -39,10 +39,10 @@ private:
     std::int64_t every{}, first{}, last{}; ///< [steps]
     std::uint64_t seed{};
   };
-  std::vector<terrain::GrainStart> batch(const Stream& stream, std::int64_t number) const;
+  std::vector<terrain::GrainSpec> batch(const Stream& stream, std::int64_t number) const;
 
   std::vector<Stream> sources_;
-  terrain::JoinedSides sides_;
+  terrain::PeriodicBoundaries sides_;
 };
 
 /// Throws base::InputError naming the source whose grains do not fit into its box beside each other.

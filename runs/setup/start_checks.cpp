@@ -2,7 +2,7 @@
 #include "runs/setup/start_checks.hpp"
 
 #include "base/error.hpp"
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/sources.hpp"
 #include "runs/setup/surface_motion.hpp"
 
@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::size_t kMostChecked = 1'000'000; // of the grains that sources will set
 
-/// Cells of one largest diameter along one axis, in a ring between joined sides.
+/// Cells of one largest diameter along one axis, in a ring between periodic boundaries.
 struct CellsAlong {
   double from = 0, width;
-  std::int64_t ring = 0; ///< cells between joined sides; 0: walls or nothing
+  std::int64_t ring = 0; ///< cells between periodic boundaries; 0: walls or nothing
 
   CellsAlong(double diameter, const std::optional<std::array<double, 2>>& joined) : width(diameter) {
     if (!joined) return;
@@ -54,7 +54,7 @@ struct Ball {
 class Placing {
 public:
   Placing(const scene::Scene& scene, const Surroundings& around)
-      : scene_(scene), around_(around), joined_(joinedSides(scene)),
+      : scene_(scene), around_(around), joined_(periodicBoundaries(scene)),
         largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, joined_[0]),
                                                     CellsAlong(2 * largest_, joined_[1]),
                                                     CellsAlong(2 * largest_, {})} {
@@ -131,7 +131,7 @@ private:
 
   const scene::Scene& scene_;
   const Surroundings& around_;
-  terrain::JoinedSides joined_;
+  terrain::PeriodicBoundaries joined_;
   double largest_;
   std::array<CellsAlong, 3> along_;
   std::vector<SurfaceMotion> motions_;
@@ -144,8 +144,8 @@ void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& g
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)
     placing.place({grains[id].position, grains[id].radius, "grain", k, 0, id});
-  for (std::size_t k = 0; k < scene.blocks.size(); ++k)
-    for (std::int64_t left = placedCount(scene.blocks[k]); left > 0; --left, ++id)
+  for (std::size_t k = 0; k < scene.fills.size(); ++k)
+    for (std::int64_t left = placedCount(scene.fills[k]); left > 0; --left, ++id)
       placing.place({grains[id].position, grains[id].radius, "grains", k, 0, id});
 }
 
@@ -163,7 +163,7 @@ void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grai
     if (time > scene.run.duration) break;
     if (*step > 0) placing.forgetBalls();
     for (const Sources::Batch& batch : sources.batchesAt(*step))
-      for (const terrain::GrainStart& g : batch.grains) {
+      for (const terrain::GrainSpec& g : batch.grains) {
         placing.place({g.position, g.radius, "source", batch.source, time});
         ++checked;
       }
@@ -177,9 +177,9 @@ void watchSources(const scene::Scene& scene, double timeStep, terrain::Grains& g
   for (const simulation::SceneSurface& s : simulation::surfacesOf(scene))
     if (!s.mesh) surfaces.push_back(s.name);
   const double maxOverlap = scene.run.maxOverlap;
-  grains.onCrowding([=, sources = Sources(scene, timeStep), all = &grains](const terrain::Crowding& c) {
+  grains.onInsertionOverlap([=, sources = Sources(scene, timeStep), all = &grains](const terrain::InsertionOverlap& c) {
     std::size_t before = 0, source = 0;
-    terrain::GrainStart grain;
+    terrain::GrainSpec grain;
     for (const Sources::Batch& batch : sources.batchesAt(all->steps())) {
       if (c.entering >= before && c.entering < before + batch.grains.size())
         source = batch.source, grain = batch.grains[c.entering - before];

@@ -296,7 +296,7 @@ void checkSpeeds(const scene::Scene& scene, double timeStep) {
                                "{:.4g} m/s, or lower run.time_step, or raise run.skin",
                                timeStep, most));
   };
-  check("grain", scene.grains), check("grains", scene.blocks), check("source", scene.sources);
+  check("grain", scene.grains), check("grains", scene.fills), check("source", scene.sources);
 }
 
 } // namespace grouser::setup

@@ -41,7 +41,7 @@ TiledBed::TiledBed(const scene::Scene& scene, const terrain::HeightField& surfac
                fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
                            "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
                            t.floor, floor.lowest, floor.highest));
-  // Between joined sides whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the last one.
+  // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the last one.
   const double cell = t.spacing * radius;
   std::array<double, 2> size{};
   for (std::size_t a = 0; a < 2; ++a) {
@@ -94,8 +94,8 @@ std::int64_t TiledBed::idOf(std::array<std::int64_t, 2> tile, std::size_t grain)
   return id_[static_cast<std::size_t>(tile[0] * copies_[1] + tile[1]) * tile_.rows() + grain];
 }
 
-std::vector<terrain::GrainStart> TiledBed::start(double radius, int material) const {
-  std::vector<terrain::GrainStart> start;
+std::vector<terrain::GrainSpec> TiledBed::start(double radius, int material) const {
+  std::vector<terrain::GrainSpec> start;
   start.reserve(grains_.size());
   for (const Copy& copy : grains_)
     start.push_back({scale_.toMetres(base::fromUnits(place(copy))), {}, {}, radius, material});

@@ -14,7 +14,7 @@ namespace grouser::setup {
 
 /// A bed made of copies of one settled tile.
 ///
-/// A piece of the bed of about terrain.tile, with joined sides on level ground, is laid and settled alone, then copied
+/// A piece of the bed of about terrain.tile, with periodic boundaries on level ground, is laid and settled alone, then copied
 /// over the terrain with the springs of its contacts, so that the copies are in balance across their seams. Grains that
 /// would stand in a wall are left out, and, where the ground is not level, those with their centre above the
 /// height-map; what lay against them has to come to rest again. Every rank makes the same tile.
@@ -26,7 +26,7 @@ public:
            const base::Exec& exec, double timeStep);
 
   /// Where the grains are, by id.
-  std::vector<terrain::GrainStart> start(double radius, int material) const;
+  std::vector<terrain::GrainSpec> start(double radius, int material) const;
   /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
   void studies::bringToRest(terrain::Grains& grains, std::size_t floor) const;
 

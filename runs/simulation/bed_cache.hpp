@@ -35,7 +35,7 @@ public:
   setup::SettleReport setup::settle(const scene::Scene& scene, setup::Ground& ground, const setup::SettleProgress& progress, const base::Comm& comm);
 
   /// One line: where the bed came from and how long that took. Empty before settle().
-  const std::string& story() const { return story_; }
+  const std::string& summary() const { return story_; }
 
   /// Everything that makes the bits of a settled bed, as text: the parts of the scene that have a share in it with all
   /// their values, the bytes of the height-map, the time step, and the running program. The program is known by a hash

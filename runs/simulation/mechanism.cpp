@@ -63,13 +63,13 @@ void Mechanism::advance() {
   try {
     solver_.step(state_, loads_, timeStep_);
   } catch (const base::SimulationError& error) {
-    throw base::SimulationError(tooTaut_.empty() ? error.what() : fmt::format("{}; {}", error.what(), tooTaut_));
+    throw base::SimulationError(tensionStepWarning_.empty() ? error.what() : fmt::format("{}; {}", error.what(), tensionStepWarning_));
   }
   const multibody::StepReport& report = solver_.lastStep();
   worst_.position = std::max(worst_.position, report.maxPositionError);
   worst_.iterations = std::max(worst_.iterations, report.iterations);
   worst_.singularSteps += report.singularRows > 0;
-  if (tooTaut_.empty()) watchPull();
+  if (tensionStepWarning_.empty()) watchPull();
 }
 
 /// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
@@ -88,14 +88,14 @@ double Mechanism::lookAtPull() {
   std::string part;
   const double most = stableStepOnPull(&part);
   if (timeStep_ >= most)
-    tooTaut_ =
+    tensionStepWarning_ =
         fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
   return most;
 }
 
-const std::string& Mechanism::tooTaut() {
-  if (tooTaut_.empty()) lookAtPull();
-  return tooTaut_;
+const std::string& Mechanism::tensionStepWarning() {
+  if (tensionStepWarning_.empty()) lookAtPull();
+  return tensionStepWarning_;
 }
 
 Mechanism::DriveReading Mechanism::drive(int index) const {
@@ -131,7 +131,7 @@ double mechanismTimeStep(const scene::Scene& scene) {
   return row / std::ceil(kStepsPerPeriod * row / shortest);
 }
 
-std::string tautStartWarning(const scene::Scene& scene, double timeStep) {
+std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep) {
   std::string part;
   const double most = Mechanism(scene, timeStep).stableStepOnPull(&part);
   if (timeStep < most) return "";

@@ -50,16 +50,16 @@ public:
   /// Shortest period of all springs and bushings against the masses, where the bodies are now [s]; infinite without
   /// any.
   double shortestSwing() { return 2 * base::kPi / solver_.stableTurn() * solver_.stableStep(state_, loads_); }
-  /// The same of bodies that hang on taut joints and springs (Solver::pullRate).
-  double shortestSwingOnPull() { return 2 * base::kPi / solver_.pullRate(state_, loads_); }
+  /// The same of bodies that hang on taut joints and springs (Solver::geometricStiffnessRate).
+  double shortestSwingOnPull() { return 2 * base::kPi / solver_.geometricStiffnessRate(state_, loads_); }
   /// Up to which step such a swing does not grow [s]; infinite where nothing pulls. `part`, if given, receives the name
   /// of what has the greatest part in it.
   double stableStepOnPull(std::string* part = nullptr) {
-    return solver_.stableTurn() / solver_.pullRate(state_, loads_, part);
+    return solver_.stableTurn() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
   /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere, nor
   /// does it now.
-  const std::string& tooTaut();
+  const std::string& tensionStepWarning();
 
   /// How well the joints are closed.
   struct Drift {
@@ -87,7 +87,7 @@ private:
   studies::Drift worst_;
   double startBlow_ = 0;
   double boundedPull_ = 0; ///< up to this force in joints and springs the step is short enough [N]
-  std::string tooTaut_;
+  std::string tensionStepWarning_;
 };
 
 /// The solver's options as a scene's [run] gives them.
@@ -99,6 +99,6 @@ double mechanismTimeStep(const scene::Scene& scene);
 
 /// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
 /// first push. Empty where the step is short enough.
-std::string tautStartWarning(const scene::Scene& scene, double timeStep);
+std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep);
 
 } // namespace grouser::simulation

@@ -29,7 +29,7 @@ MeshContacts::MeshContacts(const scene::Scene& scene, const base::Exec& exec, do
       });
   force_ = model.force, torque_ = model.torque;
   contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, materials);
-  grains.onHandOver([this](const std::uint32_t* destination) { contacts_->handOver(destination); });
+  grains.onMigrate([this](const std::uint32_t* destination) { contacts_->migrate(destination); });
   motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
   sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size());
   loads_.resize(sets_.size());
@@ -51,7 +51,7 @@ bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) con
   return false;
 }
 
-void MeshContacts::touch(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                          bool slotsChanged) {
   std::copy(motions.begin(), motions.end(), motion_.host());
   motion_.upload();

@@ -21,10 +21,10 @@ public:
   MeshContacts& operator=(const MeshContacts&) = delete;
 
   /// One step: contacts with the meshes where they are, one motion a mesh.
-  void touch(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions, bool slotsChanged);
-  /// For the grains' step, after touch().
+  void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions, bool slotsChanged);
+  /// For the grains' step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
-  /// On each mesh about its centre, of all ranks, after touch().
+  /// On each mesh about its centre, of all ranks, after computeContacts().
   const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
 
   double elastic() const { return contacts_->ledger().elastic; } ///< [J]

@@ -38,15 +38,15 @@ Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const 
 
 void Simulation::step() {
   terrain::Grains* grains = ground_.grains.get();
-  if (vehicle_) vehicle_->placeSurfaces();
+  if (vehicle_) vehicle_->setSurfacePoses();
   const bool slotsChanged = grains && grains->refreshNeighbours();
   if (vehicle_) {
     vehicle_->refreshLists(grains, slotsChanged);
     if (grains) grains->beginBoundaries();
-    vehicle_->touch(grains);
+    vehicle_->computeContacts(grains);
     vehicle_->collectLoads();
   }
-  if (surfaces_) surfaces_->touch(*grains, steps_, slotsChanged);
+  if (surfaces_) surfaces_->computeContacts(*grains, steps_, slotsChanged);
   // The device works on the grains while the host solves the vehicle.
   if (grains) grains->beginStep(partLoads());
   if (vehicle_) vehicle_->advance();
@@ -86,7 +86,7 @@ void Simulation::makeSurfaces(const SurfaceStates* former) {
 /// Grains of the sources that enter now, before the next step. What they bring with them is no change of energy.
 void Simulation::addGrains() {
   if (sources_.empty()) return;
-  const std::vector<terrain::GrainStart> entering = sources_.enteringAt(steps_);
+  const std::vector<terrain::GrainSpec> entering = sources_.enteringAt(steps_);
   if (entering.empty()) return;
   const terrain::GrainLedger before = ground_.grains->ledger();
   ground_.grains->add(entering);
@@ -148,7 +148,7 @@ void Simulation::checkEnergy(const Ledger& now) {
   if (now.residual <= kMostCreated * available + floor) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
-  if (mechanism_ && !mechanism_->tooTaut().empty()) remedy += "; " + mechanism_->tooTaut();
+  if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   throw base::SimulationError(
       fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; {}", steps_, time(),
                   now.residual, available, remedy));

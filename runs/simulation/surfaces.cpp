@@ -59,7 +59,7 @@ std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
   return all;
 }
 
-terrain::SurfacePlacement startingPlace(const SceneSurface& surface) {
+terrain::SurfacePose startingPose(const SceneSurface& surface) {
   const base::Pose& pose = surface.start;
   return {{pose.position, pose.orientation.matrix(), pose.position, {}, {}}, base::Mat3d::identity()};
 }
@@ -84,7 +84,7 @@ Surfaces::Surfaces(const scene::Scene& scene, double timeStep)
   states_.surfaces.resize(surfaces_.size());
 }
 
-terrain::SurfacePlacement Surfaces::placement(std::size_t i, std::int64_t step) const {
+terrain::SurfacePose Surfaces::placement(std::size_t i, std::int64_t step) const {
   const setup::SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
   const SurfaceState& s = states_.surfaces[i];
   const Vec3d centre = law.centre + freeAxes_[i] * s.offset, velocity = law.velocity + freeAxes_[i] * s.speed;
@@ -103,11 +103,11 @@ void Surfaces::makeMeshContacts(const scene::Scene& scene, const base::Exec& exe
   if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
 }
 
-void Surfaces::touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
+void Surfaces::computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
   if (!meshes_) return;
   std::vector<contact::PartMotion> motions;
   for (std::size_t i = shapes_; i < surfaces_.size(); ++i) motions.push_back(placement(i, step).motion);
-  meshes_->touch(grains, motions, slotsChanged);
+  meshes_->computeContacts(grains, motions, slotsChanged);
 }
 
 SurfaceStates Surfaces::save() const {
@@ -117,9 +117,9 @@ SurfaceStates Surfaces::save() const {
 }
 
 void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
-  std::vector<terrain::SurfacePlacement> placements;
+  std::vector<terrain::SurfacePose> placements;
   for (std::size_t i = 0; i < shapes_; ++i) placements.push_back(placement(i, step));
-  grains.placeSurfaces(placements);
+  grains.setSurfacePoses(placements);
 }
 
 /// What goes farther in a step than half a radius could pass through a grain unfelt.

@@ -26,7 +26,7 @@ struct SceneSurface {
 /// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
 std::vector<SceneSurface> surfacesOf(const scene::Scene& scene);
 /// At rest where it stands at the start.
-terrain::SurfacePlacement startingPlace(const SceneSurface& surface);
+terrain::SurfacePose startingPose(const SceneSurface& surface);
 /// Overlap of a sphere with it at the start [m]; negative where they do not touch.
 double startingOverlap(const SceneSurface& surface, const base::Vec3d& position, double radius);
 /// The same where the surface's own frame has come to `pose`.
@@ -38,11 +38,11 @@ class Surfaces {
 public:
   Surfaces(const scene::Scene& scene, double timeStep);
 
-  /// The meshes' contacts; after grains have been restored, before the first touch().
+  /// The meshes' contacts; after grains have been restored, before the first computeContacts().
   void makeMeshContacts(const scene::Scene& scene, const base::Exec& exec, terrain::Grains& grains);
 
   /// Contacts of grains with meshes in step `step`.
-  void touch(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
+  void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
   /// For the grains' step; null without meshes.
   const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
   /// Where they are at step `step`, to the grains.
@@ -77,7 +77,7 @@ public:
   void restore(const SurfaceStates& states);
 
 private:
-  terrain::SurfacePlacement placement(std::size_t i, std::int64_t step) const;
+  terrain::SurfacePose placement(std::size_t i, std::int64_t step) const;
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
   std::vector<SceneSurface> surfaces_;

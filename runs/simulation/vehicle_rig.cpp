@@ -116,7 +116,7 @@ void VehicleRig::buildContacts(const scene::Scene& scene, const setup::Ground& g
     partReach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[p]]) + norm(assembly_.parts[p].pose_B.position));
   }
   const std::size_t n = contactParts_.size();
-  touches_ = base::AlternatingReplay(exec_);
+  contactGraph_ = base::DoubleBufferedGraph(exec_);
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
   travelled_ = base::Mirrored<double>(exec_, 2);
   loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n);
@@ -153,7 +153,7 @@ void VehicleRig::buildContacts(const scene::Scene& scene, const setup::Ground& g
     std::vector<contact::GrainPart> parts;
     for (const int set : setOfPart) parts.push_back({set, {}, {}});
     bed_ = std::make_unique<contact::GrainPartContacts>(exec_, model, sets, parts, comm_, materials);
-    ground.grains->onHandOver([this](const std::uint32_t* destination) { bed_->handOver(destination); });
+    ground.grains->onMigrate([this](const std::uint32_t* destination) { bed_->migrate(destination); });
   } else if (ground.rigid) {
     const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
     std::vector<int> shoes;
@@ -180,7 +180,7 @@ contact::PartMotion VehicleRig::motionOf(std::size_t c) const {
           state_.twist[body].w};
 }
 
-void VehicleRig::placeSurfaces() {
+void VehicleRig::setSurfacePoses() {
   for (std::size_t c = 0; c < contactParts_.size(); ++c) motion_.host()[c] = motionOf(c);
 }
 
@@ -190,7 +190,7 @@ void VehicleRig::refreshLists(const terrain::Grains* grains, bool slotsChanged) 
   const bool groundIsDue = absoluteTravel_ > groundMargin_ || slotsChanged;
   if (!trackIsDue && !groundIsDue) return;
   motion_.upload();
-  touches_.forget();
+  contactGraph_.forget();
   if (trackIsDue) {
     track_->refresh(motion_.device());
     relativeTravel_ = 0;
@@ -212,13 +212,13 @@ template <class Work> void VehicleRig::asAllRanksDo(const Work& work) {
   sharedGrains_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-void VehicleRig::touch(const terrain::Grains* grains) {
+void VehicleRig::computeContacts(const terrain::Grains* grains) {
   noteTravel();
-  touches_.from(grains ? grains->positions() : nullptr).run([this, grains] {
+  contactGraph_.from(grains ? grains->positions() : nullptr).run([this, grains] {
     uploadPoses();
     side_.fork();
-    touchGround(grains, side_.exec());
-    touchTrack();
+    computeGroundContacts(grains, side_.exec());
+    computeTrackContacts();
     side_.join();
     downloadLoads();
   });
@@ -235,11 +235,11 @@ void VehicleRig::uploadPoses() {
 
 void VehicleRig::downloadLoads() { loadSums_.download(); }
 
-void VehicleRig::touchTrack() {
+void VehicleRig::computeTrackContacts() {
   asAllRanksDo([this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
-void VehicleRig::touchGround(const terrain::Grains* grains, const base::Exec& exec) {
+void VehicleRig::computeGroundContacts(const terrain::Grains* grains, const base::Exec& exec) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + contactParts_.size();
   if (bed_) bed_->computeOn(exec, setup::viewOf(*grains), motion_.device(), groundLoads);
   if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "base/replay.hpp"
+#include "base/device_graph.hpp"
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "multibody/solver.hpp"
@@ -28,18 +28,18 @@ public:
              const std::function<double(double, double)>& surfaceHeight);
 
   // One step, in this order.
-  void placeSurfaces(); ///< poses of all parts
+  void setSurfacePoses(); ///< poses of all parts
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
-  void touch(const terrain::Grains* grains); ///< all contacts of parts; the device works, the host does not wait
+  void computeContacts(const terrain::Grains* grains); ///< all contacts of parts; the device works, the host does not wait
   void collectLoads();                       ///< waits for the sums of loads
   void advance();                            ///< multibody step
 
-  // What touch() is made of.
+  // What computeContacts() is made of.
   void noteTravel();  ///< since the lists were made
   void uploadPoses(); ///< one small transfer; sums of loads to zero
-  void touchTrack();  ///< shoes against sprocket, wheels, rollers, idler
+  void computeTrackContacts();  ///< shoes against sprocket, wheels, rollers, idler
   /// Shoes and all other parts against the bed, or shoes against rigid ground.
-  void touchGround(const terrain::Grains* grains, const base::Exec& exec);
+  void computeGroundContacts(const terrain::Grains* grains, const base::Exec& exec);
   void downloadLoads(); ///< one small transfer
 
   /// For the grains' step; null on rigid ground.
@@ -105,7 +105,7 @@ private:
 
   base::Exec exec_;
   base::SideStream side_;
-  base::AlternatingReplay touches_;        ///< of a step, by the buffer that holds the grains' state
+  base::DoubleBufferedGraph contactGraph_;        ///< of a step, by the buffer that holds the grains' state
   terrain::Grains* sharedGrains_{nullptr}; ///< told how long work takes that no cut can shift; null on one rank
   base::Comm comm_; ///< each rank touches its own grains; everything else is done alike on all of them
   double timeStep_;

@@ -26,7 +26,7 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
   const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(box.grains) / box.layers)));
   const double spacing = box.spacing * StudyBox::kRadius, gap = 0.9 * (box.spacing - 2) * StudyBox::kRadius;
   const base::PositionScale scale = studyBoxScale();
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   for (std::int64_t i = 0; i < box.grains; ++i) {
     const auto id = static_cast<std::uint64_t>(i);
     const auto random = [&](std::uint64_t k) { return base::uniform(kSeed, kJitter, id, k) - 0.5; };

@@ -127,7 +127,7 @@ void studyCollapseCommand(const CollapseCommand& command) {
   SampleGrains material;
   material.stiffness = 3e4, material.rollingFriction = 0.1;
   fmt::print("          spheres of 10 mm, 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; column of {} d "
-             "between a wall and a gate,\n          {} d between joined sides; smooth floor of the same friction; {} "
+             "between a wall and a gate,\n          {} d between periodic boundaries; smooth floor of the same friction; {} "
              "seeds, +- their standard error; one thread\n",
              length, command.width, seeds);
   support::Progress progress("collapsing");

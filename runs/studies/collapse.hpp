@@ -20,7 +20,7 @@ struct Collapse {
   bool rests = true; ///< within the time given
 };
 
-/// A column `length` diameters long and about `aspect` times as high, `width` diameters between joined sides.
+/// A column `length` diameters long and about `aspect` times as high, `width` diameters between periodic boundaries.
 Collapse collapseColumn(const SampleGrains& material, double length, double width, double aspect, std::int64_t seed);
 
 /// What experiments in channels found, for any material: run-out, height of the deposit over d0, time over sqrt(h0 /

@@ -48,7 +48,7 @@ scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta)
 
 /// Its grains, at a step that nobody has checked.
 Grains build(const RestingGrains& grains, double stiffness, double zeta, double timeStep,
-             const std::vector<terrain::GrainStart>& start) {
+             const std::vector<terrain::GrainSpec>& start) {
   const scene::Scene scene = sceneOf(grains, stiffness, zeta);
   setup::Surroundings around;
   around.walls = {{{0, 0, 1}, 0, "wall"}};
@@ -60,9 +60,9 @@ Grains build(const RestingGrains& grains, double stiffness, double zeta, double 
   return Grains(base::cpuExec(1), model, boundaries, start);
 }
 
-std::vector<terrain::GrainStart> places(const terrain::GrainState& state) {
+std::vector<terrain::GrainSpec> places(const terrain::GrainState& state) {
   const base::PositionScale scale = base::positionScale(2 * kRadius);
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   for (const base::Position& p : state.position) start.push_back({scale.toMetres(p), {}, {}});
   return start;
 }
@@ -88,7 +88,7 @@ ContactNetwork networkOf(const RestingGrains& grains) {
 }
 
 /// Lets the grains settle, stopping all motion now and then: what is left is a rest, whatever the way to it.
-void setup::settle(RestingGrains& resting, const std::vector<terrain::GrainStart>& start) {
+void setup::settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start) {
   Grains grains = build(resting, kSettleStiffness, kSettleZeta, kSettleStep / rate(kSettleStiffness), start);
   const auto advance = [&grains](int steps) {
     for (int i = 0; i < steps; ++i) {
@@ -126,7 +126,7 @@ RestingGrains oneContact() {
 RestingGrains column(int grains) {
   RestingGrains r;
   r.name = "column", r.title = fmt::format("column of {} spheres", grains), r.vertical = true;
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   double z = 0;
   for (int i = 0; i < grains; ++i) {
     // The contact under i carries all from i on.
@@ -144,7 +144,7 @@ RestingGrains randomBed(int grains, double friction) {
   r.name = friction > 0 ? "bed with friction" : "bed";
   const auto side = std::max(2, static_cast<int>(std::lround(std::cbrt(grains))));
   r.halfWidth = 0.5 * side * kLoose * kRadius;
-  std::vector<terrain::GrainStart> start;
+  std::vector<terrain::GrainSpec> start;
   for (int i = 0; i < grains; ++i) {
     const auto id = static_cast<std::uint64_t>(i);
     const auto shake = [&](std::uint64_t a) { return 0.9 * (base::uniform(kSeed, kPurpose, id, a) - 0.5); };

@@ -74,7 +74,7 @@ public:
     terrain::GrainModel model;
     model.radius = kRadius, model.mass = mass(), model.timeStep = timeStep;
     model.law = lawOf(c), model.skin = 0.5, model.maxOverlap = 1, model.precision = precision;
-    std::vector<terrain::GrainStart> start;
+    std::vector<terrain::GrainSpec> start;
     const auto side = static_cast<int>(std::ceil(std::sqrt(count)));
     for (int i = 0; i < count; ++i) {
       const double gap = stepsBefore(i) * timeStep * c.speed, a = (i % side) * kSpacing, b = (i / side) * kSpacing;

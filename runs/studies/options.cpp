@@ -85,7 +85,7 @@ void addPacking(CLI::App& study, PackingCommand& c) {
   packing->add_option("--seeds", c.seeds, "samples of each friction")
       ->check(support::wholeNumber(2, 1000))
       ->capture_default_str();
-  packing->add_option("--width", c.width, "between joined sides, in diameters; not with --quick")
+  packing->add_option("--width", c.width, "between periodic boundaries, in diameters; not with --quick")
       ->check(support::between(5.0, 1000.0))
       ->capture_default_str();
   addPlace(*packing, c.place, "packing", "two frictions, two seeds, 600 grains: in seconds");
@@ -98,7 +98,7 @@ void addCollapse(CLI::App& study, CollapseCommand& c) {
   collapse->add_option("--length", c.length, "of the column, in diameters; not with --quick")
       ->check(support::between(5.0, 1000.0))
       ->capture_default_str();
-  collapse->add_option("--width", c.width, "between joined sides, in diameters; not with --quick")
+  collapse->add_option("--width", c.width, "between periodic boundaries, in diameters; not with --quick")
       ->check(support::between(5.0, 1000.0))
       ->capture_default_str();
   collapse->add_option("--aspects", c.aspects, "heights of the columns over their length")

@@ -112,7 +112,7 @@ void studyShearCommand(const ShearCommand& command) {
   material.friction = command.friction, material.rollingFriction = command.rollingFriction;
   fmt::print(
       "          spheres of 10 mm +- {:.0f} %, 1e5 N/m, restitution 0.5, friction {}, rolling friction {}; box {} d "
-      "long, {} d between\n          joined sides, {} d deep; drawn at {} m/s over {} of its length; {} seeds, +- "
+      "long, {} d between\n          periodic boundaries, {} d deep; drawn at {} m/s over {} of its length; {} seeds, +- "
       "their standard error; one thread\n",
       100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
       box.travel, seeds);

@@ -18,7 +18,7 @@ struct ShearRow {
 };
 
 struct ShearBox {
-  double length = 16, width = 6, depth = 10; ///< [d] inside, between joined sides, of the settled sample
+  double length = 16, width = 6, depth = 10; ///< [d] inside, between periodic boundaries, of the settled sample
   double travel = 0.12;                      ///< [-] of the length
   double speed = 0.02;                       ///< [m/s]
   double spread = 0.12;                      ///< [-] radii are uniform within this share of the mean, against order

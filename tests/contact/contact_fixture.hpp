@@ -27,7 +27,7 @@ struct SphereOnPlane {
       if (!touching) shear = angle = {};
       touching = true;
       const base::Vec3d n{0, 0, -1}, arm = n * (fullArm ? radius : radius - overlap());
-      const BasicTouch<double> touch{n, overlap(), velocity + cross(spin, arm), mass, radius};
+      const BasicContactGeometry<double> touch{n, overlap(), velocity + cross(spin, arm), mass, radius};
       const auto r = contactForce<kGeneral>(law, touch, dt, shear);
       force += r.force, torque += cross(arm, r.force);
       dissipated += r.dissipated;

@@ -29,7 +29,7 @@ template <class T> BasicLaw<T> hertz() {
 TEST(ContactLaw, SpringTurnsIntoTheTangentPlane) {
   // A spring left from a contact whose normal has since turned by 0.6 rad, at rest: all of its force is tangential.
   Vec3f shear{1e-5f, 0, 0};
-  const Touch touch{{0.6f, 0.8f, 0}, 1e-3f, {}, 0.1f};
+  const ContactGeometry touch{{0.6f, 0.8f, 0}, 1e-3f, {}, 0.1f};
   const auto law = linear<float>();
   const Reaction r = contactForce<kFriction>(law, touch, 1e-5f, shear);
   EXPECT_NEAR(dot(shear, touch.normal), 0, 1e-12) << "float round-off of 1e-5";
@@ -38,7 +38,7 @@ TEST(ContactLaw, SpringTurnsIntoTheTangentPlane) {
 
 template <unsigned kFeatures> void expectMirrored(const BasicLaw<float>& law) {
   Vec3f shear{2e-6f, -3e-6f, 1e-6f}, mirrored = -shear;
-  Touch touch{base::normalized(Vec3f{0.3f, -0.5f, 0.7f}), 1e-4f, {0.2f, 0.1f, -0.4f}, 0.1f, 0.01f};
+  ContactGeometry touch{base::normalized(Vec3f{0.3f, -0.5f, 0.7f}), 1e-4f, {0.2f, 0.1f, -0.4f}, 0.1f, 0.01f};
   const Reaction r = contactForce<kFeatures>(law, touch, 1e-5f, shear);
   touch.normal = -touch.normal, touch.velocity = -touch.velocity;
   const Reaction other = contactForce<kFeatures>(law, touch, 1e-5f, mirrored);
@@ -57,7 +57,7 @@ TEST(ContactLaw, SwappingTheSidesChangesOnlyTheSign) {
 
 TEST(ContactLaw, NeverPullsUnlessAllowed) {
   Vec3f shear{};
-  const Touch parting{{0, 0, 1}, 1e-6f, {0, 0, -1}, 0.1f, 0.01f};
+  const ContactGeometry parting{{0, 0, 1}, 1e-6f, {0, 0, -1}, 0.1f, 0.01f};
   auto l = linear<float>();
   EXPECT_EQ(contactForce<kFriction>(l, parting, 1e-5f, shear).force.z, 0);
   l.attraction = true;
@@ -70,7 +70,7 @@ TEST(ContactLaw, NeverPullsUnlessAllowed) {
 /// The special function and the general one, which decides at run time.
 template <unsigned kFeatures, class T> void expectSameBits(const BasicLaw<T>& law) {
   base::Vec3<T> shear{T(2e-6), T(-3e-6), T(1e-6)}, other = shear;
-  const BasicTouch<T> touch{
+  const BasicContactGeometry<T> touch{
       base::normalized(base::Vec3<T>{T(0.3), T(-0.5), T(0.7)}), T(1e-4), {T(0.2), T(0.1), T(-0.4)}, T(0.1), T(0.01)};
   const auto special = contactForce<kFeatures>(law, touch, T(1e-5), shear);
   const auto general = contactForce<kGeneral>(law, touch, T(1e-5), other);
@@ -99,7 +99,7 @@ TEST(ContactLaw, FrictionOfStickySurfacesIsLimitedByWhatPresses) {
   auto law = linear<double>();
   law.damping = law.tangentialDamping = 0, law.pullPerRadius = 1000;
   base::Vec3d shear{1, 0, 0}; // far beyond the limit
-  const BasicTouch<double> touch{{0, 0, 1}, 1e-5, {}, 0.1, 0.01};
+  const BasicContactGeometry<double> touch{{0, 0, 1}, 1e-5, {}, 0.1, 0.01};
   const auto r = contactForce<kFriction | kCohesion>(law, touch, 1e-6, shear);
   EXPECT_NEAR(r.force.z, 10 - 1, 1e-12) << "pull 1000 N/m x 0.01 m, less k overlap";
   EXPECT_NEAR(r.force.x, -0.5 * 1, 1e-12) << "friction x k overlap";

@@ -47,9 +47,9 @@ TEST(SurfaceGrid, PruningNeverChangesTheNearestDisc) {
 }
 
 TEST(Probes, ClusterByTheWayTheirFaceLooks) {
-  const auto probes = probesOf(plate(0.03, 0.005, 0.01));
-  EXPECT_EQ(probes.front().cluster, 5u); // +z
-  EXPECT_EQ(probes.back().cluster, 4u);  // -z
+  const auto samples = surfaceSamplesOf(plate(0.03, 0.005, 0.01));
+  EXPECT_EQ(samples.front().cluster, 5u); // +z
+  EXPECT_EQ(samples.back().cluster, 4u);  // -z
 }
 
 } // namespace

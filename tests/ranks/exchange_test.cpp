@@ -55,7 +55,7 @@ void route(Exchange& exchange, const Tracers& t, const std::vector<std::pair<std
     slots.data()[k] = leaving[k].first;
     ranks.data()[k] = static_cast<std::uint64_t>(leaving[k].second);
   }
-  exchange.route(ranks, slots, leaving.size());
+  exchange.setPlan(ranks, slots, leaving.size());
 }
 
 TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
@@ -65,12 +65,12 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   Tracers t = startingTracers();
 
   // Every rank hands its last two tracers to the right, with all they carry.
-  Exchange handOver(t.exec, comm, kOnCpus);
-  route(handOver, t, {{Tracers::kEach - 1, right}, {Tracers::kEach - 2, right}});
-  ASSERT_EQ(handOver.coming(), 2u);
+  Exchange migration(t.exec, comm, kOnCpus);
+  route(migration, t, {{Tracers::kEach - 1, right}, {Tracers::kEach - 2, right}});
+  ASSERT_EQ(migration.importCount(), 2u);
   t.resize(t.owned + 2);
-  handOver.putFrom(t.owned);
-  handOver.run(t.everything());
+  migration.setImportSlots(t.owned);
+  migration.run(t.everything());
   const std::uint32_t top = static_cast<std::uint32_t>(left + 1) * Tracers::kEach - 1;
   for (std::uint32_t k = 0; k < 2; ++k) {
     const std::uint32_t p = top - k; // the order on the route is kept
@@ -82,10 +82,10 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   // Ghosts: the first tracer is known to the left, with its concentration alone.
   Exchange ghosts(t.exec, comm, kOnCpus);
   route(ghosts, t, {{0, left}});
-  ASSERT_EQ(ghosts.coming(), 1u);
+  ASSERT_EQ(ghosts.importCount(), 1u);
   const std::size_t ghost = t.owned + 2;
   t.resize(ghost + 1);
-  ghosts.putFrom(ghost);
+  ghosts.setImportSlots(ghost);
   for (int half = 0; half < 2; ++half) {
     t.concentration.data()[0] += 1;
     const ExchangeField field = fieldOf(t.concentration);
@@ -106,13 +106,13 @@ TEST(Exchange, PackedInManyLaunchesTheSameArrives) {
   // Elements of six words: 1, 2 and 3 of the 7 at a time.
   for (const std::size_t words : {1u, 12u, 19u}) {
     Tracers t = startingTracers();
-    Exchange handOver(t.exec, comm, {.peers = base::PeerUse::never, .wordsAtATime = words});
+    Exchange migration(t.exec, comm, {.peers = base::PeerUse::never, .wordsAtATime = words});
     std::vector<std::pair<std::uint32_t, int>> leaving;
     for (std::uint32_t i = 0; i < 7; ++i) leaving.emplace_back(i, right);
-    route(handOver, t, leaving);
+    route(migration, t, leaving);
     t.resize(t.owned + 7);
-    handOver.putFrom(t.owned);
-    handOver.run(t.everything());
+    migration.setImportSlots(t.owned);
+    migration.run(t.everything());
     for (std::uint32_t i = 0; i < 7; ++i) {
       const std::uint32_t p = static_cast<std::uint32_t>(left) * Tracers::kEach + i;
       EXPECT_EQ(t.place.data()[t.owned + i], p);
@@ -131,7 +131,7 @@ TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
   route(ghosts, t, {{3, right}});
   const std::size_t size = t.owned + 1;
   t.resize(size);
-  ghosts.putFrom(t.owned);
+  ghosts.setImportSlots(t.owned);
   // Everything changes places: slot s goes to size - 1 - s.
   base::Array<std::uint32_t> newSlot(t.exec, size);
   std::vector<double> moved(size);
@@ -155,10 +155,10 @@ TEST(Exchange, OneElementMayGoToManyRanksAndNoneToOthers) {
   std::vector<std::pair<std::uint32_t, int>> leaving;
   for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.push_back({5, r}); // not in the order of ranks
   route(exchange, t, leaving);
-  EXPECT_EQ(exchange.coming(), comm.first() ? 0u : 1u);
-  EXPECT_EQ(exchange.leaving(), leaving.size());
-  t.resize(t.owned + exchange.coming());
-  exchange.putFrom(t.owned);
+  EXPECT_EQ(exchange.importCount(), comm.first() ? 0u : 1u);
+  EXPECT_EQ(exchange.exportCount(), leaving.size());
+  t.resize(t.owned + exchange.importCount());
+  exchange.setImportSlots(t.owned);
   exchange.run(t.everything());
   if (!comm.first()) {
     EXPECT_EQ(t.place.data()[t.owned], 5u);

@@ -25,8 +25,8 @@ GrainModel pebbles() {
 }
 
 /// 48 pebbles on a plate that is level and rough; all slide along it, most across a border.
-std::vector<GrainStart> sliding() {
-  std::vector<GrainStart> start;
+std::vector<GrainSpec> sliding() {
+  std::vector<GrainSpec> start;
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < 8; ++x) start.push_back({{-0.25 + 0.05 * x, -0.15 + 0.05 * y, 0.02 - 8e-6}, {1.5, 0.3, 0}, {}});
   return start;
@@ -43,7 +43,7 @@ struct Ground {
     model.force = model.torque = base::fixedPointFor(2e3, 36), model.energy = base::fixedPointFor(40, 36);
     part = std::make_unique<GrainPartContacts>(exec, model, std::vector<const base::SphereSet*>{&plate},
                                                std::vector<contact::GrainPart>{{0, {}, {}}}, partition.comm);
-    grains.onHandOver([this](const std::uint32_t* destination) { part->handOver(destination); });
+    grains.onMigrate([this](const std::uint32_t* destination) { part->migrate(destination); });
   }
 
   GrainPartContacts::GrainsView view() const {

@@ -14,7 +14,7 @@ namespace grouser::terrain::testing {
 namespace {
 
 /// A block of 360 grains thrown across the box: nearly all of them change their subdomain.
-std::vector<GrainStart> thrownBlock() { return gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9}); }
+std::vector<GrainSpec> thrownBlock() { return gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9}); }
 
 Boundaries box(const GrainModel& m) {
   return {{{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}, {{0, -1, 0}, -0.5, m.law}},
@@ -104,7 +104,7 @@ TEST(GrainsOnRanks, EqualBitsForManyRadiiAndMaterialsThatRollAndStick) {
     m.materials.grains = {lawOf(4e7), lawOf(3e7), lawOf(3e7), lawOf(2e7)};
     for (int wall = 0; wall < 4; ++wall)
       m.materials.boundaries.insert(m.materials.boundaries.end(), {lawOf(6e7), lawOf(3e7)});
-    std::vector<GrainStart> start = thrownBlock();
+    std::vector<GrainSpec> start = thrownBlock();
     for (std::size_t i = 0; i < start.size(); ++i) {
       start[i].radius = i % 3 ? m.radius : 0.4 * m.radius;
       start[i].material = static_cast<int>(i / 7 % 2);
@@ -209,7 +209,7 @@ TEST(GrainsOnRanks, RolesAreAsDefined) {
     EXPECT_EQ(lattice.ownerOf(u) != grains.comm().rank(), slave);
     if (slave) continue;
     bool needed = false; // some foreign grain within range
-    for (const GrainStart& other : start) {
+    for (const GrainSpec& other : start) {
       const int owner = lattice.ownerOf(base::toUnits(grains.scale().fromMetres(other.position)));
       needed = needed ||
                (owner != grains.comm().rank() && norm(other.position - grains.scale().toMetres(positions[i])) < range);
@@ -224,7 +224,7 @@ TEST(GrainsOnRanks, RolesAreAsDefined) {
 
 TEST(GrainsOnRanks, AFaultNamesTheGrainOnAllRanks) {
   const GrainModel m = gravel();
-  std::vector<GrainStart> start = thrownBlock();
+  std::vector<GrainSpec> start = thrownBlock();
   start[200].velocity = {900, 0, 0}; // beyond half the skin in one step
   Grains grains(base::cpuExec(1), m, box(m), start, shared());
   try {

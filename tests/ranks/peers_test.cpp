@@ -2,7 +2,7 @@
 // Ranks that look into each other's memory, on CPUs or, where the environment says GROUSER_TEST_DEVICE=cuda, on GPUs.
 #include "base/array.hpp"
 #include "base/error.hpp"
-#include "base/peer_agreement.hpp"
+#include "base/peer_reduction.hpp"
 #include "contact/exchange.hpp"
 #include "terrain/grains.hpp"
 #include "tests/device_under_test.hpp"
@@ -34,7 +34,7 @@ TEST(PeersOnCpus, SeeNobodyUnlessAsked) {
   EXPECT_NE(memory.own(), nullptr);
   EXPECT_FALSE(memory.allSeeAll());
   for (int r = 0; r < test::comm().size(); ++r) EXPECT_EQ(memory.of(r), nullptr);
-  EXPECT_FALSE(base::PeerAgreement(base::cpuExec(1), test::comm(), PeerUse::automatic).possible());
+  EXPECT_FALSE(base::PeerReduction(base::cpuExec(1), test::comm(), PeerUse::automatic).possible());
 }
 
 TEST(PeersOnCpus, WhoInsistsIsToldWhy) {
@@ -67,7 +67,7 @@ TEST_F(Peers, WhatOneWritesTheOthersRead) {
 }
 
 TEST_F(Peers, AgreeOnTheLeastAndOnEveryBit) {
-  base::PeerAgreement agreement(exec, comm, PeerUse::always);
+  base::PeerReduction agreement(exec, comm, PeerUse::always);
   ASSERT_TRUE(agreement.possible());
   const auto me = static_cast<std::uint64_t>(comm.rank()), all = static_cast<std::uint64_t>(comm.size());
   // Each run another rank says the least; twenty are given at once, without a host in between.
@@ -101,9 +101,9 @@ void sendToAllOthers(const base::Exec& exec, const base::Comm& comm, contact::Ex
     if (r != comm.rank()) to.push_back(static_cast<std::uint64_t>(r)), from.push_back(static_cast<std::uint32_t>(r));
   base::Array<std::uint64_t> ranks(exec, to);
   base::Array<std::uint32_t> slots(exec, from);
-  exchange.route(ranks, slots, to.size());
-  ASSERT_EQ(exchange.coming(), to.size());
-  exchange.putFrom(static_cast<std::size_t>(comm.size()));
+  exchange.setPlan(ranks, slots, to.size());
+  ASSERT_EQ(exchange.importCount(), to.size());
+  exchange.setImportSlots(static_cast<std::size_t>(comm.size()));
 }
 
 /// What this rank says to each, `width` times.
@@ -176,12 +176,12 @@ TEST_F(Peers, StepsTogetherGiveTheBitsOfOneRankOnACpu) {
   // Sixteen steps at once and single ones in turn; energies are asked for, grains are added, and a saved run goes on.
   using namespace terrain;
   GrainModel m = testing::gravel();
-  m.mostLanes = 1; // lanes take one step at a time
+  m.mostSimdLanes = 1; // lanes take one step at a time
   const Boundaries box{
       {{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}, {{0, -1, 0}, -0.5, m.law}}, {}};
-  std::vector<GrainStart> start = testing::gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9});
-  for (GrainStart& g : start) g.velocity.x += 3 * g.position.x; // lists end on one rank before they end on another
-  const std::vector<GrainStart> more = testing::gravelBlock(3, 3, 1, {0, 0, -1}, {}, {0, 0, 0.6});
+  std::vector<GrainSpec> start = testing::gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9});
+  for (GrainSpec& g : start) g.velocity.x += 3 * g.position.x; // lists end on one rank before they end on another
+  const std::vector<GrainSpec> more = testing::gravelBlock(3, 3, 1, {0, 0, -1}, {}, {0, 0, 0.6});
   Grains alone(base::cpuExec(1), m, box, start);
   PartitionOptions together;
   together.comm = comm, together.peers = PeerUse::always;

@@ -24,7 +24,7 @@ Outcome runMill(const PartitionOptions& partition, double skin = 0.3, std::int64
     if (n == stop && n > 0) {
       const GrainState saved = grains->state();
       grains = std::make_unique<Grains>(base::cpuExec(1), m, around, millGrains(), partition);
-      grains->placeSurfaces(motion(n));
+      grains->setSurfacePoses(motion(n));
       grains->restore(saved);
     }
     advanceWith(*grains, motion, n, n + 1);

@@ -37,7 +37,7 @@ TEST(Guards, GrainsThatComeToOnePlaceStopTheRun) {
   // They pass through each other, since hardly anything pushes them apart; no other alarm sees them at one place.
   for (const int lanes : {16, 1}) {
     GrainModel m = ball(0x1p-13);
-    m.law.stiffness = 1e-9, m.maxOverlap = 1.99, m.mostLanes = lanes;
+    m.law.stiffness = 1e-9, m.maxOverlap = 1.99, m.mostSimdLanes = lanes;
     const double way = 0x1p-13; // of a step, at 1 m/s; a whole number of units
     const auto pass = [&](double offset) {
       Grains grains(base::cpuExec(1), m, {},

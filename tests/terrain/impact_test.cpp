@@ -132,7 +132,7 @@ TEST(Column, OverlapOfContactJIsJTimesWeight) {
   GrainModel m = ball(1e-5);
   m.gravity = {0, 0, -9.81};
   m.law.damping = static_cast<float>(2 * 0.3 * std::sqrt(m.law.stiffness / m.mass));
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   const int n = 5;
   for (int i = 0; i < n; ++i) start.push_back({{0, 0, m.radius * (2 * i + 1)}, {}, {}});
   Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, start);

@@ -72,7 +72,7 @@ TEST(RollingInStep, BallOnPlaneStopsAndStays) {
 /// Spheres in a row between two planes, pressed together: contact j keeps `pressed` overlap at rest.
 struct Chain {
   GrainModel model = ball(1e-5);
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   Boundaries boundaries;
   int n;
   double pitch, pressed = 1e-4;
@@ -182,7 +182,7 @@ TEST(ElasticGas, EnergyStaysBoundedAndMomentumIsKept) {
                     {{0, 0, 1}, 0, m.law},
                     {{0, 0, -1}, -edge, m.law}},
                    {}};
-    std::vector<GrainStart> start;
+    std::vector<GrainSpec> start;
     for (int i = 0; i < 64; ++i) {
       const auto u = [&](std::uint64_t k) { return 2 * base::uniform(3, 4, static_cast<std::uint64_t>(i), k) - 1; };
       start.push_back({Vec3d{i % 4 + 0.5, i / 4 % 4 + 0.5, i / 16 + 0.5} * 0.015, {u(0), u(1), u(2)}, {}});

@@ -39,7 +39,7 @@ contact::ContactLaw lawOf(const Kind& kind, double factor) {
 struct Bed {
   GrainModel model;
   Boundaries boundaries;
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
 };
 
 /// A hundred grains thrown into a corner.
@@ -59,7 +59,7 @@ Bed bedOf(const Kind& kind, int across = 5) {
   }
   for (int i = 0; i < across * across * 4; ++i) {
     const auto u = [&](std::uint64_t k) { return base::uniform(1, 2, static_cast<std::uint64_t>(i), k); };
-    GrainStart g;
+    GrainSpec g;
     g.position = Vec3d{i % across + 0.2 * u(0), i / across % across + 0.2 * u(1), i / (across * across) + 0.6} * 0.0115;
     g.velocity = {-1 - u(2), -1 + u(3), -1}, g.spin = {100 * u(4), -50 * u(5), 80 * u(6)};
     g.radius = kind.radii ? 0.0015 + 0.0035 * u(7) : m.radius;
@@ -147,7 +147,7 @@ TEST(ManyKinds, MomentumAndAngularMomentumAreKept) {
     bed.model.gravity = {};
     bed.boundaries = {}, bed.model.materials.boundaries.clear();
     std::vector<double> mass;
-    for (GrainStart& g : bed.start) {
+    for (GrainSpec& g : bed.start) {
       g.velocity = (Vec3d{0.03, 0.03, 0.03} - g.position) * 40.0;
       mass.push_back(bed.model.materials.density[static_cast<std::size_t>(g.material)] * 4.0 / 3 * base::kPi *
                      g.radius * g.radius * g.radius);
@@ -189,7 +189,7 @@ TEST(ManyKinds, SmallGrainsInReachOfALargeOneAreAllListed) {
   GrainModel m = ball(1e-6);
   m.law.friction = 0.5, m.law.tangentialStiffness = 2e4;
   m.law.damping = 500;
-  std::vector<GrainStart> start{{{0, 0, 0}, {}, {}, m.radius, 0}};
+  std::vector<GrainSpec> start{{{0, 0, 0}, {}, {}, m.radius, 0}};
   const int n = 200;
   const double small = 0.0004, reach = m.radius + small - 1e-6;
   for (int k = 0; k < n; ++k) { // Fibonacci's sphere
@@ -221,7 +221,7 @@ TEST(ManyKinds, OneGrainFeelsMoreNeighboursThanAWordHasBits) {
   GrainModel m = bedOf(kind).model;
   m.gravity = {}, m.timeStep = 1e-7; // the small ones weigh 0.3 mg
   const double small = 0.06 * m.radius, reach = m.radius + 0.98 * small;
-  std::vector<GrainStart> start{{{}, {}, {0, 0, 5}, m.radius}};
+  std::vector<GrainSpec> start{{{}, {}, {0, 0, 5}, m.radius}};
   for (int k = 0; k < kSmall; ++k) { // along a spiral from pole to pole
     const double z = 1 - (2 * k + 1.0) / kSmall, across = std::sqrt(1 - z * z), angle = 2.399963 * k;
     start.push_back({Vec3d{across * std::cos(angle), across * std::sin(angle), z} * reach, {}, {}, small});

@@ -40,7 +40,7 @@ TEST(Heap, MovesAlikeWhereverItStands) {
 TEST(Heap, NeighbourListLosesNoContact) {
   // Against a brute-force search over all pairs.
   const GrainModel m = gravel();
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   for (int i = 0; i < 300; ++i) start.push_back({{0.05 * (i % 7), 0.05 * (i / 7 % 7), 0.05 * (i / 49)}, {}, {}});
   Grains grains(testExec(2), m, {}, start);
   const GrainLedger ledger = grains.ledger();
@@ -55,7 +55,7 @@ TEST(Heap, PairForcesBalanceToTheLastBit) {
   // No gravity, no walls: the sum of all momenta stays what it was, up to the quantum of the kept remainders.
   GrainModel m = gravel();
   m.gravity = {};
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   for (int i = 0; i < 64; ++i) start.push_back({{0.053 * (i % 4), 0.053 * (i / 4 % 4), 0.053 * (i / 16)}, {}, {}});
   Grains grains(testExec(1), m, {}, start);
   advance(grains, 2000);

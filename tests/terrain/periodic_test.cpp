@@ -28,7 +28,7 @@ Boundaries joined(const GrainModel& m, bool x = true, bool y = true) {
 }
 
 /// Layers thrown across the domain, shifted along x and y by whole units of position, around the ring.
-std::vector<GrainStart> thrown(const base::Vec3l& shift, bool manyRadii = false) {
+std::vector<GrainSpec> thrown(const base::Vec3l& shift, bool manyRadii = false) {
   const base::PositionScale scale = base::positionScale(0.01);
   const base::Period period = [&] {
     base::Period p;
@@ -36,14 +36,14 @@ std::vector<GrainStart> thrown(const base::Vec3l& shift, bool manyRadii = false)
     p.low = {0, units(-0.01), 0}, p.length = {units(kLengthX), units(kLengthY - 0.01) - units(-0.01), 0};
     return p;
   }();
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   for (int z = 0; z < 5; ++z)
     for (int y = 0; y < 4; ++y)
       for (int x = 0; x < 6; ++x) {
         const base::Vec3d place{0.0052 + 0.0105 * x + 0.0004 * z, -0.0048 + 0.0117 * y + 0.0005 * (x % 2),
                                 0.006 + 0.0104 * z};
         const base::Vec3l u = period.wrapped(base::toUnits(scale.fromMetres(place)) + shift);
-        GrainStart g{scale.toMetres(base::fromUnits(u)), {0.6, -0.35, -0.2}, {5, 3, -20}};
+        GrainSpec g{scale.toMetres(base::fromUnits(u)), {0.6, -0.35, -0.2}, {5, 3, -20}};
         if (manyRadii) g.radius = (x + y + z) % 3 ? 0.005 : 0.0031;
         start.push_back(g);
       }
@@ -77,7 +77,7 @@ GrainState end(const GrainModel& m, const base::Vec3l& shift, int threads = 1, b
   return grains.state();
 }
 
-TEST(JoinedSides, NoBitDependsOnWhereTheyStand) {
+TEST(PeriodicBoundaries, NoBitDependsOnWhereTheyStand) {
   const GrainState here = end(rubbing(), {});
   EXPECT_GT(crossed(here), 20) << "grains must have gone round";
   EXPECT_GT(here.neighbour.size(), 60u) << "and touch each other";
@@ -88,7 +88,7 @@ TEST(JoinedSides, NoBitDependsOnWhereTheyStand) {
   }
 }
 
-TEST(JoinedSides, SameBitsForSkinsThreadsAndKernels) {
+TEST(PeriodicBoundaries, SameBitsForSkinsThreadsAndKernels) {
   const auto reference = end(rubbing(), {}).words();
   EXPECT_EQ(end(rubbing(0.6), {}, 2).words(), reference);
   EXPECT_EQ(end(rubbing(0.1), {}, 2).words(), reference);
@@ -97,21 +97,21 @@ TEST(JoinedSides, SameBitsForSkinsThreadsAndKernels) {
   EXPECT_EQ(end(general, {}).words(), reference);
 }
 
-TEST(JoinedSides, NoBitDependsOnWhereTheyStandForManyRadiiThatRollInDouble) {
+TEST(PeriodicBoundaries, NoBitDependsOnWhereTheyStandForManyRadiiThatRollInDouble) {
   GrainModel m = rubbing();
   m.law.rollingFriction = 0.1f, m.law.rollingDamping = 0.3f;
   m.precision = Precision::double_;
   EXPECT_TRUE(relative(end(m, {}, 1, true)) == relative(end(m, {223456789, -145678901, 0}, 2, true)));
 }
 
-TEST(JoinedSides, ListFindsEveryImageThatTouches) {
+TEST(PeriodicBoundaries, ListFindsEveryImageThatTouches) {
   // Against a search over all pairs and all images, in a domain of few and of many cells.
   for (const double length : {0.0361, 0.05, 0.2}) {
     GrainModel m = ball(1e-5);
     m.radius = 0.004;
     Boundaries b;
     b.joined = {std::array{0.0, length}, std::array{0.0, length}};
-    std::vector<GrainStart> start;
+    std::vector<GrainSpec> start;
     for (int i = 0; i < 60; ++i)
       start.push_back(
           {{std::fmod(0.0137 * i, length), std::fmod(0.0071 * i + 0.003, length), 0.0031 * (i % 4)}, {}, {}});
@@ -130,7 +130,7 @@ TEST(JoinedSides, ListFindsEveryImageThatTouches) {
   }
 }
 
-TEST(JoinedSides, FallAlongThemKeepsTheEnergy) {
+TEST(PeriodicBoundaries, FallAlongThemKeepsTheEnergy) {
   // A slope of 45 degrees without end: kinetic energy is what the whole way has given.
   GrainModel m = ball(1e-5);
   m.gravity = {6, -4, 0};
@@ -147,11 +147,11 @@ TEST(JoinedSides, FallAlongThemKeepsTheEnergy) {
   EXPECT_NEAR(after.kinetic - before.kinetic, before.potential - after.potential, 2e-5 * after.kinetic);
 }
 
-TEST(JoinedSides, MomentumOfAGasIsKept) {
+TEST(PeriodicBoundaries, MomentumOfAGasIsKept) {
   GrainModel m = ball(1e-5);
   Boundaries b;
   b.joined = {std::array{0.0, kLengthX}, std::array{0.0, kLengthX}};
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   for (int i = 0; i < 100; ++i)
     start.push_back({{0.006 + 0.0125 * (i % 5), 0.006 + 0.0125 * (i / 5 % 5), 0.0105 * (i / 25)},
                      {0.3 * (i % 7 - 3), 0.2 * (i % 5 - 2), 0},
@@ -163,7 +163,7 @@ TEST(JoinedSides, MomentumOfAGasIsKept) {
   EXPECT_LT(norm(grains.ledger().momentum - before), 100 * m.mass * 6e-8);
 }
 
-TEST(JoinedSides, ResumedRunsGoOnToTheSameBits) {
+TEST(PeriodicBoundaries, ResumedRunsGoOnToTheSameBits) {
   const GrainModel m = rubbing();
   Grains straight(base::cpuExec(1), m, joined(m), thrown({}));
   advance(straight, 4000);
@@ -182,7 +182,7 @@ TEST(JoinedSides, ResumedRunsGoOnToTheSameBits) {
   }
 }
 
-TEST(JoinedSides, TooNearOrGrainsOutsideAreRefused) {
+TEST(PeriodicBoundaries, TooNearOrGrainsOutsideAreRefused) {
   const GrainModel m = rubbing();
   Boundaries near = joined(m);
   near.joined[1] = {0.0, 0.034};

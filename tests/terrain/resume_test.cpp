@@ -15,7 +15,7 @@ Grains heap(const base::Exec& exec, double skin, int layers = 5) {
   makeRough(m.law, 2000);
   m.floorLaw = m.law;
   m.skin = skin;
-  std::vector<GrainStart> start;
+  std::vector<GrainSpec> start;
   for (int z = 0; z < layers; ++z)
     for (int y = 0; y < 6; ++y)
       for (int x = 0; x < 6; ++x)

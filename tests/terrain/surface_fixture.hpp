@@ -18,7 +18,7 @@ inline base::Quat turn(const Vec3d& axis, double angle) {
 }
 
 /// A surface at `centre`, turned by `stands` at the start and by `turned` since, with its velocities.
-inline SurfacePlacement placed(const Vec3d& centre, const base::Quat& stands = {}, const base::Quat& turned = {},
+inline SurfacePose placed(const Vec3d& centre, const base::Quat& stands = {}, const base::Quat& turned = {},
                                const Vec3d& velocity = {}, const Vec3d& spin = {}) {
   return {{centre, (turned * stands).matrix(), centre, velocity, spin}, turned.matrix()};
 }
@@ -28,12 +28,12 @@ inline SurfaceGeometry tubeOf(double radius, double half) { return {SurfaceShape
 inline SurfaceGeometry cylinderOf(double radius, double half) { return {SurfaceShape::cylinder, {radius, 0, half}}; }
 
 /// Where the surfaces are at step n.
-using Motion = std::function<std::vector<SurfacePlacement>(std::int64_t step)>;
+using Motion = std::function<std::vector<SurfacePose>(std::int64_t step)>;
 
 /// Steps from `first` to `last`, with the surfaces placed before each.
 inline void advanceWith(Grains& grains, const Motion& motion, std::int64_t first, std::int64_t last) {
   for (std::int64_t n = first; n < last; ++n) {
-    grains.placeSurfaces(motion(n));
+    grains.setSurfacePoses(motion(n));
     grains.refreshNeighbours();
     grains.step();
   }
@@ -51,15 +51,15 @@ inline Motion millMotion(double timeStep) {
     const double t = static_cast<double>(n) * timeStep, omega = 12, shake = 400;
     const base::Quat turned = turn({0, 1, 0}, omega * t), aboutY = turn({1, 0, 0}, -base::kPi / 2);
     const Vec3d spin{0, omega, 0}, arm = rotate(turned, {0.05, 0, 0});
-    return std::vector<SurfacePlacement>{
+    return std::vector<SurfacePose>{
         placed({}, aboutY, turned, {}, spin), placed(arm, {}, turned, cross(spin, arm), spin),
         placed({0, 0, -0.075 + 0.002 * base::sin(shake * t)}, {}, {}, {0, 0, 0.002 * shake * base::cos(shake * t)})};
   };
 }
 
 /// Grains that fill the lower half of the mill and some that lie around it.
-inline std::vector<GrainStart> millGrains() {
-  std::vector<GrainStart> start;
+inline std::vector<GrainSpec> millGrains() {
+  std::vector<GrainSpec> start;
   for (int y = -2; y <= 2; ++y)
     for (int x = -3; x <= 3; ++x)
       for (int z = 0; z < 4; ++z) {

@@ -127,7 +127,7 @@ TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
   const double mu = 0.3, v0 = 1;
   const GrainModel m = roughBall(2e-6, mu, 0.3);
   const double overlap = m.mass * 9.81 / m.law.stiffness;
-  const SurfacePlacement belt = placed({}, {}, {}, {v0, 0, 0});
+  const SurfacePose belt = placed({}, {}, {}, {v0, 0, 0});
   Grains grains(testExec(1), m, {{}, {}, {}, {{{SurfaceShape::plane, {}}, m.law, belt}}},
                 {{{0, 0, m.radius - overlap}, {}, {}}});
   const double tRoll = 2 * v0 / (7 * mu * 9.81);
@@ -227,7 +227,7 @@ TEST(Mill, ResumedRunGivesTheSameBitsAndLoads) {
     Grains first(testExec(1), m, {{{{0, 1, 0}, -0.1, m.law}}, {}, {}, mill(m.law)}, millGrains());
     advanceWith(first, motion, 0, stop);
     Grains second(testExec(1), m, {{{{0, 1, 0}, -0.1, m.law}}, {}, {}, mill(m.law)}, millGrains());
-    second.placeSurfaces(motion(stop));
+    second.setSurfacePoses(motion(stop));
     second.restore(first.state());
     advanceWith(second, motion, stop, 4000);
     EXPECT_EQ(second.stateWords(), expected) << "stopped at " << stop;
@@ -283,7 +283,7 @@ TEST(Surfaces, ThatJumpAwayLeaveNoSpringBehind) {
                 {{{0, 0, m.radius - 1e-5}, {0.1, 0, 0}, {}}});
   advance(grains, 10); // of the 37 of a contact
   EXPECT_EQ(grains.state().wallBits[0], 1u);
-  grains.placeSurfaces({placed({0, 0, -1})});
+  grains.setSurfacePoses({placed({0, 0, -1})});
   advance(grains, 1);
   EXPECT_EQ(grains.state().wallBits[0], 0u);
 }

@@ -10,7 +10,7 @@ base::Table<RunSettings> runTable();
 base::Table<Material> materialTable();
 base::Table<ContactPair> contactTable();
 base::Table<Grain> grainTable();
-base::Table<GrainBlock> blockTable();
+base::Table<GrainFill> fillTable();
 base::Table<Source> sourceTable();
 base::Table<Plane> planeTable();
 base::Table<BoxSection> boxTable();

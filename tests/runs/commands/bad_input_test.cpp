@@ -185,7 +185,7 @@ std::vector<Mistake> mistakes() {
                {"scene.toml:6: run.domain_y", "farther than 256 m from the origin"}),
       badScene("GrainOutsideJoinedSides", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-0.05, 0.08]",
-               {"grain.1", "outside the joined sides", "run.domain_x"}),
+               {"grain.1", "outside the periodic boundaries", "run.domain_x"}),
       badScene("TileTooSmall", "layers = 1", "layers = 1\ntile = [0.1, 0.5]", {"tile", "own images", "at least"}, kBed),
       badScene("SceneEmpty", kGrains, "", {"scene.toml", "version"}),
       {"SceneIsBinary",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes with joined sides, and beds made of copies of a settled tile.
+// Scenes with periodic boundaries, and beds made of copies of a settled tile.
 #include "base/error.hpp"
 #include "runs/setup/bed.hpp"
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/setup/sources.hpp"
 
@@ -124,7 +124,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
   EXPECT_THROW(ledgerWith(at + "-0.05]\n"), base::InputError);
 }
 
-TEST(JoinedSides, GrainsOfASourceDoNotEnterInEachOthersImages) {
+TEST(PeriodicBoundaries, GrainsOfASourceDoNotEnterInEachOthersImages) {
   for (int seed = 1; seed <= 20; ++seed) {
     const scene::Scene scene =
         scene::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
@@ -133,15 +133,15 @@ TEST(JoinedSides, GrainsOfASourceDoNotEnterInEachOthersImages) {
                        "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
                        "material = \"soil\"\nnumber = 25\ntotal = 25\nevery = 1\n",
                    "rain.toml");
-    const std::vector<terrain::GrainStart> grains = Sources(scene, kStep).enteringAt(0);
+    const std::vector<terrain::GrainSpec> grains = Sources(scene, kStep).enteringAt(0);
     ASSERT_EQ(grains.size(), 25u);
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        EXPECT_GT(norm(toNearestImage(joinedSides(scene), grains[i].position - grains[j].position)), 0.02);
+        EXPECT_GT(norm(toNearestImage(periodicBoundaries(scene), grains[i].position - grains[j].position)), 0.02);
   }
 }
 
-TEST(JoinedSides, GrainsOfASceneTouchAcrossThem) {
+TEST(PeriodicBoundaries, GrainsOfASceneTouchAcrossThem) {
   const auto scene = [](const std::string& x) {
     return scene::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
                       "[material.soil]\nstiffness = 1e5\n[[grain]]\nposition = [0.48, 0, 0]\nradius = 0.03\n"
@@ -153,7 +153,7 @@ TEST(JoinedSides, GrainsOfASceneTouchAcrossThem) {
   EXPECT_EQ(buildGround(scene("-0.459"), base::cpuExec(1), kStep).grains->ledger().contacts, 0);
   EXPECT_THROW(buildGround(scene("-0.49"), base::cpuExec(1), kStep), base::InputError) << "too deep at the start";
   EXPECT_THROW(buildGround(scene("-0.51"), base::cpuExec(1), kStep), base::InputError) << "outside";
-  EXPECT_NE(commands::planText(scene("0")).find("on   joined sides               x"), std::string::npos) << commands::planText(scene("0"));
+  EXPECT_NE(commands::planText(scene("0")).find("on   periodic boundaries               x"), std::string::npos) << commands::planText(scene("0"));
 }
 
 } // namespace

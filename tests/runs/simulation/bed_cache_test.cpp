@@ -41,7 +41,7 @@ protected:
 
   /// Steps taken to settle: none where the bed was taken from the folder.
   struct Outcome {
-    std::string hash, story;
+    std::string hash, summary;
     bool settled = false;
     std::vector<double> row;
   };
@@ -61,7 +61,7 @@ protected:
     while (simulation.steps() < 300) simulation.step();
     note();
     o.hash = simulation.stateHash();
-    if (beds) o.story = beds->story();
+    if (beds) o.summary = beds->summary();
     return o;
   }
   test::Outcome runIn(const fs::path& folder, const std::vector<std::string>& overrides = {}) const {
@@ -84,8 +84,8 @@ TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
     EXPECT_EQ(o.hash, alone.hash);
     EXPECT_EQ(o.row, alone.row);
   }
-  EXPECT_NE(first.story.find("kept in " + folder_.string()), std::string::npos) << first.story;
-  EXPECT_NE(second.story.find("taken from " + folder_.string()), std::string::npos) << second.story;
+  EXPECT_NE(first.summary.find("kept in " + folder_.string()), std::string::npos) << first.summary;
+  EXPECT_NE(second.summary.find("taken from " + folder_.string()), std::string::npos) << second.summary;
   EXPECT_EQ(files().size(), 1u);
 }
 
@@ -184,7 +184,7 @@ TEST_F(KeptBed, UnusableFolderIsAWarning) {
   const test::Outcome o = runIn(folder_ / "below");
   EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot be kept"), std::string::npos);
   EXPECT_EQ(o.hash, run(nullptr).hash);
-  EXPECT_NE(o.story.find("not kept"), std::string::npos);
+  EXPECT_NE(o.summary.find("not kept"), std::string::npos);
 }
 
 TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {
@@ -202,7 +202,7 @@ TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {
   EXPECT_EQ(files().size(), 3u) << "two beds and a stranger";
   EXPECT_FALSE(fs::exists(folder_ / "bed-0.h5.host.1.part"));
   BedCache none(folder_, 1);
-  EXPECT_NE(run(&none, {"run.seed=4"}).story.find("GROUSER_CACHE_GIB"), std::string::npos);
+  EXPECT_NE(run(&none, {"run.seed=4"}).summary.find("GROUSER_CACHE_GIB"), std::string::npos);
 }
 
 TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
@@ -211,7 +211,7 @@ TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
   std::thread second([&] { b = runIn(folder_); });
   first.join(), second.join();
   EXPECT_EQ(a.hash, b.hash);
-  EXPECT_EQ((a.story.rfind("settled", 0) == 0) + (b.story.rfind("settled", 0) == 0), 1) << a.story << "\n" << b.story;
+  EXPECT_EQ((a.summary.rfind("settled", 0) == 0) + (b.summary.rfind("settled", 0) == 0), 1) << a.summary << "\n" << b.summary;
 }
 
 TEST_F(KeptBed, FolderComesFromTheSurroundings) {
@@ -231,7 +231,7 @@ TEST_F(KeptBed, FolderComesFromTheSurroundings) {
   const auto home = BedCache::ofUser();
   ASSERT_TRUE(home);
   BedCache beds = *home;
-  EXPECT_NE(run(&beds).story.find((folder_ / ".cache/grouser/bed-").string()), std::string::npos) << beds.story();
+  EXPECT_NE(run(&beds).summary.find((folder_ / ".cache/grouser/bed-").string()), std::string::npos) << beds.summary();
   for (const char* bad : {"two", "-1", "1e9", "1 ", "nan"}) {
     setenv("GROUSER_CACHE_GIB", bad, 1);
     EXPECT_THROW(BedCache::ofUser(), base::InputError) << bad;

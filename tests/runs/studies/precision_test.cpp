@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Touch decided in several arithmetics, and how runs of both precisions drift apart.
+// ContactGeometry decided in several arithmetics, and how runs of both precisions drift apart.
 #include "runs/studies/drift.hpp"
 #include "runs/studies/touch.hpp"
 

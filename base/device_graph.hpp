@@ -13,18 +13,18 @@ namespace grouser::base {
 ///
 /// Recorded are launches and copies with their pointers, counts and constants, not what the host does in between. So
 /// the work asks for no memory, waits for nothing, and is forgotten when anything of it has changed.
-class Replay {
+class DeviceGraph {
 public:
-  Replay() = default;
-  explicit Replay(const Exec& exec) : exec_(exec) {}
-  Replay(Replay&& other) noexcept { swap(other); }
-  Replay& operator=(Replay&& other) noexcept {
+  DeviceGraph() = default;
+  explicit DeviceGraph(const Exec& exec) : exec_(exec) {}
+  DeviceGraph(DeviceGraph&& other) noexcept { swap(other); }
+  DeviceGraph& operator=(DeviceGraph&& other) noexcept {
     swap(other);
     return *this;
   }
-  Replay(const Replay&) = delete;
-  Replay& operator=(const Replay&) = delete;
-  ~Replay();
+  DeviceGraph(const DeviceGraph&) = delete;
+  DeviceGraph& operator=(const DeviceGraph&) = delete;
+  ~DeviceGraph();
 
   /// Does `work()`, which gives work to the Exec and to side streams that fork from it and join it.
   template <class Work> void run(const Work& work) {
@@ -43,19 +43,19 @@ private:
   /// While it lives, what is given to the stream is recorded instead of done.
   class Recording {
   public:
-    explicit Recording(Replay& replay) : replay_(replay) { replay_.begin(); }
+    explicit Recording(DeviceGraph& graph) : graph_(graph) { graph_.begin(); }
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
     ~Recording() {
-      if (!finished_) replay_.abandon();
+      if (!finished_) graph_.abandon();
     }
     void finish() {
       finished_ = true;
-      replay_.end();
+      graph_.end();
     }
 
   private:
-    Replay& replay_;
+    DeviceGraph& graph_;
     bool finished_{false};
   };
 
@@ -63,7 +63,7 @@ private:
   void end();
   void abandon() noexcept;
   void start();
-  void swap(Replay& other) noexcept {
+  void swap(DeviceGraph& other) noexcept {
     std::swap(exec_, other.exec_);
     std::swap(graph_, other.graph_);
     std::swap(recorded_, other.recorded_);
@@ -75,21 +75,21 @@ private:
 };
 
 /// Replays of work on one of two buffers that take turns: each has its own record.
-class AlternatingReplay {
+class DoubleBufferedGraph {
 public:
-  AlternatingReplay() = default;
-  explicit AlternatingReplay(const Exec& exec) {
-    for (Turn& turn : turns_) turn.replay = Replay(exec);
+  DoubleBufferedGraph() = default;
+  explicit DoubleBufferedGraph(const Exec& exec) {
+    for (Turn& turn : turns_) turn.graph = DeviceGraph(exec);
   }
   /// The record of work that begins with `buffer`, and with turn `other` of whatever else takes turns in it; a third
   /// takes a former one's place.
-  Replay& from(const void* buffer, unsigned other = 0) {
+  DeviceGraph& from(const void* buffer, unsigned other = 0) {
     for (Turn& turn : turns_)
-      if (turn.taken && turn.buffer == buffer && turn.other == other) return turn.replay;
+      if (turn.taken && turn.buffer == buffer && turn.other == other) return turn.graph;
     Turn& turn = turns_[turns_[0].taken ? 1 : 0];
     turn.taken = true, turn.buffer = buffer, turn.other = other;
-    turn.replay.forget();
-    return turn.replay;
+    turn.graph.forget();
+    return turn.graph;
   }
   void forget() {
     for (Turn& turn : turns_) turn.taken = false;
@@ -100,7 +100,7 @@ private:
     bool taken{false};
     const void* buffer{nullptr};
     unsigned other{0};
-    Replay replay;
+    DeviceGraph graph;
   };
   std::array<Turn, 2> turns_;
 };

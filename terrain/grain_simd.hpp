@@ -7,10 +7,10 @@ namespace grouser::terrain {
 
 /// How many contacts the CPU works on side by side for beds of these features: at most `most`, as many as the processor
 /// has lanes for; 1: only the scalar kernel will do.
-int laneWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
+int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
 
 /// One step of `count` grains on the CPU, `width` > 1 contacts at a time; the bits are those of GrainStep.
-void runGrainLanes(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
+void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                    int width);
 
 namespace detail {

@@ -3,7 +3,7 @@
 #include "grain_fixture.hpp"
 
 #include "base/random.hpp"
-#include "terrain/grain_lanes.hpp"
+#include "terrain/grain_simd.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,10 +36,10 @@ GrainModel modelOf(const Kind& kind) {
 }
 
 /// A heap that falls, splashes against the walls and comes to lie in part: contacts begin, stick, slide and end.
-std::vector<GrainStart> heap(int grains) {
-  std::vector<GrainStart> start;
+std::vector<GrainSpec> heap(int grains) {
+  std::vector<GrainSpec> start;
   for (int i = 0; i < grains; ++i) {
-    GrainStart g;
+    GrainSpec g;
     g.position = Vec3d{i % 7 + 0.09 * die(i, 0), i / 7 % 7 + 0.09 * die(i, 1), i / 49 + 0.55} * 0.0105;
     g.velocity = {die(i, 2) - 0.5, die(i, 3) - 0.5, -die(i, 4)};
     g.spin = {100 * die(i, 5), -50 * die(i, 6), 80 * die(i, 7)};
@@ -72,7 +72,7 @@ struct Pushes {
 
 std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, int steps, double skin = 0.5) {
   GrainModel m = modelOf(kind);
-  m.mostLanes = lanes, m.skin = skin;
+  m.mostSimdLanes = lanes, m.skin = skin;
   contact::ContactLaw wall = m.law;
   wall.friction = kind.wallFriction;
   std::vector<Wall> walls;
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
   return grains.stateWords();
 }
 
-TEST(GrainLanes, EveryWidthGivesTheBitsOfTheScalarKernel) {
+TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
   const Kind kinds[] = {{},
                         {.ledger = false},
                         {.friction = false, .wallFriction = 0},
@@ -109,25 +109,25 @@ TEST(GrainLanes, EveryWidthGivesTheBitsOfTheScalarKernel) {
   }
 }
 
-TEST(GrainLanes, TakeTheCommonBedsAndLeaveTheRest) {
+TEST(GrainSimd, TakeTheCommonBedsAndLeaveTheRest) {
   contact::BasicLaw<float> law;
   law.friction = 0.5f;
   const unsigned bed = contact::kFriction | kBoundaries | kLedger | kLoads;
-  EXPECT_GE(laneWidth(bed, law, 16), 4);
-  EXPECT_EQ(laneWidth(bed, law, 4), 4);
-  EXPECT_EQ(laneWidth(bed, law, 1), 1);
+  EXPECT_GE(simdWidth(bed, law, 16), 4);
+  EXPECT_EQ(simdWidth(bed, law, 4), 4);
+  EXPECT_EQ(simdWidth(bed, law, 1), 1);
   for (const unsigned feature : {contact::kHertz, contact::kRollingFriction, contact::kCohesion, contact::kGeneral,
                                  kManyRadii, kManyMaterials, kPeriodic})
-    EXPECT_EQ(laneWidth(bed | feature, law, 16), 1);
+    EXPECT_EQ(simdWidth(bed | feature, law, 16), 1);
 }
 
 /// Two grains that touch by less than a float of the squares can tell, and two that just do not.
-TEST(GrainLanes, TouchOfOneUnitIsFound) {
+TEST(GrainSimd, TouchOfOneUnitIsFound) {
   GrainModel m = ball(1e-6);
   const double unit = base::positionScale(2 * m.radius).unit;
   for (const int units : {-2, -1, 0, 1, 2})
     for (const int lanes : {1, 4, 8, 16}) {
-      m.mostLanes = lanes;
+      m.mostSimdLanes = lanes;
       Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, {{2 * m.radius + units * unit, 0, 0}, {}, {}}});
       advance(grains, 1);
       std::uint64_t touching = 0;
@@ -136,10 +136,10 @@ TEST(GrainLanes, TouchOfOneUnitIsFound) {
     }
 }
 
-TEST(GrainLanes, FaultsAreThoseOfTheScalarKernel) {
-  const auto messageOf = [](int lanes, const GrainStart& second) -> std::string {
+TEST(GrainSimd, FaultsAreThoseOfTheScalarKernel) {
+  const auto messageOf = [](int lanes, const GrainSpec& second) -> std::string {
     GrainModel m = ball(1e-5);
-    m.mostLanes = lanes;
+    m.mostSimdLanes = lanes;
     Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, second});
     try {
       advance(grains, 2000);
@@ -148,8 +148,8 @@ TEST(GrainLanes, FaultsAreThoseOfTheScalarKernel) {
     }
     return "";
   };
-  const GrainStart deep{{0.007, 0, 0}, {}, {}}, fast{{0.5, 0, 0}, {200, 0, 0}, {}}, far{{127.9, 0, 0}, {100, 0, 0}, {}};
-  for (const GrainStart& second : {deep, fast, far}) {
+  const GrainSpec deep{{0.007, 0, 0}, {}, {}}, fast{{0.5, 0, 0}, {200, 0, 0}, {}}, far{{127.9, 0, 0}, {100, 0, 0}, {}};
+  for (const GrainSpec& second : {deep, fast, far}) {
     const std::string expected = messageOf(1, second);
     EXPECT_EQ(messageOf(16, second), expected);
     EXPECT_EQ(messageOf(4, second), expected);
@@ -159,12 +159,12 @@ TEST(GrainLanes, FaultsAreThoseOfTheScalarKernel) {
 }
 
 /// Coordinates whose low words wrap on the way.
-TEST(GrainLanes, GrainsCrossTheEndsOfTheirLowWords) {
+TEST(GrainSimd, GrainsCrossTheEndsOfTheirLowWords) {
   GrainModel m = ball(1e-5);
   const double wrap = 4294967296.0 * base::positionScale(2 * m.radius).unit;
   const auto words = [&](int lanes) {
-    m.mostLanes = lanes;
-    std::vector<GrainStart> start;
+    m.mostSimdLanes = lanes;
+    std::vector<GrainSpec> start;
     for (int k = -3; k <= 3; ++k) start.push_back({{k * wrap + 1e-4, -k * wrap - 1e-4, 1e-5}, {-1, 1, -0.5}, {}});
     Grains grains(base::cpuExec(1), m, {}, start);
     advance(grains, 100);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/replay.hpp"
+#include "base/device_graph.hpp"
 
 #if defined(__CUDACC__)
 #include "base/cuda_check.cuh"
@@ -23,15 +23,15 @@ void* makeEvent() {
 
 } // namespace
 
-Replay::~Replay() {
+DeviceGraph::~DeviceGraph() {
   if (graph_) cudaGraphExecDestroy(graphOf(graph_));
 }
 
-void Replay::begin() {
+void DeviceGraph::begin() {
   checkCuda(cudaStreamBeginCapture(streamOf(exec_), cudaStreamCaptureModeThreadLocal), "cudaStreamBeginCapture");
 }
 
-void Replay::end() {
+void DeviceGraph::end() {
   cudaGraph_t graph = nullptr;
   checkCuda(cudaStreamEndCapture(streamOf(exec_), &graph), "cudaStreamEndCapture");
   // Work of the same shape takes the former's place, which is quicker than to begin anew.
@@ -51,13 +51,13 @@ void Replay::end() {
   recorded_ = true;
 }
 
-void Replay::abandon() noexcept {
+void DeviceGraph::abandon() noexcept {
   cudaGraph_t graph = nullptr;
   if (cudaStreamEndCapture(streamOf(exec_), &graph) == cudaSuccess && graph) cudaGraphDestroy(graph);
   cudaGetLastError(); // the error that ended the recording is already on its way
 }
 
-void Replay::start() { checkCuda(cudaGraphLaunch(graphOf(graph_), streamOf(exec_)), "cudaGraphLaunch"); }
+void DeviceGraph::start() { checkCuda(cudaGraphLaunch(graphOf(graph_), streamOf(exec_)), "cudaGraphLaunch"); }
 
 SideStream::SideStream(const Exec& main, bool first) : main_(main), side_(main) {
   if (main.onCpu()) return;
@@ -92,11 +92,11 @@ void SideStream::join() {
 #else
 
 // Without CUDA every Exec is a CPU's: nothing is ever recorded, and no stream is made.
-Replay::~Replay() = default;
-void Replay::begin() {}
-void Replay::end() {}
-void Replay::abandon() noexcept {}
-void Replay::start() {}
+DeviceGraph::~DeviceGraph() = default;
+void DeviceGraph::begin() {}
+void DeviceGraph::end() {}
+void DeviceGraph::abandon() noexcept {}
+void DeviceGraph::start() {}
 SideStream::SideStream(const Exec& main, bool) : main_(main), side_(main) {}
 SideStream::~SideStream() = default;
 void SideStream::fork() {}

@@ -25,19 +25,19 @@ struct Dice {
   double operator()() { return base::uniform(seed, kPurpose + block, id, next++); }
 };
 
-double drawRadius(const scene::GrainBlock& b, Dice& dice) {
+double drawRadius(const scene::GrainFill& b, Dice& dice) {
   return b.radiusTo ? *b.radius + dice() * (*b.radiusTo - *b.radius) : *b.radius;
 }
 
-scene::Grain grainAt(const scene::GrainBlock& b, const Vec3d& position, double radius) {
+scene::Grain grainAt(const scene::GrainFill& b, const Vec3d& position, double radius) {
   return {position, b.velocity, b.spin, radius, b.material};
 }
 
 /// How far a grain of a lattice may stand from its place along each axis [m]: two never touch at the start.
-double latticeShift(const scene::GrainBlock& b) { return 0.5 * b.jitter * (b.spacing - 2) * b.largestRadius(); }
+double latticeShift(const scene::GrainFill& b) { return 0.5 * b.jitter * (b.spacing - 2) * b.largestRadius(); }
 
 /// Places of a lattice along each axis: shifted grains too stay whole inside the box.
-base::Vec3<std::int64_t> latticeCount(const scene::GrainBlock& b) {
+base::Vec3<std::int64_t> latticeCount(const scene::GrainFill& b) {
   const double pitch = b.spacing * b.largestRadius();
   base::Vec3<std::int64_t> count;
   for (int a = 0; a < 3; ++a) {
@@ -47,7 +47,7 @@ base::Vec3<std::int64_t> latticeCount(const scene::GrainBlock& b) {
   return count;
 }
 
-void addLattice(const scene::GrainBlock& b, std::uint64_t seed, std::uint64_t block, std::vector<scene::Grain>& out) {
+void addLattice(const scene::GrainFill& b, std::uint64_t seed, std::uint64_t block, std::vector<scene::Grain>& out) {
   const auto count = latticeCount(b);
   const double r = b.largestRadius(), pitch = b.spacing * r;
   const double shift = latticeShift(b);
@@ -64,7 +64,7 @@ void addLattice(const scene::GrainBlock& b, std::uint64_t seed, std::uint64_t bl
 }
 
 /// Grains one after the other, each at the first of its random places that is free.
-void addRandom(const scene::Scene& scene, const scene::GrainBlock& b, std::uint64_t seed, std::uint64_t block,
+void addRandom(const scene::Scene& scene, const scene::GrainFill& b, std::uint64_t seed, std::uint64_t block,
                std::vector<scene::Grain>& out) {
   const double edge = 2 * b.largestRadius();
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells;
@@ -106,7 +106,7 @@ void addRandom(const scene::Scene& scene, const scene::GrainBlock& b, std::uint6
 
 } // namespace
 
-std::vector<scene::Grain> scene::readGrainFile(const std::string& file, const scene::GrainBlock& b) {
+std::vector<scene::Grain> scene::readGrainFile(const std::string& file, const scene::GrainFill& b) {
   std::ifstream in(file);
   if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
   std::vector<scene::Grain> grains;
@@ -134,8 +134,8 @@ std::vector<scene::Grain> scene::readGrainFile(const std::string& file, const sc
 std::vector<scene::Grain> placedGrains(const scene::Scene& scene) {
   std::vector<scene::Grain> all = scene.grains;
   const auto seed = static_cast<std::uint64_t>(scene.run.seed);
-  for (std::size_t k = 0; k < scene.blocks.size(); ++k) {
-    const scene::GrainBlock& b = scene.blocks[k];
+  for (std::size_t k = 0; k < scene.fills.size(); ++k) {
+    const scene::GrainFill& b = scene.fills[k];
     if (b.form == "file") {
       all.insert(all.end(), b.fromFile.begin(), b.fromFile.end());
       continue;
@@ -150,7 +150,7 @@ std::vector<scene::Grain> placedGrains(const scene::Scene& scene) {
   return all;
 }
 
-std::int64_t placedCount(const scene::GrainBlock& b) {
+std::int64_t placedCount(const scene::GrainFill& b) {
   if (b.form == "file") return static_cast<std::int64_t>(b.fromFile.size());
   if (b.form == "random") return *b.number;
   const base::Vec3<std::int64_t> n = latticeCount(b);
@@ -159,7 +159,7 @@ std::int64_t placedCount(const scene::GrainBlock& b) {
 
 std::int64_t placedCount(const scene::Scene& scene) {
   auto count = static_cast<std::int64_t>(scene.grains.size());
-  for (const scene::GrainBlock& b : scene.blocks) count += placedCount(b);
+  for (const scene::GrainFill& b : scene.fills) count += placedCount(b);
   return count;
 }
 

@@ -6,15 +6,15 @@
 #include "contact/part_surface.hpp"
 #include "contact/patch_law.hpp"
 
-/// Kernel bodies of contacts between extended surfaces. Part A is felt by its probes; the other side is a Target:
-/// another part's table of discs, or the ground. A patch is all touching probes of one pair whose faces look the same
+/// Kernel bodies of contacts between extended surfaces. Part A is felt by its samples; the other side is a Target:
+/// another part's table of discs, or the ground. A patch is all touching samples of one pair whose faces look the same
 /// way.
 ///
 /// A Target offers
 ///   int pairs                                   number of pairs
 ///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: does not move
 ///   bool near(pair, motion, margin)              may anything touch?
-///   bool touch(pair, motion, x, radius, lanes, normal, overlap)   world point x: outward normal of B, overlap > 0
+///   bool findContact(pair, motion, x, radius, group, normal, overlap)   world point x: outward normal of B, overlap > 0
 ///   PatchLaw law(pair)
 namespace grouser::contact {
 
@@ -30,17 +30,17 @@ template <class Target> struct MarkNearPairs {
   GROUSER_HD void operator()(int pair) const { near[pair] = target.near(pair, motion, margin) ? 1u : 0u; }
 };
 
-/// Counts (where `entry` is null) or lists the probes of one chunk that are within `margin` of touching, each with its
+/// Counts (where `entry` is null) or lists the samples of one chunk that are within `margin` of touching, each with its
 /// gap: until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
 template <class Target> struct ListProbes {
   Target target;
-  const Probe* probes;
+  const SurfaceSample* samples;
   const ProbeChunk* chunks;
   const PartMotion* motion;
   const std::uint32_t* near;
   double margin;
   std::uint32_t *count, *first;
-  std::uint64_t* entry; ///< pair << 32 | probe
+  std::uint64_t* entry; ///< pair << 32 | sample
   float* gap;           ///< [m], a lower bound
 
   GROUSER_HD void operator()(int item) const {
@@ -50,11 +50,11 @@ template <class Target> struct ListProbes {
     if (near[pair]) {
       const PartMotion& a = motion[target.partA(pair)];
       for (std::uint32_t k = chunk.first; k < chunk.last; ++k) {
-        const Probe& probe = probes[k];
+        const SurfaceSample& sample = samples[k];
         base::Vec3d normal;
         double overlap;
-        const base::Vec3d x = a.toWorld(probe.centre.template as<double>());
-        if (!target.touch(pair, motion, x, static_cast<double>(probe.radius) + margin, base::Lanes<1>{0}, normal,
+        const base::Vec3d x = a.toWorld(sample.centre.template as<double>());
+        if (!target.findContact(pair, motion, x, static_cast<double>(sample.radius) + margin, base::ThreadGroup<1>{0}, normal,
                           overlap))
           continue;
         if (entry) {
@@ -85,10 +85,10 @@ GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion,
   addTo(loads[b].torque, quanta.torque.quantise(cross(x - motion[b].centre, -f)));
 }
 
-/// Pressure on one probe.
+/// Pressure on one sample.
 template <class Target> struct PressProbe {
   Target target;
-  const Probe* probes;
+  const SurfaceSample* samples;
   PatchQuanta quanta;
   const PartMotion* motion;
   const std::uint64_t* entry;
@@ -98,29 +98,29 @@ template <class Target> struct PressProbe {
   PartLoad* loads;
   double timeStep;
 
-  template <class Lanes> GROUSER_HD void operator()(int e, const Lanes& lanes) const {
+  template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
     if (static_cast<double>(gap[e]) > *travelled) return;
     const int pair = static_cast<int>(entry[e] >> 32);
-    const Probe probe = probes[entry[e] & 0xFFFFFFFFu];
+    const SurfaceSample sample = samples[entry[e] & 0xFFFFFFFFu];
     const int a = target.partA(pair), b = target.partB(pair);
-    const base::Vec3d centre = motion[a].toWorld(probe.centre.template as<double>());
+    const base::Vec3d centre = motion[a].toWorld(sample.centre.template as<double>());
     base::Vec3d normal;
     double overlap;
-    if (!target.touch(pair, motion, centre, static_cast<double>(probe.radius), lanes, normal, overlap)) return;
-    if (lanes.lane != 0) return; // the rest is for one thread
-    const base::Vec3d x = centre - normal * (static_cast<double>(probe.radius) - 0.5 * overlap);
+    if (!target.findContact(pair, motion, centre, static_cast<double>(sample.radius), group, normal, overlap)) return;
+    if (group.rank != 0) return; // the rest is for one thread
+    const base::Vec3d x = centre - normal * (static_cast<double>(sample.radius) - 0.5 * overlap);
     base::Vec3d relative = motion[a].velocityAt(x);
     if (b >= 0) relative -= motion[b].velocityAt(x);
     const PatchLaw law = target.law(pair);
-    const double stiffness = law.modulus * static_cast<double>(probe.area);
+    const double stiffness = law.modulus * static_cast<double>(sample.area);
     const double opening = dot(relative, normal);
     double size = stiffness * (overlap - law.relaxation * opening);
     if (size < 0) size = 0;
     const double dissipated = (stiffness * overlap - size) * opening * timeStep;
     const base::Vec3l force = quanta.force.quantise(normal * size);
     applyToBoth(quanta, motion, a, b, x, force, loads);
-    PatchSums& patch = patches[static_cast<std::int64_t>(pair) * kClusters + probe.cluster];
-    base::atomicAdd64(&patch.area, quanta.area.quantise(static_cast<double>(probe.area)));
+    PatchSums& patch = patches[static_cast<std::int64_t>(pair) * kClusters + sample.cluster];
+    base::atomicAdd64(&patch.area, quanta.area.quantise(static_cast<double>(sample.area)));
     base::atomicAdd64(&patch.weight, quanta.force.quantise(size));
     addTo(patch.place, quanta.moment.quantise((x - motion[a].centre) * size));
     addTo(patch.normalForce, force);
@@ -130,7 +130,7 @@ template <class Target> struct PressProbe {
 };
 
 /// Friction of one patch, at the centre of its pressure.
-template <class Target> struct RubPatch {
+template <class Target> struct PatchFriction {
   Target target;
   PatchQuanta quanta;
   const PartMotion* motion;

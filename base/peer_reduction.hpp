@@ -11,9 +11,9 @@ namespace grouser::base {
 /// each writes its words into the memory of all others and looks at its own until theirs are there.
 ///
 /// All ranks construct and destroy it in the same order, and run it equally often.
-class PeerAgreement {
+class PeerReduction {
 public:
-  PeerAgreement(const Exec& exec, const Comm& comm, PeerUse use);
+  PeerReduction(const Exec& exec, const Comm& comm, PeerUse use);
 
   /// All ranks see each other and have a GPU each (with PeerUse::always, sharing is allowed), and they are not too
   /// many.

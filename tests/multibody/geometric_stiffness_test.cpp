@@ -22,7 +22,7 @@ SolverOptions scheme(Integrator integrator) {
 }
 
 double rateOf(const Mechanism& m, std::string* part = nullptr) {
-  return Solver(m.model, rattle(2, Springs::kImplicit)).pullRate(m.state, m.loads, part);
+  return Solver(m.model, rattle(2, Springs::kImplicit)).geometricStiffnessRate(m.state, m.loads, part);
 }
 
 /// Point masses at equal distances `pitch` on the x axis, joined by distance joints, or by springs under tension; the
@@ -116,7 +116,7 @@ TEST(Pull, ChainBearsStepsUpToTheStatedOneAndNoLongerOnes) {
       for (const double share : {0.95, 1.05}) {
         Mechanism m = chainWithWeight(weight);
         Solver solver(m.model, scheme(integrator));
-        const double dt = share * solver.stableTurn() / solver.pullRate(m.state, m.loads);
+        const double dt = share * solver.stableTurn() / solver.geometricStiffnessRate(m.state, m.loads);
         // It swings as a whole to twice the 1 mrad that gravity leans; what grows bends the pins.
         double widest = 0;
         try {

@@ -8,10 +8,10 @@ namespace grouser::setup {
 
 /// Where the sides stand that `run.periodic` joins [m]: at the borders of the terrain, or where run.domain_x and
 /// run.domain_y say. InputError: a height-map that does not fit together across them.
-terrain::JoinedSides joinedSides(const scene::Scene& scene);
+terrain::PeriodicBoundaries periodicBoundaries(const scene::Scene& scene);
 
 /// The way between two places, or between one and the nearest image of the other.
-base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way);
+base::Vec3d toNearestImage(const terrain::PeriodicBoundaries& sides, base::Vec3d way);
 
 /// Grains and sources must lie between the sides. Throws InputError that names the first that does not.
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "terrain/grain_lanes.hpp"
+#include "terrain/grain_simd.hpp"
 
 #include "terrain/grain_step.cuh"
 
@@ -22,7 +22,7 @@ struct StepSome {
 
 } // namespace
 
-int laneWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
+int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
   constexpr unsigned kKnown = contact::kFriction | kBoundaries | kLoads | kLedger;
   if (features & ~kKnown) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
@@ -36,7 +36,7 @@ int laneWidth(unsigned features, const contact::BasicLaw<float>& law, int most) 
   return 1;
 }
 
-void runGrainLanes(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
+void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                    int width) {
   detail::LaneStep* const step = width == 16 ? detail::stepAvx512 : width == 8 ? detail::stepAvx2 : detail::stepSse;
   base::forEach(exec, "grain step in lanes", (count + kGrainsATime - 1) / kGrainsATime, StepSome{step, d, f, count});

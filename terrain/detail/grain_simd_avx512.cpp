@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "terrain/detail/grain_lanes.hpp"
+#include "terrain/detail/grain_simd.hpp"
 
 namespace grouser::terrain::detail {
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Fails where an object of detail/grain_lanes_*.cpp holds symbols that other objects may hold too (weak ones).
+# Fails where an object of detail/grain_simd_*.cpp holds symbols that other objects may hold too (weak ones).
 foreach(object ${OBJECTS})
-  if(NOT object MATCHES "grain_lanes_(sse|avx2|avx512)")
+  if(NOT object MATCHES "grain_simd_(sse|avx2|avx512)")
     continue()
   endif()
   execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of ConstraintSystem that works on four bodies and their joints at a time.
-#include "multibody/detail/link_lanes.hpp"
+#include "multibody/detail/link_simd.hpp"
 
 #include "multibody/detail/constraint_system.hpp"
 #include "multibody/detail/index.hpp"
-#include "multibody/detail/rotation_lanes.hpp"
+#include "multibody/detail/rotation_simd.hpp"
 
 #include <cstddef>
 

@@ -15,7 +15,7 @@ namespace {
 Grains thrown(double speed, Precision precision = Precision::single, bool hills = false) {
   GrainModel model = gravel(0.02);
   model.precision = precision, model.floorLaw = model.law;
-  model.mostLanes = 1; // a CPU then gives its steps as a GPU is given them
+  model.mostSimdLanes = 1; // a CPU then gives its steps as a GPU is given them
   Boundaries floor;
   if (hills)
     floor.floor = HeightField::plane({-2, 3, -2, 3}, -0.05, 0.1, -0.05);
@@ -33,7 +33,7 @@ void advanceAtOnce(Grains& grains, std::int64_t steps) {
   }
 }
 
-TEST(StepsAtOnce, EndWhereSingleStepsEnd) {
+TEST(BatchedSteps, EndWhereSingleStepsEnd) {
   Grains single = thrown(1), some = thrown(1);
   // Not whole numbers of what goes at once, so that single steps come between.
   for (const int steps : {37, 16, 101, 32, 300}) {
@@ -46,7 +46,7 @@ TEST(StepsAtOnce, EndWhereSingleStepsEnd) {
   EXPECT_GT(single.rebuilds(), 10);
 }
 
-TEST(StepsAtOnce, EndSoInDoubleAndOnAFloorToo) {
+TEST(BatchedSteps, EndSoInDoubleAndOnAFloorToo) {
   for (const bool hills : {false, true})
     for (const Precision precision : {Precision::single, Precision::double_}) {
       Grains single = thrown(1, precision, hills), some = thrown(1, precision, hills);
@@ -57,9 +57,9 @@ TEST(StepsAtOnce, EndSoInDoubleAndOnAFloorToo) {
     }
 }
 
-TEST(StepsAtOnce, LookingAtThemOrAddingToThemInBetweenChangesNothing) {
+TEST(BatchedSteps, LookingAtThemOrAddingToThemInBetweenChangesNothing) {
   Grains single = thrown(1), some = thrown(1);
-  const std::vector<GrainStart> more = {{{0.2, 0.2, 0.6}, {0, 0, -1}, {}}};
+  const std::vector<GrainSpec> more = {{{0.2, 0.2, 0.6}, {0, 0, -1}, {}}};
   for (int round = 0; round < 4; ++round) {
     advance(single, 40);
     advanceAtOnce(some, 40);
@@ -69,7 +69,7 @@ TEST(StepsAtOnce, LookingAtThemOrAddingToThemInBetweenChangesNothing) {
   EXPECT_EQ(some.stateWords(), single.stateWords());
 }
 
-TEST(StepsAtOnce, MixWithSingleSteps) {
+TEST(BatchedSteps, MixWithSingleSteps) {
   Grains single = thrown(1), mixed = thrown(1);
   advance(single, 200);
   for (int round = 0; round < 5; ++round) {
@@ -79,7 +79,7 @@ TEST(StepsAtOnce, MixWithSingleSteps) {
   EXPECT_EQ(mixed.stateWords(), single.stateWords());
 }
 
-TEST(StepsAtOnce, AFaultHasTheSameStepGrainAndPlace) {
+TEST(BatchedSteps, AFaultHasTheSameStepGrainAndPlace) {
   const auto messageOf = [](auto&& go) {
     Grains grains = thrown(12); // presses the grains below far into each other
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/peer_agreement.hpp"
+#include "base/peer_reduction.hpp"
 
 #include "base/error.hpp"
 
@@ -91,19 +91,19 @@ __global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
 
 } // namespace
 
-PeerAgreement::PeerAgreement(const Exec& exec, const Comm& comm, PeerUse use)
+PeerReduction::PeerReduction(const Exec& exec, const Comm& comm, PeerUse use)
     : exec_(exec), memory_(exec, comm, use, sizeof(Table)), rank_(comm.rank()), size_(comm.size()) {
   possible_ = memory_.allSeeAll() && size_ <= kMostRanks && (use == PeerUse::always || !memory_.deviceShared());
 }
 
-double PeerAgreement::waited() const {
+double PeerReduction::waited() const {
   if (!possible_) return 0;
   std::uint64_t waited = 0;
   copyToHost(exec_, &waited, &static_cast<const Table*>(memory_.own())->waited, sizeof waited);
   return 1e-9 * static_cast<double>(waited);
 }
 
-void PeerAgreement::run(const Exec& exec, std::uint64_t* words) {
+void PeerReduction::run(const Exec& exec, std::uint64_t* words) {
   if (!possible_) throw std::logic_error("ranks are to agree that do not see each other");
   Tables tables{};
   for (int r = 0; r < size_; ++r) tables.of[r] = static_cast<Table*>(r == rank_ ? memory_.own() : memory_.of(r));

@@ -29,7 +29,7 @@ GROUSER_HD double remainderQuantum(float v) {
 }
 
 /// value + remainder += increment. Returns the new sum in double.
-GROUSER_HD double addKeeping(float& value, std::int16_t& remainder, double increment) {
+GROUSER_HD double addCompensated(float& value, std::int16_t& remainder, double increment) {
   const double sum = static_cast<double>(value) + remainder * remainderQuantum(value) + increment;
   value = static_cast<float>(sum);
   double r = floor((sum - static_cast<double>(value)) / remainderQuantum(value) + 0.5);

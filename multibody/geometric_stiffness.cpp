@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody/detail/pull.hpp"
+#include "multibody/detail/geometric_stiffness.hpp"
 
 #include "base/random.hpp"
 #include "multibody/detail/axis_laws.hpp"

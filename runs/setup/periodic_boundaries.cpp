@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/joined_sides.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 
 #include "runs/setup/grain_kinds.hpp"
 
@@ -9,8 +9,8 @@
 
 namespace grouser::setup {
 
-terrain::JoinedSides joinedSides(const scene::Scene& scene) {
-  terrain::JoinedSides sides;
+terrain::PeriodicBoundaries periodicBoundaries(const scene::Scene& scene) {
+  terrain::PeriodicBoundaries sides;
   const scene::RunSettings& run = scene.run;
   if (run.periodic[0]) {
     if (scene.terrain) sides[0] = {0.0, scene.terrain->size[0]};
@@ -23,7 +23,7 @@ terrain::JoinedSides joinedSides(const scene::Scene& scene) {
   return sides;
 }
 
-base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way) {
+base::Vec3d toNearestImage(const terrain::PeriodicBoundaries& sides, base::Vec3d way) {
   for (std::size_t a = 0; a < 2; ++a) {
     if (!sides[a]) continue;
     const double period = (*sides[a])[1] - (*sides[a])[0];
@@ -34,14 +34,14 @@ base::Vec3d toNearestImage(const terrain::JoinedSides& sides, base::Vec3d way) {
 }
 
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains) {
-  const terrain::JoinedSides sides = joinedSides(scene);
+  const terrain::PeriodicBoundaries sides = periodicBoundaries(scene);
   for (std::size_t a = 0; a < 2; ++a) {
     if (!sides[a]) continue;
     const auto [from, to] = *sides[a];
     const int axis = static_cast<int>(a);
     const auto outside = [&](double low, double high) {
       return fmt::format(
-          "[m] reaches from {} = {:g} to {:g} m, outside the joined sides {:g} and {:g} m; move it between "
+          "[m] reaches from {} = {:g} to {:g} m, outside the periodic boundaries {:g} and {:g} m; move it between "
           "them, or move run.domain_{}",
           "xy"[a], low, high, from, to, "xy"[a]);
     };
@@ -50,9 +50,9 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
       if (at >= from && at < to) continue;
       if (i < scene.grains.size()) scene.fail("grain", i, "position", outside(at, at));
       std::size_t block = 0;
-      for (auto last = static_cast<std::int64_t>(scene.grains.size()); block + 1 < scene.blocks.size(); ++block)
-        if (last += placedCount(scene.blocks[block]); static_cast<std::int64_t>(i) < last) break;
-      scene.fail("grains", block, scene.blocks[block].file ? "file" : at < from ? "low" : "high", outside(at, at));
+      for (auto last = static_cast<std::int64_t>(scene.grains.size()); block + 1 < scene.fills.size(); ++block)
+        if (last += placedCount(scene.fills[block]); static_cast<std::int64_t>(i) < last) break;
+      scene.fail("grains", block, scene.fills[block].file ? "file" : at < from ? "low" : "high", outside(at, at));
     }
     for (std::size_t k = 0; k < scene.sources.size(); ++k) {
       const double low = scene.sources[k].low[axis], high = scene.sources[k].high[axis];

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "terrain/detail/lane_vectors.hpp"
-#include "terrain/grain_lanes.hpp"
+#include "terrain/grain_simd.hpp"
 
 namespace grouser::terrain::detail {
 
@@ -15,15 +15,15 @@ namespace grouser::terrain::detail {
 ///   advance  grain by grain: the sum of its contacts in the order of the neighbours' ids, and the step, with the three
 ///            axes side by side.
 ///
-/// GrainStep, contactForce() and addKeeping() say what is computed and why. Here the same operations act on the same
+/// GrainStep, contactForce() and addCompensated() say what is computed and why. Here the same operations act on the same
 /// numbers in the same order; where those functions branch, both sides are computed and one is taken. So the bits are
 /// theirs. What is rare goes to GrainStep itself.
 ///
 /// This is compiled for processors that may not be there: it calls nothing that is not inlined, lest a copy made for
 /// wide registers serve the whole program.
-template <int kWidth, bool kWithFriction, bool kWithLedger> class GrainLanes {
+template <int kWidth, bool kWithFriction, bool kWithLedger> class GrainSimd {
 public:
-  GROUSER_LANE_FUNCTION GrainLanes(const GrainKernelData& data, const ForceData<float>& forces) : d(data), f(forces) {}
+  GROUSER_LANE_FUNCTION GrainSimd(const GrainKernelData& data, const ForceData<float>& forces) : d(data), f(forces) {}
 
   GROUSER_LANE_FUNCTION void run(int first, int last) {
     for (int k = first; k < last;) {
@@ -206,11 +206,11 @@ private:
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
     if (kWithLedger) d.dissipated[i] += static_cast<double>(dissipated);
-    if (!advanceInLanes(i, f4, t4, deepest))
+    if (!advanceSimd(i, f4, t4, deepest))
       advanceGrain(d, f, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest);
   }
 
-  /// addKeeping() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing by
+  /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing by
   /// one is multiplying by its inverse, to the last bit.
   GROUSER_LANE_FUNCTION static Double4 addKeepingOf(Float4& value, Int4& remainder, const Double4& increment) {
     const Double4 sum =
@@ -227,7 +227,7 @@ private:
   }
 
   /// GrainStep::advance() where nothing is out of the ordinary; else false, and nothing is done.
-  GROUSER_LANE_FUNCTION bool advanceInLanes(int i, const Double4& force, const Double4& torque, float deepest) {
+  GROUSER_LANE_FUNCTION bool advanceSimd(int i, const Double4& force, const Double4& torque, float deepest) {
     Float4 v = load<Float4>(d.velocity + i), w = load<Float4>(d.spin + i);
     const Int4 kept = load<Int4>(d.remainders + i);
     Int4 rv = kept << 16 >> 16, rw = kept >> 16;
@@ -278,13 +278,13 @@ template <int kWidth>
 GROUSER_LANE_FUNCTION void runLanes(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   const bool friction = d.features & contact::kFriction, ledger = d.features & kLedger;
   if (friction && ledger)
-    GrainLanes<kWidth, true, true>(d, f).run(first, last);
+    GrainSimd<kWidth, true, true>(d, f).run(first, last);
   else if (friction)
-    GrainLanes<kWidth, true, false>(d, f).run(first, last);
+    GrainSimd<kWidth, true, false>(d, f).run(first, last);
   else if (ledger)
-    GrainLanes<kWidth, false, true>(d, f).run(first, last);
+    GrainSimd<kWidth, false, true>(d, f).run(first, last);
   else
-    GrainLanes<kWidth, false, false>(d, f).run(first, last);
+    GrainSimd<kWidth, false, false>(d, f).run(first, last);
 }
 
 } // namespace grouser::terrain::detail
