@@ -11,8 +11,8 @@ template <int kWidth> struct ThreadGroup {
   static constexpr int width = kWidth;
   int rank;
 
-  /// After this every thread has the greatest `value` of all and, among equal values, the smallest `key`: what one thread
-  /// would have found that keeps the first of the greatest.
+  /// After this every thread has the greatest `value` of all and, among equal values, the smallest `key`: what one
+  /// thread would have found that keeps the first of the greatest.
   template <class T> GROUSER_HD void agreeOnGreatest(T& value, std::uint32_t& key) const {
 #if defined(__CUDA_ARCH__)
     const unsigned self = threadIdx.x & 31u;

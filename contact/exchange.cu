@@ -135,8 +135,7 @@ void Exchange::setImportSlots(std::size_t first) {
 
 void Exchange::renumber(const std::uint32_t* newSlot) {
   for (base::Array<std::uint32_t>* slots : {&sendSlots_, &receiveSlots_})
-    base::forEach(exec_, "renumber a plan", static_cast<std::int64_t>(slots->size()),
-                  Renumber{newSlot, slots->data()});
+    base::forEach(exec_, "renumber a plan", static_cast<std::int64_t>(slots->size()), Renumber{newSlot, slots->data()});
 }
 
 /// What a rank has packed in this turn, as this rank sees it; null where it does not.

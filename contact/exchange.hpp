@@ -32,8 +32,8 @@ struct ExchangeOptions {
 };
 
 /// Moves elements between ranks. It knows nothing of what an element is: whoever owns the elements says which slots go
-/// to which ranks (a communication plan) and names the fields that travel; what comes is put where they want it. Full state on a
-/// migration and less on a ghost update are two plans, or one plan with two lists of fields.
+/// to which ranks (a communication plan) and names the fields that travel; what comes is put where they want it. Full
+/// state on a migration and less on a ghost update are two plans, or one plan with two lists of fields.
 ///
 /// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device. Where the
 /// GPU of the receiver sees the memory of the sender's, it unpacks from there, and MPI carries only the word that it
@@ -92,8 +92,10 @@ public:
   bool sharesMemory() const { return packed_.seesAny(); } ///< with one other rank at least
   void publish();
   void discard();                    ///< nobody wants it any more
-  void countRuns(std::int64_t runs);      ///< of those that were passed on
-  unsigned bufferIndex() const { return bufferIndex_; } ///< which half of the memory was packed last: what is recorded depends on it
+  void countRuns(std::int64_t runs); ///< of those that were passed on
+  unsigned bufferIndex() const {
+    return bufferIndex_;
+  } ///< which half of the memory was packed last: what is recorded depends on it
 
   std::int64_t bytesSent() const { return bytesSent_; } ///< by this rank since the start
   std::int64_t runs() const { return runs_; }
@@ -115,7 +117,7 @@ private:
   bool direct_;                                         ///< MPI takes pointers to the buffers of the device
   std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] places in the plan
   std::vector<std::uint32_t> startAtSource_;            ///< [ranks] this rank's first place in the plan of another
-  std::size_t mostExported_{0};                          ///< of all ranks
+  std::size_t mostExported_{0};                         ///< of all ranks
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
   std::size_t importCount_{0};
   /// Two runs take turns, each in its half. A rank packs run n + 2 into the half of run n only after every reader of n

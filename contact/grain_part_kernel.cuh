@@ -148,8 +148,8 @@ private:
         grains.velocity[i].xyz().template as<double>() + cross(spin, arm) - part.velocityAt(point);
     const float mass = static_cast<float>(ball.mass), radius = static_cast<float>(ball.radius);
     const float dt = static_cast<float>(model.timeStep);
-    const ContactGeometry touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(), mass,
-                      radius};
+    const ContactGeometry touch{-patch.normal, patch.overlap,
+                                transposedTimes(part.rotation, relative).template as<float>(), mass, radius};
     const Reaction reaction = contactForce<kFeatures>(law, touch, dt, shear);
     const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.template as<double>());
     const base::Vec3d force = model.force.value(quanta);

@@ -142,17 +142,17 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   else
     base::forEach(exec_, "carry contact history", n,
                   RestoreHistory{origins ? origins->origin : order_.data(),
-                               id,
-                               count_.data(),
-                               slot_.data(),
-                               {start_.data(), stride_},
-                               maskWords_,
-                               width_,
-                               history_.data(),
-                               touching_.data(),
-                               kept,
-                               former,
-                               origins ? origins->arrived : TravellingRows{}});
+                                 id,
+                                 count_.data(),
+                                 slot_.data(),
+                                 {start_.data(), stride_},
+                                 maskWords_,
+                                 width_,
+                                 history_.data(),
+                                 touching_.data(),
+                                 kept,
+                                 former,
+                                 origins ? origins->arrived : TravellingRows{}});
   haveRows_ = true;
   cellStart_ = base::Array<std::uint32_t>(exec_);
 }

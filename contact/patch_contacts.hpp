@@ -89,8 +89,9 @@ public:
       const double r = reach[setOfPart[pair[p].a]] + reach[setOfPart[pair[p].b]] + margin;
       return norm2(motion[pair[p].a].origin - motion[pair[p].b].origin) < r * r;
     }
-    template <class Group> GROUSER_HD bool findContact(int p, const PartMotion* motion, const base::Vec3d& x, double radius,
-                                                 const Group& group, base::Vec3d& normal, double& overlap) const {
+    template <class Group> GROUSER_HD bool findContact(int p, const PartMotion* motion, const base::Vec3d& x,
+                                                       double radius, const Group& group, base::Vec3d& normal,
+                                                       double& overlap) const {
       const PartMotion& b = motion[pair[p].b];
       const base::Vec3d local = b.toPart(x);
       const SurfaceGridView& grid = grids[setOfPart[pair[p].b]];

@@ -13,7 +13,7 @@ void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<P
   base::forEach(buffers.exec, "mark near pairs", static_cast<std::int64_t>(buffers.pairs),
                 MarkNearPairs<Target>{target, motion.data(), margin, buffers.near.data()});
   ListProbes<Target> list{target, buffers.sample.data(), buffers.chunks.data(), motion.data(), buffers.near.data(),
-                          margin, buffers.count.data(), buffers.first.data(),  nullptr,       nullptr};
+                          margin, buffers.count.data(),  buffers.first.data(),  nullptr,       nullptr};
   const auto chunks = static_cast<std::int64_t>(buffers.chunks.size());
   base::forEach(buffers.exec, "count samples", chunks, list);
   buffers.entries =
@@ -33,9 +33,9 @@ template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& ta
   base::forEachGroup<8>(buffers.exec, "press samples", static_cast<std::int64_t>(buffers.entries),
                         PressProbe<Target>{target, buffers.sample.data(), quanta, motion.data(), buffers.entry.data(),
                                            buffers.gap.data(), travelled, buffers.sums.data(), loads, timeStep});
-  base::forEach(
-      buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
-      PatchFriction<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads, timeStep});
+  base::forEach(buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
+                PatchFriction<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads,
+                                      timeStep});
 }
 
 } // namespace grouser::contact

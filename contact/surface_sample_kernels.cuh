@@ -14,8 +14,8 @@
 ///   int pairs                                   number of pairs
 ///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: does not move
 ///   bool near(pair, motion, margin)              may anything touch?
-///   bool findContact(pair, motion, x, radius, group, normal, overlap)   world point x: outward normal of B, overlap > 0
-///   PatchLaw law(pair)
+///   bool findContact(pair, motion, x, radius, group, normal, overlap)   world point x: outward normal of B, overlap >
+///   0 PatchLaw law(pair)
 namespace grouser::contact {
 
 /// Covers the rounding of distances in single precision [m].
@@ -54,8 +54,8 @@ template <class Target> struct ListProbes {
         base::Vec3d normal;
         double overlap;
         const base::Vec3d x = a.toWorld(sample.centre.template as<double>());
-        if (!target.findContact(pair, motion, x, static_cast<double>(sample.radius) + margin, base::ThreadGroup<1>{0}, normal,
-                          overlap))
+        if (!target.findContact(pair, motion, x, static_cast<double>(sample.radius) + margin, base::ThreadGroup<1>{0},
+                                normal, overlap))
           continue;
         if (entry) {
           entry[first[item] + found] = static_cast<std::uint64_t>(pair) << 32 | k;

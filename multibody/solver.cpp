@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "multibody/detail/euler_step.hpp"
-#include "multibody/detail/index.hpp"
 #include "multibody/detail/geometric_stiffness.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/start.hpp"

@@ -60,7 +60,7 @@ private:
     const Vec normal = -outward; // from the grain to the wall
     const Vec arm = normal * (grain.size.radius - overlap);
     const contact::BasicContactGeometry<Real> touch{normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass,
-                                          grain.size.radius};
+                                                    grain.size.radius};
     const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum);
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(arm, reaction.force);
@@ -106,13 +106,13 @@ private:
   }
 
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
-  GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch, const Vec& spin,
-                            const base::Mat3d* turned, BoundaryLoad<Real>& sum) const {
+  GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
+                            const Vec& spin, const base::Mat3d* turned, BoundaryLoad<Real>& sum) const {
     const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + grain.size.material];
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory()
                          ? d.boundaryHistory + (static_cast<std::int64_t>(grain.slot) * d.boundaryCount + boundary) *
-                                               Kernel::historyWidth()
+                                                   Kernel::historyWidth()
                          : nullptr;
     Vec shear{};
     if (held) shear = loaded(history, turned);

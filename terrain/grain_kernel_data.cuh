@@ -48,12 +48,12 @@ struct GrainKernelData {
   base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
   Crossings* crossings;                 ///< of periodic boundaries; null without them
   contact::NeighbourView neighbours;
-  const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
-  const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
-  float* boundaryHistory;                ///< [slot][boundary][width of the neighbours' history]
-  std::uint32_t* boundaryContactMask;       ///< a bit for each boundary
-  base::Vec3d* fromSurfaces;         ///< [N] forces of the surfaces, by place in the list of grains near boundaries
-  contact::PartLoad* surfaceLoads;   ///< sums of this step
+  const std::uint32_t* nearBoundary;  ///< slots of the grains that may touch walls or floor before the next rebuild
+  const std::uint32_t* boundaryOf;    ///< by slot: 1 + place in that list, 0 for all others
+  float* boundaryHistory;             ///< [slot][boundary][width of the neighbours' history]
+  std::uint32_t* boundaryContactMask; ///< a bit for each boundary
+  base::Vec3d* fromSurfaces;          ///< [N] forces of the surfaces, by place in the list of grains near boundaries
+  contact::PartLoad* surfaceLoads;    ///< sums of this step
   double* dissipated;
   contact::GrainLoadsView loads;
   StepFlags* flags;        ///< of this step

@@ -59,7 +59,7 @@ struct GrainModel {
   GrainMaterials materials;     ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};
   bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
-  int mostSimdLanes{16};      ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
+  int mostSimdLanes{16};  ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
 };
 
 /// Whether a kernel was compiled for just these features; else the general one runs.

@@ -37,7 +37,7 @@ int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) 
 }
 
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
-                   int width) {
+                  int width) {
   detail::LaneStep* const step = width == 16 ? detail::stepAvx512 : width == 8 ? detail::stepAvx2 : detail::stepSse;
   base::forEach(exec, "grain step in lanes", (count + kGrainsATime - 1) / kGrainsATime, StepSome{step, d, f, count});
 }

@@ -11,7 +11,7 @@ int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
 
 /// One step of `count` grains on the CPU, `width` > 1 contacts at a time; the bits are those of GrainStep.
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
-                   int width);
+                  int width);
 
 namespace detail {
 

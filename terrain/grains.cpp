@@ -76,8 +76,8 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
     const auto [from, to] = *sides;
     if (!(std::fabs(from) < scale.limit() && std::fabs(to) < scale.limit()))
       throw base::InputError(
-          fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a], from,
-                      to, scale.limit()));
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a],
+                      from, to, scale.limit()));
     period.low[a] = wholeUnits(from, scale), period.length[a] = wholeUnits(to, scale) - period.low[a];
     if (period.length[a] < 3 * reach)
       throw base::InputError(
@@ -106,8 +106,8 @@ void checkDistinct(const std::vector<Position>& position, const std::vector<std:
 }
 
 /// Where the grains start; the first of them has the id `first`.
-std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first,
-                               const base::PositionScale& scale, double radius, const base::Period& period) {
+std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const base::PositionScale& scale,
+                               double radius, const base::Period& period) {
   std::vector<Position> places(start.size());
   const double limit = scale.limit();
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -120,10 +120,11 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
     places[i] = scale.fromMetres(x);
     for (int a = 0; a < 2; ++a)
       if (period.periodsBack(a, base::toUnits(places[i])[a]) != 0)
-        throw base::InputError(fmt::format(
-            "grain {} at ({}, {}, {}) m lies outside the periodic boundaries {} = {:.9g} m and {:.9g} m; move it between them",
-            first + i, x.x, x.y, x.z, "xy"[a], static_cast<double>(period.low[a]) * scale.unit,
-            static_cast<double>(period.low[a] + period.length[a]) * scale.unit));
+        throw base::InputError(fmt::format("grain {} at ({}, {}, {}) m lies outside the periodic boundaries {} = "
+                                           "{:.9g} m and {:.9g} m; move it between them",
+                                           first + i, x.x, x.y, x.z, "xy"[a],
+                                           static_cast<double>(period.low[a]) * scale.unit,
+                                           static_cast<double>(period.low[a] + period.length[a]) * scale.unit));
   }
   return places;
 }
@@ -250,7 +251,8 @@ void Grains::add(const std::vector<GrainSpec>& more) {
   finishGhostUpdate();
   const std::vector<Position> all = placesOf(more, count_, scale_, model_.radius, period_);
   if (insertionOverlapAlarm_)
-    if (const std::optional<InsertionOverlap> insertionOverlap = insertionOverlapOf(more)) insertionOverlapAlarm_(*insertionOverlap);
+    if (const std::optional<InsertionOverlap> insertionOverlap = insertionOverlapOf(more))
+      insertionOverlapAlarm_(*insertionOverlap);
   std::vector<Position> position;
   std::vector<Vec4f> velocity, spin;
   std::vector<std::uint32_t> id;
@@ -409,8 +411,8 @@ void Grains::stop() {
 
 std::size_t Grains::deviceBytes() const {
   std::size_t total = neighbours_.bytes() + remainders_.bytes() + id_.bytes() + reference_.bytes() +
-                      boundaryHistory_.bytes() + boundaryContactMask_.bytes() + dissipated_.bytes() + crossings_.bytes() +
-                      nearBoundary_.bytes() + boundaryOf_.bytes() + single_.boundaryLoads.bytes() +
+                      boundaryHistory_.bytes() + boundaryContactMask_.bytes() + dissipated_.bytes() +
+                      crossings_.bytes() + nearBoundary_.bytes() + boundaryOf_.bytes() + single_.boundaryLoads.bytes() +
                       double_.boundaryLoads.bytes() + fromSurfaces_.bytes() + origin_.bytes() + arrivedRows_.bytes() +
                       (subdomain_ ? subdomain_->bytes() : 0);
   for (int k = 0; k < 2; ++k) total += position_[k].bytes() + velocity_[k].bytes() + spin_[k].bytes();

@@ -242,7 +242,8 @@ private:
   Forces<float> single_;
   Forces<double> double_;
   static constexpr int kStepsPerGraph = 16; ///< steps that go as one
-  static_assert(kStepsPerGraph % 2 == 0); ///< so that the buffers, and the turns of the ghosts' exchange, end where they began
+  static_assert(kStepsPerGraph % 2 ==
+                0); ///< so that the buffers, and the turns of the ghosts' exchange, end where they began
   base::Mirrored<StepFlags> flags_; ///< of each of them
   base::DoubleBufferedGraph stepGraph_;
   base::Array<Wall> walls_;

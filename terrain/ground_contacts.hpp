@@ -43,8 +43,9 @@ public:
     GROUSER_HD bool near(int p, const contact::PartMotion* motion, double margin) const {
       return !ground.clearOf(motion[part[p]].origin, reach[setOfPart[part[p]]] + margin);
     }
-    template <class Group> GROUSER_HD bool findContact(int, const contact::PartMotion*, const base::Vec3d& x, double radius,
-                                                 const Group&, base::Vec3d& normal, double& overlap) const {
+    template <class Group> GROUSER_HD bool findContact(int, const contact::PartMotion*, const base::Vec3d& x,
+                                                       double radius, const Group&, base::Vec3d& normal,
+                                                       double& overlap) const {
       if (ground.clearOf(x, radius)) return false;
       const FootPoint foot = ground.closestPoint(x);
       overlap = radius - foot.distance;

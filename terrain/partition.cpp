@@ -13,7 +13,7 @@ namespace {
 /// Planes between `parts` slabs that hold nearly equal weights. Strictly ascending, so that no two planes fall together
 /// even where all of the weight lies in one bin.
 std::vector<std::int64_t> migrate(int parts, std::int64_t low, std::int64_t high,
-                                   const std::vector<std::int64_t>& weights) {
+                                  const std::vector<std::int64_t>& weights) {
   std::int64_t total = 0;
   for (const std::int64_t w : weights) total += w;
   const auto bins = static_cast<std::int64_t>(weights.size());

@@ -113,7 +113,9 @@ struct AssignRoles {
   std::uint32_t* role;
   GROUSER_HD void operator()(int i) const {
     const auto slot = static_cast<std::uint32_t>(i);
-    role[i] = static_cast<std::uint32_t>(slot >= owned ? Role::slave : ghostTargets[i] > 0 ? Role::master : Role::unique);
+    role[i] = static_cast<std::uint32_t>(slot >= owned         ? Role::slave
+                                         : ghostTargets[i] > 0 ? Role::master
+                                                               : Role::unique);
   }
 };
 
@@ -205,7 +207,8 @@ void Subdomain::appended(std::size_t count) {
 void Subdomain::findMasters(const Position* position, std::size_t owned) {
   const auto n = static_cast<std::int64_t>(owned);
   base::Array<std::uint32_t> count(exec_, owned), first(exec_, owned);
-  FindGhostTargets find{partition_.view(), period_, position, range_, comm_.rank(), count.data(), nullptr, nullptr, nullptr};
+  FindGhostTargets find{partition_.view(), period_, position, range_, comm_.rank(),
+                        count.data(),      nullptr, nullptr,  nullptr};
   base::forEach(exec_, "count who needs a grain", n, find);
   const std::uint32_t total = base::exclusiveScan(exec_, count.data(), first.data(), owned);
   base::Array<std::uint64_t> ranks(exec_, total);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the benches print and write.
 #include "runs/bench/bench.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "runs/bench/report.hpp"
 #include "runs/support/device_choice.hpp"
@@ -150,9 +151,10 @@ void benchBedCommand(const BenchCommand& command) {
 }
 
 void benchStepCommand(const BenchCommand& command) {
-  const scene::Scene scene = scene::loadScene(command.scene, command.overrides);
+  const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
   const std::string device = command.device.empty() ? scene.run.device : command.device;
-  const base::Exec exec = support::chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
+  const base::Exec exec =
+      support::chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
   const StepBenchOptions& o = command.step;
   const base::Comm comm = command.comm();
   Json json = benchOrigin("step", exec);

@@ -74,7 +74,8 @@ struct StepBenchOptions {
 /// physics, slower. A friend of Simulation, so that the loop itself stays free of timers.
 class StepBench {
 public:
-  explicit StepBench(simulation::Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}
+  explicit StepBench(simulation::Simulation& simulation, const base::Exec& exec)
+      : simulation_(simulation), exec_(exec) {}
   void step();
 
   struct Part {

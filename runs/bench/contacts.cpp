@@ -4,10 +4,10 @@
 #include "base/error.hpp"
 #include "contact/pair_search.hpp"
 #include "runs/bench/bullet.hpp"
-#include "runs/bench/report.hpp"
 #include "runs/bench/contact_spheres.hpp"
-#include "runs/support/device_choice.hpp"
+#include "runs/bench/report.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/support/device_choice.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

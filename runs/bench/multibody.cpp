@@ -25,7 +25,7 @@ const Vec3d kGravity{0, 0, -9.81};
 constexpr double kTensionRamp = 0.05, kWeightRamp = 0.1, kDriveRamp = 0.2; // [s]
 constexpr double kGoal = 20;                                               // [us] a step of the vehicle's graph
 constexpr double kLoose = 1e-8, kTight = 1e-13;                            // [m, rad] tolerances of the gaps
-constexpr double studies::kGrowth = 2.2;                                            // for twice the shoes
+constexpr double kGrowth = 2.2;                                   // for twice the shoes
 
 double microsecondsSince(Clock::time_point start) {
   return 1e6 * std::chrono::duration<double>(Clock::now() - start).count();
@@ -195,7 +195,7 @@ void benchMultibodyCommand(const MultibodyBench& bench) {
   fmt::print(
       "\ngrowth: two rings of shoes that spin, and a hull with wheels, arms and idlers; goal: at most {:g} times "
       "for twice the shoes\n",
-      studies::kGrowth);
+      kGrowth);
   fmt::print("  {:>5} {:>7} {:>15} {:>11} {:>12} {:>9} {:>9} {:>7}\n", "shoes", "bodies", "multiplications",
              "iterations", "median [us]", "min [us]", "us/body", "times");
   json["growth"] = Json::array();

@@ -21,8 +21,9 @@ Json benchOrigin(const char* bench, const base::Exec& exec) {
   json["commit"] = build.commit;
   json["compiler"] = build.compiler;
   json["cuda"] = build.cuda;
-  fmt::print("device    {}\nmachine   {}\nprogram   grouser {}, commit {}, {}{}\n", base::describe(exec), support::machineText(),
-             build.version, build.commit, build.compiler, build.cuda.empty() ? "" : ", CUDA " + build.cuda);
+  fmt::print("device    {}\nmachine   {}\nprogram   grouser {}, commit {}, {}{}\n", base::describe(exec),
+             support::machineText(), build.version, build.commit, build.compiler,
+             build.cuda.empty() ? "" : ", CUDA " + build.cuda);
   std::fflush(stdout);
   return json;
 }

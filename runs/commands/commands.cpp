@@ -2,15 +2,15 @@
 #include "runs/commands/commands.hpp"
 
 #include "base/error.hpp"
-#include "runs/simulation/checkpoint.hpp"
+#include "runs/commands/plan.hpp"
+#include "runs/commands/run_scene.hpp"
+#include "runs/commands/sweep.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/commands/run_scene.hpp"
-#include "runs/scene/scene.hpp"
 #include "runs/output/sinkage.hpp"
-#include "runs/commands/sweep.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/simulation/checkpoint.hpp"
 #include "runs/support/text_file.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
@@ -28,7 +28,8 @@ namespace {
 
 void drawAndName(const fs::path& results, const fs::path& folder, const std::vector<std::string>& names) {
   std::string warning;
-  for (const fs::path& plot : output::drawPlots(results, folder, names, warning)) fmt::print("plot      {}\n", plot.string());
+  for (const fs::path& plot : output::drawPlots(results, folder, names, warning))
+    fmt::print("plot      {}\n", plot.string());
   if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
 }
 
@@ -58,7 +59,7 @@ void runCommand(const RunCommand& command) {
   std::vector<std::string> overrides = command.overrides;
   if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
   if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
-  const scene::Scene scene = scene::loadScene(command.scene, overrides);
+  const scene::Scene scene = setup::loadScene(command.scene, overrides);
 
   RunOptions options;
   options.folder = !command.folder.empty()        ? fs::path(command.folder)
@@ -115,7 +116,7 @@ void sinkageCommand(const SinkageCommand& command) {
 }
 
 void planCommand(const PlanCommand& command) {
-  const scene::Scene scene = scene::loadScene(command.scene, command.overrides);
+  const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
   fmt::print("{}", planText(scene));
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
 }

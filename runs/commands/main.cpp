@@ -4,15 +4,15 @@
 #include "runs/bench/bench.hpp"
 #include "runs/bench/contacts.hpp"
 #include "runs/bench/multibody.hpp"
-#include "runs/support/build_info.hpp"
 #include "runs/commands/commands.hpp"
-#include "runs/support/option_checks.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/render_command.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/support/stop_signals.hpp"
 #include "runs/studies/multibody.hpp"
 #include "runs/studies/options.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/option_checks.hpp"
+#include "runs/support/stop_signals.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -104,7 +104,9 @@ void addBench(CLI::App& app, bench::BenchCommand& c) {
   bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
       ->check(CLI::Range(1e-3, 4.0))
       ->capture_default_str();
-  bed->add_option("--time-step", b.timeStep, "[s]")->check(support::positive("a time in seconds"))->capture_default_str();
+  bed->add_option("--time-step", b.timeStep, "[s]")
+      ->check(support::positive("a time in seconds"))
+      ->capture_default_str();
   bed->add_option("--settle", b.settleTime, "simulated time before timing [s]")
       ->check(support::notNegative("a time in seconds"))
       ->capture_default_str();

@@ -2,16 +2,18 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/math.hpp"
+#include "runs/output/mechanism_output.hpp"
 #include "runs/setup/bed.hpp"
+#include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/laws.hpp"
-#include "runs/simulation/mechanism.hpp"
-#include "runs/output/mechanism_output.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
-#include "runs/support/progress.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
+#include "runs/support/progress.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec.hpp"
 
@@ -24,11 +26,6 @@
 namespace grouser::commands {
 
 namespace {
-
-/// Grains of the bed; reads the height-map, for hills may need more.
-std::int64_t bedGrains(const scene::Scene& scene) {
-  return terrain::planBed(setup::readSurface(scene), setup::layerOptions(scene)).grains;
-}
 
 std::string onOff(bool on, const std::string& what, const std::string& why) {
   const std::string line = fmt::format("  {:<4} {}", on ? "on" : "off", what);
@@ -57,7 +54,8 @@ std::string costText(const scene::Scene& scene, double grainSteps) {
   for (const RankSpeed& s : kRankSpeeds) {
     const double speed = s.grainSteps * (plain ? 1.0 : s.shareOfOthers);
     text += fmt::format("  {:<24} {} on {}, at {:.2g} grain steps/s (grouser bench bed), without vehicle and output\n",
-                        text.empty() ? "expected time" : "", support::Progress::duration(grainSteps / speed), s.name, speed);
+                        text.empty() ? "expected time" : "", support::Progress::duration(grainSteps / speed), s.name,
+                        speed);
   }
   return text;
 }
@@ -66,7 +64,7 @@ std::string costText(const scene::Scene& scene, double grainSteps) {
 std::string surfacesLine(const scene::Scene& scene) {
   std::string names;
   int moved = 0, freed = 0;
-  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
+  for (const setup::SceneSurface& s : setup::surfacesOf(scene)) {
     names += (names.empty() ? "" : ", ") + s.name;
     s.section.free ? ++freed : moved += s.section.moves() ? 1 : 0;
   }
@@ -125,15 +123,9 @@ std::string switches(const scene::Scene& scene) {
 
 } // namespace
 
-std::int64_t plannedGrains(const scene::Scene& scene) {
-  std::int64_t grains = setup::placedCount(scene);
-  for (const scene::Source& s : scene.sources) grains += s.total;
-  return grains + (scene.terrain && scene.terrain->granular() ? bedGrains(scene) : 0);
-}
-
 std::string planText(const scene::Scene& scene) {
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
-  const std::int64_t grains = plannedGrains(scene);
+  const std::int64_t grains = setup::plannedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);
   if (grains) text += memoryText(scene, static_cast<double>(grains));
   if (scene.vehicle) {
@@ -144,14 +136,15 @@ std::string planText(const scene::Scene& scene) {
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);
-  if (!scene.mechanism.empty()) text += output::mechanismSize(simulation::Mechanism(scene, step));
+  if (!scene.mechanism.empty())
+    text += output::mechanismSize(simulation::Mechanism(setup::mechanismSetup(scene), step));
   text += "\ntime\n";
   const double contact = setup::shortestContact(scene);
   const double resolved = contact / setup::kStepsPerContact;
   if (contact > 0) {
     text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
-    text +=
-        fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved, setup::kStepsPerContact);
+    text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved,
+                        setup::kStepsPerContact);
   }
   const double steps = std::round(scene.run.duration / step);
   text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
@@ -163,7 +156,7 @@ std::string planText(const scene::Scene& scene) {
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
                         contact / step, resolved);
   if (!scene.mechanism.empty())
-    if (const std::string warning = simulation::tensionStepWarningAtStart(scene, step); !warning.empty())
+    if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);
   return text;
 }

@@ -22,9 +22,6 @@ struct RankSpeed {
 inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.3, 20e-6, 2e9},
                                             {"an H200", 4.4e9, 1.0, 100e-6, 5e10}};
 
-/// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
-std::int64_t plannedGrains(const scene::Scene& scene);
-
 /// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, and the efficiency to expect from the
 /// stated speeds. Empty for a scene without grains.
 std::string sharePlan(const scene::Scene& scene, int ranks);

@@ -4,8 +4,6 @@
 #include "base/comm.hpp"
 #include "runs/scene/scene.hpp"
 
-#include <filesystem>
-#include <optional>
 #include <string>
 
 namespace grouser::commands {
@@ -18,10 +16,5 @@ void requireSameCommand(const std::string& command, const base::Comm& comm);
 /// the first one, or were told to do something else with them: the promise of one answer holds for one program and one
 /// scene. `commandLine`: the program, and all its words behind the first space.
 void requireAlike(const scene::Scene& scene, const std::string& commandLine, const base::Comm& comm);
-
-/// A rank that does not see what the first one writes in this folder: the folder lies on a disk of each host's own, or
-/// the ranks were started in different places. None where all do; the first where it cannot write there at all. All
-/// ranks call it and learn the same; it takes seconds where something is amiss. Leaves nothing behind.
-std::optional<int> rankThatMisses(const std::filesystem::path& folder, const base::Comm& comm);
 
 } // namespace grouser::commands

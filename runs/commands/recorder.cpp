@@ -3,11 +3,11 @@
 
 #include "base/error.hpp"
 #include "runs/output/former_output.hpp"
-#include "runs/render/image.hpp"
 #include "runs/output/mechanism_output.hpp"
-#include "runs/render/picture.hpp"
 #include "runs/output/plane_mesh.hpp"
 #include "runs/output/surface_mesh.hpp"
+#include "runs/render/image.hpp"
+#include "runs/render/picture.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,8 @@ base::TriangleMesh groundMesh(const terrain::HeightField& field) {
 
 std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation, const scene::Scene& scene) {
   std::vector<output::Channel> channels;
-  if (simulation.mechanism()) channels = output::mechanismChannels(simulation.mechanism()->model(), scene.output.record);
+  if (simulation.mechanism())
+    channels = output::mechanismChannels(simulation.mechanism()->model(), scene.output.record);
   if (simulation.vehicle())
     for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
       channels.push_back(output::channelOf(q));
@@ -79,7 +80,8 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
   return channels;
 }
 output::RunWriter::Options writerOptions(const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
-                                 const std::vector<output::Channel>& channels, const simulation::Checkpoint* former) {
+                                         const std::vector<output::Channel>& channels,
+                                         const simulation::Checkpoint* former) {
   output::RunWriter::Options w;
   w.force = options.force;
   w.frames = scene.output.frames;
@@ -106,7 +108,7 @@ output::RunWriter::Options writerOptions(const scene::Scene& scene, const RunOpt
 }
 
 /// Where the cuts between subdomains cross the axes [m].
-std::array<std::vector<double>, 3> render::bordersOf(const terrain::Grains& grains) {
+std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
   std::array<std::vector<double>, 3> borders;
   if (const terrain::Subdomain* subdomain = grains.subdomain())
     for (int axis = 0; axis < 3; ++axis)
@@ -135,8 +137,8 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 } // namespace
 
-Recorder::Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
-                   const simulation::Checkpoint* former)
+Recorder::Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options,
+                   const base::Exec& exec, const simulation::Checkpoint* former)
     : simulation_(simulation), channels_(channelsOf(simulation, scene)), row_(channels_), record_(scene.output.record),
       frames_(scene.output.frames),
       writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
@@ -154,10 +156,12 @@ void Recorder::begin(const scene::Scene& scene, const RunOptions& options, const
     writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
   }
-  if (const simulation::Mechanism* mechanism = simulation_.mechanism()) parts_ = output::mechanismParts(scene, mechanism->model());
+  if (const simulation::Mechanism* mechanism = simulation_.mechanism())
+    parts_ = output::mechanismParts(scene, mechanism->model());
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
-      parts_.push_back({surfaces->surface(i).name, output::kSurfaceKind, output::surfaceMesh(scene, surfaces->surface(i))});
+      parts_.push_back(
+          {surfaces->surface(i).name, output::kSurfaceKind, output::surfaceMesh(scene, surfaces->surface(i))});
   ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(scene);
   writer_.setParts(parts_, ground_);
   if (const auto& grains = simulation_.ground().grains;
@@ -167,7 +171,8 @@ void Recorder::begin(const scene::Scene& scene, const RunOptions& options, const
 
 void Recorder::row() {
   row_.begin(simulation_.steps(), simulation_.time());
-  if (const simulation::VehicleRig* rig = simulation_.vehicle()) row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
+  if (const simulation::VehicleRig* rig = simulation_.vehicle())
+    row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
   const simulation::Simulation::Ledger l = simulation_.ledger();
   simulation_.checkEnergy(l);
   if (const auto& grains = simulation_.ground().grains) {
@@ -183,7 +188,8 @@ void Recorder::row() {
       row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
       row_.set(group + "power", o.power), row_.set(group + "position", o.position);
     }
-  if (const simulation::Mechanism* mechanism = simulation_.mechanism()) output::setMechanismRow(row_, *mechanism, record_);
+  if (const simulation::Mechanism* mechanism = simulation_.mechanism())
+    output::setMechanismRow(row_, *mechanism, record_);
   row_.set("ledger/drive_work", l.driveWork);
   row_.set("ledger/kinetic", l.kinetic);
   row_.set("ledger/potential", l.potential);
@@ -210,7 +216,7 @@ output::Frame Recorder::currentFrame() const {
       frame.speeds.push_back(norm(s.velocity[i]));
       frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
     }
-    frame.borders = render::bordersOf(*grains);
+    frame.borders = bordersOf(*grains);
     frame.radii = s.radius;
     if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
   }
@@ -225,8 +231,9 @@ output::Frame Recorder::currentFrame() const {
 void Recorder::picture(int width) {
   const output::Frame whole = gathered(currentFrame(), simulation_.comm());
   if (!simulation_.comm().first()) return;
-  render::writePng(render::drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
-           writer_.folder() / "picture.png");
+  render::writePng(
+      render::drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
+      writer_.folder() / "picture.png");
 }
 
 } // namespace grouser::commands

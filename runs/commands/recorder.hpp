@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/commands/run_scene.hpp"
 #include "runs/output/channels.hpp"
-#include "runs/simulation/checkpoint.hpp"
 #include "runs/output/grains_csv.hpp"
 #include "runs/output/output.hpp"
-#include "runs/commands/run_scene.hpp"
+#include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/simulation.hpp"
 
 #include <optional>
@@ -18,8 +18,8 @@ namespace grouser::commands {
 class Recorder {
 public:
   /// `former`: the checkpoint that the run goes on from, or null.
-  Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
-           const simulation::Checkpoint* former);
+  Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options,
+           const base::Exec& exec, const simulation::Checkpoint* former);
 
   void row();
   void frame();

@@ -2,15 +2,15 @@
 #include "runs/commands/run_scene.hpp"
 
 #include "base/error.hpp"
-#include "runs/support/build_info.hpp"
-#include "runs/simulation/checkpoint.hpp"
-#include "runs/support/device_choice.hpp"
-#include "runs/simulation/mechanism.hpp"
-#include "runs/output/mechanism_output.hpp"
-#include "runs/support/progress.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
+#include "runs/output/mechanism_output.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/device_choice.hpp"
+#include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <algorithm>
@@ -95,14 +95,16 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
   }
-  if (const simulation::Mechanism* mechanism = simulation.mechanism()) fmt::print("{}", output::mechanismSize(*mechanism));
+  if (const simulation::Mechanism* mechanism = simulation.mechanism())
+    fmt::print("{}", output::mechanismSize(*mechanism));
   std::fflush(stdout);
 }
 
 /// The checkpoint of a run, written again and again.
 class Checkpoints {
 public:
-  Checkpoints(const scene::Scene& scene, const RunOptions& options) : path_(options.folder / simulation::kCheckpointName) {
+  Checkpoints(const scene::Scene& scene, const RunOptions& options)
+      : path_(options.folder / simulation::kCheckpointName) {
     checkpoint_.scene = scene::resolvedToml(scene);
     checkpoint_.inputs = simulation::inputsOf(scene);
     checkpoint_.commit = support::buildInfo().commit;
@@ -143,14 +145,15 @@ std::unique_ptr<simulation::Checkpoint> formerRun(const scene::Scene& scene, con
 }
 
 /// At the checkpoint, or at the start: then the bed is settled first.
-std::unique_ptr<simulation::Simulation> makeSimulation(const scene::Scene& scene, const base::Exec& exec, const simulation::Checkpoint* former,
-                                           const base::Comm& comm, simulation::BedCache* beds) {
+std::unique_ptr<simulation::Simulation> makeSimulation(const scene::Scene& scene, const base::Exec& exec,
+                                                       const simulation::Checkpoint* former, const base::Comm& comm,
+                                                       simulation::BedCache* beds) {
   if (former) return std::make_unique<simulation::Simulation>(scene, exec, former->state, comm);
   std::unique_ptr<support::Progress> settling;
   const auto settle = [&](double time, double agitation) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
-      throw support::Stopped(signal,
-                    fmt::format("stopped by {} while the bed settled; nothing was written", support::StopSignals::name(signal)));
+      throw support::Stopped(signal, fmt::format("stopped by {} while the bed settled; nothing was written",
+                                                 support::StopSignals::name(signal)));
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit,
                      fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
@@ -178,8 +181,9 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
     if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
     if (const int signal = signals.receivedAt(simulation.steps())) {
       checkpoints.write(simulation, recorder.writer());
-      throw support::Stopped(signal, fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
-                                        support::StopSignals::name(signal), simulation.time(), checkpoints.last()));
+      throw support::Stopped(signal,
+                             fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
+                                         support::StopSignals::name(signal), simulation.time(), checkpoints.last()));
     }
     if (progress.due())
       progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
@@ -216,7 +220,7 @@ output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
   const double prepared = since(start);
   describeBuild(simulation, exec, beds ? &*beds : nullptr);
   if (simulation.mechanism() && !former && options.comm().first())
-    if (const std::string warning = simulation::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
+    if (const std::string warning = setup::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
 
   Recorder recorder(simulation, scene, options, exec, former.get());

@@ -3,6 +3,7 @@
 #include "runs/commands/plan.hpp"
 
 #include "runs/setup/bed.hpp"
+#include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/placement.hpp"
@@ -23,7 +24,7 @@ constexpr double kBytesPerGhost = 48; // position, velocity and spin
 
 std::string sharePlan(const scene::Scene& scene, int ranks) {
   const bool bed = scene.terrain && scene.terrain->granular();
-  const double grains = static_cast<double>(plannedGrains(scene));
+  const double grains = static_cast<double>(setup::plannedGrains(scene));
   if (grains == 0) return "";
   const double radius = setup::grainKinds(scene).largest;
   std::array<double, 3> size{};

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/sweep.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "base/exec.hpp"
+#include "runs/commands/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/progress.hpp"
-#include "runs/commands/sweep_summary.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ std::string manifestStatus(const fs::path& folder) {
 bool isFinished(const fs::path& folder, const scene::Scene& scene) {
   if (manifestStatus(folder) != "finished") return false;
   try {
-    return identity(scene::loadScene(folder / "scene.toml")) == identity(scene);
+    return identity(setup::loadScene(folder / "scene.toml")) == identity(scene);
   } catch (const base::InputError&) {
     return false; // of another version of the program, or damaged
   }

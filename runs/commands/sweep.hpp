@@ -19,7 +19,7 @@ struct SweepRun {
   std::string name;                   ///< of its folder: "sprocket_speed=0.5,seed=1"
   std::vector<std::string> values;    ///< as given, one a swept key
   std::vector<std::string> overrides; ///< "key=value", the swept ones and the fixed ones
-  scene::Scene scene;                        ///< with the overrides applied
+  scene::Scene scene;                 ///< with the overrides applied
 };
 
 struct SweepPlan {

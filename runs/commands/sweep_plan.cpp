@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/sweep.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "runs/commands/plan.hpp"
@@ -150,7 +151,7 @@ SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::s
       run.overrides.push_back(swept[k].key + "=" + run.values.back());
     }
     run.name = folderName(swept, run.values, taken);
-    run.scene = scene::loadScene(scene, run.overrides);
+    run.scene = setup::loadScene(scene, run.overrides);
     planText(run.scene); // reads spec and height-map, lays out the bed, chooses the step: throws where a run would
     plan.runs.push_back(std::move(run));
     // Count up, the last key fastest.

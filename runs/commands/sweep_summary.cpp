@@ -2,8 +2,8 @@
 #include "runs/commands/sweep_summary.hpp"
 
 #include "runs/output/channels.hpp"
-#include "runs/support/hdf5_file.hpp"
 #include "runs/simulation/surfaces.hpp"
+#include "runs/support/hdf5_file.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ public:
     return spread;
   }
   /// Mean of entry `k` of a vector.
-  double studies::meanOf(const std::string& path, std::size_t k) const {
+  double meanOf(const std::string& path, std::size_t k) const {
     const std::vector<double> all = rows(path);
     Spread spread;
     for (std::size_t i = k; i < all.size(); i += 3) spread.add(all[i]);
@@ -124,7 +124,7 @@ struct Columns {
   explicit Columns(const SweepPlan& plan) {
     for (const SweepRun& run : plan.runs) {
       vehicle = vehicle || run.scene.vehicle;
-      for (const simulation::SceneSurface& s : simulation::surfacesOf(run.scene))
+      for (const setup::SceneSurface& s : setup::surfacesOf(run.scene))
         if (std::find(surfaces.begin(), surfaces.end(), s.name) == surfaces.end()) surfaces.push_back(s.name);
     }
   }

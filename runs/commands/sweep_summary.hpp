@@ -21,7 +21,8 @@ double steadyFrom(const scene::Scene& scene);
 
 /// Writes summary.csv into `folder`: one row a run. Columns: run, the swept keys, status, message, what the run's
 /// manifest says of it, and means and extremes over the steady part from its results.h5; cells without a number are
-/// empty. Columns about a vehicle or about a surface stand there only where a run has it. Replaces the file at once. Returns its path.
+/// empty. Columns about a vehicle or about a surface stand there only where a run has it. Replaces the file at once.
+/// Returns its path.
 std::filesystem::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                                    const std::filesystem::path& folder);
 

@@ -62,8 +62,8 @@ FramesFile::FramesFile(const std::filesystem::path& folder, std::vector<FramePar
     : FramesFile(folder, comm.first() ? std::optional(support::Hdf5File::create(folder / "frames.h5")) : std::nullopt,
                  std::move(parts), ground, comm) {}
 
-FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<support::Hdf5File> file, std::vector<FramePart> parts,
-                       const base::TriangleMesh& ground, const base::Comm& comm)
+FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<support::Hdf5File> file,
+                       std::vector<FramePart> parts, const base::TriangleMesh& ground, const base::Comm& comm)
     : folder_(folder), comm_(comm), file_(std::move(file)), parts_(std::move(parts)) {
   if (!file_) return;
   std::vector<std::uint32_t> corners, partOf, kindOf;
@@ -95,7 +95,8 @@ FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<suppor
 
 FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
                             const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm) {
-  FramesFile frames(folder, comm.first() ? std::optional(support::Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
+  FramesFile frames(folder,
+                    comm.first() ? std::optional(support::Hdf5File::openToChange(folder / "frames.h5")) : std::nullopt,
                     std::move(parts), ground, comm);
   if (!frames.file_) {
     frames.count_ = kept;

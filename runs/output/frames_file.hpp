@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/support/hdf5_file.hpp"
 #include "runs/output/output.hpp"
+#include "runs/support/hdf5_file.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -58,7 +58,8 @@ bool GrainsCsv::isWanted(const scene::Scene& scene, std::int64_t grains) {
 GrainsCsv::GrainsCsv(const fs::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm)
     : path_(folder / kGrainsCsvName), comm_(comm) {
   if (!comm_.first()) return;
-  support::replaceTextFile(path_, kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
+  support::replaceTextFile(path_,
+                           kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
   file_.open(path_, std::ios::binary | std::ios::app);
   check();
 }

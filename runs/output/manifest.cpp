@@ -35,7 +35,8 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
 
 } // namespace
 
-Manifest::Manifest(const fs::path& folder, const scene::Scene& scene, const std::map<std::string, std::string>& metadata)
+Manifest::Manifest(const fs::path& folder, const scene::Scene& scene,
+                   const std::map<std::string, std::string>& metadata)
     : path_(folder / kName), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
       overrides_(scene.overrides), notes_(metadata) {}
 

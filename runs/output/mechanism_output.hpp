@@ -2,8 +2,8 @@
 #pragma once
 
 #include "runs/output/channels.hpp"
-#include "runs/simulation/mechanism.hpp"
 #include "runs/output/output.hpp"
+#include "runs/simulation/mechanism.hpp"
 
 #include <string>
 #include <vector>

@@ -2,13 +2,13 @@
 #include "runs/output/output.hpp"
 
 #include "base/error.hpp"
-#include "runs/support/build_info.hpp"
-#include "runs/simulation/checkpoint.hpp"
 #include "runs/output/frames_file.hpp"
-#include "runs/support/hdf5_file.hpp"
 #include "runs/output/manifest.hpp"
-#include "runs/commands/ranks_alike.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/hdf5_file.hpp"
 #include "runs/support/sealed_file.hpp"
+#include "runs/support/shared_folder.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -29,10 +29,10 @@ namespace {
 constexpr int kChunkRows = 64;
 
 /// The files of a run; what else lies in its folder is not ours.
-constexpr const char* kFiles[] = {"results.h5",       "timeseries.csv", "frames.h5",    "frames.xdmf",
-                                  "scene.toml",       "manifest.json",  "sinkage.csv",  "sinkage.png",
-                                  "shoe_heights.png", "drive.png",      "ledger.png",   "mechanism.png",
-                                  "picture.png",      "grains.csv",     simulation::kCheckpointName};
+constexpr const char* kFiles[] = {
+    "results.h5",    "timeseries.csv", "frames.h5",   "frames.xdmf",      "scene.toml",
+    "manifest.json", "sinkage.csv",    "sinkage.png", "shoe_heights.png", "drive.png",
+    "ledger.png",    "mechanism.png",  "picture.png", "grains.csv",       simulation::kCheckpointName};
 
 fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
@@ -76,9 +76,9 @@ void checkOutputFolder(const fs::path& folder, bool force) {
     throw base::InputError(
         fmt::format("{}: nothing may be written in this folder; name another with --out", folder.string()));
   if (!force && !fs::is_empty(folder, error))
-    throw base::InputError(
-        fmt::format("{}: the folder is not empty; name another with --out, {}or overwrite it with --force",
-                    folder.string(), fs::exists(folder / simulation::kCheckpointName, error) ? "go on with --resume, " : ""));
+    throw base::InputError(fmt::format(
+        "{}: the folder is not empty; name another with --out, {}or overwrite it with --force", folder.string(),
+        fs::exists(folder / simulation::kCheckpointName, error) ? "go on with --resume, " : ""));
 }
 
 void claimFolder(support::FileLock& lock, const fs::path& folder) {
@@ -148,7 +148,8 @@ struct RunWriter::Series {
     results.attribute("/series/time", "unit", std::string("s"));
     for (const Channel& c : channels) {
       const std::string group = "/" + c.path;
-      values.push_back(results.growing(group + "/value", support::NumberType::Float64, c.width == 1 ? 0 : c.width, kChunkRows));
+      values.push_back(
+          results.growing(group + "/value", support::NumberType::Float64, c.width == 1 ? 0 : c.width, kChunkRows));
       results.link("/series/step", group + "/step");
       results.link("/series/time", group + "/time");
       results.attribute(group + "/value", "unit", c.unit);
@@ -225,7 +226,7 @@ RunWriter::RunWriter(fs::path folder, const scene::Scene& scene, std::vector<Cha
     takeBack(); // the disk is full: what was begun is of no use
     throw;
   }
-  if (const std::optional<int> rank = commands::rankThatMisses(folder, impl_->options.comm); rank && *rank > 0) {
+  if (const std::optional<int> rank = support::rankNotSeeing(folder, impl_->options.comm); rank && *rank > 0) {
     impl_.reset();
     takeBack();
     throw base::InputError(fmt::format(

@@ -4,8 +4,8 @@
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
-#include "runs/support/file_lock.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/support/file_lock.hpp"
 
 #include <array>
 #include <cstdint>

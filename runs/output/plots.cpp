@@ -21,7 +21,7 @@ struct Outcome {
   std::string output; ///< stdout and stderr together
 };
 
-test::Outcome call(std::vector<std::string> words) {
+Outcome call(std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& w : words) arguments.push_back(w.data());
   arguments.push_back(nullptr);
@@ -35,7 +35,7 @@ test::Outcome call(std::vector<std::string> words) {
     _exit(127);
   }
   close(ends[1]);
-  test::Outcome outcome;
+  Outcome outcome;
   std::array<char, 4096> buffer;
   for (ssize_t n; child > 0 && (n = read(ends[0], buffer.data(), buffer.size())) > 0;)
     outcome.output.append(buffer.data(), static_cast<std::size_t>(n));
@@ -61,7 +61,7 @@ bool draw(const std::string& name, const std::vector<std::string>& arguments, st
   }
   std::vector<std::string> words = {kPython, script.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const test::Outcome outcome = call(words);
+  const Outcome outcome = call(words);
   constexpr int kMissingPackage = 3; // what the scripts end with
   if (outcome.status == 127 || outcome.status == -1)
     warning = fmt::format("no plots: {} is missing; install python3, python3-matplotlib and python3-h5py", kPython);
@@ -102,7 +102,7 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {
   std::vector<std::string> words = {kPython, script.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const test::Outcome outcome = call(words);
+  const Outcome outcome = call(words);
   if (outcome.status != 0) warning = fmt::format("{} {}: {}", kPython, script.string(), lastLine(outcome.output));
   return outcome.status == 0;
 }

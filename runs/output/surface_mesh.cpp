@@ -55,7 +55,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 
 } // namespace
 
-TriangleMesh surfaceMesh(const scene::Scene& scene, const simulation::SceneSurface& surface) {
+TriangleMesh surfaceMesh(const scene::Scene& scene, const setup::SceneSurface& surface) {
   if (surface.mesh) return surface.mesh->mesh();
   const Vec3d& half = surface.geometry.half;
   switch (surface.geometry.shape) {

@@ -11,6 +11,6 @@ inline constexpr const char* kSurfaceKind = "surface";
 
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
 /// cylinder shows its inside.
-base::TriangleMesh surfaceMesh(const scene::Scene& scene, const simulation::SceneSurface& surface);
+base::TriangleMesh surfaceMesh(const scene::Scene& scene, const setup::SceneSurface& surface);
 
 } // namespace grouser::output

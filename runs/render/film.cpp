@@ -34,7 +34,7 @@ fs::path programOnPath(const std::string& name) {
   return {};
 }
 
-std::string test::contents(const fs::path& path) {
+std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -133,11 +133,11 @@ void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, con
                                      log);
   if (process < 0) throw std::runtime_error("ffmpeg could not be started");
   for (const fs::path& picture : pictures)
-    if (!send(pipe, test::contents(picture))) break;
+    if (!send(pipe, contents(picture))) break;
   close(pipe);
   int status = 0;
   waitpid(process, &status, 0);
-  const std::string words = lastLine(test::contents(log));
+  const std::string words = lastLine(contents(log));
   std::error_code error;
   fs::remove(log, error);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {

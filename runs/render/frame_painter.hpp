@@ -13,8 +13,8 @@
 namespace grouser::render {
 
 enum class LookAt {
-  scene::Vehicle, ///< moves with its hull
-  All,     ///< all grains, ground and parts of all frames, but a few strays
+  Vehicle, ///< moves with its hull
+  All,            ///< all grains, ground and parts of all frames, but a few strays
   Point
 };
 

@@ -143,8 +143,8 @@ double BedTop::height(double x, double y) const {
                      cell((x - xMin_) / edge_, columns_)]};
 }
 
-GrainColours::GrainColours(GrainQuantity quantity, const output::StoredFrame& first, const std::vector<output::StoredFrame>& samples,
-                           std::optional<ValueRange> range)
+GrainColours::GrainColours(GrainQuantity quantity, const output::StoredFrame& first,
+                           const std::vector<output::StoredFrame>& samples, std::optional<ValueRange> range)
     : quantity_(quantity) {
   if (quantity == GrainQuantity::Depth) top_ = BedTop(first);
   if (range) range_ = *range;

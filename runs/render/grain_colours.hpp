@@ -57,8 +57,8 @@ struct ValueRange {
 class GrainColours {
 public:
   /// `range` of depth or speed; without it, all but the lowest and highest hundredth of the values in `samples`.
-  GrainColours(GrainQuantity quantity, const output::StoredFrame& first, const std::vector<output::StoredFrame>& samples,
-               std::optional<ValueRange> range);
+  GrainColours(GrainQuantity quantity, const output::StoredFrame& first,
+               const std::vector<output::StoredFrame>& samples, std::optional<ValueRange> range);
 
   GrainQuantity quantity() const { return quantity_; }
   bool hasRange() const { return quantity_ == GrainQuantity::Depth || quantity_ == GrainQuantity::Speed; }

@@ -44,7 +44,7 @@ void panel(Image& image, double left, double top, double right, double bottom, d
     }
 }
 
-void studies::fill(Image& image, double left, double top, double right, double bottom, const Colour& colour) {
+void fill(Image& image, double left, double top, double right, double bottom, const Colour& colour) {
   const std::array<std::uint8_t, 3> c = toSrgb(colour);
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y)
     for (int x = static_cast<int>(left); x < static_cast<int>(right); ++x) blend(image, x, y, {c[0], c[1], c[2]}, 1);
@@ -138,7 +138,7 @@ void drawScale(Image& image, const Font& font, const std::string& title, double 
   for (int row = 0; row < static_cast<int>(height); ++row) {
     const double place = 1 - (row + 0.5) / std::floor(height);
     const auto i = static_cast<std::size_t>(place * static_cast<double>(colours.size()));
-    studies::fill(image, x, y + row, x + bar, y + row + 1, colours[std::min(i, colours.size() - 1)]);
+    fill(image, x, y + row, x + bar, y + row + 1, colours[std::min(i, colours.size() - 1)]);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double at = std::floor(y + height * (top - places[i]) / (top - bottom));
@@ -161,7 +161,7 @@ void drawLegend(Image& image, const Font& font, const std::string& title,
     y += pitch;
     const double x = left + 0.5 * size;
     line(image, x - 1, y - 0.9 * size - 1, x + size + 1, y + 0.1 * size + 1);
-    studies::fill(image, x, y - 0.9 * size, x + size, y + 0.1 * size, colour);
+    fill(image, x, y - 0.9 * size, x + size, y + 0.1 * size, colour);
     font.draw(image, x + 1.6 * size, y - 0.05 * size, size, text);
   }
 }

@@ -89,7 +89,8 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
   return cameraTowards(box.middle(), std::max(1e-3, box.radius()) * kVehicleTight, azimuth, elevation, aspect);
 }
 
-Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts, const base::TriangleMesh& ground, int width) {
+Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
+                const base::TriangleMesh& ground, int width) {
   RenderScene scene;
   std::vector<base::Vec3f> vehicle, surfaces;
   if (!frame.positions.empty()) {

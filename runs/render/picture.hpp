@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/render/image.hpp"
 #include "runs/output/output.hpp"
+#include "runs/render/image.hpp"
 #include "runs/render/render.hpp"
 
 namespace grouser::render {
@@ -28,6 +28,7 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 /// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle filling the picture, or where
 /// there is none all grains but a few strays; seen from the front right above. Height of the picture: nine sixteenths
 /// of its width.
-Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts, const base::TriangleMesh& ground, int width);
+Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
+                const base::TriangleMesh& ground, int width);
 
 } // namespace grouser::render

@@ -50,7 +50,7 @@ Ball around(const RenderScene& scene) {
 /// The scene as the sun sees it: as much of it as holds what the camera sees, so that shadows are as sharp as they can
 /// be.
 simulation::Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& facets, const Ball& ball,
-                 const simulation::Surfaces& seen) {
+                             const simulation::Surfaces& seen) {
   View v = detail::viewTowards(ball.centre + direction(kSunAzimuth, kSunElevation) * (2 * ball.radius), ball.centre,
                                {0, 0, 1});
   v.perspective = false, v.width = v.height = kShadowPixels;

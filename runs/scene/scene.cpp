@@ -3,11 +3,10 @@
 
 #include "base/table.hpp"
 #include "runs/scene/detail/scene_tables.hpp"
-#include "runs/setup/grain_space.hpp"
-#include "runs/support/locations.hpp"
 #include "runs/scene/mechanism_scene.hpp"
-#include "runs/support/result_names.hpp"
 #include "runs/scene/surface_scene.hpp"
+#include "runs/support/locations.hpp"
+#include "runs/support/result_names.hpp"
 
 #include <fmt/format.h>
 
@@ -340,7 +339,7 @@ void checkIntervals(const Section& section, const RunSettings& run) {
                  fmt::format("[s] is below the time step of {} s; raise it to that at least", *run.timeStep));
 }
 
-Scene readScene(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Scene sceneOf(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const auto document = std::make_shared<const base::Document>(std::move(read));
   const Section root = document->root();
   root.allowOnly(kSections);
@@ -369,7 +368,6 @@ Scene readScene(base::Document read, const std::filesystem::path& file, const st
     throw InputError(fmt::format(
         "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
         file.string()));
-  setup::checkGrainSpace(scene);
   return scene;
 }
 
@@ -412,12 +410,13 @@ const ContactPair* Scene::contact(const std::string& a, const std::string& b) co
   return nullptr;
 }
 
-Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return readScene(base::Document::load(file, overrides), file, overrides);
+Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return sceneOf(base::Document::load(file, overrides), file, overrides);
 }
 
-Scene parseScene(std::string_view text, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return readScene(base::Document::parse(text, file.string(), overrides), file, overrides);
+Scene readSceneText(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides) {
+  return sceneOf(base::Document::parse(text, file.string(), overrides), file, overrides);
 }
 
 std::string resolvedToml(const Scene& scene) {

@@ -230,11 +230,12 @@ struct Scene {
   const ContactPair* contact(const std::string& a, const std::string& b) const;
 };
 
-/// Reads and checks a scene. Throws base::InputError with file, line, key, value, range and remedy.
-Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// Reads a scene and checks what its keys say by themselves; setup::loadScene() checks what they mean together, too.
+/// Throws base::InputError with file, line, key, value, range and remedy.
+Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 /// The same from text; paths in it are relative to the folder of `file`.
-Scene parseScene(std::string_view text, const std::filesystem::path& file,
-                 const std::vector<std::string>& overrides = {});
+Scene readSceneText(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides = {});
 
 /// The scene with every default filled in, as TOML that loads to the same scene.
 std::string resolvedToml(const Scene& scene);

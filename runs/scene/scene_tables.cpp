@@ -63,7 +63,8 @@ Table<RunSettings> runTable() {
       .atMost(1);
   t.add("periodic", &S::periodic, "",
         "whether opposite sides along x, y are joined: grains that leave through one enter through the other");
-  t.add("domain_x", &S::domainX, "m", "where periodic boundaries stand along x; without it at the borders of the terrain");
+  t.add("domain_x", &S::domainX, "m",
+        "where periodic boundaries stand along x; without it at the borders of the terrain");
   t.add("domain_y", &S::domainY, "m", "the same along y");
   return t;
 }
@@ -192,7 +193,8 @@ Table<Terrain> terrainTable() {
       .atMost(1);
   t.add("packing", &S::packing, "-", "solid fraction expected once settled").atLeast(0.3).atMost(0.74);
   t.add("tile", &S::tile, "m",
-        "x, y of a piece that is settled alone, with periodic boundaries, and copied over the terrain; needs a level floor")
+        "x, y of a piece that is settled alone, with periodic boundaries, and copied over the terrain; needs a level "
+        "floor")
       .above(0);
   t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat").oneOf({"follow", "flat"});
   t.add("walls", &S::walls, "", "upright walls along the edges of the map, that hold the bed");
@@ -250,7 +252,7 @@ Table<Driver> driverTable() {
   return t;
 }
 
-Table<SpeedTable> studies::speedTable() {
+Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
   t.add("time", &S::time, "s", "from the start of the drive, increasing").atLeast(0).required();

@@ -2,7 +2,6 @@
 #include "runs/scene/surface_scene.hpp"
 
 #include "runs/scene/detail/scene_tables.hpp"
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/support/orientation.hpp"
 #include "runs/support/result_names.hpp"
 #include "runs/support/section_fault.hpp"
@@ -11,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 namespace grouser::scene {
 
@@ -153,25 +151,7 @@ void checkMeshes(const Section& root, const Scene& scene) {
 
 } // namespace
 
-void checkSurfaces(const Section& root, const Scene& scene) {
-  checkMeshes(root, scene);
-  const setup::GrainKinds kinds = setup::grainKinds(scene);
-  std::map<std::string, std::string> places; // of names
-  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
-    const Section section = root.list(s.kind)[s.number];
-    if (!kinds.any())
-      section.fail("", std::string(s.kind) == "plane"
-                           ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
-                           : "stands in a scene without grains, and nothing else touches it; remove it");
-    const auto [other, fresh] = places.emplace(s.name, section.path());
-    if (!fresh) section.fail("name", fmt::format("\"{}\" is that of {} too; choose another", s.name, other->second));
-    if (s.geometry.shape == terrain::SurfaceShape::tube && s.geometry.half.x <= kinds.largest)
-      section.fail("radius",
-                   fmt::format("[m] is not above that of the largest grain, {:g} m; a hollow cylinder must be "
-                               "wider than what is in it: raise it, or set hollow = false",
-                               kinds.largest));
-  }
-}
+void checkSurfaces(const Section& root, const Scene& scene) { checkMeshes(root, scene); }
 
 std::string surfacesToml(const Scene& scene) {
   std::string text;

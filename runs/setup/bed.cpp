@@ -5,8 +5,8 @@
 #include "base/math.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
-#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/lattice.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -59,7 +59,7 @@ Surroundings surroundingsOf(const scene::Scene& scene, const Ground& ground) {
     const Vec3d normal = base::normalized(plane.normal);
     around.walls.push_back({normal, dot(normal, plane.point), plane.material, fmt::format("plane {}", k)});
   }
-  around.surfaces = simulation::surfacesOf(scene);
+  around.surfaces = surfacesOf(scene);
   return around;
 }
 
@@ -141,7 +141,7 @@ void layBed(const scene::Scene& scene, const terrain::BedPlan& plan, const Surro
   // The bed is laid around what stands in it.
   const auto taken = [&](const Vec3d& centre) {
     return std::any_of(around.surfaces.begin(), around.surfaces.end(),
-                       [&](const simulation::SceneSurface& s) { return simulation::startingOverlap(s, centre, options.radius) > 0; });
+                       [&](const SceneSurface& s) { return startingOverlap(s, centre, options.radius) > 0; });
   };
   if (t.tile) {
     tiles.emplace(scene, *ground.surface, plan, exec, timeStep);
@@ -165,7 +165,8 @@ void placeGrains(const scene::Scene& scene, const std::vector<scene::Grain>& gra
                  const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
   const GrainKinds kinds = grainKinds(scene);
   std::vector<terrain::GrainSpec> start;
-  for (const scene::Grain& g : grains) start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+  for (const scene::Grain& g : grains)
+    start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
   ground.grains =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_kinds.hpp"
 
-#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/laws.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 
 #include <algorithm>
 
@@ -62,9 +62,9 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   boundaries.floor = surroundings.floor;
   boundaries.joined = periodicBoundaries(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
-  for (const simulation::SceneSurface& s : surroundings.surfaces)
+  for (const SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)
-      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), simulation::startingPose(s)});
+      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), startingPose(s)});
   if (!kinds.manyMaterials()) return model;
 
   terrain::GrainMaterials& many = model.materials;
@@ -78,7 +78,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   if (surroundings.floor)
     for (const std::string& a : kinds.material)
       many.boundaries.push_back(pairLaw(scene, a, surroundings.floorMaterial, std::nullopt));
-  for (const simulation::SceneSurface& s : surroundings.surfaces)
+  for (const SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)
       for (const std::string& a : kinds.material)
         many.boundaries.push_back(pairLaw(scene, a, s.section.material, std::nullopt));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
-#include "runs/simulation/surfaces.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "terrain/grains.hpp"
 
 #include <optional>
@@ -47,7 +47,7 @@ struct Surroundings {
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;
   std::string floorMaterial;
-  std::vector<simulation::SceneSurface> surfaces{};
+  std::vector<SceneSurface> surfaces{};
 };
 
 /// The grains' constants, and their walls, floor and surfaces with their laws.

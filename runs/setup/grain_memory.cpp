@@ -2,7 +2,7 @@
 #include "runs/setup/grain_memory.hpp"
 
 #include "runs/setup/laws.hpp"
-#include "runs/simulation/surfaces.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "terrain/grains.hpp"
 
 namespace grouser::setup {
@@ -13,11 +13,11 @@ unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds) {
   for (const std::string& a : kinds.material) {
     for (const std::string& b : kinds.material) add(a, b);
     for (const scene::Plane& p : scene.planes) add(a, p.material);
-    for (const simulation::SceneSurface& surface : simulation::surfacesOf(scene)) add(a, surface.section.material);
+    for (const SceneSurface& surface : surfacesOf(scene)) add(a, surface.section.material);
     if (scene.terrain) add(a, scene.terrain->granular() ? scene.terrain->groundMaterial : scene.terrain->material);
   }
   if (!scene.planes.empty() || scene.terrain) features |= terrain::kBoundaries;
-  if (simulation::surfacesOf(scene).size() > scene.meshes.size()) features |= terrain::kBoundaries | terrain::kSurfaces;
+  if (surfacesOf(scene).size() > scene.meshes.size()) features |= terrain::kBoundaries | terrain::kSurfaces;
   if (!scene.meshes.empty()) features |= terrain::kLoads;
   if (scene.run.periodic[0] || scene.run.periodic[1]) features |= terrain::kPeriodic;
   if (kinds.many()) features |= terrain::kManyRadii;

@@ -22,8 +22,8 @@ double dampingOf(const std::optional<double>& restitution, const std::optional<d
   return 2 * omega0 * contact::dampingRatioFor(restitution.value_or(1), attraction);
 }
 
-void setLinear(const scene::Scene& scene, const scene::Material& a, const scene::Material& b, const scene::ContactPair* pair,
-               std::optional<double> effectiveMass, ContactLaw& law) {
+void setLinear(const scene::Scene& scene, const scene::Material& a, const scene::Material& b,
+               const scene::ContactPair* pair, std::optional<double> effectiveMass, ContactLaw& law) {
   const double ka = *a.stiffness, kb = *b.stiffness;
   double stiffness = &a == &b ? ka : 2 * ka * kb / (ka + kb);
   if (pair && pair->stiffness) stiffness = *pair->stiffness;

@@ -3,7 +3,7 @@
 
 #include "base/math.hpp"
 #include "base/table.hpp"
-#include "runs/output/mechanism_frames.hpp"
+#include "runs/setup/mechanism_frames.hpp"
 #include "runs/support/orientation.hpp"
 #include "runs/support/result_names.hpp"
 
@@ -29,7 +29,8 @@ Mat3d inertiaOf(const scene::BodySection& b) {
   if (i.size() == 3) return Mat3d::diagonal({i[0], i[1], i[2]});
   if (i.size() == 6) return {{{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}}};
   if (!i.empty())
-    throw support::SectionFault("inertia", "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
+    throw support::SectionFault("inertia",
+                                "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
   if (!b.box) throw support::SectionFault("inertia", "[kg m2] is missing; add it, or the edges of a box");
   const Vec3d e = *b.box;
   const double m = *b.mass / 12;
@@ -60,15 +61,16 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
     law.harmonics.push_back({d.amplitude, 2 * base::kPi * d.frequency, d.phase * (base::kPi / 180)});
   }
   if (d.values.size() != d.time.size())
-    throw support::SectionFault("values",
-                       fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
+    throw support::SectionFault(
+        "values", fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
   if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give two at least, or value");
   for (std::size_t i = 1; i < d.time.size(); ++i)
     if (!(d.time[i] > d.time[i - 1]))
       throw support::SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
   // A kink in a position would be a blow.
   (d.imposes == "position" ? law.table : law.ramps) = {d.time, d.values};
-  if (law.empty()) throw support::SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
+  if (law.empty())
+    throw support::SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
   return law;
 }
 
@@ -96,8 +98,10 @@ template <class Add> int handed(const std::vector<std::string>& keys, Add add) {
 }
 
 void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits, double stiffness, double damping) {
-  if (!(limits[0] < limits[1])) throw support::SectionFault("limits", "[rad or m] must be the lower, then the upper; swap them");
-  if (!(stiffness > 0)) throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
+  if (!(limits[0] < limits[1]))
+    throw support::SectionFault("limits", "[rad or m] must be the lower, then the upper; swap them");
+  if (!(stiffness > 0))
+    throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
   spring.lowerLimit = limits[0], spring.upperLimit = limits[1];
   spring.stopStiffness = stiffness, spring.stopDamping = damping;
 }
@@ -108,7 +112,8 @@ void MechanismBuilder::checkName(const std::string& kind, const std::string& nam
   if (name == "world") throw support::SectionFault("name", "is the name of the ground; choose another");
   if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
   if (name.find_first_of(".\",") != std::string::npos)
-    throw support::SectionFault("name", "has one of the characters . , \" in it, which results use between names; leave it out");
+    throw support::SectionFault(
+        "name", "has one of the characters . , \" in it, which results use between names; leave it out");
   if (!names_.insert(kind + " " + name).second)
     throw support::SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
 }
@@ -118,8 +123,8 @@ int MechanismBuilder::body(const std::string& key, const std::string& name) cons
   if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
   std::vector<std::string> known = {"world"};
   for (const multibody::Body& b : model_.bodies()) known.push_back(b.name);
-  throw support::SectionFault(key,
-                     fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
+  throw support::SectionFault(
+      key, fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
 }
 
 std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& names) const {
@@ -133,8 +138,8 @@ int MechanismBuilder::joint(const std::string& key, const std::string& name) con
   std::vector<std::string> known;
   for (const multibody::Joint& j : model_.joints()) known.push_back(j.name);
   throw support::SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
-                                        : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
-                                                      base::nearestWord(name, known)));
+                                                 : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
+                                                               base::nearestWord(name, known)));
 }
 
 JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::string& word) const {
@@ -142,9 +147,10 @@ JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::s
   const bool turns = j.type == JointType::kRevolute || j.type == JointType::kCylindrical;
   const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
   if (!turns && !slides)
-    throw support::SectionFault("", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
-                                       "cylindrical joint",
-                                       j.name));
+    throw support::SectionFault(
+        "", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
+                        "cylindrical joint",
+                        j.name));
   if (word.empty()) {
     if (turns && slides)
       throw support::SectionFault(
@@ -152,7 +158,8 @@ JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::s
     return turns ? JointAxis::kAngle : JointAxis::kSlide;
   }
   if (word == "angle" ? !turns : !slides)
-    throw support::SectionFault(key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
+    throw support::SectionFault(
+        key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
   return word == "angle" ? JointAxis::kAngle : JointAxis::kSlide;
 }
 
@@ -170,7 +177,8 @@ void MechanismBuilder::add(const scene::BodySection& b) {
     if (!b.mass) throw support::SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
     body.mass = *b.mass;
     if (b.point && !b.inertia.empty())
-      throw support::SectionFault("inertia", "[kg m2] stands beside point = true; a point has none: remove one of the two");
+      throw support::SectionFault("inertia",
+                                  "[kg m2] stands beside point = true; a point has none: remove one of the two");
     if (!b.point) body.inertia_B = inertiaOf(b);
   }
   bodies_[b.name] = handed({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
@@ -183,7 +191,7 @@ void MechanismBuilder::add(const scene::JointSection& j) {
   joint.damping = j.damping, joint.slideDamping = j.slideDamping, joint.length = j.length.value_or(0);
   std::tie(joint.bodyA, joint.bodyB) = twoBodies(j.bodies);
   const Pose X_WA = pose(joint.bodyA), X_WB = pose(joint.bodyB);
-  const output::JointFrames placed = output::placeJoint(j, X_WA, X_WB);
+  const JointFrames placed = placeJoint(j, X_WA, X_WB);
   joint.frame_A = multibody::compose(multibody::inverse(X_WA), placed.A);
   joint.frame_B = multibody::compose(multibody::inverse(X_WB), placed.B);
   if (j.type == "distance") {
@@ -191,9 +199,10 @@ void MechanismBuilder::add(const scene::JointSection& j) {
     joint.frame_A.position = j.pointA.value_or(Vec3d{}), joint.frame_B.position = j.pointB.value_or(Vec3d{});
     const double apart = norm(placed.B.position - placed.A.position);
     if (j.length && !(std::fabs(apart - *j.length) <= 1e-6 * *j.length))
-      throw support::SectionFault("length", fmt::format("[m] is not met at the start, where the points are {:.9g} m apart; "
-                                               "correct it or the bodies' places, or leave it out",
-                                               apart));
+      throw support::SectionFault("length",
+                                  fmt::format("[m] is not met at the start, where the points are {:.9g} m apart; "
+                                              "correct it or the bodies' places, or leave it out",
+                                              apart));
   }
   const int index = handed({"damping", "slide_damping", "length"}, [&] { return model_.addJoint(joint); });
   joints_[j.name] = index;
@@ -208,9 +217,9 @@ void MechanismBuilder::add(const scene::JointSection& j) {
 void MechanismBuilder::add(const scene::SpringSection& s) {
   checkName("spring", s.name);
   if (s.bodies.empty() == s.joint.empty())
-    throw support::SectionFault(s.joint.empty() ? "" : "joint", s.joint.empty()
-                                                           ? "has neither bodies nor joint; say where it acts"
-                                                           : "stands beside bodies; a spring acts on one of the two");
+    throw support::SectionFault(s.joint.empty() ? "" : "joint",
+                                s.joint.empty() ? "has neither bodies nor joint; say where it acts"
+                                                : "stands beside bodies; a spring acts on one of the two");
   if (s.joint.empty())
     addBetweenPoints(s);
   else
@@ -219,7 +228,8 @@ void MechanismBuilder::add(const scene::SpringSection& s) {
 
 void MechanismBuilder::addOnAxis(const scene::SpringSection& s) {
   if (s.pointA || s.pointB)
-    throw support::SectionFault(s.pointA ? "point_a" : "point_b", "[m] has no meaning on the axis of a joint; remove it");
+    throw support::SectionFault(s.pointA ? "point_a" : "point_b",
+                                "[m] has no meaning on the axis of a joint; remove it");
   multibody::AxisSpring spring;
   spring.name = s.name, spring.joint = joint("joint", s.joint), spring.axis = axis(spring.joint, "acts_on", s.actsOn);
   spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
@@ -239,8 +249,9 @@ void MechanismBuilder::addBetweenPoints(const scene::SpringSection& s) {
   if (s.freePosition && *s.freePosition < 0)
     throw support::SectionFault("free_position", "[m] is a length here and must be at least 0; correct it");
   if (!(length > 0))
-    throw support::SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the spring has no "
-                                  "direction; move one of them");
+    throw support::SectionFault("point_b",
+                                "[m] is at the same place as point_a at the start, so that the spring has no "
+                                "direction; move one of them");
   spring.restLength = s.freePosition.value_or(length);
   handed({"stiffness", "damping", "preload"}, [&] { return model_.addPointSpring(spring); });
 }
@@ -273,7 +284,8 @@ void MechanismBuilder::add(const scene::DriveSection& d) {
   for (const multibody::Drive& other : model_.drives())
     if (other.joint == drive.joint && other.axis == drive.axis && other.kind != multibody::DriveKind::kForce &&
         drive.kind != multibody::DriveKind::kForce)
-      throw support::SectionFault("joint", fmt::format("is driven by \"{}\" already, and two drives contradict each other; "
+      throw support::SectionFault("joint",
+                                  fmt::format("is driven by \"{}\" already, and two drives contradict each other; "
                                               "remove one",
                                               other.name));
   handed({"joint", "speed"}, [&] { return model_.addDrive(drive); });
@@ -283,13 +295,15 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   checkName("coupling", c.name);
   if (c.joints.size() != 2) throw support::SectionFault("joints", "must name two joints; correct the list");
   if (!c.actsOn.empty() && c.actsOn.size() != 2)
-    throw support::SectionFault("acts_on", "must have two entries, \"angle\" or \"slide\", one a joint; correct the list");
+    throw support::SectionFault("acts_on",
+                                "must have two entries, \"angle\" or \"slide\", one a joint; correct the list");
   multibody::Coupling coupling;
   coupling.name = c.name, coupling.ratio = c.ratio;
   coupling.joint1 = joint("joints", c.joints[0]), coupling.joint2 = joint("joints", c.joints[1]);
   coupling.axis1 = axis(coupling.joint1, "acts_on", c.actsOn.empty() ? "" : c.actsOn[0]);
   coupling.axis2 = axis(coupling.joint2, "acts_on", c.actsOn.empty() ? "" : c.actsOn[1]);
-  if (c.ratio == 0) throw support::SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
+  if (c.ratio == 0)
+    throw support::SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
   if (c.offset) coupling.offset = *c.offset;
   handed({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }

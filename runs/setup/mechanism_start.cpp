@@ -79,14 +79,15 @@ void checkStartVelocity(const multibody::Model& model, int index) {
     return fmt::format("\"{}\" and \"{}\"", model.bodyName(joint.bodyA), model.bodyName(joint.bodyB));
   };
   if (norm(slip) > kStartRate * speed)
-    throw support::SectionFault("", fmt::format("(\"{}\") holds {} together at {} m, where they start with velocities {} and {} "
-                                       "m/s; change velocity or spin of one so that {} m/s between them vanishes",
-                                       joint.name, bodies(), text(p), text(A.at(p)), text(B.at(p)), text(slip)));
+    throw support::SectionFault(
+        "", fmt::format("(\"{}\") holds {} together at {} m, where they start with velocities {} and {} "
+                        "m/s; change velocity or spin of one so that {} m/s between them vanishes",
+                        joint.name, bodies(), text(p), text(A.at(p)), text(B.at(p)), text(slip)));
   if (norm(turn) > kStartRate * spin)
-    throw support::SectionFault("",
-                       fmt::format("(\"{}\") holds {}, which start with spins {} and {} rad/s; change one so that {} "
-                                   "rad/s between them vanishes",
-                                   joint.name, bodies(), text(A.w), text(B.w), text(turn)));
+    throw support::SectionFault(
+        "", fmt::format("(\"{}\") holds {}, which start with spins {} and {} rad/s; change one so that {} "
+                        "rad/s between them vanishes",
+                        joint.name, bodies(), text(A.w), text(B.w), text(turn)));
 }
 
 } // namespace grouser::setup

@@ -58,7 +58,7 @@ public:
         largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, joined_[0]),
                                                     CellsAlong(2 * largest_, joined_[1]),
                                                     CellsAlong(2 * largest_, {})} {
-    for (const simulation::SceneSurface& s : around.surfaces) motions_.emplace_back(s.section, s.start.position);
+    for (const SceneSurface& s : around.surfaces) motions_.emplace_back(s.section, s.start.position);
   }
 
   /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
@@ -72,9 +72,9 @@ public:
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, "the terrain's floor");
     for (std::size_t i = 0; i < motions_.size(); ++i) {
-      const simulation::SceneSurface& s = around_.surfaces[i];
+      const SceneSurface& s = around_.surfaces[i];
       if (s.section.free && ball.time > 0) continue;
-      if (const double depth = simulation::overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
+      if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, fmt::format("{} {}", s.kind, s.number));
     }
@@ -87,7 +87,7 @@ private:
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
   base::Pose poseAt(std::size_t i, double time) const {
-    const simulation::SceneSurface& s = around_.surfaces[i];
+    const SceneSurface& s = around_.surfaces[i];
     if (!s.section.moves() || time <= 0) return s.start;
     const SurfaceMotion::State now = motions_[i].at(time);
     return {now.centre, now.turned * s.start.orientation};
@@ -151,7 +151,8 @@ void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& g
 
 } // namespace
 
-void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around, double timeStep) {
+void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
+                double timeStep) {
   checkBetweenSides(scene, grains);
   checkSources(scene);
   Placing placing(scene, around);
@@ -174,7 +175,7 @@ void watchSources(const scene::Scene& scene, double timeStep, terrain::Grains& g
   if (scene.sources.empty()) return;
   std::vector<std::string> places, surfaces;
   for (std::size_t k = 0; k < scene.sources.size(); ++k) places.push_back(scene.placeOf("source", k));
-  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene))
+  for (const SceneSurface& s : surfacesOf(scene))
     if (!s.mesh) surfaces.push_back(s.name);
   const double maxOverlap = scene.run.maxOverlap;
   grains.onInsertionOverlap([=, sources = Sources(scene, timeStep), all = &grains](const terrain::InsertionOverlap& c) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/grain_kinds.hpp"
 #include "terrain/grains.hpp"
 
 namespace grouser::setup {
@@ -11,7 +11,8 @@ namespace grouser::setup {
 /// or in a surface than run.max_overlap allows: whatever of it can be known before the run. Surfaces are taken where
 /// their motion has them when a grain enters; those that forces move, at the start alone. `grains`: all of [[grain]]
 /// and [[grains]].
-void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around, double timeStep);
+void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
+                double timeStep);
 
 /// Lets `grains` refuse what sources would set upon others of them, which only shows when they enter: InputError before
 /// the first step, SimulationError later, both naming the source.

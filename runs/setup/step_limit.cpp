@@ -6,11 +6,11 @@
 #include "base/table.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
+#include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
-#include "runs/simulation/mechanism.hpp"
-#include "runs/commands/plan.hpp"
-#include "runs/simulation/surfaces.hpp"
+#include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "vehicle/spec.hpp"
 
 #include <algorithm>
@@ -54,8 +54,9 @@ std::vector<Partner> partnersOf(const scene::Scene& scene, const GrainKinds& kin
   const auto against = [&](const std::string& other, const std::string& name) {
     partners.push_back({other.empty() ? material : other, false, name});
   };
-  for (const scene::Plane& plane : scene.planes) against(plane.material, "grain on a plane of '" + plane.material + "'");
-  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
+  for (const scene::Plane& plane : scene.planes)
+    against(plane.material, "grain on a plane of '" + plane.material + "'");
+  for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
   if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
   if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
   return partners;
@@ -82,10 +83,10 @@ void considerGrain(StepLimit& limit, const contact::ContactLaw& law, double mass
 }
 
 /// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
-double mostTouching(const scene::Scene& scene, const simulation::SceneSurface& surface, double radius) {
+double mostTouching(const scene::Scene& scene, const SceneSurface& surface, double radius) {
   const Vec3d& h = surface.geometry.half;
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
-  const auto all = static_cast<double>(std::max<std::int64_t>(1, commands::plannedGrains(scene)));
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
   if (surface.geometry.shape == terrain::SurfaceShape::plane) return all;
   if (surface.geometry.shape != terrain::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
   return std::clamp(area / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
@@ -93,7 +94,7 @@ double mostTouching(const scene::Scene& scene, const simulation::SceneSurface& s
 
 /// A surface that forces move, on springs of all grains that it may touch.
 void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const GrainKinds& kinds) {
-  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
+  for (const SceneSurface& s : surfacesOf(scene)) {
     if (!s.section.free) continue;
     for (const auto& [material, radius, largest] : kinds.kinds) {
       const double mass = sphereMass(scene.material(material).density, radius);
@@ -145,23 +146,6 @@ double shortestContact(const scene::Scene& scene) {
 
 namespace {
 
-/// Springs and dampers that the integrator cannot take at this step are found out by a step.
-double mechanismStep(const scene::Scene& scene) {
-  const double step = scene.run.timeStep ? *scene.run.timeStep : simulation::mechanismTimeStep(scene);
-  simulation::Mechanism trial(scene, step);
-  try {
-    trial.advance();
-  } catch (const base::InputError& error) {
-    scene.fail("run", "time_step", fmt::format("[s] is not possible: {}", error.what()));
-  } catch (const base::SimulationError&) { // the run will say where
-  }
-  return step;
-}
-
-} // namespace
-
-namespace {
-
 /// How far a grain sinks under its own weight [m]: linear F = k overlap, hertz F = K sqrt(R) overlap^(3/2).
 double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRadius) {
   if (!law.hertz) return weight / law.stiffness;
@@ -170,8 +154,8 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
 
 /// Throws at the key that says how stiff two materials are against each other; `times`: how much more it would have to
 /// be.
-[[noreturn]] void failStiffness(const scene::Scene& scene, const scene::Material& a, const scene::Material& b, double times,
-                                const std::string& message) {
+[[noreturn]] void failStiffness(const scene::Scene& scene, const scene::Material& a, const scene::Material& b,
+                                double times, const std::string& message) {
   const auto wanted = [&](double stiffness) {
     return fmt::format("{}; raise it to {:.3g} at least, or choose smaller grains", message, times * stiffness);
   };
@@ -213,7 +197,7 @@ void checkSoftness(const scene::Scene& scene) {
 } // namespace
 
 double chooseTimeStep(const scene::Scene& scene) {
-  if (!scene.mechanism.empty()) return mechanismStep(scene);
+  if (!scene.mechanism.empty()) return mechanismTimeStep(scene);
   checkSoftness(scene);
   const StepLimit limit = stepLimit(scene);
   const double contact = shortestContact(scene);
@@ -223,8 +207,8 @@ double chooseTimeStep(const scene::Scene& scene) {
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestStep, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
-  const bool hertz =
-      std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& m) { return m.law == "hertz"; });
+  const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                 [](const scene::Material& m) { return m.law == "hertz"; });
   if (*scene.run.timeStep > limit.step)
     scene.fail("run", "time_step",
                fmt::format(
@@ -241,7 +225,7 @@ namespace {
 
 /// How far a point of a surface can be from what it turns about, but for the part of it that turning brings upon itself
 /// [m]. A plane has no end: what is far out there does not count.
-double leverOf(const simulation::SceneSurface& s) {
+double leverOf(const SceneSurface& s) {
   const Vec3d& h = s.geometry.half;
   const Vec3d turning = base::normalized(*s.section.spin);
   const double arm = s.section.pivot ? norm(cross(turning, s.start.position - *s.section.pivot)) : 0;
@@ -259,7 +243,7 @@ double leverOf(const simulation::SceneSurface& s) {
 
 void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeStep) {
   const double most = 0.5 * smallest / timeStep;
-  for (const simulation::SceneSurface& s : simulation::surfacesOf(scene)) {
+  for (const SceneSurface& s : surfacesOf(scene)) {
     // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     const auto across = [&](const std::optional<Vec3d>& v) {

@@ -41,7 +41,8 @@ TiledBed::TiledBed(const scene::Scene& scene, const terrain::HeightField& surfac
                fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
                            "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
                            t.floor, floor.lowest, floor.highest));
-  // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the last one.
+  // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the
+  // last one.
   const double cell = t.spacing * radius;
   std::array<double, 2> size{};
   for (std::size_t a = 0; a < 2; ++a) {

@@ -14,10 +14,10 @@ namespace grouser::setup {
 
 /// A bed made of copies of one settled tile.
 ///
-/// A piece of the bed of about terrain.tile, with periodic boundaries on level ground, is laid and settled alone, then copied
-/// over the terrain with the springs of its contacts, so that the copies are in balance across their seams. Grains that
-/// would stand in a wall are left out, and, where the ground is not level, those with their centre above the
-/// height-map; what lay against them has to come to rest again. Every rank makes the same tile.
+/// A piece of the bed of about terrain.tile, with periodic boundaries on level ground, is laid and settled alone, then
+/// copied over the terrain with the springs of its contacts, so that the copies are in balance across their seams.
+/// Grains that would stand in a wall are left out, and, where the ground is not level, those with their centre above
+/// the height-map; what lay against them has to come to rest again. Every rank makes the same tile.
 class TiledBed {
 public:
   /// `plan` is that of `surface`. Throws InputError where the floor is not level, SimulationError where the tile does

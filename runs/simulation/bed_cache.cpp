@@ -3,12 +3,12 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
-#include "runs/support/build_info.hpp"
-#include "runs/simulation/checkpoint.hpp"
-#include "runs/support/file_lock.hpp"
 #include "runs/setup/grain_kinds.hpp"
-#include "runs/commands/ranks_alike.hpp"
+#include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/surfaces.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/file_lock.hpp"
+#include "runs/support/shared_folder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,13 +46,13 @@ bool allOf(const base::Comm& comm, bool answer) { return comm.maximumOf(answer ?
 /// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
 bool isOfBed(const scene::Scene& scene, const std::string& material) {
   const std::vector<std::string> grains = setup::grainKinds(scene).material;
-  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
+  const std::vector<setup::SceneSurface> surfaces = setup::surfacesOf(scene);
   return material == scene.terrain->groundMaterial ||
          std::find(grains.begin(), grains.end(), material) != grains.end() ||
          std::any_of(scene.planes.begin(), scene.planes.end(),
                      [&](const scene::Plane& plane) { return plane.material == material; }) ||
          std::any_of(surfaces.begin(), surfaces.end(),
-                     [&](const SceneSurface& s) { return s.section.material == material; });
+                     [&](const setup::SceneSurface& s) { return s.section.material == material; });
 }
 
 /// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
@@ -113,11 +113,12 @@ std::string BedCache::origin(const scene::Scene& scene, double timeStep) {
   scene::Scene bed = bedAlone(scene);
   const std::string inputs = inputsOf(bed);
   bed.terrain->heightmap.clear(); // by its bytes, not by its name
-  return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs, scene::resolvedToml(bed));
+  return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs,
+                     scene::resolvedToml(bed));
 }
 
-setup::SettleReport BedCache::settle(const scene::Scene& scene, setup::Ground& ground, const setup::SettleProgress& progress,
-                              const base::Comm& comm) {
+setup::SettleReport BedCache::settle(const scene::Scene& scene, setup::Ground& ground,
+                                     const setup::SettleProgress& progress, const base::Comm& comm) {
   const Clock::time_point start = Clock::now();
   const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const std::string made = origin(scene, ground.grains->model().timeStep);
@@ -136,8 +137,8 @@ setup::SettleReport BedCache::settle(const scene::Scene& scene, setup::Ground& g
   std::error_code error;
   if (comm.first()) fs::create_directories(folder_, error);
   const bool fits = kBytesPerGrain * static_cast<double>(ground.grains->count()) <= static_cast<double>(limit_);
-  const bool usable =
-      agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0) && !commands::rankThatMisses(folder_, comm).has_value();
+  const bool usable = agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0) &&
+                      !support::rankNotSeeing(folder_, comm).has_value();
   if (!usable) warn(comm, fmt::format("{}: settled beds cannot be kept in this folder", folder_.string()));
   // Of several runs that want one bed the first settles it.
   support::FileLock lock;
@@ -198,8 +199,8 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, setup::Groun
   return true;
 }
 
-bool BedCache::keep(const fs::path& file, const std::string& made, const setup::Ground& ground, const setup::SettleReport& report,
-                    const base::Comm& comm) const {
+bool BedCache::keep(const fs::path& file, const std::string& made, const setup::Ground& ground,
+                    const setup::SettleReport& report, const base::Comm& comm) const {
   Checkpoint bed;
   bed.scene = made, bed.timeStep = ground.grains->model().timeStep;
   bed.state.settled = report, bed.state.energyAtStart = {0, 0, 0, 0};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/support/hdf5_file.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/simulation/simulation_state.hpp"
+#include "runs/support/hdf5_file.hpp"
 
 #include <filesystem>
 #include <string>

@@ -2,7 +2,6 @@
 #include "runs/simulation/mechanism.hpp"
 
 #include "base/math.hpp"
-#include "runs/setup/mechanism_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,55 +14,24 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Steps of a period or turn that "auto" gives [-], and the longest step it gives [s].
-constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
-/// The same of swings on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves room for
-/// forty times the pull of the start [-].
-constexpr double kStepsPerSwingOnPull = 20;
 /// A stable step is inverse to the root of the pull. It is looked at again when this share of what the step bears is
 /// reached, but not before the pull has grown by the second, which a swing beyond it needs to make itself felt, and
 /// when it has grown by the third: poses change too [-].
 constexpr double kPullShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
-/// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
-constexpr double kRoundedRate = 1e-12;
-
-/// The solver's errors about the mechanism as a whole, with the file.
-multibody::Solver makeSolver(const scene::Scene& scene, const multibody::Model& model) {
-  try {
-    return multibody::Solver(model, solverOptions(scene.run));
-  } catch (const base::InputError& error) {
-    throw base::InputError(fmt::format("{}: {}", scene.file.string(), error.what()));
-  }
-}
 
 } // namespace
 
-multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
-  multibody::SolverOptions options;
-  options.integrator =
-      run.integrator == "rattle" ? multibody::Integrator::kRattle : multibody::Integrator::kSymplecticEuler;
-  options.order = run.integratorOrder;
-  options.springs = run.springs == "implicit" ? multibody::Springs::kImplicit : multibody::Springs::kExplicit;
-  options.positionTolerance = run.constraintTolerance.value_or(0);
-  // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
-  options.startVelocities = multibody::StartVelocities::kAccept;
-  return options;
-}
-
-Mechanism::Mechanism(const scene::Scene& scene, double timeStep)
-    : timeStep_(timeStep), model_(setup::buildModel(scene.mechanism)), state_(multibody::makeState(model_)),
-      loads_(multibody::makeLoads(model_)), solver_(makeSolver(scene, model_)) {
-  loads_.gravity = scene.run.gravity;
-  const bool imposed = std::any_of(model_.drives().begin(), model_.drives().end(),
-                                   [](const multibody::Drive& d) { return d.kind != multibody::DriveKind::kForce; });
-  if (imposed || solver_.velocityError(state_) > kRoundedRate) startBlow_ = -solver_.projectVelocities(state_, loads_);
-}
+Mechanism::Mechanism(const setup::MechanismSetup& setup, double timeStep)
+    : timeStep_(timeStep), model_(setup.model), state_(multibody::makeState(model_)),
+      loads_(multibody::makeLoads(model_)), solver_(model_, setup.solver),
+      startBlow_(setup::beginMotion(setup, solver_, state_, loads_)) {}
 
 void Mechanism::advance() {
   try {
     solver_.step(state_, loads_, timeStep_);
   } catch (const base::SimulationError& error) {
-    throw base::SimulationError(tensionStepWarning_.empty() ? error.what() : fmt::format("{}; {}", error.what(), tensionStepWarning_));
+    throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
+                                                            : fmt::format("{}; {}", error.what(), tensionStepWarning_));
   }
   const multibody::StepReport& report = solver_.lastStep();
   worst_.position = std::max(worst_.position, report.maxPositionError);
@@ -116,28 +84,9 @@ Mechanism::Ledger Mechanism::ledger() const {
 }
 
 Mechanism::Drift Mechanism::drift() const {
-  studies::Drift drift = worst_;
+  Drift drift = worst_;
   drift.velocity = solver_.velocityError(state_);
   return drift;
-}
-
-double mechanismTimeStep(const scene::Scene& scene) {
-  Mechanism mechanism(scene, kLongestStep);
-  double shortest = std::min(kStepsPerPeriod * kLongestStep, mechanism.shortestSwing());
-  for (const multibody::Twist& V : mechanism.state().twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
-  shortest = std::min(shortest, kStepsPerPeriod / kStepsPerSwingOnPull * mechanism.shortestSwingOnPull());
-  // Rows fall on whole steps.
-  const double row = scene.run.outputInterval;
-  return row / std::ceil(kStepsPerPeriod * row / shortest);
-}
-
-std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep) {
-  std::string part;
-  const double most = Mechanism(scene, timeStep).stableStepOnPull(&part);
-  if (timeStep < most) return "";
-  return fmt::format("{}: run.time_step = {:g} s: at the start {} bears so much that swings across it grow with steps "
-                     "above {:.2g} s, after the least push; choose a shorter step, or \"auto\"",
-                     scene.file.string(), timeStep, part, most);
 }
 
 std::vector<std::uint32_t> MechanismState::words() const {

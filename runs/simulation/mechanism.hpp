@@ -4,8 +4,8 @@
 #include "base/math.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "runs/simulation/mechanism_state.hpp"
-#include "runs/scene/scene.hpp"
 
 #include <string>
 #include <vector>
@@ -15,8 +15,7 @@ namespace grouser::simulation {
 /// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
 class Mechanism {
 public:
-  /// Throws base::InputError where the sections make no mechanism.
-  Mechanism(const scene::Scene& scene, double timeStep);
+  Mechanism(const setup::MechanismSetup& setup, double timeStep);
   Mechanism(const Mechanism&) = delete;
   Mechanism& operator=(const Mechanism&) = delete;
 
@@ -47,11 +46,6 @@ public:
   /// Kinetic energy that the drives gave in a blow, since the velocities of the scene did not fit theirs [J].
   double startBlow() const { return startBlow_; }
 
-  /// Shortest period of all springs and bushings against the masses, where the bodies are now [s]; infinite without
-  /// any.
-  double shortestSwing() { return 2 * base::kPi / solver_.stableTurn() * solver_.stableStep(state_, loads_); }
-  /// The same of bodies that hang on taut joints and springs (Solver::geometricStiffnessRate).
-  double shortestSwingOnPull() { return 2 * base::kPi / solver_.geometricStiffnessRate(state_, loads_); }
   /// Up to which step such a swing does not grow [s]; infinite where nothing pulls. `part`, if given, receives the name
   /// of what has the greatest part in it.
   double stableStepOnPull(std::string* part = nullptr) {
@@ -68,7 +62,7 @@ public:
     int iterations = 0;    ///< most of a step since then
     int singularSteps = 0; ///< steps through a singular position since then
   };
-  studies::Drift drift() const;
+  Drift drift() const;
   void restartMeans() { worst_ = {}; }
 
   MechanismState save() const;
@@ -84,21 +78,10 @@ private:
   multibody::State state_;
   multibody::Loads loads_;
   multibody::Solver solver_;
-  studies::Drift worst_;
-  double startBlow_ = 0;
+  double startBlow_;
+  Drift worst_;
   double boundedPull_ = 0; ///< up to this force in joints and springs the step is short enough [N]
   std::string tensionStepWarning_;
 };
-
-/// The solver's options as a scene's [run] gives them.
-multibody::SolverOptions solverOptions(const scene::RunSettings& run);
-
-/// The step that "auto" stands for: at the start a hundredth of the shortest swing of the springs or turn of a body, a
-/// twentieth of the shortest swing on taut joints; at most 1 ms, and a whole share of the output interval.
-double mechanismTimeStep(const scene::Scene& scene);
-
-/// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
-/// first push. Empty where the step is short enough.
-std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep);
 
 } // namespace grouser::simulation

@@ -52,7 +52,7 @@ bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) con
 }
 
 void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
-                         bool slotsChanged) {
+                                   bool slotsChanged) {
   std::copy(motions.begin(), motions.end(), motion_.host());
   motion_.upload();
   sums_.device().zero();

@@ -21,7 +21,8 @@ public:
   MeshContacts& operator=(const MeshContacts&) = delete;
 
   /// One step: contacts with the meshes where they are, one motion a mesh.
-  void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions, bool slotsChanged);
+  void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                       bool slotsChanged);
   /// For the grains' step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
   /// On each mesh about its centre, of all ranks, after computeContacts().

@@ -28,7 +28,7 @@ Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const 
   if (bed) setup::keepSurface(ground_, exec);
   surface_ = setup::surfaceHeight(ground_);
   if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
-  if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
+  if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(setup::mechanismSetup(scene), timeStep_);
   if (ground_.grains) ground_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (surfaces_) surfaces_->makeMeshContacts(scene_, exec_, *ground_.grains);
@@ -77,7 +77,7 @@ const contact::GrainLoadsView* Simulation::partLoads() const {
 
 /// Where they are at this step; until now the grains had them at rest.
 void Simulation::makeSurfaces(const SurfaceStates* former) {
-  if (!ground_.grains || surfacesOf(scene_).empty()) return;
+  if (!ground_.grains || setup::surfacesOf(scene_).empty()) return;
   surfaces_ = std::make_unique<Surfaces>(scene_, timeStep_);
   if (former) surfaces_->restore(*former);
   surfaces_->place(*ground_.grains, steps_);

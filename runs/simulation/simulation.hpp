@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed.hpp"
+#include "runs/setup/sources.hpp"
 #include "runs/simulation/bed_cache.hpp"
 #include "runs/simulation/mechanism.hpp"
-#include "runs/output/output.hpp"
-#include "runs/scene/scene.hpp"
 #include "runs/simulation/simulation_state.hpp"
-#include "runs/setup/sources.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
 
 #include <memory>
 #include <string>
+
+namespace grouser::bench {
+class StepBench;
+} // namespace grouser::bench
 
 namespace grouser::simulation {
 
@@ -21,11 +24,12 @@ namespace grouser::simulation {
 class Simulation {
 public:
   /// `beds`: where settled beds are kept; null: settles by itself.
-  Simulation(const scene::Scene& scene, const base::Exec& exec, const setup::SettleProgress& progress, const base::Comm& comm = {},
-             BedCache* beds = nullptr);
+  Simulation(const scene::Scene& scene, const base::Exec& exec, const setup::SettleProgress& progress,
+             const base::Comm& comm = {}, BedCache* beds = nullptr);
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
-  Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {});
+  Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state,
+             const base::Comm& comm = {});
   SimulationState save() const;
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
@@ -67,7 +71,7 @@ public:
   std::string stateHash() const;
 
 private:
-  friend class StepBench;                            // times the verbs of step() one by one
+  friend class bench::StepBench;                            // times the verbs of step() one by one
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();

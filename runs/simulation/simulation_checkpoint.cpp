@@ -32,7 +32,8 @@ SimulationState Simulation::save() const {
   return state;
 }
 
-Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state, const base::Comm& comm)
+Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state,
+                       const base::Comm& comm)
     : scene_(scene), exec_(exec), comm_(comm), timeStep_(setup::chooseTimeStep(scene)),
       ground_(setup::buildGround(scene, exec, timeStep_, comm)), settled_(state.settled), sources_(scene, timeStep_),
       steps_(state.steps) {
@@ -40,7 +41,7 @@ Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const 
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
       state.vehicle.has_value() != scene.vehicle.has_value() ||
       state.mechanism.has_value() == scene.mechanism.empty() || state.energyAtStart.size() != 4 ||
-      state.surfaces.has_value() != (ground_.grains && !surfacesOf(scene).empty()))
+      state.surfaces.has_value() != (ground_.grains && !setup::surfacesOf(scene).empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (bed) setup::keepSurface(ground_, state.surface);
   surface_ = setup::surfaceHeight(ground_);
@@ -56,7 +57,7 @@ Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const 
     vehicle_->restore(*state.vehicle);
   }
   if (!scene.mechanism.empty()) {
-    mechanism_ = std::make_unique<Mechanism>(scene, timeStep_);
+    mechanism_ = std::make_unique<Mechanism>(setup::mechanismSetup(scene_), timeStep_);
     mechanism_->restore(*state.mechanism);
   }
   const std::vector<double>& e = state.energyAtStart;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/simulation/mesh_contacts.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/surface_motion.hpp"
+#include "runs/simulation/mesh_contacts.hpp"
 #include "runs/simulation/surface_state.hpp"
 #include "terrain/grains.hpp"
 
@@ -12,25 +13,6 @@
 #include <vector>
 
 namespace grouser::simulation {
-
-/// One rigid surface of a scene as grains meet it, whatever section it stands in.
-struct SceneSurface {
-  std::string name;     ///< "lid"
-  const char* kind{};   ///< "box"
-  std::size_t number{}; ///< among those of its kind
-  scene::SurfaceSection section;
-  terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
-  base::Pose start;
-  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
-};
-/// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
-std::vector<SceneSurface> surfacesOf(const scene::Scene& scene);
-/// At rest where it stands at the start.
-terrain::SurfacePose startingPose(const SceneSurface& surface);
-/// Overlap of a sphere with it at the start [m]; negative where they do not touch.
-double startingOverlap(const SceneSurface& surface, const base::Vec3d& position, double radius);
-/// The same where the surface's own frame has come to `pose`.
-double overlapAt(const SceneSurface& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
 
 /// The moving surfaces of a scene: where they are at each step, what they take to be moved, and how those that forces
 /// move give way. The same on all ranks.
@@ -52,7 +34,7 @@ public:
   void advance(terrain::Grains& grains, std::int64_t step);
 
   std::size_t count() const { return surfaces_.size(); }
-  const SceneSurface& surface(std::size_t i) const { return surfaces_[i]; }
+  const setup::SceneSurface& surface(std::size_t i) const { return surfaces_[i]; }
   base::Pose pose(std::size_t i, std::int64_t step) const;
 
   /// Loads by the grains, about the centre, and the power of what moves the surface: means since restartMeans().
@@ -80,7 +62,7 @@ private:
   terrain::SurfacePose placement(std::size_t i, std::int64_t step) const;
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
-  std::vector<SceneSurface> surfaces_;
+  std::vector<setup::SceneSurface> surfaces_;
   std::vector<setup::SurfaceMotion> motions_;
   std::vector<base::Vec3d> freeAxes_; ///< zero where it is not free
   base::Vec3d gravity_;

@@ -6,8 +6,8 @@
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "multibody/solver.hpp"
-#include "runs/setup/bed.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/bed.hpp"
 #include "runs/simulation/vehicle_state.hpp"
 #include "terrain/ground_contacts.hpp"
 #include "vehicle/assembly.hpp"
@@ -30,14 +30,15 @@ public:
   // One step, in this order.
   void setSurfacePoses(); ///< poses of all parts
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
-  void computeContacts(const terrain::Grains* grains); ///< all contacts of parts; the device works, the host does not wait
-  void collectLoads();                       ///< waits for the sums of loads
-  void advance();                            ///< multibody step
+  void
+  computeContacts(const terrain::Grains* grains); ///< all contacts of parts; the device works, the host does not wait
+  void collectLoads();                            ///< waits for the sums of loads
+  void advance();                                 ///< multibody step
 
   // What computeContacts() is made of.
-  void noteTravel();  ///< since the lists were made
-  void uploadPoses(); ///< one small transfer; sums of loads to zero
-  void computeTrackContacts();  ///< shoes against sprocket, wheels, rollers, idler
+  void noteTravel();           ///< since the lists were made
+  void uploadPoses();          ///< one small transfer; sums of loads to zero
+  void computeTrackContacts(); ///< shoes against sprocket, wheels, rollers, idler
   /// Shoes and all other parts against the bed, or shoes against rigid ground.
   void computeGroundContacts(const terrain::Grains* grains, const base::Exec& exec);
   void downloadLoads(); ///< one small transfer
@@ -105,7 +106,7 @@ private:
 
   base::Exec exec_;
   base::SideStream side_;
-  base::DoubleBufferedGraph contactGraph_;        ///< of a step, by the buffer that holds the grains' state
+  base::DoubleBufferedGraph contactGraph_; ///< of a step, by the buffer that holds the grains' state
   terrain::Grains* sharedGrains_{nullptr}; ///< told how long work takes that no cut can shift; null on one rank
   base::Comm comm_; ///< each rank touches its own grains; everything else is done alike on all of them
   double timeStep_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/box.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/random.hpp"
 #include "runs/setup/grain_kinds.hpp"
@@ -13,7 +14,7 @@ namespace grouser::studies {
 using base::Vec3d;
 
 terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
-  scene::Scene scene = scene::parseScene(
+  scene::Scene scene = setup::parseScene(
       fmt::format("version = 1\n[run]\nduration = 1\n[material.soil]\ndensity = {}\nstiffness = {}\n"
                   "restitution = {}\nfriction = {}\n[[grain]]\nposition = [0, 0, 0]\nradius = {}\n"
                   "material = \"soil\"\n",
@@ -52,7 +53,8 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
                   {{0, -1, 0}, -edge, "soil"}};
   if (box.gravity == 0) around.walls.push_back({{0, 0, -1}, -height, "soil"});
   terrain::Boundaries boundaries;
-  const terrain::GrainModel model = setup::grainModel(scene, setup::grainKinds(scene), StudyBox::kTimeStep, around, boundaries);
+  const terrain::GrainModel model =
+      setup::grainModel(scene, setup::grainKinds(scene), StudyBox::kTimeStep, around, boundaries);
   return terrain::Grains(exec, model, boundaries, start);
 }
 

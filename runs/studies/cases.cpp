@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/support/locations.hpp"
 #include "runs/studies/elliptic.hpp"
+#include "runs/support/locations.hpp"
 
 #include <fmt/format.h>
 

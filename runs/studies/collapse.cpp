@@ -126,10 +126,11 @@ void studyCollapseCommand(const CollapseCommand& command) {
   const std::vector<double> aspects = quick ? std::vector<double>{1} : command.aspects;
   SampleGrains material;
   material.stiffness = 3e4, material.rollingFriction = 0.1;
-  fmt::print("          spheres of 10 mm, 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; column of {} d "
-             "between a wall and a gate,\n          {} d between periodic boundaries; smooth floor of the same friction; {} "
-             "seeds, +- their standard error; one thread\n",
-             length, command.width, seeds);
+  fmt::print(
+      "          spheres of 10 mm, 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; column of {} d "
+      "between a wall and a gate,\n          {} d between periodic boundaries; smooth floor of the same friction; {} "
+      "seeds, +- their standard error; one thread\n",
+      length, command.width, seeds);
   support::Progress progress("collapsing");
   std::string csv = "aspect [-],seed,grains,run-out [-],deposit height [-],time [-],rests\n";
   std::string table = fmt::format("\n  {:>13} {:>7} {:>17} {:>8} {:>17} {:>8} {:>17} {:>8}\n", "h0/d0", "grains",

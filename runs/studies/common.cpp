@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/common.hpp"
 
-#include "runs/support/build_info.hpp"
 #include "runs/output/output.hpp"
+#include "runs/support/build_info.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/grain_stability.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "base/random.hpp"
@@ -41,7 +42,7 @@ scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta)
   text += fmt::format("[contact.\"grain|wall\"]\ndamping = {}\n", 2 * zeta * rate(stiffness));
   text += fmt::format("[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"wall\"\n");
   text += fmt::format("[[grain]]\nposition = [0, 0, {}]\nradius = {}\nmaterial = \"grain\"\n", kRadius, kRadius);
-  scene::Scene scene = scene::parseScene(text, "study");
+  scene::Scene scene = setup::parseScene(text, "study");
   scene.run.gravity = {0, 0, -kOwnOverlap * kRadius * rate(stiffness) * rate(stiffness)};
   return scene;
 }

@@ -2,9 +2,9 @@
 // `grouser study stability`: tables and files of the maps.
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/studies/grain_stability.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
-#include "runs/studies/grain_stability.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -140,7 +140,8 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   }
   writeStudyOrigin(folder, "stability", std::chrono::duration<double>(Clock::now() - begin).count(),
                    {{"steps", kStabilitySteps}, {"growth", kGrowth}, {"quick", quick}, {"maps", counts}});
-  output::drawPicture("study_stability.py", {folder / "stability.csv", folder / "limits.csv"}, folder / "stability.png");
+  output::drawPicture("study_stability.py", {folder / "stability.csv", folder / "limits.csv"},
+                      folder / "stability.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

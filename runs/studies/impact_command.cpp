@@ -2,9 +2,9 @@
 // `grouser study impact`: which collisions, which steps, and the files.
 #include "contact/restitution.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/studies/impact_report.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
-#include "runs/studies/impact_report.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>

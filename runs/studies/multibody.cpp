@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/multibody.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "base/table.hpp"
-#include "runs/support/build_info.hpp"
-#include "runs/support/locations.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/support/progress.hpp"
-#include "runs/support/stop_signals.hpp"
 #include "runs/studies/report.hpp"
 #include "runs/studies/stability.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/locations.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -57,8 +58,8 @@ scene::Scene loadCase(const std::string& scene, const IntegratorChoice& integrat
     std::string warning;
     if (!output::runScript(folder / "make_mechanisms.py", words, warning)) throw base::InputError(warning);
   }
-  scene::Scene loaded = scene::loadScene(file, {"run.integrator=" + integrator.word,
-                                  fmt::format("run.integrator_order={}", std::max(2, integrator.order))});
+  scene::Scene loaded = setup::loadScene(file, {"run.integrator=" + integrator.word,
+                                                fmt::format("run.integrator_order={}", std::max(2, integrator.order))});
   if (isMade) fs::remove(file);
   return loaded;
 }
@@ -70,7 +71,7 @@ struct Measured {
 /// Steps through a case, comparing at its sample times; the clock runs in the steps only.
 Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std::int64_t stepsPerSample,
                  std::int64_t samples) {
-  simulation::Mechanism mechanism(scene, step);
+  simulation::Mechanism mechanism(setup::mechanismSetup(scene), step);
   const auto energy = [&] {
     const simulation::Mechanism::Ledger l = mechanism.ledger();
     return l.kinetic + l.potential + l.elastic + l.dissipated - l.driveWork;
@@ -205,7 +206,7 @@ ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& in
   ReactionResult result{r, integrator.name, {}, 0, ""};
   try {
     const scene::Scene scene = loadCase(r.scene, integrator);
-    simulation::Mechanism mechanism(scene, r.step);
+    simulation::Mechanism mechanism(setup::mechanismSetup(scene), r.step);
     const std::int64_t steps = std::llround(r.end / r.step);
     double sum = 0;
     for (std::int64_t i = 0; i < steps; ++i) {

@@ -81,7 +81,9 @@ void addPrecision(CLI::App& study, PrecisionCommand& c) {
 void addPacking(CLI::App& study, PackingCommand& c) {
   CLI::App* packing = study.add_subcommand(
       "packing", "How densely poured spheres lie over their friction, against random packings (10 min, one core)");
-  packing->add_option("--grains", c.grains, "of a sample")->check(support::wholeNumber(300, 1'000'000))->capture_default_str();
+  packing->add_option("--grains", c.grains, "of a sample")
+      ->check(support::wholeNumber(300, 1'000'000))
+      ->capture_default_str();
   packing->add_option("--seeds", c.seeds, "samples of each friction")
       ->check(support::wholeNumber(2, 1000))
       ->capture_default_str();
@@ -123,7 +125,9 @@ void addShear(CLI::App& study, ShearCommand& c) {
   shear->add_option("--stresses", c.stresses, "of the lid on the sample [Pa]")
       ->check(support::between(10.0, 1e5))
       ->capture_default_str();
-  shear->add_option("--seeds", c.seeds, "samples of each load")->check(support::wholeNumber(2, 1000))->capture_default_str();
+  shear->add_option("--seeds", c.seeds, "samples of each load")
+      ->check(support::wholeNumber(2, 1000))
+      ->capture_default_str();
   addPlace(*shear, c.place, "shear", "one load, two samples of 10 d: in seconds");
   shear->callback([&c] { studyShearCommand(c); });
 }

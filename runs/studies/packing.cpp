@@ -112,7 +112,8 @@ void studyPackingCommand(const PackingCommand& command) {
   const std::vector<double> frictions =
       command.place.quick ? std::vector<double>{0, 0.5} : std::vector<double>{0, 0.05, 0.1, 0.2, 0.5, 1.0};
   fmt::print(
-      "          {} spheres of 10 mm, 1e5 N/m, restitution 0.5, poured between periodic boundaries {} d apart; {} seeds, "
+      "          {} spheres of 10 mm, 1e5 N/m, restitution 0.5, poured between periodic boundaries {} d apart; {} "
+      "seeds, "
       "+- their standard error\n          measured from {} d above the floor to {} d below the top; one thread\n",
       grains, width, seeds, kOffFloor, kOffTop);
   support::Progress progress("pouring");

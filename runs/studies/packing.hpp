@@ -20,8 +20,8 @@ struct Packing {
   double rest = 0;     ///< [s] until it lay still; negative: it did not within the limit
 };
 
-/// Pours `grains` of these at a seventh of the volume between periodic boundaries, `width` diameters apart, and measures. A
-/// grain counts as held from `least` contacts on: four without friction, two with.
+/// Pours `grains` of these at a seventh of the volume between periodic boundaries, `width` diameters apart, and
+/// measures. A grain counts as held from `least` contacts on: four without friction, two with.
 Packing pourPacking(const SampleGrains& material, int grains, double width, std::int64_t seed);
 
 struct PackingCommand {

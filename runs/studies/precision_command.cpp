@@ -71,7 +71,7 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
                     {"runs", drift.runs},
                     {"quick", command.place.quick}});
   output::drawPicture("study_precision.py", {folder / "touch.csv", folder / "drift.csv", folder / "macroscopic.csv"},
-              folder / "precision.png");
+                      folder / "precision.png");
   fmt::print("tables    {}\n", folder.string());
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/sample.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/math.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -22,7 +23,7 @@ std::string SampleGrains::toml(const std::string& name) const {
 
 Sample buildSample(const std::string& toml, const base::Exec& exec) {
   Sample sample;
-  sample.scene = scene::parseScene(toml, "sample.toml");
+  sample.scene = setup::parseScene(toml, "sample.toml");
   sample.timeStep = setup::chooseTimeStep(sample.scene);
   sample.ground = setup::buildGround(sample.scene, exec, sample.timeStep);
   return sample;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "runs/setup/bed.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/bed.hpp"
 
 #include <cstdint>
 #include <string>

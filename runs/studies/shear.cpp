@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/shear.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/math.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/support/progress.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -45,14 +46,14 @@ std::string shearScene(const SampleGrains& material, const ShearBox& box, double
   };
   const std::string drawn = fmt::format("velocity = [{:.17g}, 0, 0]\nstart = {:.17g}\n", box.speed, kRest);
   const double high = top + 2 * d;
-  test::put("floor", 0, -0.5 * depth - 0.5 * wall, l + 2 * wall, wall, "");
-  test::put("lower_left", -0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
-  test::put("lower_right", 0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
-  test::put("upper_left", -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
-  test::put("upper_right", 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
-  test::put("lid", 0, top + 0.5 * d, l, d,
-      drawn + fmt::format("free = \"z\"\nmass = {}\nload = {:.17g}\nload_ramp = {:.17g}\n", kLidMass, -stress * l * w,
-                          0.5 * kRest));
+  put("floor", 0, -0.5 * depth - 0.5 * wall, l + 2 * wall, wall, "");
+  put("lower_left", -0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
+  put("lower_right", 0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
+  put("upper_left", -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
+  put("upper_right", 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
+  put("lid", 0, top + 0.5 * d, l, d,
+            drawn + fmt::format("free = \"z\"\nmass = {}\nload = {:.17g}\nload_ramp = {:.17g}\n", kLidMass,
+                                -stress * l * w, 0.5 * kRest));
   return text;
 }
 
@@ -62,7 +63,7 @@ double degrees(double t) { return std::atan(t) * 180 / base::kPi; }
 } // namespace
 
 std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& box, double stress, std::int64_t seed) {
-  const scene::Scene scene = scene::parseScene(shearScene(material, box, stress, seed), "shear.toml");
+  const scene::Scene scene = setup::parseScene(shearScene(material, box, stress, seed), "shear.toml");
   simulation::Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
   const auto steps = [&](double seconds) { return static_cast<std::int64_t>(seconds / simulation.timeStep() + 0.5); };
   const std::int64_t every = std::max<std::int64_t>(1, steps(kRow)), all = steps(scene.run.duration);
@@ -112,7 +113,8 @@ void studyShearCommand(const ShearCommand& command) {
   material.friction = command.friction, material.rollingFriction = command.rollingFriction;
   fmt::print(
       "          spheres of 10 mm +- {:.0f} %, 1e5 N/m, restitution 0.5, friction {}, rolling friction {}; box {} d "
-      "long, {} d between\n          periodic boundaries, {} d deep; drawn at {} m/s over {} of its length; {} seeds, +- "
+      "long, {} d between\n          periodic boundaries, {} d deep; drawn at {} m/s over {} of its length; {} seeds, "
+      "+- "
       "their standard error; one thread\n",
       100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
       box.travel, seeds);

@@ -35,11 +35,11 @@ scene::Scene sceneOf(const scene::MechanismSections& sections, const Choice& cho
 }
 
 /// Steps along; stable as long as `size` stays below `bound`.
-void tryStep(const scene::Scene& scene, StabilityPoint& point, const std::function<double(const simulation::Mechanism&)>& size,
-             double bound) {
+void tryStep(const scene::Scene& scene, StabilityPoint& point,
+             const std::function<double(const simulation::Mechanism&)>& size, double bound) {
   point.predicted = point.step < point.limit;
   try {
-    simulation::Mechanism mechanism(scene, point.step);
+    simulation::Mechanism mechanism(setup::mechanismSetup(scene), point.step);
     for (int i = 0; i < kSteps && point.stable; ++i) {
       mechanism.advance();
       point.stable = size(mechanism) <= bound; // false for what is no number, too

@@ -15,9 +15,9 @@ namespace grouser::terrain::detail {
 ///   advance  grain by grain: the sum of its contacts in the order of the neighbours' ids, and the step, with the three
 ///            axes side by side.
 ///
-/// GrainStep, contactForce() and addCompensated() say what is computed and why. Here the same operations act on the same
-/// numbers in the same order; where those functions branch, both sides are computed and one is taken. So the bits are
-/// theirs. What is rare goes to GrainStep itself.
+/// GrainStep, contactForce() and addCompensated() say what is computed and why. Here the same operations act on the
+/// same numbers in the same order; where those functions branch, both sides are computed and one is taken. So the bits
+/// are theirs. What is rare goes to GrainStep itself.
 ///
 /// This is compiled for processors that may not be there: it calls nothing that is not inlined, lest a copy made for
 /// wide registers serve the whole program.
@@ -206,12 +206,11 @@ private:
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
     if (kWithLedger) d.dissipated[i] += static_cast<double>(dissipated);
-    if (!advanceSimd(i, f4, t4, deepest))
-      advanceGrain(d, f, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest);
+    if (!advanceSimd(i, f4, t4, deepest)) advanceGrain(d, f, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest);
   }
 
-  /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing by
-  /// one is multiplying by its inverse, to the last bit.
+  /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing
+  /// by one is multiplying by its inverse, to the last bit.
   GROUSER_LANE_FUNCTION static Double4 addKeepingOf(Float4& value, Int4& remainder, const Double4& increment) {
     const Double4 sum =
         toDouble(value) + toDouble(remainder) * (toDouble(bitsOf<Float4>(binadeOf(value))) * 0x1p-39) + increment;

@@ -7,7 +7,7 @@
 // CORPUS: files, or folders whose *.toml are taken. The mutations follow from the seed and the number of the case, so
 // that `--seed S --first CASE --cases 1` repeats one. With clang and GROUSER_LIBFUZZER libFuzzer makes the inputs.
 #include "base/error.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,10 +49,10 @@ bool namesLine(const std::string& message) {
 /// The message of a refusal; empty where the scene was loaded.
 std::string tryScene(std::string_view input) {
   try {
-    const scene::Scene scene = scene::parseScene(input, kName);
+    const scene::Scene scene = setup::parseScene(input, kName);
     const std::string resolved = scene::resolvedToml(scene);
     try {
-      if (scene::resolvedToml(scene::parseScene(resolved, kName)) != resolved)
+      if (scene::resolvedToml(setup::parseScene(resolved, kName)) != resolved)
         fault(input, "the resolved copy reads back as another scene");
     } catch (const std::exception& error) {
       fault(input, std::string("the resolved copy is refused: ") + error.what() + "\n" + resolved);

@@ -54,7 +54,7 @@ inline GrainModel gravel(double skin = 0.3) {
 
 /// A block of gravel that nowhere stands straight, all of it with one velocity and spin.
 inline std::vector<GrainSpec> gravelBlock(int across, int deep, int layers, const base::Vec3d& velocity,
-                                           const base::Vec3d& spin = {}, const base::Vec3d& shift = {}) {
+                                          const base::Vec3d& spin = {}, const base::Vec3d& shift = {}) {
   std::vector<GrainSpec> start;
   for (int z = 0; z < layers; ++z)
     for (int y = 0; y < deep; ++y)

@@ -19,7 +19,7 @@ inline base::Quat turn(const Vec3d& axis, double angle) {
 
 /// A surface at `centre`, turned by `stands` at the start and by `turned` since, with its velocities.
 inline SurfacePose placed(const Vec3d& centre, const base::Quat& stands = {}, const base::Quat& turned = {},
-                               const Vec3d& velocity = {}, const Vec3d& spin = {}) {
+                          const Vec3d& velocity = {}, const Vec3d& spin = {}) {
   return {{centre, (turned * stands).matrix(), centre, velocity, spin}, turned.matrix()};
 }
 

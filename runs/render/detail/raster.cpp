@@ -17,7 +17,7 @@ struct Rectangle {
   int left, right, top, bottom; ///< pixels, right and bottom excluded
 };
 
-void test::put(simulation::Surfaces& s, std::size_t i, float depth, const Vec3f& normal_W, std::int32_t object) {
+void put(Surfaces& s, std::size_t i, float depth, const Vec3f& normal_W, std::int32_t object) {
   s.depth[i] = depth;
   for (int k = 0; k < 3; ++k)
     s.normal[i][static_cast<std::size_t>(k)] = static_cast<std::int16_t>(normal_W[k] * 32767.0f);
@@ -63,7 +63,7 @@ std::vector<PlacedSphere> place(const View& view, const std::vector<RenderSphere
   return placed;
 }
 
-void draw(const PlacedSphere& sphere, int top, int bottom, simulation::Surfaces& s) {
+void draw(const PlacedSphere& sphere, int top, int bottom, Surfaces& s) {
   const View& v = s.view;
   const Vec3f& c = sphere.centre_C;
   const float radius2 = sphere.radius * sphere.radius;
@@ -81,7 +81,7 @@ void draw(const PlacedSphere& sphere, int top, int bottom, simulation::Surfaces&
       const float depth = foot - std::sqrt(inside / a);
       if (depth >= s.depth[i]) continue;
       const Vec3f normal_C = (origin + along * depth - c) * (1.0f / sphere.radius);
-      test::put(s, i, depth, v.turn(normal_C), sphere.object);
+      put(s, i, depth, v.turn(normal_C), sphere.object);
     }
 }
 
@@ -149,7 +149,7 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
   }
 }
 
-void draw(const ScreenTriangle& t, int top, int bottom, simulation::Surfaces& s) {
+void draw(const ScreenTriangle& t, int top, int bottom, Surfaces& s) {
   for (int row = std::max(top, t.bounds.top); row < std::min(bottom, t.bounds.bottom); ++row)
     for (int column = t.bounds.left; column < t.bounds.right; ++column) {
       const float px = float(column) + 0.5f, py = float(row) + 0.5f;
@@ -169,7 +169,7 @@ void draw(const ScreenTriangle& t, int top, int bottom, simulation::Surfaces& s)
       const float size = norm(n);
       n = size > 0 ? n * (1 / size) : Vec3f{0, 0, 1};
       const Vec3f ray = s.view.turn(s.view.perspective ? s.view.at(column, row, 1) : Vec3f{0, 0, 1});
-      test::put(s, at, depth, dot(n, ray) > 0 ? -n : n, t.object);
+      put(s, at, depth, dot(n, ray) > 0 ? -n : n, t.object);
     }
 }
 
@@ -279,7 +279,8 @@ template <class Placed> std::vector<std::vector<std::uint32_t>> byBand(const std
 
 } // namespace
 
-void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, simulation::Surfaces& surfaces) {
+void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets,
+               Surfaces& surfaces) {
   const std::vector<PlacedSphere> placed = place(surfaces.view, spheres);
   const std::vector<ScreenTriangle> triangles = place(surfaces.view, facets);
   const int bands = (surfaces.view.height + kBandRows - 1) / kBandRows;

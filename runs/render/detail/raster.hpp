@@ -47,7 +47,7 @@ View viewTowards(const base::Vec3d& eye, const base::Vec3d& target, const base::
 
 /// What is seen at each pixel.
 struct Surfaces {
-  explicit simulation::Surfaces(const View& v)
+  explicit Surfaces(const View& v)
       : view(v), depth(static_cast<std::size_t>(v.width) * v.height, std::numeric_limits<float>::infinity()),
         normal(depth.size()), object(depth.size(), -1) {}
 
@@ -73,6 +73,7 @@ struct Facet {
 std::vector<Facet> facetsOf(const RenderScene& scene);
 
 /// Fills the depth buffer with everything.
-void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, simulation::Surfaces& surfaces);
+void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets,
+               Surfaces& surfaces);
 
 } // namespace grouser::render::detail

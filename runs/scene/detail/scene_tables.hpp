@@ -25,7 +25,7 @@ base::Table<DriveSection> driveTable();
 base::Table<CouplingSection> couplingTable();
 base::Table<Vehicle> vehicleTable();
 base::Table<Driver> driverTable();
-base::Table<SpeedTable> studies::speedTable();
+base::Table<SpeedTable> speedTable();
 base::Table<Output> outputTable();
 base::Table<Parallel> parallelTable();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The benches compute the same physics as runs, and their figures are whole.
 #include "runs/bench/bench.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "tests/runs/program_fixture.hpp"
@@ -22,9 +23,9 @@ BedBench tinyBed() {
 
 /// The coupled scene, unsettled and coarse: what is compared are bits.
 scene::Scene shortScene() {
-  return scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
-                   {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
-                    "driver.tension_ramp=0.005", "driver.weight_ramp=0.005"});
+  return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
+                          {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
+                           "driver.tension_ramp=0.005", "driver.weight_ramp=0.005"});
 }
 
 TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
@@ -44,7 +45,7 @@ TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
 }
 
 TEST(StepBench, ComputesTheSameBitsForAMechanism) {
-  const scene::Scene scene = scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
+  const scene::Scene scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
   const auto quiet = [](double, double) {};
   simulation::Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
   const std::string atRest = plain.stateHash();
@@ -91,7 +92,7 @@ class BenchCommands : public test::ProgramTest {};
 
 TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   const test::Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
-                           "--json bed.json");
+                                 "--json bed.json");
   ASSERT_EQ(bed.code, 0) << bed.errors;
   for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes a grain",
                            "machine ", "commit ", "state-hash "})
@@ -107,8 +108,8 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
 
   const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml";
   const test::Outcome step = call("bench step " + scene +
-                            " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03 --after 0.03 "
-                            "--steps 10 --batches 2 --threads 1 --device cpu --json step.json");
+                                  " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03 --after 0.03 "
+                                  "--steps 10 --batches 2 --threads 1 --device cpu --json step.json");
   ASSERT_EQ(step.code, 0) << step.errors;
   for (const char* part : {"without clocks", "sum is larger", "grain kernel", "multibody", "track contacts",
                            "grain on grain", "grain on part", "memory "})

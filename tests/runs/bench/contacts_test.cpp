@@ -3,8 +3,8 @@
 #include "base/error.hpp"
 #include "contact/pair_search.hpp"
 #include "runs/bench/bullet.hpp"
-#include "runs/bench/contacts.hpp"
 #include "runs/bench/contact_spheres.hpp"
+#include "runs/bench/contacts.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -143,8 +143,9 @@ Mistake badMesh(const std::string& name, const std::string& line, const std::vec
                 const std::string& mesh = test::contents(asset("meshes/idler.obj"))) {
   return {name,
           [=](const fs::path& f) {
-            test::put(f / "scene.toml", test::replaced(kGrains, "[[plane]]\n",
-                                           "[[mesh]]\nfile = \"part.obj\"\nposition = [0, 0, -9]\n" + line + "\n"));
+            test::put(f / "scene.toml",
+                      test::replaced(kGrains, "[[plane]]\n",
+                                     "[[mesh]]\nfile = \"part.obj\"\nposition = [0, 0, -9]\n" + line + "\n"));
             test::put(f / "part.obj", mesh);
           },
           "run scene.toml", says};
@@ -155,7 +156,7 @@ Mistake badVehicle(const std::string& name, const std::function<void(const fs::p
   return {name,
           [make](const fs::path& f) {
             test::put(f / "scene.toml", "version = 1\n[run]\nduration = 0.1\n[vehicle]\nspec = \"car.toml\"\nchassis = "
-                                  "\"fixed\"\n");
+                                        "\"fixed\"\n");
             make(f / "car.toml");
           },
           "run scene.toml", says};
@@ -276,7 +277,8 @@ std::vector<Mistake> mistakes() {
                {"scene.toml:9: box.0.velocity", "unfelt", "keep it below 500 m/s"}),
       badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "choose"}),
       badScene("TooManyGrains", "grain_radius = 0.03\nlayers = 1", "grain_radius = 5e-5\nlayers = 10000",
-               {"scene.toml:11: terrain.grain_radius", "use larger grains"}, test::replaced(kBed, "time_step = 1e-4\n", "")),
+               {"scene.toml:11: terrain.grain_radius", "use larger grains"},
+               test::replaced(kBed, "time_step = 1e-4\n", "")),
       badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",
                {"scene.toml:9: terrain.size", "terrain.grain_radius", "use larger grains"}, kBed),
       badScene(

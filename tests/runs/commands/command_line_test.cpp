@@ -137,7 +137,8 @@ TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
 }
 
 TEST_F(CommandLine, BrokenSceneEndsWithTwoAndTouchesNothing) {
-  std::ofstream(folder_ / "broken.toml") << test::replaced(test::goodScene(), "grain_radius = 0.05", "grain_radius = -1");
+  std::ofstream(folder_ / "broken.toml") << test::replaced(test::goodScene(), "grain_radius = 0.05",
+                                                           "grain_radius = -1");
   const test::Outcome o = call("run broken.toml");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("broken.toml:19: terrain.grain_radius = -1 [m] is outside (0, 10]"), std::string::npos)
@@ -200,8 +201,9 @@ TEST_F(CommandLine, GrainsAsTextGoOnFromBetweenTwoRowsWhereTheFirstRowsHadNone) 
   writeGrain("drip.toml", "output_interval = 3e-4\n");
   std::string scene = test::contents(folder_ / "drip.toml");
   scene.resize(scene.find("[[grain]]"));
-  test::put(folder_ / "drip.toml", scene + "[[source]]\nlow = [0, 0, 1]\nhigh = [0, 0, 1]\nradius = 0.01\nmaterial = "
-                                     "\"glass\"\nevery = 1.0\nstart = 4e-4\ntotal = 1\n[output]\nplots = false\n");
+  test::put(folder_ / "drip.toml", scene +
+                                       "[[source]]\nlow = [0, 0, 1]\nhigh = [0, 0, 1]\nradius = 0.01\nmaterial = "
+                                       "\"glass\"\nevery = 1.0\nstart = 4e-4\ntotal = 1\n[output]\nplots = false\n");
   ASSERT_EQ(call("run drip.toml --out whole").code, 0);
   ASSERT_EQ(call("run drip.toml --out cut --steps 70").code, 0); // ends with a row of its own
   ASSERT_EQ(call("run drip.toml --out cut --resume cut/checkpoint.h5").code, 0);
@@ -268,8 +270,8 @@ TEST_F(CommandLine, TerminatedRunEndsWith143AndIsResumed) {
   writeGrain("long.toml");
   const std::string scene = "run long.toml --set run.duration=100 --set output.frames=false --out run";
   const test::Outcome stopped = shell("\"$grouser\" " + scene +
-                                " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
-                                "kill -TERM $pid\nwait $pid\nexit $?");
+                                      " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
+                                      "kill -TERM $pid\nwait $pid\nexit $?");
   EXPECT_EQ(stopped.code, 143) << stopped.errors;
   EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM"), std::string::npos) << stopped.errors;
   const test::Outcome at = call("hash run/checkpoint.h5");

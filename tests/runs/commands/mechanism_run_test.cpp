@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mechanism as a user runs it: results, hash, resume, plan, sweep.
 #include "base/math.hpp"
-#include "tests/runs/program_fixture.hpp"
 #include "runs/support/hdf5_file.hpp"
+#include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,8 @@ TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
   ASSERT_EQ(resumed.code, 0) << resumed.errors;
   EXPECT_TRUE(straight.hasHash()) << straight.out;
   EXPECT_EQ(resumed.hash(), straight.hash());
-  EXPECT_EQ(test::contents(folder_ / "parts" / "timeseries.csv"), test::contents(folder_ / "straight" / "timeseries.csv"));
+  EXPECT_EQ(test::contents(folder_ / "parts" / "timeseries.csv"),
+            test::contents(folder_ / "straight" / "timeseries.csv"));
   EXPECT_EQ(call("hash parts/checkpoint.h5").hash(), straight.hash());
 }
 
@@ -128,8 +129,8 @@ TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
     const test::Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kBare);
     ASSERT_EQ(o.code, 0) << weight << ": " << o.errors;
     const double step =
-        0.2 /
-        static_cast<double>(support::Hdf5File::open(folder_ / "r" / "results.h5").read<std::int64_t>("/series/step").back());
+        0.2 / static_cast<double>(
+                  support::Hdf5File::open(folder_ / "r" / "results.h5").read<std::int64_t>("/series/step").back());
     EXPECT_LE(step, std::min(1e-3, base::kPi / 10 / 2 * stable * 1.01)) << weight;
     EXPECT_GE(step, std::min(1e-3, base::kPi / 10 / 2 * stable * 0.98)) << weight;
   }
@@ -187,7 +188,8 @@ TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
   const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
                     warning = "at the start joint 'pin 5' bears so much that swings across it grow with steps above "
                               "7.6e-05 s";
-  const test::Outcome plan = call("plan" + still + "2e-4"), run = call("run" + still + "2e-4 --steps 10 --out r" + kBare);
+  const test::Outcome plan = call("plan" + still + "2e-4"),
+                      run = call("run" + still + "2e-4 --steps 10 --out r" + kBare);
   EXPECT_EQ(plan.code, 0) << plan.errors;
   EXPECT_NE(plan.out.find("warning: chain.toml: run.time_step = 0.0002 s: " + warning), std::string::npos) << plan.out;
   EXPECT_EQ(run.code, 0) << run.errors;
@@ -214,9 +216,10 @@ TEST_F(MechanismRun, NoShippedMechanismIsWarnedOf) {
 
 TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
   const test::Outcome o = call("sweep " + kMechanisms + "pendulum.toml --set body.0.mass=1,2 --out s" +
-                         " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
+                               " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
   EXPECT_EQ(o.code, 0) << o.errors;
-  const std::string summary = test::contents(folder_ / "s" / "summary.csv"), header = summary.substr(0, summary.find('\n'));
+  const std::string summary = test::contents(folder_ / "s" / "summary.csv"),
+                    header = summary.substr(0, summary.find('\n'));
   EXPECT_NE(header.find("energy residual [J]"), std::string::npos) << header;
   for (const char* ofVehicles : {"teeth", "slip", "sinkage", "impulse"})
     EXPECT_EQ(header.find(ofVehicles), std::string::npos) << header;
@@ -236,9 +239,9 @@ TEST_F(MechanismRun, RecordKeepsOnlyWhatItNames) {
 
 TEST_F(MechanismRun, TooLongAStepForAnExplicitSpringIsRefusedWithItsLimit) {
   const test::Outcome o = call("run " + kMechanisms +
-                         "joint_prismatic.toml --out r --set run.springs=explicit --set run.time_step=0.05 --set "
-                         "run.output_interval=0.1 --set spring.0.stiffness=1e6" +
-                         kBare);
+                               "joint_prismatic.toml --out r --set run.springs=explicit --set run.time_step=0.05 --set "
+                               "run.output_interval=0.1 --set spring.0.stiffness=1e6" +
+                               kBare);
   EXPECT_EQ(o.code, 2) << o.errors;
   EXPECT_NE(o.errors.find("spring"), std::string::npos) << o.errors;
 }

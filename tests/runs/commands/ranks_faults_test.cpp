@@ -17,8 +17,9 @@ TEST_F(test::OnRanks, RanksStartedInDifferentFoldersAreRefusedAndLeaveNothing) {
     fs::create_directory(folder_ / place);
     test::put(folder_ / place / "bed.toml", kBed);
   }
-  const test::Outcome o = shell(kLaunch + std::string("-wdir \"$PWD/a\" \"$grouser\" run bed.toml --steps 10 --out o : "
-                                                "-np 1 -wdir \"$PWD/b\" \"$grouser\" run bed.toml --steps 10 --out o"));
+  const test::Outcome o =
+      shell(kLaunch + std::string("-wdir \"$PWD/a\" \"$grouser\" run bed.toml --steps 10 --out o : "
+                                  "-np 1 -wdir \"$PWD/b\" \"$grouser\" run bed.toml --steps 10 --out o"));
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 0: o: rank 1 does not see this folder of rank 0"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "a/o"));
@@ -26,8 +27,9 @@ TEST_F(test::OnRanks, RanksStartedInDifferentFoldersAreRefusedAndLeaveNothing) {
 }
 
 TEST_F(test::OnRanks, RanksToldToDoDifferentThingsAreRefused) {
-  const test::Outcome o = shell(kLaunch + std::string("\"$grouser\" run bed.toml --out o --steps 10 : -np 1 \"$grouser\" run "
-                                                "bed.toml --out o --steps 20"));
+  const test::Outcome o =
+      shell(kLaunch + std::string("\"$grouser\" run bed.toml --out o --steps 10 : -np 1 \"$grouser\" run "
+                                  "bed.toml --out o --steps 20"));
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 1 has another command line than rank 0"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "o"));
@@ -46,7 +48,7 @@ TEST_F(test::OnRanks, TheFirstRankSaysWhereBedsAreKept) {
 
 TEST_F(test::OnRanks, SweepsAndStudiesAreRefused) {
   const test::Outcome sweep = run(2, "sweep bed.toml --set run.seed=1,2 --out sweep"),
-                study = run(2, "study impact --quick --out study");
+                      study = run(2, "study impact --quick --out study");
   for (const test::Outcome* o : {&sweep, &study}) {
     EXPECT_EQ(o->code, 2);
     EXPECT_NE(o->errors.find("is no work for 2 ranks: start it without mpirun"), std::string::npos) << o->errors;
@@ -68,7 +70,8 @@ TEST_F(test::OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
 
 TEST_F(test::OnRanks, CutsWhereNoGrainCanBeLeaveRanksEmptyAndStandAtTheEndOfAllPlaces) {
   const std::string words = "run bed.toml --steps 50 --hash ", expected = run(1, words + "--out one").hash();
-  const test::Outcome o = run(3, words + "--out far --set 'parallel.cuts_y=[1e30, 1e31]' --set parallel.rebalance=false");
+  const test::Outcome o =
+      run(3, words + "--out far --set 'parallel.cuts_y=[1e30, 1e31]' --set parallel.rebalance=false");
   EXPECT_EQ(o.hash(), expected) << o.errors;
   const test::Outcome ends = shell(R"(/usr/bin/python3 -c "
 import h5py
@@ -105,8 +108,9 @@ TEST_F(test::OnRanks, WithoutMemoryTheRunEndsAndSaysWhatToDo) {
   GTEST_SKIP() << "the sanitizer needs all addresses";
 #endif
   // 1.3 million grains need 460 MB, and as much again while they are laid.
-  const test::Outcome o = shell("ulimit -v 500000; \"$grouser\" run bed.toml --out o --threads 1 --steps 1 "
-                          "--set terrain.grain_radius=0.002 --set terrain.layers=24 --set 'run.time_step=\"auto\"'");
+  const test::Outcome o =
+      shell("ulimit -v 500000; \"$grouser\" run bed.toml --out o --threads 1 --steps 1 "
+            "--set terrain.grain_radius=0.002 --set terrain.layers=24 --set 'run.time_step=\"auto\"'");
   EXPECT_EQ(o.code, 4);
   EXPECT_NE(o.errors.find("out of host memory"), std::string::npos) << o.errors;
   EXPECT_NE(o.errors.find("use larger or fewer grains"), std::string::npos) << o.errors;

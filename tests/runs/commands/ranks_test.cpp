@@ -136,9 +136,10 @@ TEST_F(test::OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
   const test::Outcome two = shell(kept + "mpirun -np 2 \"$grouser\" " + words + "--out two");
   EXPECT_NE(two.out.find("bed       settled in "), std::string::npos) << two.out << two.errors;
   const test::Outcome three = shell(kept + "mpirun -np 3 \"$grouser\" " + words + "--out three"),
-                one = shell(kept + "\"$grouser\" " + words + "--out one");
+                      one = shell(kept + "\"$grouser\" " + words + "--out one");
   for (const test::Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
-  for (const test::Outcome& o : {three, one}) EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
+  for (const test::Outcome& o : {three, one})
+    EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
   std::ofstream(folder_ / "damage.sh")
       << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
   const test::Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
@@ -204,24 +205,25 @@ plots = false
       const test::Outcome o = run(ranks, "run drip.toml" + at + "stopped" + stop);
       ASSERT_EQ(o.code, 0) << o.errors;
     }
-    const test::Outcome same = shell("/usr/bin/python3 -c \"\nimport h5py\ndef content(name):\n"
-                               "  found = {}\n"
-                               "  def take(path, it):\n"
-                               "    found[path] = it[:].tolist() if isinstance(it, h5py.Dataset) else dict(it.attrs)\n"
-                               "  h5py.File(name + '/frames.h5').visititems(take)\n"
-                               "  return {p: v for p, v in found.items() if 'partition' not in p}\n"
-                               "a, b = [content('of" +
-                               std::to_string(ranks) +
-                               "' + how) for how in ('straight', 'stopped')]\n"
-                               "assert len(a['vertices/12']) == 12\n"
-                               "assert a == b, set(a) ^ set(b)\n\"");
+    const test::Outcome same =
+        shell("/usr/bin/python3 -c \"\nimport h5py\ndef content(name):\n"
+              "  found = {}\n"
+              "  def take(path, it):\n"
+              "    found[path] = it[:].tolist() if isinstance(it, h5py.Dataset) else dict(it.attrs)\n"
+              "  h5py.File(name + '/frames.h5').visititems(take)\n"
+              "  return {p: v for p, v in found.items() if 'partition' not in p}\n"
+              "a, b = [content('of" +
+              std::to_string(ranks) +
+              "' + how) for how in ('straight', 'stopped')]\n"
+              "assert len(a['vertices/12']) == 12\n"
+              "assert a == b, set(a) ^ set(b)\n\"");
     EXPECT_EQ(same.code, 0) << ranks << " ranks: " << same.errors;
   }
 }
 
 TEST_F(test::OnRanks, PlanForetellsLatticeAndGhosts) {
   const test::Outcome plan = run(1, "plan bed.toml --ranks 3 --set 'terrain.size=[1.5,1]'"),
-                done = run(3, "run bed.toml --steps 1 --out three --set 'terrain.size=[1.5,1]'");
+                      done = run(3, "run bed.toml --steps 1 --out three --set 'terrain.size=[1.5,1]'");
   std::smatch planned, found;
   ASSERT_TRUE(std::regex_search(plan.out, planned,
                                 std::regex("subdomains +([0-9]+ x [0-9]+ x [0-9]+)[^]*ghosts in all +([0-9.]+) %")))
@@ -235,7 +237,8 @@ TEST_F(test::OnRanks, PlanForetellsLatticeAndGhosts) {
 }
 
 TEST_F(test::OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
-  const test::Outcome o = run(2, "bench step bed.toml --steps 10 --batches 1 --threads 1 --device cpu --json /dev/stderr");
+  const test::Outcome o =
+      run(2, "bench step bed.toml --steps 10 --batches 1 --threads 1 --device cpu --json /dev/stderr");
   EXPECT_EQ(o.code, 0) << o.errors;
   const std::string title = "\"bench\": \"step\"";
   const std::size_t at = o.errors.find(title);
@@ -246,7 +249,8 @@ TEST_F(test::OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
 
 TEST_F(test::OnRanks, WaitingIsAShareOfTheDriveAlone) {
   // One rank draws the picture while the other waits; that takes longer than these steps.
-  const test::Outcome o = run(2, "run bed.toml --out o --steps 20 --set output.picture=true --set output.picture_width=4000");
+  const test::Outcome o =
+      run(2, "run bed.toml --out o --steps 20 --set output.picture=true --set output.picture_width=4000");
   std::smatch waited;
   ASSERT_TRUE(std::regex_search(o.out, waited, std::regex("waited for others ([0-9.]+) to ([0-9.]+) % of the time")))
       << o.out << o.errors;
@@ -272,7 +276,8 @@ TEST_F(test::OnRanks, AnImpossibleLatticeIsRefused) {
 
 TEST_F(test::OnRanks, RanksWithOtherScenesAreRefusedByName) {
   std::ofstream(folder_ / "other.toml") << std::regex_replace(std::string(kBed), std::regex("1e5"), "2e5");
-  const test::Outcome o = shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
+  const test::Outcome o =
+      shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 1 has another scene than rank 0"), std::string::npos) << o.errors;
   EXPECT_LT(o.seconds, 60);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
-#include "tests/runs/folder_fixture.hpp"
+#include "runs/commands/render_command.hpp"
+#include "runs/output/frames_file.hpp"
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
-#include "runs/output/frames_file.hpp"
 #include "runs/render/labels.hpp"
-#include "runs/commands/render_command.hpp"
 #include "runs/support/shared_work.hpp"
+#include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -223,8 +223,8 @@ TEST(render::GrainColours, RolesHaveThePapersColours) {
   f.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}}, f.radii = {0.1f, 0.1f, 0.1f}, f.speeds = {0, 0, 0};
   const render::GrainColours colours(render::GrainQuantity::Role, f, {f}, {});
   const std::vector<render::Colour> c = colours.of(f, render::bordersOf({"x=0.5"}));
-  EXPECT_GT(render::toSrgb(c[0])[1], 230);                  // white
-  EXPECT_LT(render::toSrgb(c[1])[0], 90);                   // dark grey
+  EXPECT_GT(render::toSrgb(c[0])[1], 230);                          // white
+  EXPECT_LT(render::toSrgb(c[1])[0], 90);                           // dark grey
   EXPECT_NEAR(render::toSrgb(c[1])[0], render::toSrgb(c[1])[2], 8); // grey, not coloured
   EXPECT_GT(render::toSrgb(c[2])[0], 5 * render::toSrgb(c[2])[1]);  // red
   EXPECT_EQ(colours.legend(render::bordersOf({"x=0.5"})).size(), 3u);
@@ -311,7 +311,8 @@ TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
     if (i != 0) usleep(20'000'000); // far beyond the test's time: it must be ended
   };
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(messageOf([&] { support::shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
+  for (int k = 0; k < 20; ++k)
+    EXPECT_EQ(messageOf([&] { support::shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)); // nobody was waited for
   EXPECT_THROW(support::shareWork(
                    2, 2,

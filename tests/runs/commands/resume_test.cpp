@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser run --resume`: the folder of a resumed run is that of one straight through.
 #include "runs/commands/run_scene.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
-#include "tests/runs/folder_fixture.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,9 +71,12 @@ protected:
     resumed_ = folder_ / "resumed";
   }
 
-  static scene::Scene bed(const std::vector<std::string>& overrides = {}) { return scene::parseScene(kBed, "bed.toml", overrides); }
+  static scene::Scene bed(const std::vector<std::string>& overrides = {}) {
+    return setup::parseScene(kBed, "bed.toml", overrides);
+  }
 
-  output::Summary run(const fs::path& folder, const scene::Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
+  output::Summary run(const fs::path& folder, const scene::Scene& scene, std::optional<std::int64_t> steps = {},
+                      bool force = false) {
     RunOptions options;
     options.folder = folder, options.hash = true, options.steps = steps, options.force = force;
     return runScene(scene, options);
@@ -91,19 +95,22 @@ protected:
     const fs::path whole = folder_ / "straight";
     EXPECT_EQ(test::contents(resumed_ / "timeseries.csv"), test::contents(whole / "timeseries.csv"));
     EXPECT_EQ(test::contents(resumed_ / "frames.xdmf"), test::contents(whole / "frames.xdmf"));
-    const support::Hdf5File a = support::Hdf5File::open(resumed_ / "results.h5"), b = support::Hdf5File::open(whole / "results.h5");
+    const support::Hdf5File a = support::Hdf5File::open(resumed_ / "results.h5"),
+                            b = support::Hdf5File::open(whole / "results.h5");
     EXPECT_EQ(a.numbers("/series/step").size(), 21u);
     for (const char* name : {"/series/step", "/series/time", "/terrain/rebuilds/value", "/terrain/contacts/value",
                              "/ledger/residual/value", "/ledger/impulse_residual/value", "/terrain/max_overlap/step"})
       EXPECT_EQ(bits(a.numbers(name)), bits(b.numbers(name))) << name;
-    const support::Hdf5File p = support::Hdf5File::open(resumed_ / "frames.h5"), q = support::Hdf5File::open(whole / "frames.h5");
+    const support::Hdf5File p = support::Hdf5File::open(resumed_ / "frames.h5"),
+                            q = support::Hdf5File::open(whole / "frames.h5");
     for (int i = 0; i < 8; ++i)
       for (const char* name : {"position", "speed"}) {
         const std::string dataset = "/00000" + std::to_string(i) + "/grains/" + name;
         EXPECT_EQ(p.numbers(dataset), q.numbers(dataset)) << dataset;
       }
     EXPECT_FALSE(p.has("/000008"));
-    const simulation::Checkpoint c = simulation::readCheckpoint(resumed_ / simulation::kCheckpointName), d = simulation::readCheckpoint(whole / simulation::kCheckpointName);
+    const simulation::Checkpoint c = simulation::readCheckpoint(resumed_ / simulation::kCheckpointName),
+                                 d = simulation::readCheckpoint(whole / simulation::kCheckpointName);
     EXPECT_EQ(c.state.hash(), d.state.hash());
     EXPECT_EQ(c.rows, d.rows);
     EXPECT_EQ(c.frames, d.frames);
@@ -135,7 +142,8 @@ TEST_F(ResumedRun, RowsAndFramesAfterTheCheckpointAreCut) {
 TEST_F(ResumedRun, LastRowAndFrameOfAShorterRunAreCut) {
   const std::string hash = straight();
   run(resumed_, bed(), 1234);
-  ASSERT_EQ(support::Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").back(), 1234) << "a row for its own end";
+  ASSERT_EQ(support::Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").back(), 1234)
+      << "a row for its own end";
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
   EXPECT_EQ(resume(bed()).stateHash, hash) << "nothing left to do";
@@ -192,12 +200,13 @@ TEST_F(ResumedRun, LongerDurationGoesOnFromTheEnd) {
 
 TEST_F(ResumedRun, SingleGrainsGoOnToTheSameHash) {
   const auto scene = [] {
-    return scene::parseScene("version = 1\n[run]\nduration = 0.05\ntime_step = 1e-5\noutput_interval = 0.01\n"
-                      "[material.glass]\nfriction = 0.3\n[[plane]]\nmaterial = \"glass\"\n[[plane]]\npoint = [0.05, 0, "
-                      "0]\nnormal = [-1, 0, 1]\nmaterial = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\nvelocity = "
-                      "[1, 0, 0]\nspin = [0, 9, 0]\nradius = 0.01\nmaterial = \"glass\"\n[[grain]]\nposition = [0.021, "
-                      "0.001, 0.0101]\nradius = 0.01\nmaterial = \"glass\"\n[output]\npicture = false\n",
-                      "grains.toml");
+    return setup::parseScene(
+        "version = 1\n[run]\nduration = 0.05\ntime_step = 1e-5\noutput_interval = 0.01\n"
+        "[material.glass]\nfriction = 0.3\n[[plane]]\nmaterial = \"glass\"\n[[plane]]\npoint = [0.05, 0, "
+        "0]\nnormal = [-1, 0, 1]\nmaterial = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\nvelocity = "
+        "[1, 0, 0]\nspin = [0, 9, 0]\nradius = 0.01\nmaterial = \"glass\"\n[[grain]]\nposition = [0.021, "
+        "0.001, 0.0101]\nradius = 0.01\nmaterial = \"glass\"\n[output]\npicture = false\n",
+        "grains.toml");
   };
   const std::string hash = run(folder_ / "straight", scene()).stateHash;
   run(resumed_, scene(), 1);
@@ -242,11 +251,12 @@ TEST_F(ResumedRun, WithoutItsRowsItGoesOnByForce) {
 
 /// A grain that falls for 45 ms and hits the plane harder than is allowed.
 scene::Scene unsound(const std::string& checkpointInterval) {
-  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\nmax_overlap = 1e-4\ncheckpoint_interval = " +
-                        checkpointInterval +
-                        "\n[material.glass]\n[[plane]]\nmaterial = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\n"
-                        "radius = 0.01\nmaterial = \"glass\"\n",
-                    "fall.toml");
+  return setup::parseScene(
+      "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\nmax_overlap = 1e-4\ncheckpoint_interval = " +
+          checkpointInterval +
+          "\n[material.glass]\n[[plane]]\nmaterial = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\n"
+          "radius = 0.01\nmaterial = \"glass\"\n",
+      "fall.toml");
 }
 
 TEST_F(ResumedRun, UnsoundRunKeepsItsLastSoundCheckpoint) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps: the product of values, names, what is left out when called again, and a failed run that stops no other.
 #include "runs/commands/sweep.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
-#include "tests/runs/program_fixture.hpp"
-#include "runs/output/channels.hpp"
 #include "runs/commands/sweep_summary.hpp"
+#include "runs/output/channels.hpp"
+#include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -242,7 +243,7 @@ TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
 class SweepSummary : public test::FolderTest {};
 
 TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
-  scene::Scene scene = scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
+  scene::Scene scene = setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
   scene.driver.table = scene::SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
@@ -257,14 +258,16 @@ TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
 TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   SweepPlan plan;
   plan.keys = {"driver.sprocket_speed"};
-  plan.runs = {
-      {"sprocket_speed=2", {"2"}, {}, scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
+  plan.runs = {{"sprocket_speed=2",
+                {"2"},
+                {},
+                setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
   scene::Scene& scene = plan.runs[0].scene;
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
 
   std::vector<output::Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
-                                   {"ledger/residual", "J", "", 1, {}},
-                                   {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
+                                           {"ledger/residual", "J", "", 1, {}},
+                                           {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
     for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
       channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});

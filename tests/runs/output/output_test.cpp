@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/output.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
-#include "tests/runs/folder_fixture.hpp"
 #include "runs/output/channels.hpp"
-#include "runs/support/hdf5_file.hpp"
 #include "runs/output/sinkage.hpp"
+#include "runs/support/hdf5_file.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,9 @@ protected:
     fs::remove(folder_);
   }
 
-  scene::Scene scene() const { return scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"); }
+  scene::Scene scene() const {
+    return setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
+  }
 
   static std::vector<Channel> channels() {
     return {{"vehicle/left/sinkage", "m", "of each shoe", 3, {}},
@@ -108,7 +111,7 @@ TEST_F(scene::Output, ResultsHoldSceneCommitAndMachine) {
   EXPECT_EQ(file.text("/", "scene"), scene::resolvedToml(scene()));
   EXPECT_NE(file.text("/", "commit"), "");
   EXPECT_NE(file.text("/", "machine"), "");
-  EXPECT_EQ(scene::resolvedToml(scene::loadScene(folder_ / "scene.toml")), scene::resolvedToml(scene()));
+  EXPECT_EQ(scene::resolvedToml(setup::loadScene(folder_ / "scene.toml")), scene::resolvedToml(scene()));
 }
 
 TEST_F(scene::Output, CsvHasTheNarrowChannelsToTheSameBits) {
@@ -232,7 +235,8 @@ TEST_F(scene::Output, SinkageCsvHasOneColumnAShoe) {
     for (int r = 0; r < 4; ++r) writer.row(numbered(r));
     writer.finish({});
   }
-  const std::vector<std::string> text = lines(test::contents(writeSinkageCsv(folder_ / "results.h5", folder_ / "deeper")));
+  const std::vector<std::string> text =
+      lines(test::contents(writeSinkageCsv(folder_ / "results.h5", folder_ / "deeper")));
   ASSERT_EQ(text.size(), 5u);
   EXPECT_EQ(text[0], "time [s],left 0 [m],left 1 [m],left 2 [m],right 0 [m],right 1 [m],right 2 [m]");
   const std::vector<double> row = cells(text[4]);

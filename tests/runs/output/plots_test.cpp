@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/plots.hpp"
+#include "runs/setup/load_scene.hpp"
 
-#include "tests/runs/folder_fixture.hpp"
 #include "runs/output/channels.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,8 @@ protected:
         {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
         {"vehicle/left/speed", "m/s", "", 1, {}},      {"vehicle/left/drive_torque", "N m", "", 1, {}}};
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
-    RunWriter writer(folder_, scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    RunWriter writer(folder_, setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"),
+                     channels, {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
     RowBuilder row(channels);
     for (int r = 0; r < kRows; ++r) {
@@ -74,7 +76,8 @@ TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
   const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},
                                          {"vehicle/left/pad_height", "m", "", kShoes, {}}};
   {
-    RunWriter writer(hanging, scene::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels, {});
+    RunWriter writer(hanging, setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"),
+                     channels, {});
     RowBuilder row(channels);
     row.begin(0, 0); // all NaN
     writer.row(row.row());

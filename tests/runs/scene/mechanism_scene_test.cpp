@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mechanisms in scene files: what is read, and one clear error for each mistake.
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_model.hpp"
-#include "runs/scene/scene.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ values = [0, 5]
 
 std::string errorOf(const std::string& text) {
   try {
-    parseScene(text, "scene.toml");
+    setup::parseScene(text, "scene.toml");
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -68,7 +68,7 @@ std::string errorOf(const std::string& text) {
 }
 
 TEST(MechanismScene, HoldsWhatTheFileSays) {
-  const Scene scene = parseScene(kScene, "scene.toml");
+  const Scene scene = setup::parseScene(kScene, "scene.toml");
   const multibody::Model model = setup::buildModel(scene.mechanism);
   ASSERT_EQ(model.bodies().size(), 2u);
   EXPECT_EQ(model.bodies()[0].inertia_B.m[1][1], 0.2);
@@ -85,15 +85,15 @@ TEST(MechanismScene, HoldsWhatTheFileSays) {
 }
 
 TEST(MechanismScene, ResolvedCopyLoadsToTheSameMechanism) {
-  const Scene scene = parseScene(kScene, "scene.toml");
-  const Scene again = parseScene(resolvedToml(scene), "scene.toml");
+  const Scene scene = setup::parseScene(kScene, "scene.toml");
+  const Scene again = setup::parseScene(resolvedToml(scene), "scene.toml");
   EXPECT_TRUE(again.mechanism == scene.mechanism);
   EXPECT_EQ(resolvedToml(again), resolvedToml(scene));
 }
 
 TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
   const Scene scene =
-      parseScene(test::replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
+      setup::parseScene(test::replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
   const auto& I = setup::buildModel(scene.mechanism).bodies()[0].inertia_B.m;
   EXPECT_EQ(I[0][1], 0.01);
   EXPECT_EQ(I[0][2], 0.02);
@@ -101,10 +101,11 @@ TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
 }
 
 TEST(MechanismScene, QuaternionAndAxisWithAngleMeanTheSameTurn) {
-  const Scene turned = parseScene(kScene, "scene.toml");
-  const Scene given = parseScene(test::replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
-                                          "orientation = [0.70710678118654757, 0, 0.70710678118654757, 0]"),
-                                 "scene.toml");
+  const Scene turned = setup::parseScene(kScene, "scene.toml");
+  const Scene given =
+      setup::parseScene(test::replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
+                                       "orientation = [0.70710678118654757, 0, 0.70710678118654757, 0]"),
+                        "scene.toml");
   const base::Quat a = setup::buildModel(turned.mechanism).bodies()[1].pose.orientation,
                    b = setup::buildModel(given.mechanism).bodies()[1].pose.orientation;
   EXPECT_NEAR(a.w, b.w, 1e-15); // a few units in the last place
@@ -223,10 +224,10 @@ TEST(MechanismScene, DrivesThatContradictEachOtherThroughALoopAreRefusedAtTheirL
 }
 
 TEST(MechanismScene, OverridesTakeTheNameOfAPart) {
-  const Scene scene = parseScene(kScene, "scene.toml", {"body.upper.mass=3", "spring.cord.stiffness=7"});
+  const Scene scene = setup::parseScene(kScene, "scene.toml", {"body.upper.mass=3", "spring.cord.stiffness=7"});
   EXPECT_EQ(*scene.mechanism.bodies[0].mass, 3);
   EXPECT_EQ(scene.mechanism.springs[1].stiffness, 7);
-  EXPECT_THROW(parseScene(kScene, "scene.toml", {"body.uper.mass=3"}), base::InputError);
+  EXPECT_THROW(setup::parseScene(kScene, "scene.toml", {"body.uper.mass=3"}), base::InputError);
 }
 
 TEST(MechanismScene, PartsWithoutBodiesAreRefused) {
@@ -239,7 +240,7 @@ TEST(MechanismScene, EveryFileOfTheFolderLoads) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(GROUSER_SOURCE_DIR "/runs/mechanisms")) {
     if (entry.path().extension() != ".toml") continue;
-    EXPECT_NO_THROW(loadScene(entry.path())) << entry.path();
+    EXPECT_NO_THROW(setup::loadScene(entry.path())) << entry.path();
     ++count;
   }
   EXPECT_GE(count, 15);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "runs/support/locations.hpp"
@@ -14,7 +14,7 @@ namespace grouser::scene {
 namespace {
 
 Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parseScene(text, std::string(GROUSER_SOURCE_DIR) + "/scene.toml", overrides);
+  return setup::parseScene(text, std::string(GROUSER_SOURCE_DIR) + "/scene.toml", overrides);
 }
 
 TEST(Scene, EverySectionIsRead) {
@@ -46,7 +46,7 @@ TEST(Scene, WhatIsAbsentIsNotBuilt) {
 
 TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
   std::string text = test::replaced(test::goodScene(), "sprocket_speed = 1\n",
-                              "[driver.table]\ntime = [0, 1.5]\nleft = [0, 1]\nright = [0, -1]\n");
+                                    "[driver.table]\ntime = [0, 1.5]\nleft = [0, 1]\nright = [0, -1]\n");
   text += "[[plane]]\nnormal = [0, 0.1, 1]\nmaterial = \"soil\"\n[material.\"wet clay\"]\ndamping = 12.5\nattraction = "
           "true\n"
           "[[grain]]\nposition = [0.1, 0.2, 3]\nvelocity = [0, 0, -1]\nradius = 0.05\nmaterial = \"wet clay\"\n"
@@ -75,7 +75,7 @@ TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
   std::filesystem::create_directories(folder / "heightmaps");
   std::filesystem::copy_file(std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/hills.png",
                              folder / "heightmaps/hills.png", std::filesystem::copy_options::overwrite_existing);
-  const Scene s = parseScene(test::goodScene(), folder / "scene.toml");
+  const Scene s = setup::parseScene(test::goodScene(), folder / "scene.toml");
   EXPECT_EQ(s.terrain->heightmap, std::filesystem::canonical(folder / "heightmaps/hills.png").string());
   std::filesystem::remove_all(folder);
 }
@@ -91,7 +91,8 @@ TEST(Scene, PlacesLookedAtAreNamedOnce) {
 TEST(Scene, DriverFormsGiveTheSameSpeeds) {
   const SpeedTable both = parse(test::goodScene(), {"driver.sprocket_speed=2"}).driver.speeds();
   EXPECT_EQ(both.left, std::vector<double>{2});
-  const SpeedTable sides = parse(test::replaced(test::goodScene(), "sprocket_speed = 1", "left = 1\nright = -1")).driver.speeds();
+  const SpeedTable sides =
+      parse(test::replaced(test::goodScene(), "sprocket_speed = 1", "left = 1\nright = -1")).driver.speeds();
   EXPECT_EQ(sides.left, std::vector<double>{1});
   EXPECT_EQ(sides.right, std::vector<double>{-1});
   EXPECT_DOUBLE_EQ(parse(test::goodScene()).driver.driveBegins(), 0.45);

@@ -2,11 +2,12 @@
 // Laws, radii, materials and blocks of grains, from the scene to the run.
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/commands/plan.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
-#include "runs/commands/plan.hpp"
-#include "runs/simulation/simulation.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ namespace grouser::setup {
 namespace {
 
 scene::Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return scene::parseScene("version = 1\n[run]\nduration = 0.02\n" + text, testing::TempDir() + "/scene.toml", overrides);
+  return parseScene("version = 1\n[run]\nduration = 0.02\n" + text, testing::TempDir() + "/scene.toml", overrides);
 }
 
 const char* kMixed = R"([material.glass]
@@ -66,20 +67,23 @@ TEST(PairLaw, HertzMixesModuliAndTakesTheSmallerOfTheRest) {
   EXPECT_EQ(law.rollingFriction, 0.02);
   EXPECT_EQ(law.pullPerRadius, 0) << "geometric mean with no cohesion";
   EXPECT_NEAR(pairLaw(s, "clay", "clay", std::nullopt).pullPerRadius, 2 * base::kPi * 0.2, 1e-12);
-  const scene::Scene over = parse(std::string(kMixed) + "[contact.\"clay|glass\"]\nrolling_friction = 0.3\ncohesion = 1\n");
+  const scene::Scene over =
+      parse(std::string(kMixed) + "[contact.\"clay|glass\"]\nrolling_friction = 0.3\ncohesion = 1\n");
   EXPECT_EQ(pairLaw(over, "glass", "clay", std::nullopt).rollingFriction, 0.3);
   EXPECT_NEAR(pairLaw(over, "glass", "clay", std::nullopt).pullPerRadius, 2 * base::kPi, 1e-12);
 }
 
 TEST(PairLaw, LinearAndHertzDoNotMeet) {
-  const scene::Scene s = parse("[material.a]\n[material.b]\nlaw = \"hertz\"\nyoung = 1e8\n[[grain]]\nposition = [0, 0, 1]\n"
-                        "radius = 0.1\nmaterial = \"a\"\n");
+  const scene::Scene s =
+      parse("[material.a]\n[material.b]\nlaw = \"hertz\"\nyoung = 1e8\n[[grain]]\nposition = [0, 0, 1]\n"
+            "radius = 0.1\nmaterial = \"a\"\n");
   EXPECT_THROW(pairLaw(s, "a", "b", 1.0), base::InputError);
 }
 
 TEST(PairLaw, LinearOfManyMassesGivesTheSameRestitutionToAll) {
-  const scene::Scene s = parse("[material.a]\nrestitution = 0.4\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.1\nmaterial = "
-                        "\"a\"\n");
+  const scene::Scene s =
+      parse("[material.a]\nrestitution = 0.4\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.1\nmaterial = "
+            "\"a\"\n");
   for (const double mass : {0.01, 3.0}) {
     const auto one = pairLaw(s, "a", "a", mass), any = pairLaw(s, "a", "a", std::nullopt);
     const auto c = contact::coefficientsOf<contact::kGeneral>(any, 1e-4, mass, 0.1);
@@ -88,8 +92,9 @@ TEST(PairLaw, LinearOfManyMassesGivesTheSameRestitutionToAll) {
 }
 
 TEST(Blocks, LatticeFillsItsBoxAndRandomGrainsDoNotTouch) {
-  scene::Scene s = parse("[material.a]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 0.5, 0.25]\nradius = 0.05\nspacing = 2\n"
-                  "material = \"a\"\n");
+  scene::Scene s =
+      parse("[material.a]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 0.5, 0.25]\nradius = 0.05\nspacing = 2\n"
+            "material = \"a\"\n");
   EXPECT_EQ(placedCount(s), 10 * 5 * 2);
   EXPECT_EQ(placedGrains(s).size(), 100u);
   s = parse(kMixed);
@@ -175,8 +180,9 @@ TEST(Plan, SaysWhatGrainsHaveAndWhichKernelRuns) {
   EXPECT_NE(mixed.find("general: hertz, friction, rolling friction, cohesion, many radii, many materials"),
             std::string::npos)
       << mixed;
-  const std::string plain = commands::planText(parse("[material.a]\n[[plane]]\nmaterial = \"a\"\n[[grain]]\nposition = [0, 0, "
-                                           "1]\nradius = 0.1\nmaterial = \"a\"\n"));
+  const std::string plain =
+      commands::planText(parse("[material.a]\n[[plane]]\nmaterial = \"a\"\n[[grain]]\nposition = [0, 0, "
+                               "1]\nradius = 0.1\nmaterial = \"a\"\n"));
   EXPECT_NE(plain.find("off  rolling history"), std::string::npos) << plain;
   EXPECT_NE(plain.find("off  radius of each grain"), std::string::npos) << plain;
   EXPECT_NE(plain.find("special: linear, friction, planes or floor, ledger"), std::string::npos) << plain;

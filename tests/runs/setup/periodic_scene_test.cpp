@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes with periodic boundaries, and beds made of copies of a settled tile.
 #include "base/error.hpp"
-#include "runs/setup/bed.hpp"
-#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/setup/bed.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/sources.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr double kStep = 1e-4, kRadius = 0.03;
 
 scene::Scene bed(const std::vector<std::string>& overrides = {}) {
-  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
+  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
                     "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\n"
                     "height_range = [0.1, 0.1]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 3\n"
                     "settle_kinetic_energy = 1e-4\ncache = false\n",
@@ -92,7 +93,7 @@ TEST(TiledBed, BetweenWallsIsABedLikeOneThatFell) {
 
 TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
   const scene::Scene scene = bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.3]",
-                           "terrain.floor=flat", "terrain.tile=[0.5, 0.4]"});
+                                  "terrain.floor=flat", "terrain.tile=[0.5, 0.4]"});
   Ground ground = buildGround(scene, base::cpuExec(1), kStep);
   for (const base::Vec3d& x : ground.grains->snapshot().position)
     ASSERT_LE(x.z, ground.surface->height(x.x, x.y) + 1e-6);
@@ -111,7 +112,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
         "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\nheight_range = [0, 0]\n"
         "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\ntile = [0.5, 0.4]\ncache = false\n" +
         box;
-    Ground ground = buildGround(scene::parseScene(text, "bed.toml"), base::cpuExec(1), kStep);
+    Ground ground = buildGround(parseScene(text, "bed.toml"), base::cpuExec(1), kStep);
     for (int k = 0; k < 20; ++k) ground.grains->refreshNeighbours(), ground.grains->step();
     return ground.grains->ledger();
   };
@@ -127,7 +128,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
 TEST(PeriodicBoundaries, GrainsOfASourceDoNotEnterInEachOthersImages) {
   for (int seed = 1; seed <= 20; ++seed) {
     const scene::Scene scene =
-        scene::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
+        parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
                    "[-0.1, 0.1]\nseed = " +
                        std::to_string(seed) +
                        "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
@@ -143,7 +144,7 @@ TEST(PeriodicBoundaries, GrainsOfASourceDoNotEnterInEachOthersImages) {
 
 TEST(PeriodicBoundaries, GrainsOfASceneTouchAcrossThem) {
   const auto scene = [](const std::string& x) {
-    return scene::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
+    return parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
                       "[material.soil]\nstiffness = 1e5\n[[grain]]\nposition = [0.48, 0, 0]\nradius = 0.03\n"
                       "material = \"soil\"\n[[grain]]\nposition = [" +
                           x + ", 0, 0]\nradius = 0.03\nmaterial = \"soil\"\n",
@@ -153,7 +154,8 @@ TEST(PeriodicBoundaries, GrainsOfASceneTouchAcrossThem) {
   EXPECT_EQ(buildGround(scene("-0.459"), base::cpuExec(1), kStep).grains->ledger().contacts, 0);
   EXPECT_THROW(buildGround(scene("-0.49"), base::cpuExec(1), kStep), base::InputError) << "too deep at the start";
   EXPECT_THROW(buildGround(scene("-0.51"), base::cpuExec(1), kStep), base::InputError) << "outside";
-  EXPECT_NE(commands::planText(scene("0")).find("on   periodic boundaries               x"), std::string::npos) << commands::planText(scene("0"));
+  EXPECT_NE(commands::planText(scene("0")).find("on   periodic boundaries               x"), std::string::npos)
+      << commands::planText(scene("0"));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // When a bed counts as settled.
 #include "base/error.hpp"
 #include "runs/setup/bed.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@ namespace grouser::setup {
 namespace {
 
 scene::Scene bed(const std::vector<std::string>& overrides) {
-  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
                     "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
                     "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
                     "settle_kinetic_energy = 1e-2\n",

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Settled beds kept from run to run: the same bits as a bed settled anew, and never a reason for a run to end.
+#include "runs/setup/load_scene.hpp"
 #include "runs/simulation/bed_cache.hpp"
 
 #include "base/error.hpp"
-#include "tests/runs/folder_fixture.hpp"
-#include "runs/support/file_lock.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "runs/support/file_lock.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,13 +31,14 @@ protected:
 
   /// 180 grains that come to rest, and one that falls onto them.
   static scene::Scene scene(const std::vector<std::string>& overrides = {}, const std::string& more = "") {
-    return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
-                      "restitution = 0.2\n[material.steel]\nstiffness = 1e7\n[terrain]\nheightmap = "
-                      "\"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 0.03]\nmaterial = \"soil\"\n"
-                      "grain_radius = 0.03\nlayers = 2\nsettle_kinetic_energy = 1e-2\n[[source]]\nlow = [0.3, 0, "
-                      "0.4]\nhigh = [0.3, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 1\nevery = 1\n" +
-                          more,
-                      "bed.toml", overrides);
+    return setup::parseScene(
+        "version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+        "restitution = 0.2\n[material.steel]\nstiffness = 1e7\n[terrain]\nheightmap = "
+        "\"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 0.03]\nmaterial = \"soil\"\n"
+        "grain_radius = 0.03\nlayers = 2\nsettle_kinetic_energy = 1e-2\n[[source]]\nlow = [0.3, 0, "
+        "0.4]\nhigh = [0.3, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 1\nevery = 1\n" +
+            more,
+        "bed.toml", overrides);
   }
 
   /// Steps taken to settle: none where the bed was taken from the folder.
@@ -46,7 +48,7 @@ protected:
     std::vector<double> row;
   };
   test::Outcome run(BedCache* beds, const std::vector<std::string>& overrides = {},
-              const base::Exec& exec = base::cpuExec(1)) const {
+                    const base::Exec& exec = base::cpuExec(1)) const {
     test::Outcome o;
     Simulation simulation(
         scene(overrides), exec, [&](double, double) { o.settled = true; }, {}, beds);
@@ -211,7 +213,8 @@ TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
   std::thread second([&] { b = runIn(folder_); });
   first.join(), second.join();
   EXPECT_EQ(a.hash, b.hash);
-  EXPECT_EQ((a.summary.rfind("settled", 0) == 0) + (b.summary.rfind("settled", 0) == 0), 1) << a.summary << "\n" << b.summary;
+  EXPECT_EQ((a.summary.rfind("settled", 0) == 0) + (b.summary.rfind("settled", 0) == 0), 1) << a.summary << "\n"
+                                                                                            << b.summary;
 }
 
 TEST_F(KeptBed, FolderComesFromTheSurroundings) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checkpoints: straight = resumed, bit for bit; and a file that is whole or refused.
+#include "runs/setup/load_scene.hpp"
 #include "runs/simulation/checkpoint.hpp"
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
-#include "tests/runs/folder_fixture.hpp"
+#include "runs/simulation/simulation.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/sealed_file.hpp"
-#include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/folder_fixture.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <gtest/gtest.h>
@@ -48,11 +49,12 @@ protected:
   }
 
   static scene::Scene grains(const std::vector<std::string>& overrides = {}) {
-    return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[plane]]\n"
-                      "material = \"glass\"\n[[grain]]\nposition = [0, 0, 0.0098]\nradius = 0.01\nmaterial = "
-                      "\"glass\"\n[[grain]]\nposition = [0.0195, 0.001, 0.0101]\nvelocity = [-1, 0, 0]\nradius = "
-                      "0.01\nmaterial = \"glass\"\n",
-                      "grains.toml", overrides);
+    return setup::parseScene(
+        "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[plane]]\n"
+        "material = \"glass\"\n[[grain]]\nposition = [0, 0, 0.0098]\nradius = 0.01\nmaterial = "
+        "\"glass\"\n[[grain]]\nposition = [0.0195, 0.001, 0.0101]\nvelocity = [-1, 0, 0]\nradius = "
+        "0.01\nmaterial = \"glass\"\n",
+        "grains.toml", overrides);
   }
 
   /// A checkpoint of two grains in touch, after `steps`.
@@ -87,15 +89,15 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
                                           "driver.drive_ramp=0.02"};
   overrides.insert(overrides.end(), ramps.begin(), ramps.end());
-  Simulation straight(scene::loadScene(file, ramps), base::cpuExec(1), quiet);
+  Simulation straight(setup::loadScene(file, ramps), base::cpuExec(1), quiet);
   while (straight.steps() < stop - 37) straight.step();
   straight.restartMeans(); // a row was written: its means go on from here
   while (straight.steps() < stop) straight.step();
   const Simulation::Ledger touching = straight.ledger();
   ASSERT_GT(touching.partContacts + touching.patches, 20) << "there must be history to carry over";
-  const scene::Scene again = scene::loadScene(file, overrides);
+  const scene::Scene again = setup::loadScene(file, overrides);
   Checkpoint c;
-  c.scene = scene::resolvedToml(scene::loadScene(file, ramps)), c.inputs = inputsOf(again), c.state = straight.save();
+  c.scene = scene::resolvedToml(setup::loadScene(file, ramps)), c.inputs = inputsOf(again), c.state = straight.save();
   writeCheckpoint(path, c);
   const Checkpoint read = readCheckpoint(path);
   EXPECT_NO_THROW(checkSameScene(read, path, again));
@@ -158,7 +160,8 @@ TEST_F(CheckpointFile, AnyByteThatDiffersIsSeen) {
 TEST_F(CheckpointFile, CutForeignAndOtherVersionsAreRefusedByName) {
   writeCheckpoint(path_, small());
   const std::string whole = test::contents(path_);
-  for (const std::size_t length : {whole.size() - 1, whole.size() / 2, support::kSealBytes, support::kSealBytes - 1, std::size_t{10}})
+  for (const std::size_t length :
+       {whole.size() - 1, whole.size() / 2, support::kSealBytes, support::kSealBytes - 1, std::size_t{10}})
     EXPECT_NE(refusal(whole.substr(0, length)).find("damaged"), std::string::npos) << length;
   EXPECT_NE(refusal(whole + '\0').find("damaged"), std::string::npos);
   EXPECT_NE(refusal("").find("no checkpoint"), std::string::npos);
@@ -195,9 +198,9 @@ TEST_F(CheckpointFile, AnotherSceneIsRefusedByItsKey) {
 TEST_F(CheckpointFile, FilesOfTheSceneAreComparedByWhatIsInThem) {
   const fs::path assets = fs::path(GROUSER_SOURCE_DIR) / "assets";
   const auto terrain = [&](const std::string& map) {
-    return scene::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[terrain]\nheightmap = \"" + map +
-                          "\"\nsize = [1, 1]\nheight_range = [0, 0.1]\nmaterial = \"soil\"\nkind = \"rigid\"\n",
-                      folder_ / "scene.toml");
+    return setup::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[terrain]\nheightmap = \"" + map +
+                                 "\"\nsize = [1, 1]\nheight_range = [0, 0.1]\nmaterial = \"soil\"\nkind = \"rigid\"\n",
+                             folder_ / "scene.toml");
   };
   fs::copy(assets / "heightmaps/hills.png", folder_ / "map.png");
   fs::copy(assets / "heightmaps/hills.png", folder_ / "copy.png");

@@ -2,9 +2,10 @@
 // Where a vehicle is put, which steps are refused, and that created energy stops a run.
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/placement.hpp"
-#include "runs/simulation/simulation.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/simulation/simulation.hpp"
 #include "vehicle/spec.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace grouser::simulation {
 namespace {
 
 scene::Scene rigid(const std::vector<std::string>& overrides) {
-  return scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides);
+  return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides);
 }
 
 TEST(setup::Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
@@ -36,7 +37,8 @@ TEST(setup::Placement, OutsideIsRefusedWithTheRoomItNeeds) {
 }
 
 TEST(setup::Placement, DrivingOffTheTerrainStopsTheRun) {
-  const scene::Scene scene = rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
+  const scene::Scene scene =
+      rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
   Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
   EXPECT_THROW(while (simulation.time() < 1.0) simulation.step(), base::SimulationError);
 }
@@ -61,19 +63,19 @@ material = "hard"
 )";
 
 TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
-  const double soft = setup::stepLimit(scene::parseScene(kBall, "ball.toml")).step;
+  const double soft = setup::stepLimit(setup::parseScene(kBall, "ball.toml")).step;
   std::string stiff = kBall;
   stiff += "[contact.\"soil|hard\"]\nstiffness = 1e9\n";
   // A plane alone: omega^2 = 2 k / m against 8 k / m of a grain among twelve others, so 250 times softer a limit
   // squared.
-  EXPECT_NEAR(soft / setup::stepLimit(scene::parseScene(stiff, "ball.toml")).step, std::sqrt(2e9 / 8e6), 1e-3);
-  EXPECT_THROW(setup::chooseTimeStep(scene::parseScene(stiff, "ball.toml")), base::InputError);
+  EXPECT_NEAR(soft / setup::stepLimit(setup::parseScene(stiff, "ball.toml")).step, std::sqrt(2e9 / 8e6), 1e-3);
+  EXPECT_THROW(setup::chooseTimeStep(setup::parseScene(stiff, "ball.toml")), base::InputError);
 }
 
 TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
   // Restitution 0.1, clamped: zeta 1.24318785 of a pair. Each of a grain's contacts has c = zeta sqrt(2 k m); the mode
   // of 8 k / m has 8 c / m: dt = 4 / (C + sqrt(C^2 + 4 K)).
-  scene::Scene s = scene::parseScene(kBall, "ball.toml", {"material.soil.restitution=0.1", "material.soil.friction=0"});
+  scene::Scene s = setup::parseScene(kBall, "ball.toml", {"material.soil.restitution=0.1", "material.soil.friction=0"});
   s.planes.clear();
   const double mass = 2500 * 4.0 / 3 * base::kPi * 0.027 * 0.027 * 0.027, k = 1e6;
   const double damping = 8 * 1.24318785 * std::sqrt(2 * k * mass) / mass, stiffness = 8 * k / mass;
@@ -82,7 +84,7 @@ TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
 }
 
 TEST(Energy, FromNowhereStopsTheRun) {
-  Simulation simulation(scene::parseScene(kBall, "ball.toml"), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::parseScene(kBall, "ball.toml"), base::cpuExec(1), [](double, double) {});
   for (int i = 0; i < 2000; ++i) simulation.step();
   Simulation::Ledger now = simulation.ledger();
   EXPECT_NO_THROW(simulation.checkEnergy(now));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scene does not have is not allocated, not built and not run; and `grouser plan` says so beforehand.
 #include "runs/commands/plan.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -10,21 +11,24 @@ namespace {
 
 /// A layer of grains on a rough floor, and a plane far away.
 scene::Scene bed(const std::vector<std::string>& overrides = {}) {
-  return scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
-                    "friction = 0.5\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
-                    "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
-                    "settle_time_limit = 0.0\n",
-                    "bed.toml", overrides);
+  return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
+                           "friction = 0.5\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
+                           "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
+                           "settle_time_limit = 0.0\n",
+                           "bed.toml", overrides);
 }
 
 scene::Scene pendulum() {
-  return scene::parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\n"
-                    "inertia = [1, 1, 1]\nposition = [1, 0, 0]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", "
-                    "\"bob\"]\npoint = [0, 0, 0]\naxis = [0, 1, 0]\n",
-                    "pendulum.toml");
+  return setup::parseScene(
+      "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\n"
+      "inertia = [1, 1, 1]\nposition = [1, 0, 0]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", "
+      "\"bob\"]\npoint = [0, 0, 0]\naxis = [0, 1, 0]\n",
+      "pendulum.toml");
 }
 
-scene::Scene rigid() { return scene::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.04"}); }
+scene::Scene rigid() {
+  return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.04"});
+}
 
 std::unique_ptr<Simulation> made(const scene::Scene& scene, int steps = 3) {
   auto s = std::make_unique<Simulation>(scene, base::cpuExec(1), [](double, double) {});
@@ -125,9 +129,10 @@ TEST(LeaveOut, PlanNamesTheCost) {
 }
 
 TEST(LeaveOut, GrainsAloneHaveNoBoundaries) {
-  const scene::Scene free = scene::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[grain]]\n"
-                                "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n",
-                                "free.toml");
+  const scene::Scene free =
+      setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\n[material.glass]\n[[grain]]\n"
+                        "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n",
+                        "free.toml");
   const auto simulation = made(free);
   const terrain::GrainState state = simulation->ground().grains->state();
   EXPECT_TRUE(state.wallBits.empty());

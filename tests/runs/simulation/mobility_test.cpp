@@ -2,7 +2,7 @@
 // The whole vehicle: one answer, rest on the bed, the rigid-ground control, and sinkage on the bed.
 #include "runs/simulation/simulation.hpp"
 
-#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr const char* kCoupledHash = "1b51b847c6bb1914";
 void quiet(double, double) {}
 
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {}) {
-  Simulation simulation(scene::loadScene(testScene("coupled.toml"), overrides), exec, quiet);
+  Simulation simulation(setup::loadScene(testScene("coupled.toml"), overrides), exec, quiet);
   while (simulation.steps() < 2000) simulation.step();
   EXPECT_EQ(simulation.ledger().impulseResidual, base::Vec3d{}) << "vehicle and bed exchange exact opposites";
   return simulation.stateHash();
@@ -123,7 +123,7 @@ std::size_t fourShoes(const Drive& d, double from) {
 }
 
 TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
-  Simulation simulation(scene::loadScene(testScene("rigid.toml")), testExec(), quiet);
+  Simulation simulation(setup::loadScene(testScene("rigid.toml")), testExec(), quiet);
   const double omega = 2, begin = 0.5;
   const Drive d = drive(simulation, 4.0);
   const vehicle::VehicleSpec& spec = simulation.vehicle()->assembly().spec;
@@ -134,7 +134,8 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
     for (std::size_t i = 0; i < shoe.time.size(); ++i) {
       // Only shoes that are well inside the ground run: loaded for 0.1 s before and after.
       bool inside = shoe.time[i] > begin + 0.3;
-      for (std::size_t k = i < 10 ? 0 : i - 10; k <= i + 10; ++k) inside = inside && k < shoe.time.size() && shoe.onGround[k];
+      for (std::size_t k = i < 10 ? 0 : i - 10; k <= i + 10; ++k)
+        inside = inside && k < shoe.time.size() && shoe.onGround[k];
       if (!inside) continue;
       lowest = std::min(lowest, shoe.height[i]), highest = std::max(highest, shoe.height[i]);
     }
@@ -147,13 +148,14 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
   EXPECT_NEAR(sum / n / (omega * spec.pitchRadius()), 1, 0.01);
 
   const Line line = slopeOnGround(d, fourShoes(d, begin), begin);
-  std::printf("rigid: heights within %.3f mm, speed %.4f of omega r, slope %.3g +- %.2g m/s\n", 1e3 * (highest - lowest),
-              sum / n / (omega * spec.pitchRadius()), line.slope, line.error);
+  std::printf("rigid: heights within %.3f mm, speed %.4f of omega r, slope %.3g +- %.2g m/s\n",
+              1e3 * (highest - lowest), sum / n / (omega * spec.pitchRadius()), line.slope, line.error);
   EXPECT_LT(std::fabs(line.slope), 1e-3) << "the bed's slope is compared with this bound";
 }
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
-  Simulation simulation(scene::loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2", "terrain.size=[4.7,2.6]"}),
+  Simulation simulation(setup::loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2",
+                                                                     "terrain.size=[4.7,2.6]"}),
                         testExec(), quiet);
   const double begin = 0.5;
   const Drive d = drive(simulation, 2.6);
@@ -164,8 +166,9 @@ TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
 }
 
 TEST(GranularBed, CarriesTheWholeWeightAtRest) {
-  Simulation simulation(scene::loadScene(testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"}),
-                        testExec(), quiet);
+  Simulation simulation(
+      setup::loadScene(testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"}), testExec(),
+      quiet);
   while (simulation.time() < 1.0) simulation.step();
   simulation.restartMeans();
   while (simulation.time() < 2.0) simulation.step();

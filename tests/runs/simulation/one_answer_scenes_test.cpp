@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One scene, one answer: the golden hash of every scene in tests/scenes without a vehicle, for threads, lists and a
 // stop on the way. tests/gpu compares the same scenes on CPU and GPU, tests/ranks their parts on several ranks.
+#include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -25,7 +26,7 @@ std::ostream& operator<<(std::ostream& out, const Golden& g) { return out << g.s
 class OneAnswerScenes : public testing::TestWithParam<Golden> {};
 
 Simulation begin(const Golden& g, int threads, const std::vector<std::string>& overrides = {}) {
-  return Simulation(scene::loadScene(testScene(std::string(g.scene) + ".toml"), overrides), testExec(threads),
+  return Simulation(setup::loadScene(testScene(std::string(g.scene) + ".toml"), overrides), testExec(threads),
                     [](double, double) {});
 }
 
@@ -47,7 +48,7 @@ TEST_P(OneAnswerScenes, HashIsThatOfAResumedRun) {
   const Golden& g = GetParam();
   Simulation first = begin(g, 1);
   advance(first, g.steps / 3);
-  Simulation second(scene::loadScene(testScene(std::string(g.scene) + ".toml")), testExec(2), first.save());
+  Simulation second(setup::loadScene(testScene(std::string(g.scene) + ".toml")), testExec(2), first.save());
   advance(second, g.steps);
   EXPECT_EQ(second.stateHash(), g.hash);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Extreme stiffnesses: refused with key, value and the least that will do, or run.
 #include "base/error.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
@@ -44,7 +44,7 @@ std::string with(const std::string& law) {
 
 std::string errorOf(const std::string& text, const std::vector<std::string>& overrides) {
   try {
-    setup::chooseTimeStep(scene::parseScene(text, "scene.toml", overrides));
+    setup::chooseTimeStep(setup::parseScene(text, "scene.toml", overrides));
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -90,9 +90,10 @@ TEST(Softness, IsNoneWithoutWeight) {
   const std::vector<std::string> floating = {"run.gravity=[0,0,0]", "material.a.stiffness=0.001"};
   EXPECT_EQ(errorOf(with("stiffness = 1e6"), floating), "");
   // The stability rule would allow 0.9 s there: no longer than the run, nor than may be given.
-  EXPECT_EQ(setup::chooseTimeStep(scene::parseScene(with("stiffness = 1e6"), "scene.toml", floating)), 1e-2);
-  EXPECT_EQ(setup::chooseTimeStep(scene::parseScene(with("stiffness = 1e-3"), "scene.toml",
-                                      {"run.gravity=[0,0,0]", "run.duration=100", "material.a.stiffness=0.001"})),
+  EXPECT_EQ(setup::chooseTimeStep(setup::parseScene(with("stiffness = 1e6"), "scene.toml", floating)), 1e-2);
+  EXPECT_EQ(setup::chooseTimeStep(
+                setup::parseScene(with("stiffness = 1e-3"), "scene.toml",
+                                  {"run.gravity=[0,0,0]", "run.duration=100", "material.a.stiffness=0.001"})),
             0.1);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/sources.hpp"
 
 #include "base/error.hpp"
@@ -31,7 +32,9 @@ start = 0.05
 total = 10
 )";
 
-scene::Scene drip(const std::vector<std::string>& overrides = {}) { return scene::parseScene(kDrip, "drip.toml", overrides); }
+scene::Scene drip(const std::vector<std::string>& overrides = {}) {
+  return setup::parseScene(kDrip, "drip.toml", overrides);
+}
 
 TEST(setup::Sources, GivesBatchesOnTimeAndTheRestLast) {
   const setup::Sources sources(drip(), 1e-4);
@@ -100,7 +103,7 @@ std::string stopOf(const std::string& sections, const std::vector<std::string>& 
   const std::string text = "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\ngravity = [0, 0, 0]\nthreads = 1\n"
                            "[material.glass]\nstiffness = 1e5\n" +
                            sections;
-  Simulation simulation(scene::parseScene(text, "crowd.toml", overrides), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::parseScene(text, "crowd.toml", overrides), base::cpuExec(1), [](double, double) {});
   try {
     while (simulation.steps() < 1000) simulation.step();
   } catch (const base::SimulationError& error) {
@@ -167,7 +170,7 @@ total = 8
     bool checked = true, thrown = true;
     scene::Scene scene;
     try {
-      scene = scene::parseScene(kDrip + std::string(kLine), "drip.toml", {"run.seed=" + std::to_string(seed)});
+      scene = setup::parseScene(kDrip + std::string(kLine), "drip.toml", {"run.seed=" + std::to_string(seed)});
       setup::checkSources(scene);
     } catch (const base::InputError& error) {
       checked = false;

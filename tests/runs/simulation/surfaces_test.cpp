@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rigid surfaces of scenes: their laws of motion, platens under load, what they measure, checkpoints, and what is
 // refused.
+#include "runs/setup/load_scene.hpp"
 #include "runs/simulation/surfaces.hpp"
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/setup/laws.hpp"
 #include "runs/commands/plan.hpp"
-#include "runs/simulation/simulation.hpp"
-#include "runs/setup/step_limit.hpp"
 #include "runs/output/surface_mesh.hpp"
+#include "runs/setup/laws.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/simulation/simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ std::string grainAt(const std::string& position) {
 }
 
 scene::Scene sceneOf(const std::string& rest, const std::vector<std::string>& overrides = {}) {
-  return scene::parseScene(kHead + rest, "surfaces.toml", overrides);
+  return setup::parseScene(kHead + rest, "surfaces.toml", overrides);
 }
 
 std::unique_ptr<Simulation> made(const scene::Scene& scene, std::int64_t steps = 0, int threads = 1) {
@@ -129,11 +130,12 @@ TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
 
 TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
   const auto built = [](const std::string& surface) {
-    return setup::buildGround(scene::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
-                                  "radius = 0.01\nposition = [0, 0, 1]\n" +
-                                      surface + "material = \"soil\"\n",
-                                  "quick.toml"),
-                       base::cpuExec(1), 1e-5);
+    return setup::buildGround(
+        setup::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
+                          "radius = 0.01\nposition = [0, 0, 1]\n" +
+                              surface + "material = \"soil\"\n",
+                          "quick.toml"),
+        base::cpuExec(1), 1e-5);
   };
   const std::string box = "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.001]\n";
   EXPECT_NO_THROW(built(box + "velocity = [0, 0, 499]\n")); // half a radius a step is 500 m/s
@@ -149,12 +151,13 @@ TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
 
 TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {
   const auto stop = [](const std::string& load) -> std::string {
-    Simulation s(scene::parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
-                            "0.01\nposition = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"lid\"\nmaterial = "
-                            "\"soil\"\nposition = [5, 0, 0]\nsize = [1, 1, 1]\nfree = \"z\"\nmass = 1\nload = " +
-                                load + "\n",
-                            "lid.toml"),
-                 base::cpuExec(1), [](double, double) {});
+    Simulation s(
+        setup::parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
+                          "0.01\nposition = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"lid\"\nmaterial = "
+                          "\"soil\"\nposition = [5, 0, 0]\nsize = [1, 1, 1]\nfree = \"z\"\nmass = 1\nload = " +
+                              load + "\n",
+                          "lid.toml"),
+        base::cpuExec(1), [](double, double) {});
     try {
       while (s.steps() < 100) s.step();
     } catch (const base::SimulationError& error) {
@@ -177,7 +180,7 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
   for (int k = 0; k < 16; ++k)
     text += "[[grain]]\nmaterial = \"soil\"\nradius = 0.01\nposition = [" + std::to_string(0.03 * (k % 4)) + ", " +
             std::to_string(0.03 * (k / 4)) + ", 0.01]\n";
-  Simulation simulation(scene::parseScene(text, "lid.toml"), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::parseScene(text, "lid.toml"), base::cpuExec(1), [](double, double) {});
   // Sixteen springs on the lid: omega^2 = k (1 / m + 16 / M); undamped limit 2 / omega.
   const double grain = 2500 * 4.0 / 3 * base::kPi * 1e-6, omega = std::sqrt(1e5 * (1 / grain + 16 / 0.02));
   EXPECT_LT(simulation.timeStep(), 2 / omega);
@@ -190,9 +193,10 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
 
 TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
   // 10 Hz and 1 mm: 3.9 m/s2, the grain stays on it.
-  const scene::Scene scene = sceneOf("[[box]]\nposition = [0, 0, -0.01]\nsize = [0.1, 0.1, 0.02]\nmaterial = \"glass\"\n"
-                              "amplitude = [0, 0, 1e-3]\nfrequency = 10\nphase = -90\n" +
-                              grainAt("[0, 0, 0.01]"));
+  const scene::Scene scene =
+      sceneOf("[[box]]\nposition = [0, 0, -0.01]\nsize = [0.1, 0.1, 0.02]\nmaterial = \"glass\"\n"
+              "amplitude = [0, 0, 1e-3]\nfrequency = 10\nphase = -90\n" +
+              grainAt("[0, 0, 0.01]"));
   const auto s = made(scene, 5000);
   const double mass = setup::sphereMass(2500, 0.01), omega = 20 * base::kPi;
   for (int k = 0; k < 40; ++k) {
@@ -208,10 +212,11 @@ TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
 
 TEST(Box, TurnedIsASlopeThatABallRollsDown) {
   const double angle = base::kPi / 6;
-  const scene::Scene scene = sceneOf("[[box]]\nposition = [0, 0, 0]\nsize = [2, 0.2, 0.04]\naxis = [0, 1, 0]\nangle = 30\n"
-                              "material = \"glass\"\n" +
-                              grainAt(fmt::format("[{}, 0, {}]", 0.03 * base::sin(angle) - 0.8 * base::cos(angle),
-                                                  0.03 * base::cos(angle) + 0.8 * base::sin(angle))));
+  const scene::Scene scene =
+      sceneOf("[[box]]\nposition = [0, 0, 0]\nsize = [2, 0.2, 0.04]\naxis = [0, 1, 0]\nangle = 30\n"
+              "material = \"glass\"\n" +
+              grainAt(fmt::format("[{}, 0, {}]", 0.03 * base::sin(angle) - 0.8 * base::cos(angle),
+                                  0.03 * base::cos(angle) + 0.8 * base::sin(angle))));
   const auto s = made(scene, 20000);
   const double speed = norm(s->ground().grains->snapshot().velocity[0].as<double>());
   EXPECT_NEAR(speed, 5.0 / 7 * 9.81 * base::sin(angle) * s->time(), 0.005 * speed) << "a short fall of rounded digits";
@@ -294,7 +299,8 @@ TEST(Mill, EnergyOfTheGrainsIsTheWorkOfItsSurfaces) {
 }
 
 TEST(Surfaces, PlanSaysWhichThereAre) {
-  const std::string with = commands::planText(sceneOf(kMill)), without = commands::planText(sceneOf(grainAt("[0, 0, 0]")));
+  const std::string with = commands::planText(sceneOf(kMill)),
+                    without = commands::planText(sceneOf(grainAt("[0, 0, 0]")));
   EXPECT_NE(with.find("plane0, box0, drum, cylinder1; 3 moved, 1 free"), std::string::npos) << with;
   EXPECT_NE(with.find("moving surfaces"), std::string::npos);
   EXPECT_NE(without.find("off  surfaces"), std::string::npos) << without;
@@ -303,8 +309,8 @@ TEST(Surfaces, PlanSaysWhichThereAre) {
 
 TEST(Surfaces, ResolvedCopyLoadsToTheSameScene) {
   const scene::Scene first = sceneOf(kMill + "[[box]]\nname = \"ramp\"\nposition = [1, 0, 0]\nsize = [1, 1, 0.1]\n"
-                                      "orientation = [0.8, 0, 0.6, 0]\nmaterial = \"glass\"\n");
-  const scene::Scene second = scene::parseScene(scene::resolvedToml(first), "copy.toml");
+                                             "orientation = [0.8, 0, 0.6, 0]\nmaterial = \"glass\"\n");
+  const scene::Scene second = setup::parseScene(scene::resolvedToml(first), "copy.toml");
   EXPECT_EQ(second.planes, first.planes);
   EXPECT_EQ(second.boxes, first.boxes);
   EXPECT_EQ(second.cylinders, first.cylinders);
@@ -312,8 +318,10 @@ TEST(Surfaces, ResolvedCopyLoadsToTheSameScene) {
 
 TEST(Surfaces, PicturesShowThemFromWhereGrainsAre) {
   const scene::Scene scene = sceneOf(kMill);
-  const auto surfaces = surfacesOf(scene);
-  const auto volume = [&](std::size_t i) { return spheredecomp::signedVolume(output::surfaceMesh(scene, surfaces[i])); };
+  const auto surfaces = setup::surfacesOf(scene);
+  const auto volume = [&](std::size_t i) {
+    return spheredecomp::signedVolume(output::surfaceMesh(scene, surfaces[i]));
+  };
   EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(scene, surfaces[1])), "box"));
   EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(scene, surfaces[3])), "rod"));
   EXPECT_NEAR(volume(1), 0.012 * 0.1 * 0.02, 1e-12);
@@ -382,9 +390,9 @@ TEST(Mesh, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
 }
 
 TEST(Mesh, ThatComesFromAfarMeetsAGrainThatHasNotMoved) {
-  const scene::Scene scene = sceneOf(meshHead() + "position = [0, 0, -0.1]\nvelocity = [0, 0, 0.5]\nmaterial = \"glass\"\n" +
-                                  grainAt("[0, 0, 0.01]"),
-                              {"run.gravity=[0,0,0]"});
+  const scene::Scene scene = sceneOf(
+      meshHead() + "position = [0, 0, -0.1]\nvelocity = [0, 0, 0.5]\nmaterial = \"glass\"\n" + grainAt("[0, 0, 0.01]"),
+      {"run.gravity=[0,0,0]"});
   // Struck off with the restitution of 0.3.
   EXPECT_NEAR(static_cast<double>(made(scene, 6000)->ground().grains->snapshot().velocity[0].z), 0.5 * 1.3, 0.01);
 }

@@ -4,7 +4,7 @@
 #include "base/vec.hpp"
 #include "runs/scene/mechanism_sections.hpp"
 
-namespace grouser::output {
+namespace grouser::setup {
 
 /// Where the two frames of a joint stand in the world at the start: that of its first and that of its second body.
 struct JointFrames {
@@ -14,4 +14,4 @@ struct JointFrames {
 /// From what a section says in the world, or in the bodies; then the two must meet. Throws SectionFault.
 JointFrames placeJoint(const scene::JointSection& joint, const base::Pose& X_WA, const base::Pose& X_WB);
 
-} // namespace grouser::output
+} // namespace grouser::setup

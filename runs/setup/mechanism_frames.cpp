@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/output/mechanism_frames.hpp"
+#include "runs/setup/mechanism_frames.hpp"
 
 #include "runs/setup/mechanism_model.hpp"
 
@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grouser::output {
+namespace grouser::setup {
 
 using base::Pose;
 using base::Vec3d;
@@ -34,7 +34,8 @@ JointFrames placedInWorld(const scene::JointSection& j) {
                                    {"axis_a", j.axisA.has_value()},
                                    {"axis_b", j.axisB.has_value()}})
     if (given)
-      throw support::SectionFault(key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
+      throw support::SectionFault(
+          key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
   if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
   const Vec3d z = direction("axis", j.axis);
   Pose X = multibody::frameWithZ(*j.point, z);
@@ -42,8 +43,8 @@ JointFrames placedInWorld(const scene::JointSection& j) {
     const Vec3d x = direction("second_axis", j.secondAxis);
     if (std::fabs(dot(x, z)) > kStartGap)
       throw support::SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
-                                                    "perpendicular at the start",
-                                                    std::fabs(dot(x, z))));
+                                                             "perpendicular at the start",
+                                                             std::fabs(dot(x, z))));
     X = multibody::frameWithZX(*j.point, z, x);
   }
   return {X, X};
@@ -51,14 +52,17 @@ JointFrames placedInWorld(const scene::JointSection& j) {
 
 /// Both frames from what is said in the bodies; they must meet.
 JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
-  if (!j.pointA) throw support::SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
-  if (!j.pointB) throw support::SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
+  if (!j.pointA)
+    throw support::SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
+  if (!j.pointB)
+    throw support::SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
   const Vec3d p_A = X_WA.toWorld(*j.pointA), p_B = X_WB.toWorld(*j.pointB);
   const auto apart = [&](const Vec3d& gap, const char* where) {
     if (!(norm(gap) <= kStartGap))
-      throw support::SectionFault("point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
-                                                "at {}; allowed are {:g} m: correct the points or the bodies' places",
-                                                text(p_B), norm(gap), where, text(p_A), kStartGap));
+      throw support::SectionFault("point_b",
+                                  fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
+                                              "at {}; allowed are {:g} m: correct the points or the bodies' places",
+                                              text(p_B), norm(gap), where, text(p_A), kStartGap));
   };
   if (!hasAxis(j.type)) {
     apart(p_B - p_A, "");
@@ -69,16 +73,18 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
   if (j.type == "universal") {
     apart(p_B - p_A, "");
     if (std::fabs(dot(z, b)) > kStartGap)
-      throw support::SectionFault("axis_b", fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
-                                               "them perpendicular",
-                                               std::fabs(dot(z, b))));
+      throw support::SectionFault("axis_b",
+                                  fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
+                                              "them perpendicular",
+                                              std::fabs(dot(z, b))));
     const Pose X = multibody::frameWithZX(p_A, z, b);
     return {X, X};
   }
   if (!(norm(cross(z, b)) <= kStartGap && dot(z, b) > 0))
-    throw support::SectionFault("axis_b", fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
-                                             "apart; turn a body or an axis so that they are parallel",
-                                             text(b), text(z), norm(b - z)));
+    throw support::SectionFault("axis_b",
+                                fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
+                                            "apart; turn a body or an axis so that they are parallel",
+                                            text(b), text(z), norm(b - z)));
   const bool slides = j.type == "prismatic" || j.type == "cylindrical";
   const double slide = slides ? dot(p_B - p_A, z) : 0;
   apart(p_B - p_A - slide * z, slides ? " beside the axis" : "");
@@ -89,12 +95,14 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
 /// Of a distance joint: two points, and no directions.
 JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.point)
-    throw support::SectionFault("point", "[m] has no meaning for a distance joint; give point_a and point_b in the bodies");
+    throw support::SectionFault("point",
+                                "[m] has no meaning for a distance joint; give point_a and point_b in the bodies");
   const JointFrames ends{{X_WA.toWorld(j.pointA.value_or(Vec3d{})), X_WA.orientation},
                          {X_WB.toWorld(j.pointB.value_or(Vec3d{})), X_WB.orientation}};
   if (!(norm(ends.B.position - ends.A.position) > 0))
-    throw support::SectionFault("point_b", "[m] is at the same place as point_a at the start, so that the joint has no length; "
-                                  "move one, or use a spherical joint");
+    throw support::SectionFault("point_b",
+                                "[m] is at the same place as point_a at the start, so that the joint has no length; "
+                                "move one, or use a spherical joint");
   return ends;
 }
 
@@ -109,4 +117,4 @@ JointFrames placeJoint(const scene::JointSection& j, const Pose& X_WA, const Pos
   return j.point ? placedInWorld(j) : placedInBodies(j, X_WA, X_WB);
 }
 
-} // namespace grouser::output
+} // namespace grouser::setup

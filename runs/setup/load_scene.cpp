@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/load_scene.hpp"
+
+#include "base/table.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_space.hpp"
+#include "runs/setup/mechanism_model.hpp"
+#include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace grouser::setup {
+
+using base::Section;
+
+namespace {
+
+/// Has the solver look at the whole: joints that do not close, drives that contradict each other through a loop. Its
+/// messages begin with kind and name of a part, whose place in the file is put before.
+void checkWhole(const Section& root, const multibody::Model& model, const scene::Scene& scene) {
+  try {
+    const multibody::Solver solver(model, solverOptions(scene.run));
+  } catch (const base::InputError& error) {
+    const std::string message = error.what();
+    const std::size_t open = message.find(" '"), close = message.find("': ");
+    if (open == std::string::npos || close == std::string::npos || close < open)
+      throw base::InputError(fmt::format("{}: {}", scene.file.string(), message));
+    const std::string kind = message.substr(0, open), name = message.substr(open + 2, close - open - 2);
+    for (const Section& section : root.list(kind)) {
+      const base::Node* given = section.node().find("name");
+      if (given && std::get<std::string>(given->value) == name)
+        section.fail("", fmt::format("(\"{}\"): {}", name, message.substr(close + 3)));
+    }
+    throw base::InputError(fmt::format("{}: {}", scene.file.string(), message));
+  }
+}
+
+/// Runs `check`; a fault gets the place of its key.
+template <class Check> void withPlace(const Section& section, const Check& check) {
+  try {
+    check();
+  } catch (const support::SectionFault& fault) {
+    section.fail(fault.key(), fault.what());
+  }
+}
+
+void checkMechanism(const Section& root, const scene::Scene& scene) {
+  if (scene.mechanism.empty()) return;
+  MechanismBuilder builder;
+  scene::forEachKind(scene.mechanism, [&](const char* key, const auto& sections) {
+    const std::vector<Section> places = root.list(key);
+    for (std::size_t k = 0; k < sections.size(); ++k) withPlace(places[k], [&] { builder.add(sections[k]); });
+  });
+  const std::vector<Section> joints = root.list("joint");
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    withPlace(joints[j], [&] { checkStartVelocity(builder.model(), static_cast<int>(j)); });
+  checkWhole(root, builder.model(), scene);
+}
+
+/// What surfaces are to grains and to each other.
+void checkSurfaces(const Section& root, const scene::Scene& scene) {
+  const GrainKinds kinds = grainKinds(scene);
+  std::map<std::string, std::string> places; // of names
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    const Section section = root.list(s.kind)[s.number];
+    if (!kinds.any())
+      section.fail("", std::string(s.kind) == "plane"
+                           ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
+                           : "stands in a scene without grains, and nothing else touches it; remove it");
+    const auto [other, fresh] = places.emplace(s.name, section.path());
+    if (!fresh) section.fail("name", fmt::format("\"{}\" is that of {} too; choose another", s.name, other->second));
+    if (s.geometry.shape == terrain::SurfaceShape::tube && s.geometry.half.x <= kinds.largest)
+      section.fail("radius",
+                   fmt::format("[m] is not above that of the largest grain, {:g} m; a hollow cylinder must be "
+                               "wider than what is in it: raise it, or set hollow = false",
+                               kinds.largest));
+  }
+}
+
+scene::Scene checked(scene::Scene scene) {
+  const Section root = scene.document->root();
+  checkMechanism(root, scene);
+  checkSurfaces(root, scene);
+  checkGrainSpace(scene);
+  return scene;
+}
+
+} // namespace
+
+scene::Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return checked(scene::readScene(file, overrides));
+}
+
+scene::Scene parseScene(std::string_view text, const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides) {
+  return checked(scene::readSceneText(text, file, overrides));
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/solver.hpp"
+#include "multibody/state.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <string>
+
+namespace grouser::setup {
+
+/// A mechanism as its solver takes it.
+struct MechanismSetup {
+  multibody::Model model;
+  multibody::SolverOptions solver;
+  base::Vec3d gravity; ///< [m/s2]
+};
+
+/// Throws SectionFault where the sections make no mechanism: loading has made sure that they do.
+MechanismSetup mechanismSetup(const scene::Scene& scene);
+
+/// The solver's options as a scene's [run] gives them.
+multibody::SolverOptions solverOptions(const scene::RunSettings& run);
+
+/// Brings `state`, as the model says it, and `loads` to the start: gravity, and velocities that fit joints and drives.
+/// Returns the kinetic energy that the drives gave in a blow, since the velocities did not fit theirs [J].
+double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multibody::State& state,
+                   multibody::Loads& loads);
+
+/// Step of a mechanism [s]: as the scene says, or the one that "auto" stands for: at the start a hundredth of the
+/// shortest swing of the springs or turn of a body, a twentieth of the shortest swing on taut joints; at most 1 ms, and
+/// a whole share of the output interval. Throws InputError where the integrator cannot take springs and dampers at this
+/// step, which a step shows.
+double mechanismTimeStep(const scene::Scene& scene);
+
+/// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
+/// first push. Empty where the step is short enough.
+std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep);
+
+} // namespace grouser::setup
