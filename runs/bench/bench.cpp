@@ -213,7 +213,7 @@ void benchStepCommand(const BenchCommand& command) {
   json["microseconds_a_step"] = jsonOf(times);
   json["instrumented_microseconds_a_step"] = printParts(bench);
   json["rebuilds_while_instrumented"] = bench.rebuilds();
-  const double rebuild = bench.parts()[StepBench::kNeighbours].microseconds;
+  const double rebuild = bench.part(simulation::Stage::neighbourList).microseconds;
   fmt::print("  neighbour lists built {} times{}\n", bench.rebuilds(),
              bench.rebuilds() ? fmt::format(", {:.1f} us each", rebuild / static_cast<double>(bench.rebuilds())) : "");
   const struct {

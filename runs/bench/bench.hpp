@@ -70,42 +70,40 @@ struct StepBenchOptions {
   double after = -1; ///< simulated time before anything is timed [s]; negative: until the drive is up to speed
 };
 
-/// Calls the verbs of Simulation::step() one by one, with a clock and a device synchronisation after each: the same
-/// physics, slower. A friend of Simulation, so that the loop itself stays free of timers.
-class StepBench {
+/// Steps a simulation and measures each stage, waiting for the device after it: the same bits, slower.
+class StepBench : private simulation::StepObserver {
 public:
-  explicit StepBench(simulation::Simulation& simulation, const base::Exec& exec)
-      : simulation_(simulation), exec_(exec) {}
+  StepBench(simulation::Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}
   void step();
 
   struct Part {
     const char* name;
     double microseconds = 0; ///< sum over all steps
   };
-  enum { kPlace, kNeighbours, kLists, kUpload, kTrack, kGround, kCollect, kGrains, kMultibody, kFlags, kAlarm, kParts };
-  const std::array<Part, kParts>& parts() const { return parts_; }
+  const std::array<Part, simulation::kStages>& parts() const { return parts_; }
+  const Part& part(simulation::Stage stage) const { return parts_[static_cast<std::size_t>(stage)]; }
   std::int64_t steps() const { return steps_; }
-  std::int64_t rebuilds() const { return rebuilds_; }
+  std::int64_t rebuilds() const { return rebuilds_; } ///< of the neighbour list, while measured
 
 private:
-  /// The time since the last mark goes to a part.
-  void mark(int part);
+  void after(simulation::Stage stage) override;
 
   simulation::Simulation& simulation_;
   base::Exec exec_;
-  std::array<Part, kParts> parts_{{{"place surfaces"},
-                                   {"neighbours"},
-                                   {"lists of parts"},
-                                   {"poses to device"},
-                                   {"track contacts"},
-                                   {"ground contacts"},
-                                   {"loads to host"},
-                                   {"grain kernel"},
-                                   {"multibody"},
-                                   {"flags to host"},
-                                   {"alarm"}}};
+  std::array<Part, simulation::kStages> parts_{{{"place surfaces"},
+                                                {"neighbours"},
+                                                {"lists of parts"},
+                                                {"walls and floor"},
+                                                {"poses to device"},
+                                                {"track contacts"},
+                                                {"ground contacts"},
+                                                {"loads to host"},
+                                                {"grain kernel"},
+                                                {"multibody"},
+                                                {"flags to host"},
+                                                {"alarm"}}};
   std::int64_t steps_ = 0, rebuilds_ = 0;
-  std::int64_t last_ = 0; ///< clock at the last mark [ns]
+  std::int64_t last_ = 0; ///< end of the stage before [ns]
 };
 
 /// `grouser bench bed` and `grouser bench step`: print the figures, and write them to `json` where it is not empty.

@@ -49,8 +49,8 @@ Ball around(const RenderScene& scene) {
 
 /// The scene as the sun sees it: as much of it as holds what the camera sees, so that shadows are as sharp as they can
 /// be.
-simulation::Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& facets, const Ball& ball,
-                             const simulation::Surfaces& seen) {
+Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& facets, const Ball& ball,
+                 const Surfaces& seen) {
   View v = detail::viewTowards(ball.centre + direction(kSunAzimuth, kSunElevation) * (2 * ball.radius), ball.centre,
                                {0, 0, 1});
   v.perspective = false, v.width = v.height = kShadowPixels;
@@ -69,13 +69,13 @@ simulation::Surfaces sunView(const RenderScene& scene, const std::vector<detail:
     // Room for the texels that a point's shadow looks at beside its own.
     v.halfHeight = std::min(v.halfHeight, 0.51f * std::max(high.x - low.x, high.y - low.y) + 1e-6f);
   }
-  simulation::Surfaces s(v);
+  Surfaces s(v);
   detail::rasterise(scene.spheres, facets, s);
   return s;
 }
 
 /// Share of the sun that reaches a point: nine looks at the sun's picture.
-float sunlit(const simulation::Surfaces& sun, const Vec3f& p_W, const Vec3f& normal) {
+float sunlit(const Surfaces& sun, const Vec3f& p_W, const Vec3f& normal) {
   const View& v = sun.view;
   const float texel = 2 * v.halfHeight / float(kShadowPixels);
   const Vec3f p = v.toCamera(p_W + normal * (2.0f * texel));
@@ -106,7 +106,7 @@ int nearestInt(float x) { return static_cast<int>(x + 8192.5f) - 8192; }
 
 /// How open each pixel's surroundings are, 0 to 1, from the depth buffer: neighbours within `reach` [m] that stand
 /// above the tangent plane close it. Looked at for every second pixel, as on a chessboard; kUnknown elsewhere.
-std::vector<float> openness(const simulation::Surfaces& s, float reach) {
+std::vector<float> openness(const Surfaces& s, float reach) {
   std::array<std::array<std::array<float, 2>, kOcclusionTaps>, 16> patterns;
   for (int turn = 0; turn < 16; ++turn) patterns[static_cast<std::size_t>(turn)] = spiral(turn * 7 % 16);
   std::vector<float> open(s.depth.size(), kUnknown);
@@ -133,7 +133,7 @@ std::vector<float> openness(const simulation::Surfaces& s, float reach) {
 }
 
 /// Mean over the 4 x 4 pattern, among pixels of like depth.
-float smoothed(const simulation::Surfaces& s, const std::vector<float>& open, int column, int row, float reach) {
+float smoothed(const Surfaces& s, const std::vector<float>& open, int column, int row, float reach) {
   const float depth = s.depth[s.index(column, row)];
   float sum = 0, count = 0;
   for (int y = std::max(0, row - 2); y < std::min(s.view.height, row + 2); ++y)
@@ -253,9 +253,9 @@ Image render(const RenderScene& scene, const Camera& camera, int width, int heig
   view.halfHeight = static_cast<float>(base::tan(0.5 * camera.fieldOfView * base::kPi / 180));
   view.near = kNear * static_cast<float>(norm(camera.target - camera.eye));
   view.width = kSamples * width, view.height = kSamples * height;
-  simulation::Surfaces seen(view);
+  Surfaces seen(view);
   detail::rasterise(scene.spheres, facets, seen);
-  const simulation::Surfaces sun = sunView(scene, facets, ball, seen);
+  const Surfaces sun = sunView(scene, facets, ball, seen);
   const float reach = occlusionReach(scene, ball);
   const std::vector<float> open = openness(seen, reach);
 

@@ -230,7 +230,7 @@ struct Scene {
   const ContactPair* contact(const std::string& a, const std::string& b) const;
 };
 
-/// Reads a scene and checks what its keys say by themselves; setup::loadScene() checks what they mean together, too.
+/// Reads a scene and checks what its keys say by themselves; loadScene() checks what they mean together, too.
 /// Throws base::InputError with file, line, key, value, range and remedy.
 Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 /// The same from text; paths in it are relative to the folder of `file`.

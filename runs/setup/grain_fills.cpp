@@ -6,8 +6,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 #include <unordered_map>
 
 namespace grouser::setup {
@@ -105,31 +103,6 @@ void addRandom(const scene::Scene& scene, const scene::GrainFill& b, std::uint64
 }
 
 } // namespace
-
-std::vector<scene::Grain> scene::readGrainFile(const std::string& file, const scene::GrainFill& b) {
-  std::ifstream in(file);
-  if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
-  std::vector<scene::Grain> grains;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    line = line.substr(0, line.find('#'));
-    for (char& c : line)
-      if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
-    if (line.find_first_not_of(' ') == std::string::npos) continue;
-    std::istringstream words(line);
-    words.imbue(std::locale::classic());
-    Vec3d p;
-    double radius = 0;
-    std::string rest;
-    const bool complete = static_cast<bool>(words >> p.x >> p.y >> p.z >> radius);
-    if (!complete || (words >> rest) || !(radius > 0 && std::isfinite(radius)))
-      throw base::InputError(fmt::format("{}:{}: \"{}\" is not x, y, z, r [m] of a grain with r > 0; correct the line",
-                                         file, number, line));
-    grains.push_back(grainAt(b, p, radius));
-  }
-  if (grains.empty()) throw base::InputError(fmt::format("{}: holds no grain; give lines of x, y, z, r [m]", file));
-  return grains;
-}
 
 std::vector<scene::Grain> placedGrains(const scene::Scene& scene) {
   std::vector<scene::Grain> all = scene.grains;

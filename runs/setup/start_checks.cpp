@@ -62,7 +62,7 @@ public:
   }
 
   /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
-  void place(const render::Ball& ball) {
+  void place(const Ball& ball) {
     for (const Surroundings::Wall& wall : around_.walls)
       if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
           isTooDeep(depth, ball.radius))
@@ -93,7 +93,7 @@ private:
     return {now.centre, now.turned * s.start.orientation};
   }
 
-  void placeAmongBalls(const render::Ball& ball) {
+  void placeAmongBalls(const Ball& ball) {
     const std::int64_t x = along_[0].of(ball.position.x), y = along_[1].of(ball.position.y),
                        z = along_[2].of(ball.position.z);
     for (std::int64_t k = 0; k < 27; ++k) {
@@ -101,7 +101,7 @@ private:
           cells_.find({along_[0].wrapped(x + k / 9 - 1), along_[1].wrapped(y + k / 3 % 3 - 1), z + k % 3 - 1});
       if (found == cells_.end()) continue;
       for (const std::size_t j : found->second) {
-        const render::Ball& other = balls_[j];
+        const Ball& other = balls_[j];
         const double depth = ball.radius + other.radius - norm(toNearestImage(joined_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
           refuse(ball, depth,
@@ -117,7 +117,7 @@ private:
   /// `radius`: of the smaller one [m].
   bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.maxOverlap * radius; }
 
-  [[noreturn]] void refuse(const render::Ball& ball, double overlap, const std::string& with) const {
+  [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
     const std::string how = fmt::format("overlaps {} by {:.3g} m, more than run.max_overlap = {:g} of its radius", with,
                                         overlap, scene_.run.maxOverlap);
     if (ball.list == "grain") scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
@@ -135,7 +135,7 @@ private:
   double largest_;
   std::array<CellsAlong, 3> along_;
   std::vector<SurfaceMotion> motions_;
-  std::vector<render::Ball> balls_;
+  std::vector<Ball> balls_;
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 

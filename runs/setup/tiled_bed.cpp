@@ -15,7 +15,7 @@ namespace {
 scene::Scene tileScene(const scene::Scene& scene, const terrain::BedPlan& plan, const std::array<double, 2>& size) {
   scene::Scene tile = scene;
   tile.run.periodic = {true, true};
-  tile.grains.clear(), tile.blocks.clear(), tile.sources.clear();
+  tile.grains.clear(), tile.fills.clear(), tile.sources.clear();
   tile.planes.clear(), tile.boxes.clear(), tile.cylinders.clear(), tile.meshes.clear();
   tile.vehicle.reset(), tile.mechanism = {}, tile.parallel = {};
   scene::Terrain& t = *tile.terrain;

@@ -28,7 +28,7 @@ public:
   /// Where the grains are, by id.
   std::vector<terrain::GrainSpec> start(double radius, int material) const;
   /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
-  void studies::bringToRest(terrain::Grains& grains, std::size_t floor) const;
+  void bringToRest(terrain::Grains& grains, std::size_t floor) const;
 
 private:
   /// Where a grain of the tile stands in one of the copies.

@@ -57,7 +57,7 @@ bool isOfBed(const scene::Scene& scene, const std::string& material) {
 
 /// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
 /// they are called. A plane that is felt as a surface stays one.
-void studies::bringToRest(scene::SurfaceSection& s, bool named) {
+void bringToRest(scene::SurfaceSection& s, bool named) {
   const std::string material = s.material;
   s = {};
   s.material = material;
@@ -78,9 +78,9 @@ scene::Scene bedAlone(scene::Scene scene) {
                 [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
   scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
   scene.terrain->cache = true;
-  for (scene::Plane& p : scene.planes) studies::bringToRest(p, !p.isWall());
-  for (scene::BoxSection& b : scene.boxes) studies::bringToRest(b, false);
-  for (scene::CylinderSection& c : scene.cylinders) studies::bringToRest(c, false);
+  for (scene::Plane& p : scene.planes) bringToRest(p, !p.isWall());
+  for (scene::BoxSection& b : scene.boxes) bringToRest(b, false);
+  for (scene::CylinderSection& c : scene.cylinders) bringToRest(c, false);
   return scene;
 }
 

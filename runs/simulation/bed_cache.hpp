@@ -32,8 +32,8 @@ public:
   /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a
   /// file in it is a warning, never the end of the run. On several ranks all of them call it; the folder must be seen
   /// by all, or nothing is reused. Throws what `progress` throws, and SimulationError as settle() does.
-  setup::SettleReport setup::settle(const scene::Scene& scene, setup::Ground& ground,
-                                    const setup::SettleProgress& progress, const base::Comm& comm);
+  setup::SettleReport settle(const scene::Scene& scene, setup::Ground& ground, const setup::SettleProgress& progress,
+                             const base::Comm& comm);
 
   /// One line: where the bed came from and how long that took. Empty before settle().
   const std::string& summary() const { return story_; }

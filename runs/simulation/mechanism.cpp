@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/mechanism.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 
 #include <algorithm>

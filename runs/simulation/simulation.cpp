@@ -36,26 +36,36 @@ Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const 
   addGrains();
 }
 
-void Simulation::step() {
+void Simulation::step(StepObserver* observer) {
+  const auto done = [observer](Stage stage) {
+    if (observer) observer->after(stage);
+  };
   terrain::Grains* grains = ground_.grains.get();
   if (vehicle_) vehicle_->setSurfacePoses();
+  done(Stage::surfacePoses);
   const bool slotsChanged = grains && grains->refreshNeighbours();
-  if (vehicle_) {
-    vehicle_->refreshLists(grains, slotsChanged);
-    if (grains) grains->beginBoundaries();
-    vehicle_->computeContacts(grains);
-    vehicle_->collectLoads();
-  }
+  done(Stage::neighbourList);
+  if (vehicle_) vehicle_->refreshLists(grains, slotsChanged);
+  done(Stage::partLists);
+  if (vehicle_ && grains) grains->beginBoundaries();
+  done(Stage::boundaries);
+  if (vehicle_) vehicle_->computeContacts(grains, observer);
+  if (vehicle_) vehicle_->collectLoads();
+  done(Stage::partLoads);
   if (surfaces_) surfaces_->computeContacts(*grains, steps_, slotsChanged);
-  // The device works on the grains while the host solves the vehicle.
   if (grains) grains->beginStep(partLoads());
+  done(Stage::grainStep);
+  // The device works on the grains while the host solves vehicle or mechanism.
   if (vehicle_) vehicle_->advance();
   if (mechanism_) mechanism_->advance();
+  done(Stage::multibody);
   if (grains) grains->endStep();
   if (surfaces_) surfaces_->advance(*grains, steps_);
+  done(Stage::grainStepEnded);
   ++steps_;
   addGrains();
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+  done(Stage::checks);
 }
 
 std::int64_t Simulation::advance(std::int64_t most) {

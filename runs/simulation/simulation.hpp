@@ -7,15 +7,12 @@
 #include "runs/simulation/bed_cache.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/simulation_state.hpp"
+#include "runs/simulation/step_observer.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
 
 #include <memory>
 #include <string>
-
-namespace grouser::bench {
-class StepBench;
-} // namespace grouser::bench
 
 namespace grouser::simulation {
 
@@ -33,7 +30,7 @@ public:
   SimulationState save() const;
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
-  void step();
+  void step(StepObserver* observer = nullptr);
   /// At least one step, at most `most`: as many as can be given to the device at once. Returns how many were taken.
   std::int64_t advance(std::int64_t most);
 
@@ -71,7 +68,6 @@ public:
   std::string stateHash() const;
 
 private:
-  friend class bench::StepBench;                            // times the verbs of step() one by one
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();

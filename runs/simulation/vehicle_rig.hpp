@@ -8,6 +8,7 @@
 #include "multibody/solver.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed.hpp"
+#include "runs/simulation/step_observer.hpp"
 #include "runs/simulation/vehicle_state.hpp"
 #include "terrain/ground_contacts.hpp"
 #include "vehicle/assembly.hpp"
@@ -30,18 +31,10 @@ public:
   // One step, in this order.
   void setSurfacePoses(); ///< poses of all parts
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
-  void
-  computeContacts(const terrain::Grains* grains); ///< all contacts of parts; the device works, the host does not wait
-  void collectLoads();                            ///< waits for the sums of loads
-  void advance();                                 ///< multibody step
-
-  // What computeContacts() is made of.
-  void noteTravel();           ///< since the lists were made
-  void uploadPoses();          ///< one small transfer; sums of loads to zero
-  void computeTrackContacts(); ///< shoes against sprocket, wheels, rollers, idler
-  /// Shoes and all other parts against the bed, or shoes against rigid ground.
-  void computeGroundContacts(const terrain::Grains* grains, const base::Exec& exec);
-  void downloadLoads(); ///< one small transfer
+  /// All contacts of parts; the device works, the host does not wait. `observer`: told of each kind of them.
+  void computeContacts(const terrain::Grains* grains, StepObserver* observer);
+  void collectLoads(); ///< waits for the sums of loads
+  void advance();      ///< multibody step
 
   /// For the grains' step; null on rigid ground.
   const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
@@ -95,6 +88,15 @@ public:
   std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
 
 private:
+  // What computeContacts() is made of.
+  void computeInParts(const terrain::Grains* grains, StepObserver& observer);
+  void noteTravel();           ///< since the lists were made
+  void uploadPoses();          ///< one small transfer; sums of loads to zero
+  void computeTrackContacts(); ///< shoes against sprocket, wheels, rollers, idler
+  /// Shoes and all other parts against the bed, or shoes against rigid ground.
+  void computeGroundContacts(const terrain::Grains* grains, const base::Exec& exec);
+  void downloadLoads(); ///< one small transfer
+
   void loadMeshes(const scene::Scene& scene);
   void buildContacts(const scene::Scene& scene, const setup::Ground& ground);
   contact::PartMotion motionOf(std::size_t contactPart) const;

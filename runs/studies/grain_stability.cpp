@@ -89,7 +89,7 @@ ContactNetwork networkOf(const RestingGrains& grains) {
 }
 
 /// Lets the grains settle, stopping all motion now and then: what is left is a rest, whatever the way to it.
-void setup::settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start) {
+void settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start) {
   Grains grains = build(resting, kSettleStiffness, kSettleZeta, kSettleStep / rate(kSettleStiffness), start);
   const auto advance = [&grains](int steps) {
     for (int i = 0; i < steps; ++i) {
@@ -120,7 +120,7 @@ void setup::settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>
 RestingGrains oneContact() {
   RestingGrains r;
   r.name = "contact", r.title = "one sphere on a plane", r.vertical = true;
-  setup::settle(r, {{{0, 0, kRadius * (1 - kOwnOverlap)}, {}, {}}});
+  settle(r, {{{0, 0, kRadius * (1 - kOwnOverlap)}, {}, {}}});
   return r;
 }
 
@@ -134,7 +134,7 @@ RestingGrains column(int grains) {
     z += (i == 0 ? 1 : 2) * kRadius - (grains - i) * kOwnOverlap * kRadius;
     start.push_back({{0, 0, z}, {}, {}});
   }
-  setup::settle(r, start);
+  settle(r, start);
   return r;
 }
 
@@ -156,7 +156,7 @@ RestingGrains randomBed(int grains, double friction) {
                      {},
                      {}});
   }
-  setup::settle(r, start);
+  settle(r, start);
   r.title = fmt::format("random bed of {} spheres, friction {:g}", grains, friction);
   return r;
 }

@@ -103,7 +103,7 @@ public:
   }
   /// `count` rows from `first` on, as read() does all.
   template <class T>
-  std::vector<T> output::readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
+  std::vector<T> readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
     std::vector<T> values;
     const std::vector<std::uint64_t> extent = shape(dataset);
     std::uint64_t width = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../device_under_test.hpp"
+#include "tests/device_under_test.hpp"
 #include "base/random.hpp"
 #include "contact/detail/pair_kernels.cuh"
 #include "contact/pair_search.hpp"

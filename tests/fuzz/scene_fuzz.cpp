@@ -213,7 +213,7 @@ private:
   std::mt19937_64 random_; // specified by the standard to the bit
 };
 
-std::string test::contents(const fs::path& path) {
+std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -228,7 +228,7 @@ std::vector<std::string> readCorpus(const std::vector<fs::path>& places) {
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> corpus;
-  for (const fs::path& file : files) corpus.push_back(test::contents(file));
+  for (const fs::path& file : files) corpus.push_back(contents(file));
   return corpus;
 }
 

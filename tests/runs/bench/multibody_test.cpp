@@ -11,6 +11,9 @@
 #include <nlohmann/json.hpp>
 
 namespace grouser::bench {
+
+using namespace test; // fixtures
+
 namespace {
 
 MultibodyBench tinyBench() {
@@ -50,14 +53,14 @@ TEST(BenchMultibody, WorkGrowsLinearlyWithTheShoes) {
   EXPECT_GE(f46.iterations, 1);
 }
 
-class BenchMultibodyCommand : public test::ProgramTest {};
+class BenchMultibodyCommand : public ProgramTest {};
 
 TEST_F(BenchMultibodyCommand, PrintsFiguresAndWritesThemAsJson) {
-  const test::Outcome o = call("bench multibody --steps 5 --batches 2 --json figures.json");
+  const Outcome o = call("bench multibody --steps 5 --batches 2 --json figures.json");
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* part : {"machine ", "commit ", "125 bodies", "us (median", "each iteration", "growth", "184"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
-  const nlohmann::json j = nlohmann::json::parse(test::contents(folder_ / "figures.json"));
+  const nlohmann::json j = nlohmann::json::parse(contents(folder_ / "figures.json"));
   for (const char* key : {"device", "machine", "commit", "compiler", "vehicle", "growth", "goal_microseconds"})
     EXPECT_TRUE(j.contains(key)) << key;
   ASSERT_EQ(j["growth"].size(), 3u);

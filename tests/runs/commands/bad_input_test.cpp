@@ -15,6 +15,9 @@
 #include <vector>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +26,7 @@ fs::path asset(const std::string& name) { return fs::path(GROUSER_SOURCE_DIR) / 
 
 /// A picture of the project with bytes changed: 16 to 19 width, 20 to 23 height, 24 bits, 25 colour type, 28 interlace.
 std::string picture(std::size_t at = 0, const std::string& bytes = "") {
-  std::string png = test::contents(asset("heightmaps/flat.png"));
+  std::string png = contents(asset("heightmaps/flat.png"));
   return png.replace(at, bytes.size(), bytes);
 }
 
@@ -92,8 +95,8 @@ std::ostream& operator<<(std::ostream& out, const Mistake& m) { return out << m.
 Mistake badPicture(const std::string& name, const std::string& bytes, const std::vector<std::string>& says) {
   return {name,
           [bytes](const fs::path& f) {
-            test::put(f / "scene.toml", kBed);
-            test::put(f / "map.png", bytes);
+            put(f / "scene.toml", kBed);
+            put(f / "map.png", bytes);
           },
           "run scene.toml", says};
 }
@@ -102,8 +105,8 @@ Mistake badScene(const std::string& name, const std::string& from, const std::st
                  const std::vector<std::string>& says, const std::string& scene = kGrains, int code = 2) {
   return {name,
           [=](const fs::path& f) {
-            test::put(f / "scene.toml", test::replaced(scene, from, to));
-            test::put(f / "map.png", picture());
+            put(f / "scene.toml", replaced(scene, from, to));
+            put(f / "map.png", picture());
           },
           "run scene.toml", says, code};
 }
@@ -114,8 +117,8 @@ Mistake badCheckpoint(const std::string& name, const std::function<void(const fs
                       const std::string& words = "run scene.toml --resume --out a") {
   return {name,
           [spoil](const fs::path& f) {
-            test::put(f / "scene.toml", kGrains);
-            ASSERT_EQ(test::shellIn(f, "\"$grouser\" run scene.toml --out a --steps 40").code, 0);
+            put(f / "scene.toml", kGrains);
+            ASSERT_EQ(shellIn(f, "\"$grouser\" run scene.toml --out a --steps 40").code, 0);
             spoil(f / "a/checkpoint.h5");
           },
           words, says};
@@ -140,13 +143,12 @@ std::string manyPlanes(int count) {
 }
 
 Mistake badMesh(const std::string& name, const std::string& line, const std::vector<std::string>& says,
-                const std::string& mesh = test::contents(asset("meshes/idler.obj"))) {
+                const std::string& mesh = contents(asset("meshes/idler.obj"))) {
   return {name,
           [=](const fs::path& f) {
-            test::put(f / "scene.toml",
-                      test::replaced(kGrains, "[[plane]]\n",
-                                     "[[mesh]]\nfile = \"part.obj\"\nposition = [0, 0, -9]\n" + line + "\n"));
-            test::put(f / "part.obj", mesh);
+            put(f / "scene.toml", replaced(kGrains, "[[plane]]\n",
+                                           "[[mesh]]\nfile = \"part.obj\"\nposition = [0, 0, -9]\n" + line + "\n"));
+            put(f / "part.obj", mesh);
           },
           "run scene.toml", says};
 }
@@ -155,15 +157,15 @@ Mistake badVehicle(const std::string& name, const std::function<void(const fs::p
                    const std::vector<std::string>& says) {
   return {name,
           [make](const fs::path& f) {
-            test::put(f / "scene.toml", "version = 1\n[run]\nduration = 0.1\n[vehicle]\nspec = \"car.toml\"\nchassis = "
-                                        "\"fixed\"\n");
+            put(f / "scene.toml", "version = 1\n[run]\nduration = 0.1\n[vehicle]\nspec = \"car.toml\"\nchassis = "
+                                  "\"fixed\"\n");
             make(f / "car.toml");
           },
           "run scene.toml", says};
 }
 
 std::vector<Mistake> mistakes() {
-  const std::string spec = test::contents(asset("vehicles/light_tracked.toml"));
+  const std::string spec = contents(asset("vehicles/light_tracked.toml"));
   const auto nothing = [](const fs::path&) {};
   return {
       // Scene files as such.
@@ -190,18 +192,18 @@ std::vector<Mistake> mistakes() {
       badScene("TileTooSmall", "layers = 1", "layers = 1\ntile = [0.1, 0.5]", {"tile", "own images", "at least"}, kBed),
       badScene("SceneEmpty", kGrains, "", {"scene.toml", "version"}),
       {"SceneIsBinary",
-       [](const fs::path& f) { test::put(f / "scene.toml", picture()); },
+       [](const fs::path& f) { put(f / "scene.toml", picture()); },
        "run scene.toml",
        {"scene.toml:1"}},
       {"SceneCutShort",
-       [](const fs::path& f) { test::put(f / "scene.toml", std::string(kGrains).substr(0, 100)); },
+       [](const fs::path& f) { put(f / "scene.toml", std::string(kGrains).substr(0, 100)); },
        "run scene.toml",
        {"scene.toml:"}},
       badScene("NothingInIt", std::string(kGrains).substr(std::string(kGrains).find("[material")), "",
                {"there is nothing to simulate", "add [terrain]"}),
       // Pictures.
       {"PictureMissing",
-       [](const fs::path& f) { test::put(f / "scene.toml", kBed); },
+       [](const fs::path& f) { put(f / "scene.toml", kBed); },
        "run scene.toml",
        {"terrain.heightmap", "does not exist", "correct the path"}},
       badPicture("PictureEmpty", "", {"map.png", "the file is empty", "give a PNG"}),
@@ -219,26 +221,26 @@ std::vector<Mistake> mistakes() {
       badPicture("PictureInterlacedWrong", picture(28, "\x09"), {"map.png"}),
       {"PictureIsFolder",
        [](const fs::path& f) {
-         test::put(f / "scene.toml", kBed);
+         put(f / "scene.toml", kBed);
          fs::create_directory(f / "map.png");
        },
        "run scene.toml",
        {"terrain.heightmap", "is a folder"}},
       // Vehicles.
       badVehicle("VehicleMissing", nothing, {"vehicle.spec", "does not exist"}),
-      badVehicle("VehicleCutShort", [spec](const fs::path& p) { test::put(p, spec.substr(0, spec.size() / 2)); },
+      badVehicle("VehicleCutShort", [spec](const fs::path& p) { put(p, spec.substr(0, spec.size() / 2)); },
                  {"car.toml"}),
       badVehicle("VehicleOfNegativeMass",
                  [spec](const fs::path& p) {
                    const std::size_t at = spec.find("mass = ");
-                   test::put(p, std::string(spec).replace(at, spec.find('\n', at) - at, "mass = -1"));
+                   put(p, std::string(spec).replace(at, spec.find('\n', at) - at, "mass = -1"));
                  },
                  {"car.toml:", "mass = -1", "outside"}),
-      badScene("VehicleCutTooFine", kGrains, test::replaced(kBench, "RADIUS", "1e-5"),
+      badScene("VehicleCutTooFine", kGrains, replaced(kBench, "RADIUS", "1e-5"),
                {"scene.toml:6: vehicle.sphere_radius", "lattice points", "raise it"}),
-      badScene("VehicleCutTooCoarse", kGrains, test::replaced(kBench, "RADIUS", "0.9"),
+      badScene("VehicleCutTooCoarse", kGrains, replaced(kBench, "RADIUS", "0.9"),
                {"scene.toml:6: vehicle.sphere_radius", "above half of the longest side", "lower it"}),
-      badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { test::put(p, spec); }, {".obj"}),
+      badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { put(p, spec); }, {".obj"}),
       // Grains and planes where they cannot be.
       badScene("GrainOfNoSize", "position = [0, 0, 0.5]\nradius = 0.01", "position = [0, 0, 0]\nradius = 2e-320",
                {"scene.toml:10", "grain.0.radius", "smaller than 1e-12 m"}),
@@ -277,8 +279,7 @@ std::vector<Mistake> mistakes() {
                {"scene.toml:9: box.0.velocity", "unfelt", "keep it below 500 m/s"}),
       badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "choose"}),
       badScene("TooManyGrains", "grain_radius = 0.03\nlayers = 1", "grain_radius = 5e-5\nlayers = 10000",
-               {"scene.toml:11: terrain.grain_radius", "use larger grains"},
-               test::replaced(kBed, "time_step = 1e-4\n", "")),
+               {"scene.toml:11: terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
       badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",
                {"scene.toml:9: terrain.size", "terrain.grain_radius", "use larger grains"}, kBed),
       badScene(
@@ -313,10 +314,10 @@ std::vector<Mistake> mistakes() {
                manyPlanes(30) +
                    "[[grains]]\nlow = [0, 0, 1]\nhigh = [33, 33, 34]\nradius = 0.01\nmaterial = \"glass\"\n[output]",
                {"grains.0.radius", "this machine has", "use fewer or larger grains"},
-               test::replaced(kGrains, "[material.glass]", "[material.glass]\nrolling_friction = 0.1")),
+               replaced(kGrains, "[material.glass]", "[material.glass]\nrolling_friction = 0.1")),
       badScene("BedWithoutGravity", "time_step = 1e-4", "time_step = 1e-4\ngravity = [0, 0, 0]",
                {"scene.toml:5: run.gravity", "give z below 0", "settle_time_limit"},
-               test::replaced(kBed, "settle_time_limit = 0.0", "settle_time_limit = 1.0")),
+               replaced(kBed, "settle_time_limit = 0.0", "settle_time_limit = 1.0")),
       badScene("ExplicitSpringTooStiffForTheStep", kGrains,
                "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\nsprings = \"explicit\"\n[[body]]\nname = "
                "\"a\"\nmass = 1\nbox = [1, 1, 1]\n[[spring]]\nname = \"s\"\nbodies = [\"world\", "
@@ -340,7 +341,7 @@ std::vector<Mistake> mistakes() {
       badScene("SourceOnGrain", "[output]", source("[0.1, 0, 0.505]"),
                {"source.0.low", "overlaps grain 1 at (0.1, 0, 0.5) m", "move low and high"}),
       badScene("SourcesOnEachOther", "[output]",
-               test::replaced(source("[0.4, 0, 0.5]"), "[output]", "") + source("[0.4, 0, 0.501]"),
+               replaced(source("[0.4, 0, 0.5]"), "[output]", "") + source("[0.4, 0, 0.501]"),
                {"source.1.low", "overlaps one of source.0"}),
       badScene("SourceBelowTheFloor", "[output]", source("[0.3, 0, -1]", "", "soil"),
                {"source.0.low", "the terrain's floor"}, kBed),
@@ -371,21 +372,21 @@ std::vector<Mistake> mistakes() {
                {"has not settled", "raise terrain.settle_time_limit"}, kBed, 3),
       // Where results go.
       {"OutIsFile",
-       [](const fs::path& f) { test::put(f / "scene.toml", kGrains), test::put(f / "a", "precious"); },
+       [](const fs::path& f) { put(f / "scene.toml", kGrains), put(f / "a", "precious"); },
        "run scene.toml --out a",
        {"a: is a file", "--out"}},
       {"OutBelowFile",
-       [](const fs::path& f) { test::put(f / "scene.toml", kGrains), test::put(f / "a", "precious"); },
+       [](const fs::path& f) { put(f / "scene.toml", kGrains), put(f / "a", "precious"); },
        "run scene.toml --out a/b",
        {"a/b", "--out"}},
       {"OutNotWritable",
-       [](const fs::path& f) { test::put(f / "scene.toml", kGrains); },
+       [](const fs::path& f) { put(f / "scene.toml", kGrains); },
        "run scene.toml --out /proc/results",
        {"/proc/results", "--out"}},
       {"OutIsFull",
        [](const fs::path& f) {
-         test::put(f / "scene.toml", kGrains);
-         fs::create_directory(f / "a"), test::put(f / "a/b", "precious");
+         put(f / "scene.toml", kGrains);
+         fs::create_directory(f / "a"), put(f / "a/b", "precious");
        },
        "run scene.toml --out a",
        {"not empty", "--force"}},
@@ -400,7 +401,7 @@ std::vector<Mistake> mistakes() {
       badCheckpoint("CheckpointCut", [](const fs::path& c) { fs::resize_file(c, fs::file_size(c) / 2); },
                     {"damaged", "start anew"}),
       badCheckpoint("CheckpointEmpty", [](const fs::path& c) { fs::resize_file(c, 0); }, {"no checkpoint"}),
-      badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { test::put(c, picture()); }, {"no checkpoint"}),
+      badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { put(c, picture()); }, {"no checkpoint"}),
       badCheckpoint("CheckpointOfAnotherScene", nothing, {"run.seed", "set it back"},
                     "run scene.toml --resume --out a --set run.seed=9"),
       badCheckpoint("CheckpointElsewhere", nothing, {"a run goes on in the folder"},
@@ -413,13 +414,13 @@ std::vector<Mistake> mistakes() {
   };
 }
 
-class BadInput : public test::ProgramTest, public testing::WithParamInterface<Mistake> {
+class BadInput : public ProgramTest, public testing::WithParamInterface<Mistake> {
 protected:
   /// Every file below the working folder with its bytes.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder_))
-      all[entry.path().string()] = entry.is_regular_file() ? test::contents(entry.path()) : "";
+      all[entry.path().string()] = entry.is_regular_file() ? contents(entry.path()) : "";
     return all;
   }
 };
@@ -429,7 +430,7 @@ TEST_P(BadInput, EndsWithOneLineAndTouchesNothing) {
   m.make(folder_);
   if (HasFatalFailure()) return;
   const std::map<std::string, std::string> before = files();
-  const test::Outcome o = call(m.words, m.before);
+  const Outcome o = call(m.words, m.before);
   const std::string& errors = o.errors;
   EXPECT_EQ(o.code, m.code) << errors;
   EXPECT_EQ(errors.rfind("grouser: error: ", 0), 0u) << errors;

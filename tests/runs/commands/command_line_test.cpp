@@ -13,11 +13,14 @@
 #include <vector>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
 
-class CommandLine : public test::ProgramTest {
+class CommandLine : public ProgramTest {
 protected:
   /// A falling grain: the smallest scene that runs.
   void writeGrain(const std::string& name = "grain.toml", const std::string& more = "") const {
@@ -39,7 +42,7 @@ protected:
 };
 
 TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
-  const test::Outcome o = call("--version");
+  const Outcome o = call("--version");
   EXPECT_EQ(o.code, 0);
   for (const char* part : {"grouser ", "commit ", "compiler ", "CUDA "}) EXPECT_NE(o.out.find(part), std::string::npos);
 }
@@ -47,7 +50,7 @@ TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
   for (const char* command : {"", "run", "sweep", "bench", "bench bed", "bench step", "bench contacts", "hash",
                               "sinkage", "plan", "spheres", "render", "fields"}) {
-    const test::Outcome o = call(std::string(command) + " --help");
+    const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;
   }
@@ -60,7 +63,7 @@ TEST_F(CommandLine, WrongWordsEndWithTwoAndOneLine) {
         "run grain.toml --threads -1", "run grain.toml --set run.duration", "run nosuch.toml",
         "run grain.toml --set run.duratio=1", "sinkage nosuch.h5", "sinkage grain.toml", "plan nosuch.toml",
         "spheres nosuch.obj --radius 0.01", "spheres x.obj", "spheres x.obj --radius 1 --count 5"}) {
-    const test::Outcome o = call(words);
+    const Outcome o = call(words);
     EXPECT_EQ(o.code, 2) << words << "\n" << o.errors;
     EXPECT_EQ(o.errors.rfind("grouser: error: ", 0), 0u) << words << "\n" << o.errors;
     EXPECT_EQ(std::count(o.errors.begin(), o.errors.end(), '\n'), 1) << words << "\n" << o.errors;
@@ -79,7 +82,7 @@ TEST_F(CommandLine, WrongNumberNamesOptionValueAndRange) {
       {"spheres x.obj --radius inf", "--radius: inf is not a length in metres above 0"},
       {"spheres x.obj --count 0", "--count: 0 is not a whole number of at least 1"}};
   for (const auto& [words, message] : mistakes) {
-    const test::Outcome o = call(words);
+    const Outcome o = call(words);
     EXPECT_EQ(o.code, 2) << words;
     EXPECT_NE(o.errors.find(message), std::string::npos) << o.errors;
   }
@@ -95,18 +98,18 @@ TEST_F(CommandLine, UnknownCommandNamesTheNearest) {
 TEST_F(CommandLine, SpheresAreNotWrittenOverAFileUnlessForced) {
   writeCube();
   std::ofstream(folder_ / "s.csv") << "precious";
-  const test::Outcome refused = call("spheres cube.obj --radius 0.02 --csv s.csv");
+  const Outcome refused = call("spheres cube.obj --radius 0.02 --csv s.csv");
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.errors.find("--force"), std::string::npos) << refused.errors;
-  EXPECT_EQ(test::contents(folder_ / "s.csv"), "precious");
+  EXPECT_EQ(contents(folder_ / "s.csv"), "precious");
   EXPECT_EQ(call("spheres cube.obj --radius 0.02 --csv s.csv --force").code, 0);
-  EXPECT_EQ(test::contents(folder_ / "s.csv").rfind("x [m],y [m],z [m],radius [m]\n", 0), 0u);
+  EXPECT_EQ(contents(folder_ / "s.csv").rfind("x [m],y [m],z [m],radius [m]\n", 0), 0u);
 }
 
 TEST_F(CommandLine, FullDiskIsSaidAndLeavesNoPart) {
   writeCube();
   // Files of at most 512 bytes: the write fails in the middle, as on a full disk.
-  const test::Outcome o = call("spheres cube.obj --radius 0.01 --csv s.csv", "ulimit -f 1; ");
+  const Outcome o = call("spheres cube.obj --radius 0.01 --csv s.csv", "ulimit -f 1; ");
   EXPECT_EQ(o.code, 3);
   EXPECT_NE(o.errors.find("s.csv: could not be written whole; is the disk full?"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "s.csv"));
@@ -117,7 +120,7 @@ TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
   int begun = 0, complete = 0;
   for (const int blocks : {0, 1, 4, 8, 12, 16, 24, 32, 48, 64, 512}) { // files of at most so many times 512 bytes
     const std::string folder = "full" + std::to_string(blocks);
-    const test::Outcome o = call("run grain.toml --out " + folder, "ulimit -f " + std::to_string(blocks) + "; ");
+    const Outcome o = call("run grain.toml --out " + folder, "ulimit -f " + std::to_string(blocks) + "; ");
     if (o.code == 0) {
       ++complete;
       continue;
@@ -129,7 +132,7 @@ TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
     }
     if (!fs::exists(folder_ / folder)) continue;
     ++begun;
-    const std::string manifest = test::contents(folder_ / folder / "manifest.json");
+    const std::string manifest = contents(folder_ / folder / "manifest.json");
     EXPECT_EQ(manifest.find("\"finished\""), std::string::npos) << blocks;
   }
   EXPECT_GT(begun, 0) << "no limit struck in the middle of a run";
@@ -137,9 +140,8 @@ TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
 }
 
 TEST_F(CommandLine, BrokenSceneEndsWithTwoAndTouchesNothing) {
-  std::ofstream(folder_ / "broken.toml") << test::replaced(test::goodScene(), "grain_radius = 0.05",
-                                                           "grain_radius = -1");
-  const test::Outcome o = call("run broken.toml");
+  std::ofstream(folder_ / "broken.toml") << replaced(goodScene(), "grain_radius = 0.05", "grain_radius = -1");
+  const Outcome o = call("run broken.toml");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("broken.toml:19: terrain.grain_radius = -1 [m] is outside (0, 10]"), std::string::npos)
       << o.errors;
@@ -148,7 +150,7 @@ TEST_F(CommandLine, BrokenSceneEndsWithTwoAndTouchesNothing) {
 
 TEST_F(CommandLine, RunLeavesItsFilesAndPrintsTheHashLast) {
   writeGrain();
-  const test::Outcome o = call("run grain.toml --hash --threads 1 --set output.plots=true");
+  const Outcome o = call("run grain.toml --hash --threads 1 --set output.plots=true");
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* name :
        {"results.h5", "timeseries.csv", "manifest.json", "scene.toml", "frames.h5", "frames.xdmf", "picture.png"})
@@ -156,7 +158,7 @@ TEST_F(CommandLine, RunLeavesItsFilesAndPrintsTheHashLast) {
   const std::size_t last = o.out.rfind('\n', o.out.size() - 2) + 1;
   EXPECT_EQ(o.out.rfind("state-hash ", last), last) << o.out;
   EXPECT_NE(o.out.find(" step 100\n", last), std::string::npos) << o.out;
-  const std::string manifest = test::contents(folder_ / "out/grain/manifest.json");
+  const std::string manifest = contents(folder_ / "out/grain/manifest.json");
   EXPECT_NE(manifest.find("picture.png"), std::string::npos);
   // Where Python and its packages are there, the plots are drawn and listed; where not, a warning says so.
   const bool isWarned = o.errors.find("grouser: warning: no plots") != std::string::npos;
@@ -169,7 +171,7 @@ TEST_F(CommandLine, SmallScenesLeaveEveryGrainAsText) {
                             "\"glass\"\n";
   std::ofstream(folder_ / "two.toml", std::ios::app) << grain;
   ASSERT_EQ(call("run two.toml --out whole").code, 0);
-  std::istringstream file(test::contents(folder_ / "whole/grains.csv"));
+  std::istringstream file(contents(folder_ / "whole/grains.csv"));
   std::string line;
   std::getline(file, line);
   EXPECT_EQ(line.rfind("step,time [s],id,position.x [m],", 0), 0u) << line;
@@ -189,7 +191,7 @@ TEST_F(CommandLine, SmallScenesLeaveEveryGrainAsText) {
 
   ASSERT_EQ(call("run two.toml --out cut --steps 70").code, 0);
   ASSERT_EQ(call("run two.toml --out cut --resume cut/checkpoint.h5").code, 0);
-  EXPECT_EQ(test::contents(folder_ / "cut/grains.csv"), test::contents(folder_ / "whole/grains.csv"));
+  EXPECT_EQ(contents(folder_ / "cut/grains.csv"), contents(folder_ / "whole/grains.csv"));
 
   ASSERT_EQ(call("run two.toml --out none --set output.grains_csv=false").code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "none/grains.csv"));
@@ -199,55 +201,54 @@ TEST_F(CommandLine, SmallScenesLeaveEveryGrainAsText) {
 
 TEST_F(CommandLine, GrainsAsTextGoOnFromBetweenTwoRowsWhereTheFirstRowsHadNone) {
   writeGrain("drip.toml", "output_interval = 3e-4\n");
-  std::string scene = test::contents(folder_ / "drip.toml");
+  std::string scene = contents(folder_ / "drip.toml");
   scene.resize(scene.find("[[grain]]"));
-  test::put(folder_ / "drip.toml", scene +
-                                       "[[source]]\nlow = [0, 0, 1]\nhigh = [0, 0, 1]\nradius = 0.01\nmaterial = "
-                                       "\"glass\"\nevery = 1.0\nstart = 4e-4\ntotal = 1\n[output]\nplots = false\n");
+  put(folder_ / "drip.toml", scene + "[[source]]\nlow = [0, 0, 1]\nhigh = [0, 0, 1]\nradius = 0.01\nmaterial = "
+                                     "\"glass\"\nevery = 1.0\nstart = 4e-4\ntotal = 1\n[output]\nplots = false\n");
   ASSERT_EQ(call("run drip.toml --out whole").code, 0);
   ASSERT_EQ(call("run drip.toml --out cut --steps 70").code, 0); // ends with a row of its own
   ASSERT_EQ(call("run drip.toml --out cut --resume cut/checkpoint.h5").code, 0);
-  EXPECT_EQ(test::contents(folder_ / "cut/grains.csv"), test::contents(folder_ / "whole/grains.csv"));
+  EXPECT_EQ(contents(folder_ / "cut/grains.csv"), contents(folder_ / "whole/grains.csv"));
 }
 
 TEST_F(CommandLine, FilledFolderIsKeptUnlessForced) {
   writeGrain();
   fs::create_directories(folder_ / "results");
   std::ofstream(folder_ / "results/results.h5") << "precious";
-  const test::Outcome refused = call("run grain.toml --out results");
+  const Outcome refused = call("run grain.toml --out results");
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.errors.find("--force"), std::string::npos);
-  EXPECT_EQ(test::contents(folder_ / "results/results.h5"), "precious");
+  EXPECT_EQ(contents(folder_ / "results/results.h5"), "precious");
   EXPECT_EQ(call("run grain.toml --out results --force --steps 5").code, 0);
-  EXPECT_NE(test::contents(folder_ / "results/results.h5"), "precious");
+  EXPECT_NE(contents(folder_ / "results/results.h5"), "precious");
 }
 
 TEST_F(CommandLine, ResolvedSceneRunsToTheSameHash) {
   writeGrain();
-  const test::Outcome first = call("run grain.toml --hash --set run.seed=3 --out a");
-  const test::Outcome second = call("run a/scene.toml --hash --out b");
+  const Outcome first = call("run grain.toml --hash --set run.seed=3 --out a");
+  const Outcome second = call("run a/scene.toml --hash --out b");
   ASSERT_EQ(second.code, 0) << second.errors;
   EXPECT_EQ(first.hash(), second.hash());
 }
 
 TEST_F(CommandLine, HashOfTheCheckpointIsTheHashOfTheRun) {
   writeGrain();
-  const test::Outcome run = call("run grain.toml --hash");
+  const Outcome run = call("run grain.toml --hash");
   ASSERT_EQ(run.code, 0) << run.errors;
-  const test::Outcome hash = call("hash out/grain/checkpoint.h5");
+  const Outcome hash = call("hash out/grain/checkpoint.h5");
   EXPECT_EQ(hash.code, 0) << hash.errors;
   EXPECT_EQ(hash.out, run.hash() + "\n");
 }
 
 TEST_F(CommandLine, ResumeFindsTheCheckpointByFolderOrByName) {
   writeGrain();
-  const test::Outcome whole = call("run grain.toml --hash --out whole");
+  const Outcome whole = call("run grain.toml --hash --out whole");
   ASSERT_EQ(whole.code, 0) << whole.errors;
   ASSERT_EQ(call("run grain.toml --steps 40").code, 0);
   EXPECT_EQ(call("run grain.toml --resume --steps 70 --hash").hash().substr(28), "step 70");
   EXPECT_EQ(call("run grain.toml --resume out/grain/checkpoint.h5 --hash").hash(), whole.hash());
-  EXPECT_EQ(test::contents(folder_ / "out/grain/timeseries.csv"), test::contents(folder_ / "whole/timeseries.csv"));
-  const test::Outcome filled = call("run grain.toml");
+  EXPECT_EQ(contents(folder_ / "out/grain/timeseries.csv"), contents(folder_ / "whole/timeseries.csv"));
+  const Outcome filled = call("run grain.toml");
   EXPECT_NE(filled.errors.find("go on with --resume"), std::string::npos) << filled.errors;
 }
 
@@ -258,7 +259,7 @@ TEST_F(CommandLine, ResumeOfWhatIsNotThereEndsWithTwo) {
        {"run grain.toml --resume", "run grain.toml --resume nosuch.h5", "run grain.toml --resume grain.toml",
         "run grain.toml --resume a/results.h5", "run grain.toml --out b --resume a/checkpoint.h5",
         "run grain.toml --out a --resume --set run.gravity=[0,0,-1]", "hash a/results.h5", "hash"}) {
-    const test::Outcome o = call(words);
+    const Outcome o = call(words);
     EXPECT_EQ(o.code, 2) << words << "\n" << o.errors;
     EXPECT_EQ(std::count(o.errors.begin(), o.errors.end(), '\n'), 1) << words << "\n" << o.errors;
   }
@@ -269,22 +270,22 @@ TEST_F(CommandLine, ResumeOfWhatIsNotThereEndsWithTwo) {
 TEST_F(CommandLine, TerminatedRunEndsWith143AndIsResumed) {
   writeGrain("long.toml");
   const std::string scene = "run long.toml --set run.duration=100 --set output.frames=false --out run";
-  const test::Outcome stopped = shell("\"$grouser\" " + scene +
-                                      " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
-                                      "kill -TERM $pid\nwait $pid\nexit $?");
+  const Outcome stopped = shell("\"$grouser\" " + scene +
+                                " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
+                                "kill -TERM $pid\nwait $pid\nexit $?");
   EXPECT_EQ(stopped.code, 143) << stopped.errors;
   EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM"), std::string::npos) << stopped.errors;
-  const test::Outcome at = call("hash run/checkpoint.h5");
+  const Outcome at = call("hash run/checkpoint.h5");
   ASSERT_EQ(at.code, 0) << at.errors;
   const long long step = std::stoll(at.out.substr(at.out.rfind(' ')));
-  const test::Outcome on = call(scene + " --resume --hash --steps " + std::to_string(step + 100));
+  const Outcome on = call(scene + " --resume --hash --steps " + std::to_string(step + 100));
   ASSERT_EQ(on.code, 0) << on.errors;
   EXPECT_NE(on.out.find(" step " + std::to_string(step + 100) + "\n"), std::string::npos) << on.out;
 }
 
 TEST_F(CommandLine, PlanRunsNothing) {
-  std::ofstream(folder_ / "scene.toml") << test::goodScene();
-  const test::Outcome o = call("plan scene.toml");
+  std::ofstream(folder_ / "scene.toml") << goodScene();
+  const Outcome o = call("plan scene.toml");
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* part :
        {"on   grains", "on   vehicle", "off  picture", "off  planes", "grain steps", "time step", "memory"})
@@ -293,7 +294,7 @@ TEST_F(CommandLine, PlanRunsNothing) {
 }
 
 TEST_F(CommandLine, FieldsNameEveryDriverKey) {
-  const test::Outcome o = call("fields");
+  const Outcome o = call("fields");
   EXPECT_EQ(o.code, 0);
   EXPECT_NE(o.out.find("| `sprocket_speed` | rad/s | none | [-100, 100] |"), std::string::npos);
 }

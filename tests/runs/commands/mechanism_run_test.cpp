@@ -16,6 +16,9 @@
 #include <utility>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +26,7 @@ namespace fs = std::filesystem;
 const std::string kMechanisms = GROUSER_SOURCE_DIR "/runs/mechanisms/";
 const std::string kBare = " --set output.plots=false --set output.picture=false";
 
-class MechanismRun : public test::ProgramTest {
+class MechanismRun : public ProgramTest {
 protected:
   std::vector<double> series(const std::string& run, const std::string& path) const {
     return support::Hdf5File::open(folder_ / run / "results.h5").read<double>("/" + path + "/value");
@@ -31,7 +34,7 @@ protected:
 };
 
 TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
-  const test::Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.1" + kBare);
+  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.1" + kBare);
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("ledger"), std::string::npos);
   for (const char* path :
@@ -48,12 +51,12 @@ TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
   const std::vector<double> place = series("r", "bodies/piston/position");
   const double t = 0.1, s = std::sin(50 * t);
   EXPECT_NEAR(place[place.size() - 3], 0.1 * std::cos(50 * t) + std::sqrt(0.09 - 0.01 * s * s), 1e-6);
-  EXPECT_EQ(test::contents(folder_ / "r" / "timeseries.csv").rfind("step,time [s],bodies.crank.position.x [m]", 0), 0u);
+  EXPECT_EQ(contents(folder_ / "r" / "timeseries.csv").rfind("step,time [s],bodies.crank.position.x [m]", 0), 0u);
   EXPECT_TRUE(fs::exists(folder_ / "r" / "frames.xdmf"));
 }
 
 TEST_F(MechanismRun, ForcesBeforeTheFirstStepAreMissingNotZero) {
-  const test::Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.02" + kBare);
+  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.02" + kBare);
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* path : {"joints/crank pin/force", "joints/crank pin/torque", "joints/cylinder/slide_force_along",
                            "drives/motor/torque", "drives/motor/power"}) {
@@ -68,21 +71,20 @@ TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
   // A checkpoint between two rows: 0.0125 s, rows each 0.005 s.
   const std::string scene = kMechanisms + "slider_crank.toml" + kBare +
                             " --set run.checkpoint_interval=0 --set run.output_interval=0.005 --hash";
-  const test::Outcome straight = call("run " + scene + " --out straight --set run.duration=0.05");
+  const Outcome straight = call("run " + scene + " --out straight --set run.duration=0.05");
   ASSERT_EQ(straight.code, 0) << straight.errors;
   ASSERT_EQ(call("run " + scene + " --out parts --set run.duration=0.0125").code, 0);
-  const test::Outcome resumed = call("run " + scene + " --out parts --set run.duration=0.05 --resume");
+  const Outcome resumed = call("run " + scene + " --out parts --set run.duration=0.05 --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.errors;
   EXPECT_TRUE(straight.hasHash()) << straight.out;
   EXPECT_EQ(resumed.hash(), straight.hash());
-  EXPECT_EQ(test::contents(folder_ / "parts" / "timeseries.csv"),
-            test::contents(folder_ / "straight" / "timeseries.csv"));
+  EXPECT_EQ(contents(folder_ / "parts" / "timeseries.csv"), contents(folder_ / "straight" / "timeseries.csv"));
   EXPECT_EQ(call("hash parts/checkpoint.h5").hash(), straight.hash());
 }
 
 TEST_F(MechanismRun, HashDependsOnTheScene) {
   const std::string scene = "run " + kMechanisms + "pendulum.toml --steps 100 --hash --force --out r" + kBare;
-  const test::Outcome first = call(scene), weaker = call(scene + " --set run.gravity=[0,-9.8,0]");
+  const Outcome first = call(scene), weaker = call(scene + " --set run.gravity=[0,-9.8,0]");
   EXPECT_EQ(call(scene).hash(), first.hash());
   EXPECT_TRUE(call(scene + " --set body.0.mass=2").hasHash());
   EXPECT_TRUE(weaker.hasHash()) << weaker.errors;
@@ -90,7 +92,7 @@ TEST_F(MechanismRun, HashDependsOnTheScene) {
 }
 
 TEST_F(MechanismRun, PlanNamesFreedomsAndRedundantRows) {
-  const test::Outcome o = call("plan " + kMechanisms + "door.toml");
+  const Outcome o = call("plan " + kMechanisms + "door.toml");
   EXPECT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("RATTLE, order 2"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("degrees of freedom       1"), std::string::npos) << o.out;
@@ -102,7 +104,7 @@ TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
   // stiffness it is 31.4 us, and 0.01 s of a row is 319 of that, rounded up.
   const std::string scene = "plan " + kMechanisms + "spring_torsion.toml --set run.time_step=auto";
   EXPECT_NE(call(scene).out.find("time step                0.001 s"), std::string::npos) << call(scene).out;
-  const test::Outcome stiff = call(scene + " --set spring.0.stiffness=2e6");
+  const Outcome stiff = call(scene + " --set spring.0.stiffness=2e6");
   EXPECT_NE(stiff.out.find("time step                3.135e-05 s"), std::string::npos) << stiff.out;
 }
 
@@ -126,7 +128,7 @@ TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
   // pi / 10 of that, of which rows of 0.01 s take a whole share. Light chains are left with 1 ms.
   for (const auto& [weight, stable] : {std::pair{1.0, 0.02801}, {1e2, 0.00744}, {1e4, 7.627e-4}, {1e6, 7.629e-5}}) {
     std::ofstream(folder_ / "chain.toml") << chainScene(weight);
-    const test::Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kBare);
+    const Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kBare);
     ASSERT_EQ(o.code, 0) << weight << ": " << o.errors;
     const double step =
         0.2 / static_cast<double>(
@@ -138,7 +140,7 @@ TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
 
 TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCan) {
   std::ofstream(folder_ / "chain.toml") << chainScene(1e6);
-  const test::Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kBare);
+  const Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kBare);
   EXPECT_EQ(o.code, 3) << o.errors;
   EXPECT_NE(o.errors.find("at 0.0002 s joint 'pin 5' bore so much that only steps below 7.6e-05 s are stable"),
             std::string::npos)
@@ -170,7 +172,7 @@ imposes = "torque"
 polynomial = [0, -1e6]
 )";
   for (const auto& [step, limit] : {std::pair{"5e-4", 0.0005}, {"2.5e-4", 0.00025}}) {
-    const test::Outcome o =
+    const Outcome o =
         call("run winch.toml --force --out r --set run.duration=2 --set run.time_step=" + std::string(step) + kBare);
     EXPECT_EQ(o.code, 3) << step;
     std::smatch named;
@@ -188,15 +190,14 @@ TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
   const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
                     warning = "at the start joint 'pin 5' bears so much that swings across it grow with steps above "
                               "7.6e-05 s";
-  const test::Outcome plan = call("plan" + still + "2e-4"),
-                      run = call("run" + still + "2e-4 --steps 10 --out r" + kBare);
+  const Outcome plan = call("plan" + still + "2e-4"), run = call("run" + still + "2e-4 --steps 10 --out r" + kBare);
   EXPECT_EQ(plan.code, 0) << plan.errors;
   EXPECT_NE(plan.out.find("warning: chain.toml: run.time_step = 0.0002 s: " + warning), std::string::npos) << plan.out;
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_NE(run.errors.find(warning), std::string::npos) << run.errors;
   for (const char* step : {"7e-5", "auto"}) {
     EXPECT_EQ(call("plan" + still + step).out.find("warning"), std::string::npos) << step;
-    const test::Outcome quiet = call("run" + still + step + " --steps 10 --force --out r" + kBare);
+    const Outcome quiet = call("run" + still + step + " --steps 10 --force --out r" + kBare);
     EXPECT_EQ(quiet.code, 0) << quiet.errors;
     EXPECT_EQ(quiet.errors.find("warning"), std::string::npos) << quiet.errors;
   }
@@ -206,7 +207,7 @@ TEST_F(MechanismRun, NoShippedMechanismIsWarnedOf) {
   int scenes = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(kMechanisms)) {
     if (entry.path().extension() != ".toml") continue;
-    const test::Outcome o = call("plan " + entry.path().string());
+    const Outcome o = call("plan " + entry.path().string());
     EXPECT_EQ(o.code, 0) << o.errors;
     EXPECT_EQ(o.out.find("warning"), std::string::npos) << o.out;
     ++scenes;
@@ -215,51 +216,50 @@ TEST_F(MechanismRun, NoShippedMechanismIsWarnedOf) {
 }
 
 TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
-  const test::Outcome o = call("sweep " + kMechanisms + "pendulum.toml --set body.0.mass=1,2 --out s" +
-                               " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
+  const Outcome o = call("sweep " + kMechanisms + "pendulum.toml --set body.0.mass=1,2 --out s" +
+                         " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
   EXPECT_EQ(o.code, 0) << o.errors;
-  const std::string summary = test::contents(folder_ / "s" / "summary.csv"),
-                    header = summary.substr(0, summary.find('\n'));
+  const std::string summary = contents(folder_ / "s" / "summary.csv"), header = summary.substr(0, summary.find('\n'));
   EXPECT_NE(header.find("energy residual [J]"), std::string::npos) << header;
   for (const char* ofVehicles : {"teeth", "slip", "sinkage", "impulse"})
     EXPECT_EQ(header.find(ofVehicles), std::string::npos) << header;
 }
 
 TEST_F(MechanismRun, RecordKeepsOnlyWhatItNames) {
-  const test::Outcome o =
+  const Outcome o =
       call("run " + kMechanisms + "slider_crank.toml --out r --steps 10 --set 'output.record=[\"piston\"]'" + kBare);
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NO_THROW(series("r", "bodies/piston/position"));
   EXPECT_ANY_THROW(series("r", "bodies/crank/position"));
-  const test::Outcome wrong =
+  const Outcome wrong =
       call("run " + kMechanisms + "slider_crank.toml --out w --steps 10 --set 'output.record=[\"pistn\"]'");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.errors.find("did you mean \"piston\"?"), std::string::npos) << wrong.errors;
 }
 
 TEST_F(MechanismRun, TooLongAStepForAnExplicitSpringIsRefusedWithItsLimit) {
-  const test::Outcome o = call("run " + kMechanisms +
-                               "joint_prismatic.toml --out r --set run.springs=explicit --set run.time_step=0.05 --set "
-                               "run.output_interval=0.1 --set spring.0.stiffness=1e6" +
-                               kBare);
+  const Outcome o = call("run " + kMechanisms +
+                         "joint_prismatic.toml --out r --set run.springs=explicit --set run.time_step=0.05 --set "
+                         "run.output_interval=0.1 --set spring.0.stiffness=1e6" +
+                         kBare);
   EXPECT_EQ(o.code, 2) << o.errors;
   EXPECT_NE(o.errors.find("spring"), std::string::npos) << o.errors;
 }
 
 TEST_F(MechanismRun, StudyWritesTablesAndNamesTheNearestCase) {
-  const test::Outcome o = call("study multibody --quick --cases pendulum,torsion --out s");
+  const Outcome o = call("study multibody --quick --cases pendulum,torsion --out s");
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("cheapest setting that meets the precision"), std::string::npos);
-  EXPECT_EQ(test::contents(folder_ / "s" / "multibody.csv").rfind("case,integrator,step [s],steps,error [-]", 0), 0u);
-  EXPECT_NE(test::contents(folder_ / "s" / "cheapest.csv").find("torsion,0.1,"), std::string::npos);
-  const test::Outcome wrong = call("study multibody --cases pendulm --out w");
+  EXPECT_EQ(contents(folder_ / "s" / "multibody.csv").rfind("case,integrator,step [s],steps,error [-]", 0), 0u);
+  EXPECT_NE(contents(folder_ / "s" / "cheapest.csv").find("torsion,0.1,"), std::string::npos);
+  const Outcome wrong = call("study multibody --cases pendulm --out w");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.errors.find("did you mean pendulum?"), std::string::npos) << wrong.errors;
   EXPECT_EQ(call("study multibody --help").code, 0);
 }
 
 TEST_F(MechanismRun, PlotIsDrawn) {
-  const test::Outcome o =
+  const Outcome o =
       call("run " + kMechanisms + "pendulum.toml --out r --set run.duration=1 --set output.picture=false");
   ASSERT_EQ(o.code, 0) << o.errors;
   if (o.errors.find("no plots") != std::string::npos) GTEST_SKIP() << o.errors;

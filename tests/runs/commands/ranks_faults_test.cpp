@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -12,30 +15,28 @@ namespace fs = std::filesystem;
 /// A launcher that is still there after a minute has hung: its code is 124 then.
 constexpr const char* kLaunch = "timeout 60 mpirun -np 1 ";
 
-TEST_F(test::OnRanks, RanksStartedInDifferentFoldersAreRefusedAndLeaveNothing) {
+TEST_F(OnRanks, RanksStartedInDifferentFoldersAreRefusedAndLeaveNothing) {
   for (const char* place : {"a", "b"}) {
     fs::create_directory(folder_ / place);
-    test::put(folder_ / place / "bed.toml", kBed);
+    put(folder_ / place / "bed.toml", kBed);
   }
-  const test::Outcome o =
-      shell(kLaunch + std::string("-wdir \"$PWD/a\" \"$grouser\" run bed.toml --steps 10 --out o : "
-                                  "-np 1 -wdir \"$PWD/b\" \"$grouser\" run bed.toml --steps 10 --out o"));
+  const Outcome o = shell(kLaunch + std::string("-wdir \"$PWD/a\" \"$grouser\" run bed.toml --steps 10 --out o : "
+                                                "-np 1 -wdir \"$PWD/b\" \"$grouser\" run bed.toml --steps 10 --out o"));
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 0: o: rank 1 does not see this folder of rank 0"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "a/o"));
   EXPECT_FALSE(fs::exists(folder_ / "b/o"));
 }
 
-TEST_F(test::OnRanks, RanksToldToDoDifferentThingsAreRefused) {
-  const test::Outcome o =
-      shell(kLaunch + std::string("\"$grouser\" run bed.toml --out o --steps 10 : -np 1 \"$grouser\" run "
-                                  "bed.toml --out o --steps 20"));
+TEST_F(OnRanks, RanksToldToDoDifferentThingsAreRefused) {
+  const Outcome o = shell(kLaunch + std::string("\"$grouser\" run bed.toml --out o --steps 10 : -np 1 \"$grouser\" run "
+                                                "bed.toml --out o --steps 20"));
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 1 has another command line than rank 0"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "o"));
 }
 
-TEST_F(test::OnRanks, TheFirstRankSaysWhereBedsAreKept) {
+TEST_F(OnRanks, TheFirstRankSaysWhereBedsAreKept) {
   const std::string words = " \"$grouser\" run bed.toml --steps 50 --hash --set terrain.settle_time_limit=5 "
                             "--set terrain.settle_kinetic_energy=0.05 --out ",
                     expected = run(1, words.substr(12) + "anew").hash();
@@ -46,10 +47,10 @@ TEST_F(test::OnRanks, TheFirstRankSaysWhereBedsAreKept) {
   EXPECT_EQ(twice("-x GROUSER_CACHE=\"$PWD/beds\" -x GROUSER_CACHE_GIB=0", "limit").hash(), expected);
 }
 
-TEST_F(test::OnRanks, SweepsAndStudiesAreRefused) {
-  const test::Outcome sweep = run(2, "sweep bed.toml --set run.seed=1,2 --out sweep"),
-                      study = run(2, "study impact --quick --out study");
-  for (const test::Outcome* o : {&sweep, &study}) {
+TEST_F(OnRanks, SweepsAndStudiesAreRefused) {
+  const Outcome sweep = run(2, "sweep bed.toml --set run.seed=1,2 --out sweep"),
+                study = run(2, "study impact --quick --out study");
+  for (const Outcome* o : {&sweep, &study}) {
     EXPECT_EQ(o->code, 2);
     EXPECT_NE(o->errors.find("is no work for 2 ranks: start it without mpirun"), std::string::npos) << o->errors;
   }
@@ -57,9 +58,9 @@ TEST_F(test::OnRanks, SweepsAndStudiesAreRefused) {
   EXPECT_FALSE(fs::exists(folder_ / "study"));
 }
 
-TEST_F(test::OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
-  test::put(folder_ / "cut.toml", std::string(kBed) + "[parallel]\ncuts_x = [0.3, 0.6]\n");
-  const test::Outcome o = run(2, "run cut.toml --out o");
+TEST_F(OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
+  put(folder_ / "cut.toml", std::string(kBed) + "[parallel]\ncuts_x = [0.3, 0.6]\n");
+  const Outcome o = run(2, "run cut.toml --out o");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("cut.toml:22: parallel.cuts_x = [0.3, 0.6] [m] makes 3 subdomains along x"),
             std::string::npos)
@@ -68,12 +69,11 @@ TEST_F(test::OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
   EXPECT_EQ(run(1, "plan cut.toml --ranks 4").code, 2);
 }
 
-TEST_F(test::OnRanks, CutsWhereNoGrainCanBeLeaveRanksEmptyAndStandAtTheEndOfAllPlaces) {
+TEST_F(OnRanks, CutsWhereNoGrainCanBeLeaveRanksEmptyAndStandAtTheEndOfAllPlaces) {
   const std::string words = "run bed.toml --steps 50 --hash ", expected = run(1, words + "--out one").hash();
-  const test::Outcome o =
-      run(3, words + "--out far --set 'parallel.cuts_y=[1e30, 1e31]' --set parallel.rebalance=false");
+  const Outcome o = run(3, words + "--out far --set 'parallel.cuts_y=[1e30, 1e31]' --set parallel.rebalance=false");
   EXPECT_EQ(o.hash(), expected) << o.errors;
-  const test::Outcome ends = shell(R"(/usr/bin/python3 -c "
+  const Outcome ends = shell(R"(/usr/bin/python3 -c "
 import h5py
 y = h5py.File('far/frames.h5')['000000/partition/y'][:]
 assert (y > 10).all() and (y < 1e6).all(), y
@@ -81,15 +81,15 @@ assert (y > 10).all() and (y < 1e6).all(), y
   EXPECT_EQ(ends.code, 0) << ends.errors;
 }
 
-TEST_F(test::OnRanks, MoreRanksThanALatticeHoldsSayHowMany) {
-  const test::Outcome o = run(1, "plan bed.toml --ranks 67");
+TEST_F(OnRanks, MoreRanksThanALatticeHoldsSayHowMany) {
+  const Outcome o = run(1, "plan bed.toml --ranks 67");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("67 ranks make no lattice with at most 64 subdomains along each axis"), std::string::npos)
       << o.errors;
 }
 
-TEST_F(test::OnRanks, AFolderBelongsToOneRunAtATime) {
-  const test::Outcome o = shell(R"(
+TEST_F(OnRanks, AFolderBelongsToOneRunAtATime) {
+  const Outcome o = shell(R"(
 "$grouser" run bed.toml --out o --set run.duration=1000 --set run.checkpoint_interval=0.02 >first.txt &
 first=$!
 for i in $(seq 600); do [ -e o/checkpoint.h5 ] && break; sleep 0.05; done
@@ -103,14 +103,13 @@ kill $first; wait $first)");
   EXPECT_FALSE(fs::exists(folder_ / "nowhere")) << "made by asking for its lock";
 }
 
-TEST_F(test::OnRanks, WithoutMemoryTheRunEndsAndSaysWhatToDo) {
+TEST_F(OnRanks, WithoutMemoryTheRunEndsAndSaysWhatToDo) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the sanitizer needs all addresses";
 #endif
   // 1.3 million grains need 460 MB, and as much again while they are laid.
-  const test::Outcome o =
-      shell("ulimit -v 500000; \"$grouser\" run bed.toml --out o --threads 1 --steps 1 "
-            "--set terrain.grain_radius=0.002 --set terrain.layers=24 --set 'run.time_step=\"auto\"'");
+  const Outcome o = shell("ulimit -v 500000; \"$grouser\" run bed.toml --out o --threads 1 --steps 1 "
+                          "--set terrain.grain_radius=0.002 --set terrain.layers=24 --set 'run.time_step=\"auto\"'");
   EXPECT_EQ(o.code, 4);
   EXPECT_NE(o.errors.find("out of host memory"), std::string::npos) << o.errors;
   EXPECT_NE(o.errors.find("use larger or fewer grains"), std::string::npos) << o.errors;

@@ -11,6 +11,9 @@
 #include <vector>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +34,7 @@ double lastOf(const std::string& csv, const std::string& column) {
   return 0;
 }
 
-TEST_F(test::OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
+TEST_F(OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
   for (const char* scene : {"chute", "moving", "rain"}) {
     const std::string words = "run '" GROUSER_SOURCE_DIR "/tests/scenes/" + std::string(scene) +
                               ".toml' --steps 2500 --hash --force --set output.frames=false --set output.picture=false "
@@ -43,7 +46,7 @@ TEST_F(test::OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
   }
 }
 
-TEST_F(test::OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
+TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   // Settled once, by one rank; the vehicle is down on the bed from 0.07 s on.
   const auto drive = [this](int ranks, const std::string& words) {
     return shell("export GROUSER_CACHE=\"$PWD/beds\"; " +
@@ -58,12 +61,12 @@ TEST_F(test::OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   EXPECT_EQ(drive(2, "--out two --set 'parallel.subdomains=[2,1,1]'").hash(), expected);
   EXPECT_EQ(drive(3, "--out three --set 'parallel.subdomains=[1,3,1]' --set parallel.rebalance=false").hash(),
             expected);
-  const std::string series = test::contents(folder_ / "one/timeseries.csv");
-  EXPECT_EQ(series, test::contents(folder_ / "two/timeseries.csv"));
+  const std::string series = contents(folder_ / "one/timeseries.csv");
+  EXPECT_EQ(series, contents(folder_ / "two/timeseries.csv"));
   EXPECT_NE(lastOf(series, "vehicle.drawbar_pull [N]"), 0) << "the vehicle does not touch the bed";
 }
 
-TEST_F(test::OnRanks, SurfacesAndMeshesMoveAndMeasureAsOnOneRank) {
+TEST_F(OnRanks, SurfacesAndMeshesMoveAndMeasureAsOnOneRank) {
   std::ofstream(folder_ / "wedge.obj") << "v 0 -0.2 0\nv 0.3 -0.2 0\nv 0.3 -0.2 0.1\nv 0 0.2 0\nv 0.3 0.2 0\n"
                                           "v 0.3 0.2 0.1\nf 1 2 3\nf 4 6 5\nf 1 4 5\nf 1 5 2\nf 2 5 6\nf 2 6 3\n"
                                           "f 1 3 6\nf 1 6 4\n";
@@ -108,14 +111,14 @@ material = "soil"
 picture = false
 plots = false
 )";
-  const test::Outcome one = run(1, "run moved.toml --hash --out one");
+  const Outcome one = run(1, "run moved.toml --hash --out one");
   EXPECT_EQ(one.hash().substr(0, 11), "state-hash ") << one.errors;
   EXPECT_EQ(run(2, "run moved.toml --hash --out two").hash(), one.hash());
   EXPECT_EQ(run(3, "run moved.toml --hash --steps 650 --out three").code, 0);
   EXPECT_EQ(run(2, "run moved.toml --hash --resume --out three").hash(), one.hash());
-  EXPECT_EQ(test::contents(folder_ / "one/timeseries.csv"), test::contents(folder_ / "two/timeseries.csv"));
-  EXPECT_EQ(test::contents(folder_ / "one/timeseries.csv"), test::contents(folder_ / "three/timeseries.csv"));
-  const test::Outcome drawn = shell(R"(/usr/bin/python3 -c "
+  EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "two/timeseries.csv"));
+  EXPECT_EQ(contents(folder_ / "one/timeseries.csv"), contents(folder_ / "three/timeseries.csv"));
+  const Outcome drawn = shell(R"(/usr/bin/python3 -c "
 import h5py
 f = h5py.File('two/frames.h5')
 names = [n.decode() if isinstance(n, bytes) else n for n in f['parts/part'].attrs['names']]
@@ -126,29 +129,28 @@ assert abs((b - a)[-1, 0] + 0.3 * 0.1) < 1e-6, 'the mesh has moved with its velo
   EXPECT_EQ(drawn.code, 0) << drawn.errors;
 }
 
-TEST_F(test::OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
+TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
   const std::string words = "run bed.toml --steps 200 --hash --set terrain.settle_time_limit=5 "
                             "--set terrain.settle_kinetic_energy=0.05 ",
                     kept = "export GROUSER_CACHE=\"$PWD/beds\"; ";
-  const test::Outcome anew = run(1, words + "--no-cache --out anew");
+  const Outcome anew = run(1, words + "--no-cache --out anew");
   EXPECT_EQ(anew.hash().substr(0, 11), "state-hash ") << anew.errors;
   EXPECT_EQ(anew.out.find("\nbed "), std::string::npos) << anew.out;
-  const test::Outcome two = shell(kept + "mpirun -np 2 \"$grouser\" " + words + "--out two");
+  const Outcome two = shell(kept + "mpirun -np 2 \"$grouser\" " + words + "--out two");
   EXPECT_NE(two.out.find("bed       settled in "), std::string::npos) << two.out << two.errors;
-  const test::Outcome three = shell(kept + "mpirun -np 3 \"$grouser\" " + words + "--out three"),
-                      one = shell(kept + "\"$grouser\" " + words + "--out one");
-  for (const test::Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
-  for (const test::Outcome& o : {three, one})
-    EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
+  const Outcome three = shell(kept + "mpirun -np 3 \"$grouser\" " + words + "--out three"),
+                one = shell(kept + "\"$grouser\" " + words + "--out one");
+  for (const Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
+  for (const Outcome& o : {three, one}) EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
   std::ofstream(folder_ / "damage.sh")
       << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
-  const test::Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
+  const Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
   EXPECT_EQ(damaged.hash(), anew.hash());
   EXPECT_NE(damaged.errors.find("damaged"), std::string::npos) << damaged.errors;
 }
 
-TEST_F(test::OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {
-  const test::Outcome straight = run(1, "run bed.toml --hash --out straight");
+TEST_F(OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {
+  const Outcome straight = run(1, "run bed.toml --hash --out straight");
   ASSERT_EQ(straight.code, 0) << straight.errors;
   ASSERT_EQ(run(2, "run bed.toml --hash --steps 600 --out stopped").code, 0);
   fs::copy(folder_ / "stopped", folder_ / "again");
@@ -157,13 +159,13 @@ TEST_F(test::OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {
   // What is in the files does not tell the number of ranks.
   EXPECT_EQ(run(1, "hash stopped/checkpoint.h5").hash(), run(1, "hash straight/checkpoint.h5").hash());
   for (const char* file : {"timeseries.csv", "frames.xdmf"})
-    EXPECT_EQ(test::contents(folder_ / "stopped" / file), test::contents(folder_ / "straight" / file)) << file;
+    EXPECT_EQ(contents(folder_ / "stopped" / file), contents(folder_ / "straight" / file)) << file;
 }
 
-TEST_F(test::OnRanks, FramesHoldTheSameNumbers) {
+TEST_F(OnRanks, FramesHoldTheSameNumbers) {
   ASSERT_EQ(run(1, "run bed.toml --steps 500 --out one").code, 0);
   ASSERT_EQ(run(3, "run bed.toml --steps 500 --out three").code, 0);
-  const test::Outcome same = shell(R"(/usr/bin/python3 -c "
+  const Outcome same = shell(R"(/usr/bin/python3 -c "
 import h5py
 a, b = h5py.File('one/frames.h5'), h5py.File('three/frames.h5')
 assert len(b['000001/partition']) >= 1 and 'partition' not in a['000001']
@@ -175,9 +177,9 @@ assert list(a['vertices']) == list(b['vertices']) and len(a['vertices']) == 1
   EXPECT_EQ(same.code, 0) << same.errors;
 }
 
-TEST_F(test::OnRanks, FramesOfAResumedRunAreAllThatTheStraightOneHasAndNoMore) {
+TEST_F(OnRanks, FramesOfAResumedRunAreAllThatTheStraightOneHasAndNoMore) {
   // Grains enter between the frames: the last frame of the run that is stopped is of a number that no other frame has.
-  test::put(folder_ / "drip.toml", R"(version = 1
+  put(folder_ / "drip.toml", R"(version = 1
 [run]
 duration = 0.09
 time_step = 1e-4
@@ -202,28 +204,27 @@ plots = false
     const std::string at = " --out of" + std::to_string(ranks);
     ASSERT_EQ(run(ranks, "run drip.toml" + at + "straight").code, 0);
     for (const char* stop : {" --steps 200", " --resume --steps 500", " --resume"}) {
-      const test::Outcome o = run(ranks, "run drip.toml" + at + "stopped" + stop);
+      const Outcome o = run(ranks, "run drip.toml" + at + "stopped" + stop);
       ASSERT_EQ(o.code, 0) << o.errors;
     }
-    const test::Outcome same =
-        shell("/usr/bin/python3 -c \"\nimport h5py\ndef content(name):\n"
-              "  found = {}\n"
-              "  def take(path, it):\n"
-              "    found[path] = it[:].tolist() if isinstance(it, h5py.Dataset) else dict(it.attrs)\n"
-              "  h5py.File(name + '/frames.h5').visititems(take)\n"
-              "  return {p: v for p, v in found.items() if 'partition' not in p}\n"
-              "a, b = [content('of" +
-              std::to_string(ranks) +
-              "' + how) for how in ('straight', 'stopped')]\n"
-              "assert len(a['vertices/12']) == 12\n"
-              "assert a == b, set(a) ^ set(b)\n\"");
+    const Outcome same = shell("/usr/bin/python3 -c \"\nimport h5py\ndef content(name):\n"
+                               "  found = {}\n"
+                               "  def take(path, it):\n"
+                               "    found[path] = it[:].tolist() if isinstance(it, h5py.Dataset) else dict(it.attrs)\n"
+                               "  h5py.File(name + '/frames.h5').visititems(take)\n"
+                               "  return {p: v for p, v in found.items() if 'partition' not in p}\n"
+                               "a, b = [content('of" +
+                               std::to_string(ranks) +
+                               "' + how) for how in ('straight', 'stopped')]\n"
+                               "assert len(a['vertices/12']) == 12\n"
+                               "assert a == b, set(a) ^ set(b)\n\"");
     EXPECT_EQ(same.code, 0) << ranks << " ranks: " << same.errors;
   }
 }
 
-TEST_F(test::OnRanks, PlanForetellsLatticeAndGhosts) {
-  const test::Outcome plan = run(1, "plan bed.toml --ranks 3 --set 'terrain.size=[1.5,1]'"),
-                      done = run(3, "run bed.toml --steps 1 --out three --set 'terrain.size=[1.5,1]'");
+TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
+  const Outcome plan = run(1, "plan bed.toml --ranks 3 --set 'terrain.size=[1.5,1]'"),
+                done = run(3, "run bed.toml --steps 1 --out three --set 'terrain.size=[1.5,1]'");
   std::smatch planned, found;
   ASSERT_TRUE(std::regex_search(plan.out, planned,
                                 std::regex("subdomains +([0-9]+ x [0-9]+ x [0-9]+)[^]*ghosts in all +([0-9.]+) %")))
@@ -236,9 +237,8 @@ TEST_F(test::OnRanks, PlanForetellsLatticeAndGhosts) {
   EXPECT_NEAR(std::stod(planned[2]), std::stod(found[2]), 2 * 100.0 * 2 / 25);
 }
 
-TEST_F(test::OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
-  const test::Outcome o =
-      run(2, "bench step bed.toml --steps 10 --batches 1 --threads 1 --device cpu --json /dev/stderr");
+TEST_F(OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
+  const Outcome o = run(2, "bench step bed.toml --steps 10 --batches 1 --threads 1 --device cpu --json /dev/stderr");
   EXPECT_EQ(o.code, 0) << o.errors;
   const std::string title = "\"bench\": \"step\"";
   const std::size_t at = o.errors.find(title);
@@ -247,20 +247,19 @@ TEST_F(test::OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
   EXPECT_NE(o.errors.find("\"ranks\": 2"), std::string::npos) << "each rank has made the whole scene:\n" << o.errors;
 }
 
-TEST_F(test::OnRanks, WaitingIsAShareOfTheDriveAlone) {
+TEST_F(OnRanks, WaitingIsAShareOfTheDriveAlone) {
   // One rank draws the picture while the other waits; that takes longer than these steps.
-  const test::Outcome o =
-      run(2, "run bed.toml --out o --steps 20 --set output.picture=true --set output.picture_width=4000");
+  const Outcome o = run(2, "run bed.toml --out o --steps 20 --set output.picture=true --set output.picture_width=4000");
   std::smatch waited;
   ASSERT_TRUE(std::regex_search(o.out, waited, std::regex("waited for others ([0-9.]+) to ([0-9.]+) % of the time")))
       << o.out << o.errors;
   EXPECT_LE(std::stod(waited[2]), 100);
 }
 
-TEST_F(test::OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
+TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
   std::ofstream(folder_ / "wrong.toml") << std::regex_replace(std::string(kBed), std::regex("layers = 2"),
                                                               "layers = -2");
-  const test::Outcome o = run(3, "run wrong.toml --out wrong");
+  const Outcome o = run(3, "run wrong.toml --out wrong");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 0: wrong.toml:"), std::string::npos) << o.errors;
   EXPECT_EQ(o.errors.find("rank 1: wrong.toml:"), std::string::npos) << o.errors;
@@ -268,37 +267,36 @@ TEST_F(test::OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
   EXPECT_LT(o.seconds, 60);
 }
 
-TEST_F(test::OnRanks, AnImpossibleLatticeIsRefused) {
-  const test::Outcome o = run(2, "run bed.toml --out wrong --set 'parallel.subdomains=[3,1,1]'");
+TEST_F(OnRanks, AnImpossibleLatticeIsRefused) {
+  const Outcome o = run(2, "run bed.toml --out wrong --set 'parallel.subdomains=[3,1,1]'");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("parallel.subdomains = [3, 1, 1] does not make 2 subdomains"), std::string::npos) << o.errors;
 }
 
-TEST_F(test::OnRanks, RanksWithOtherScenesAreRefusedByName) {
+TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
   std::ofstream(folder_ / "other.toml") << std::regex_replace(std::string(kBed), std::regex("1e5"), "2e5");
-  const test::Outcome o =
-      shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
+  const Outcome o = shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.errors.find("rank 1 has another scene than rank 0"), std::string::npos) << o.errors;
   EXPECT_LT(o.seconds, 60);
 }
 
-TEST_F(test::OnRanks, RanksThatAreToldOtherCommandsAreRefusedByName) {
+TEST_F(OnRanks, RanksThatAreToldOtherCommandsAreRefusedByName) {
   const std::string plan = "-np 1 \"$grouser\" plan bed.toml", go = "-np 1 \"$grouser\" run bed.toml --out a",
                     bench = "-np 1 \"$grouser\" bench bed --grains 1000";
   for (const auto& [first, other, told] : {std::tuple{plan, go, "rank 1 was told to do \"run\", rank 0 \"plan\""},
                                            {go, plan, "rank 1 was told to do \"plan\", rank 0 \"run\""},
                                            {bench, go, "rank 1 was told to do \"run\", rank 0 \"bench bed\""}}) {
-    const test::Outcome o = shell("timeout 60 mpirun " + first + " : " + other);
+    const Outcome o = shell("timeout 60 mpirun " + first + " : " + other);
     EXPECT_EQ(o.code, 2) << told;
     EXPECT_NE(o.errors.find(told), std::string::npos) << o.errors;
     EXPECT_FALSE(fs::exists(folder_ / "a"));
   }
 }
 
-TEST_F(test::OnRanks, AKilledRankEndsAllAndLeavesTheLastCheckpointWhole) {
+TEST_F(OnRanks, AKilledRankEndsAllAndLeavesTheLastCheckpointWhole) {
   // A run far longer than the test: one rank is killed as soon as there is a checkpoint.
-  const test::Outcome o = shell(R"(
+  const Outcome o = shell(R"(
 mpirun -np 2 "$grouser" run bed.toml --out killed --set run.duration=1000 --set run.checkpoint_interval=0.02 &
 launcher=$!
 for i in $(seq 600); do [ -e killed/checkpoint.h5 ] && break; sleep 0.1; done
@@ -308,14 +306,14 @@ wait $launcher)");
   EXPECT_LT(o.seconds, 60);
   EXPECT_EQ(run(1, "hash killed/checkpoint.h5").code, 0);
   // It can be gone on with, on another number of ranks.
-  const test::Outcome on = run(3, "run bed.toml --resume --out killed --set run.duration=1e-3");
+  const Outcome on = run(3, "run bed.toml --resume --out killed --set run.duration=1e-3");
   EXPECT_EQ(on.code, 2) << "the checkpoint is past this end, which only a checkpoint that was read can tell";
   EXPECT_NE(on.errors.find("this run ends at step 10"), std::string::npos) << on.errors;
 }
 
-TEST_F(test::OnRanks, ARankThatStandsStillForAWhileIsWaitedFor) {
+TEST_F(OnRanks, ARankThatStandsStillForAWhileIsWaitedFor) {
   const std::string expected = run(1, "run bed.toml --steps 1500 --hash --out one").hash();
-  const test::Outcome o = shell(R"(
+  const Outcome o = shell(R"(
 mpirun -np 2 "$grouser" run bed.toml --steps 1500 --hash --out two &
 launcher=$!
 for i in $(seq 600); do [ -e two/manifest.json ] && break; sleep 0.02; done

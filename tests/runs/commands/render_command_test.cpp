@@ -17,6 +17,9 @@
 #include <fstream>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,12 +34,12 @@ std::string messageOf(const std::function<void()>& call) {
 }
 
 /// Six frames, 0.1 s apart, of a row of grains along x and a cube that moves 1 m a frame.
-class RenderFrames : public test::FolderTest {
+class RenderFrames : public FolderTest {
 protected:
   static constexpr std::size_t kFrames = 6;
 
   void SetUp() override {
-    test::FolderTest::SetUp();
+    FolderTest::SetUp();
     base::TriangleMesh cube;
     for (const double x : {-0.5, 0.5})
       for (const double y : {-0.5, 0.5})
@@ -117,14 +120,14 @@ TEST_F(RenderFrames, PicturesAreTheSameByOneProcessAndByThree) {
   const std::vector<std::string> names = written();
   ASSERT_EQ(names.size(), kFrames);
   std::vector<std::string> pictures;
-  for (const std::string& name : names) pictures.push_back(test::contents(folder_ / "out" / name));
+  for (const std::string& name : names) pictures.push_back(contents(folder_ / "out" / name));
   EXPECT_NE(pictures[1], pictures[4]);
   c.processes = 3, c.force = true;
   fs::remove_all(c.folder);
   renderCommand(c);
   EXPECT_EQ(written(), names);
   for (std::size_t i = 0; i < names.size(); ++i)
-    EXPECT_EQ(test::contents(folder_ / "out" / names[i]), pictures[i]) << names[i];
+    EXPECT_EQ(contents(folder_ / "out" / names[i]), pictures[i]) << names[i];
 }
 
 TEST_F(RenderFrames, FramesAreChosenByTimeCountAndNumber) {
@@ -145,10 +148,10 @@ TEST_F(RenderFrames, WhatIsThereIsOverwrittenOnlyByForce) {
   renderCommand(c);
   std::ofstream(folder_ / "out" / "frame_000002.png") << "mine";
   EXPECT_NE(messageOf([&] { renderCommand(c); }).find("--force"), std::string::npos);
-  EXPECT_EQ(test::contents(folder_ / "out" / "frame_000002.png"), "mine");
+  EXPECT_EQ(contents(folder_ / "out" / "frame_000002.png"), "mine");
   c.force = true;
   renderCommand(c);
-  EXPECT_NE(test::contents(folder_ / "out" / "frame_000002.png"), "mine");
+  EXPECT_NE(contents(folder_ / "out" / "frame_000002.png"), "mine");
 }
 
 TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
@@ -200,7 +203,7 @@ TEST_F(RenderFrames, FilmHoldsAllPicturesOrIsNotThere) {
     return;
   }
   renderCommand(c);
-  EXPECT_EQ(test::contents(c.film).substr(4, 4), "ftyp"); // how MP4 files begin
+  EXPECT_EQ(contents(c.film).substr(4, 4), "ftyp"); // how MP4 files begin
   EXPECT_FALSE(fs::exists(folder_ / ".film.part.mp4"));
   EXPECT_FALSE(fs::exists(folder_ / ".film.log"));
   std::ofstream(folder_ / "bad.png") << "no picture";
@@ -208,7 +211,7 @@ TEST_F(RenderFrames, FilmHoldsAllPicturesOrIsNotThere) {
   EXPECT_FALSE(fs::exists(folder_ / "bad.mp4"));
 }
 
-TEST(render::GrainColours, GrainSpansWhereItsSurfaceCrossesABorder) {
+TEST(GrainColours, GrainSpansWhereItsSurfaceCrossesABorder) {
   const render::Borders borders = render::bordersOf({"x=0.5", "z=-1,2"});
   EXPECT_EQ(borders[2], (std::vector<double>{-1, 2}));
   EXPECT_TRUE(render::spans(borders, {0.45f, 0, 0}, 0.1f));
@@ -218,7 +221,7 @@ TEST(render::GrainColours, GrainSpansWhereItsSurfaceCrossesABorder) {
   EXPECT_EQ(render::subdomainAt(borders, {0.4f, 9, 0}), (std::array<int, 3>{0, 0, 1}));
 }
 
-TEST(render::GrainColours, RolesHaveThePapersColours) {
+TEST(GrainColours, RolesHaveThePapersColours) {
   output::StoredFrame f;
   f.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}}, f.radii = {0.1f, 0.1f, 0.1f}, f.speeds = {0, 0, 0};
   const render::GrainColours colours(render::GrainQuantity::Role, f, {f}, {});
@@ -230,7 +233,7 @@ TEST(render::GrainColours, RolesHaveThePapersColours) {
   EXPECT_EQ(colours.legend(render::bordersOf({"x=0.5"})).size(), 3u);
 }
 
-TEST(render::GrainColours, DepthIsMeasuredFromTheFirstFramesSurface) {
+TEST(GrainColours, DepthIsMeasuredFromTheFirstFramesSurface) {
   // A sloping bed of three layers; one grain of the top layer is pushed down by 0.05 m.
   output::StoredFrame first;
   for (int x = 0; x < 20; ++x)
@@ -280,7 +283,7 @@ TEST(Labels, CaptionIsDarkOnLightAndStaysInItsCorner) {
   EXPECT_EQ(elsewhere, 0);
 }
 
-class SharedWork : public test::FolderTest {};
+class SharedWork : public FolderTest {};
 
 TEST_F(SharedWork, EveryPieceIsDoneOnceWhoeverDoesIt) {
   for (const int processes : {1, 3, 8}) {

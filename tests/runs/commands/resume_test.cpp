@@ -20,6 +20,9 @@
 #include <unistd.h>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +31,7 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> snapshot(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    files[entry.path().filename().string()] = test::contents(entry.path());
+    files[entry.path().filename().string()] = contents(entry.path());
   return files;
 }
 
@@ -64,10 +67,10 @@ picture = false
 )";
 constexpr std::int64_t kEnd = 2000;
 
-class ResumedRun : public test::FolderTest {
+class ResumedRun : public FolderTest {
 protected:
   void SetUp() override {
-    test::FolderTest::SetUp();
+    FolderTest::SetUp();
     resumed_ = folder_ / "resumed";
   }
 
@@ -93,8 +96,8 @@ protected:
   /// All that the two runs left is the same: rows, frames, state.
   void expectSameFolders() {
     const fs::path whole = folder_ / "straight";
-    EXPECT_EQ(test::contents(resumed_ / "timeseries.csv"), test::contents(whole / "timeseries.csv"));
-    EXPECT_EQ(test::contents(resumed_ / "frames.xdmf"), test::contents(whole / "frames.xdmf"));
+    EXPECT_EQ(contents(resumed_ / "timeseries.csv"), contents(whole / "timeseries.csv"));
+    EXPECT_EQ(contents(resumed_ / "frames.xdmf"), contents(whole / "frames.xdmf"));
     const support::Hdf5File a = support::Hdf5File::open(resumed_ / "results.h5"),
                             b = support::Hdf5File::open(whole / "results.h5");
     EXPECT_EQ(a.numbers("/series/step").size(), 21u);
@@ -185,9 +188,9 @@ TEST_F(ResumedRun, SignalStopsWithACheckpointAndGoesOn) {
     EXPECT_NE(std::string(stopped.what()).find("--resume"), std::string::npos) << stopped.what();
   }
   interrupter.join();
-  EXPECT_NE(test::contents(resumed_ / "manifest.json").find("\"status\": \"stopped\""), std::string::npos);
+  EXPECT_NE(contents(resumed_ / "manifest.json").find("\"status\": \"stopped\""), std::string::npos);
   EXPECT_EQ(resume(bed()).stateHash, hash);
-  EXPECT_NE(test::contents(resumed_ / "manifest.json").find("\"status\": \"finished\""), std::string::npos);
+  EXPECT_NE(contents(resumed_ / "manifest.json").find("\"status\": \"finished\""), std::string::npos);
   expectSameFolders();
 }
 
@@ -212,7 +215,7 @@ TEST_F(ResumedRun, SingleGrainsGoOnToTheSameHash) {
   run(resumed_, scene(), 1);
   for (const std::int64_t step : {900, 1700, 3000}) resume(scene(), step);
   EXPECT_EQ(resume(scene()).stateHash, hash);
-  EXPECT_EQ(test::contents(resumed_ / "timeseries.csv"), test::contents(folder_ / "straight/timeseries.csv"));
+  EXPECT_EQ(contents(resumed_ / "timeseries.csv"), contents(folder_ / "straight/timeseries.csv"));
 }
 
 TEST_F(ResumedRun, WhatIsRefusedTouchesNothing) {
@@ -225,18 +228,18 @@ TEST_F(ResumedRun, WhatIsRefusedTouchesNothing) {
     std::ofstream(resumed_ / name, std::ios::binary) << bytes;
     return snapshot(resumed_);
   };
-  const auto damaged = test::put(simulation::kCheckpointName, whole.substr(0, whole.size() - 100));
+  const auto damaged = put(simulation::kCheckpointName, whole.substr(0, whole.size() - 100));
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), damaged);
-  test::put(simulation::kCheckpointName, whole);
-  const auto noRows = test::put("results.h5", before.at("results.h5").substr(0, 3000));
+  put(simulation::kCheckpointName, whole);
+  const auto noRows = put("results.h5", before.at("results.h5").substr(0, 3000));
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), noRows);
-  test::put("results.h5", before.at("results.h5"));
-  const auto noFrames = test::put("frames.h5", "no frames");
+  put("results.h5", before.at("results.h5"));
+  const auto noFrames = put("frames.h5", "no frames");
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), noFrames);
-  test::put("frames.h5", before.at("frames.h5"));
+  put("frames.h5", before.at("frames.h5"));
   EXPECT_EQ(snapshot(resumed_), before);
   EXPECT_EQ(resume(bed()).stateHash, straight());
 }

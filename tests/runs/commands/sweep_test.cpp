@@ -17,6 +17,9 @@
 #include <sstream>
 
 namespace grouser::commands {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +31,7 @@ struct Csv {
   std::vector<Words> rows;
 
   explicit Csv(const fs::path& path) {
-    std::istringstream stream(test::contents(path));
+    std::istringstream stream(contents(path));
     for (std::string line; std::getline(stream, line);) {
       Words cells(1);
       bool inQuotes = false;
@@ -50,10 +53,10 @@ struct Csv {
   }
 };
 
-class Sweep : public test::ProgramTest {
+class Sweep : public ProgramTest {
 protected:
   void SetUp() override {
-    test::ProgramTest::SetUp();
+    ProgramTest::SetUp();
     writeScene("1e-3");
   }
 
@@ -71,7 +74,7 @@ protected:
 
   SweepOptions options() const {
     SweepOptions o;
-    o.program = test::programUnderTest(), o.folder = out(), o.plot = false;
+    o.program = programUnderTest(), o.folder = out(), o.plot = false;
     return o;
   }
   int sweep(const Words& sets, int jobs = 1, bool force = false) const {
@@ -174,7 +177,7 @@ TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
   ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
   const auto one = ended("seed=1"), two = ended("seed=2");
   // One value more, and a run that was killed in between.
-  std::string manifest = test::contents(out() / "seed=2/manifest.json");
+  std::string manifest = contents(out() / "seed=2/manifest.json");
   manifest.replace(manifest.find("finished"), 8, "running");
   std::ofstream(out() / "seed=2/manifest.json") << manifest;
   ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
@@ -225,25 +228,25 @@ TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
   EXPECT_THROW(sweep({"run.seed=1,2"}), base::InputError);
   EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
   EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
-  EXPECT_EQ(test::contents(out() / "seed=2/thesis.txt"), "precious");
+  EXPECT_EQ(contents(out() / "seed=2/thesis.txt"), "precious");
 }
 
 TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
-  const test::Outcome sound = call("sweep fall.toml --set run.seed=1,2");
+  const Outcome sound = call("sweep fall.toml --set run.seed=1,2");
   EXPECT_EQ(sound.code, 0) << sound.errors;
   EXPECT_TRUE(fs::exists(folder_ / "out/fall_sweep/seed=2/results.h5"));
   EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
   EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-  const test::Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
+  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
   EXPECT_EQ(unsound.code, 3);
   EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
 }
 
-class SweepSummary : public test::FolderTest {};
+class SweepSummary : public FolderTest {};
 
 TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
-  scene::Scene scene = setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
+  scene::Scene scene = setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
   scene.driver.table = scene::SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
@@ -258,10 +261,8 @@ TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
 TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   SweepPlan plan;
   plan.keys = {"driver.sprocket_speed"};
-  plan.runs = {{"sprocket_speed=2",
-                {"2"},
-                {},
-                setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
+  plan.runs = {
+      {"sprocket_speed=2", {"2"}, {}, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
   scene::Scene& scene = plan.runs[0].scene;
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
 

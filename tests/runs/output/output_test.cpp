@@ -16,6 +16,9 @@
 #include <sstream>
 
 namespace grouser::output {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,16 +38,14 @@ std::vector<double> cells(const std::string& line) {
 }
 
 /// Of a run into a folder that is not there yet.
-class Output : public test::FolderTest {
+class Output : public FolderTest {
 protected:
   void SetUp() override {
-    test::FolderTest::SetUp();
+    FolderTest::SetUp();
     fs::remove(folder_);
   }
 
-  scene::Scene scene() const {
-    return setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
-  }
+  scene::Scene scene() const { return setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"); }
 
   static std::vector<Channel> channels() {
     return {{"vehicle/left/sinkage", "m", "of each shoe", 3, {}},
@@ -77,7 +78,7 @@ protected:
   }
 };
 
-TEST_F(scene::Output, RowsReadBackFromHdf5ToTheSameBits) {
+TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
   {
     RunWriter writer(folder_, scene(), channels(), {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
@@ -105,7 +106,7 @@ TEST_F(scene::Output, RowsReadBackFromHdf5ToTheSameBits) {
   EXPECT_TRUE(std::isnan(file.numbers("/vehicle/right/sinkage/value")[0]));
 }
 
-TEST_F(scene::Output, ResultsHoldSceneCommitAndMachine) {
+TEST_F(Output, ResultsHoldSceneCommitAndMachine) {
   RunWriter(folder_, scene(), channels(), {}).finish({});
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "results.h5");
   EXPECT_EQ(file.text("/", "scene"), scene::resolvedToml(scene()));
@@ -114,17 +115,17 @@ TEST_F(scene::Output, ResultsHoldSceneCommitAndMachine) {
   EXPECT_EQ(scene::resolvedToml(setup::loadScene(folder_ / "scene.toml")), scene::resolvedToml(scene()));
 }
 
-TEST_F(scene::Output, CsvHasTheNarrowChannelsToTheSameBits) {
+TEST_F(Output, CsvHasTheNarrowChannelsToTheSameBits) {
   RunWriter writer(folder_, scene(), channels(), {});
   for (int r = 0; r < 3; ++r) writer.row(numbered(r));
-  const std::vector<std::string> text = lines(test::contents(folder_ / "timeseries.csv"));
+  const std::vector<std::string> text = lines(contents(folder_ / "timeseries.csv"));
   ASSERT_EQ(text.size(), 4u);
   EXPECT_EQ(text[0],
             "step,time [s],vehicle.position.x [m],vehicle.position.y [m],vehicle.position.z [m],ledger.residual [J]");
   EXPECT_EQ(cells(text[3]), (std::vector<double>{200, 0.1 * 2, 2, 4, 6, -2 / 3.0}));
 }
 
-TEST_F(scene::Output, UnfinishedRunLeavesReadableRows) {
+TEST_F(Output, UnfinishedRunLeavesReadableRows) {
   RunWriter writer(folder_, scene(), channels(), {});
   for (int r = 0; r < 5; ++r) writer.row(numbered(r));
   // A copy of the files as they are on disk now is what a killed program leaves.
@@ -132,10 +133,10 @@ TEST_F(scene::Output, UnfinishedRunLeavesReadableRows) {
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "killed.h5");
   EXPECT_EQ(file.numbers("/ledger/residual/value").size(), 5u);
   EXPECT_EQ(file.numbers("/ledger/residual/value")[4], -4 / 3.0);
-  EXPECT_NE(test::contents(folder_ / "manifest.json").find("\"status\": \"running\""), std::string::npos);
+  EXPECT_NE(contents(folder_ / "manifest.json").find("\"status\": \"running\""), std::string::npos);
 }
 
-TEST_F(scene::Output, ManifestSaysWhatWasRunAndHowItEnded) {
+TEST_F(Output, ManifestSaysWhatWasRunAndHowItEnded) {
   RunWriter::Options options;
   options.metadata = {{"device", "cpu"}};
   scene::Scene s = scene();
@@ -144,14 +145,14 @@ TEST_F(scene::Output, ManifestSaysWhatWasRunAndHowItEnded) {
   Summary summary;
   summary.steps = 42, summary.stateHash = "00ff", summary.figures["grain_steps_per_second"] = 1e6;
   writer.finish(summary);
-  const std::string text = test::contents(folder_ / "manifest.json");
+  const std::string text = contents(folder_ / "manifest.json");
   for (const char* part : {"\"status\": \"finished\"", "\"run.seed=3\"", "\"device\": \"cpu\"", "\"steps\": 42",
                            "\"state_hash\": \"00ff\"", "\"results.h5\"", "\"commit\"", "\"machine\"", "\"wall_time_s\"",
                            "grain_steps_per_second"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
-TEST_F(scene::Output, FilledFolderIsLeftAloneWithoutForce) {
+TEST_F(Output, FilledFolderIsLeftAloneWithoutForce) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "results.h5") << "precious";
   std::ofstream(folder_ / "notes.txt") << "mine";
@@ -162,22 +163,22 @@ TEST_F(scene::Output, FilledFolderIsLeftAloneWithoutForce) {
     EXPECT_NE(std::string(e.what()).find("--force"), std::string::npos);
     EXPECT_NE(std::string(e.what()).find("--out"), std::string::npos);
   }
-  EXPECT_EQ(test::contents(folder_ / "results.h5"), "precious");
+  EXPECT_EQ(contents(folder_ / "results.h5"), "precious");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 2);
 
   RunWriter::Options force;
   force.force = true;
   RunWriter(folder_, scene(), channels(), force).finish({});
   EXPECT_NO_THROW(support::Hdf5File::open(folder_ / "results.h5"));
-  EXPECT_EQ(test::contents(folder_ / "notes.txt"), "mine");
+  EXPECT_EQ(contents(folder_ / "notes.txt"), "mine");
 }
 
-TEST_F(scene::Output, FileWhereTheFolderShouldBeIsAnInputError) {
+TEST_F(Output, FileWhereTheFolderShouldBeIsAnInputError) {
   std::ofstream(folder_) << "a file";
   EXPECT_THROW(checkOutputFolder(folder_, true), base::InputError);
 }
 
-TEST_F(scene::Output, WrongRowLengthIsACallersFault) {
+TEST_F(Output, WrongRowLengthIsACallersFault) {
   RunWriter writer(folder_, scene(), channels(), {});
   EXPECT_THROW(writer.row({0, 0, {1, 2}}), std::logic_error);
   RowBuilder row(channels());
@@ -185,12 +186,12 @@ TEST_F(scene::Output, WrongRowLengthIsACallersFault) {
   EXPECT_THROW(row.set("vehicle/position", 1.0), std::logic_error);
 }
 
-TEST_F(scene::Output, EveryXdmfReferenceExistsWithItsDimensions) {
+TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
   RunWriter writer(folder_, scene(), channels(), {});
   writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
   for (int f = 0; f < 3; ++f) writer.frame(frame(f, 4 + f));
   writer.finish({});
-  const std::string xml = test::contents(folder_ / "frames.xdmf");
+  const std::string xml = contents(folder_ / "frames.xdmf");
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "frames.h5");
   const auto between = [&xml](const std::string& open, const std::string& close, std::size_t from) {
     const std::size_t begin = xml.find(open, from) + open.size();
@@ -199,9 +200,9 @@ TEST_F(scene::Output, EveryXdmfReferenceExistsWithItsDimensions) {
   int references = 0;
   for (std::size_t at = 0; (at = xml.find("<DataItem", at)) != std::string::npos; ++at, ++references) {
     std::vector<std::uint64_t> wanted;
-    std::istringstream stream(support::between("Dimensions=\"", "\"", at));
+    std::istringstream stream(between("Dimensions=\"", "\"", at));
     for (std::uint64_t n; stream >> n;) wanted.push_back(n);
-    const std::string dataset = support::between(">frames.h5:", "</DataItem>", at);
+    const std::string dataset = between(">frames.h5:", "</DataItem>", at);
     EXPECT_EQ(file.shape(dataset), wanted) << dataset;
   }
   EXPECT_EQ(references, 3 * (5 + 4 + 2)); // grains, parts, ground
@@ -213,7 +214,7 @@ TEST_F(scene::Output, EveryXdmfReferenceExistsWithItsDimensions) {
   EXPECT_EQ(file.numbers("/000001/grains/id").size(), 5u);
 }
 
-TEST_F(scene::Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
+TEST_F(Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
   RunWriter writer(folder_, scene(), channels(), {});
   writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
   for (const int grains : {4, 4, 6, 4}) writer.frame(frame(0, grains));
@@ -221,7 +222,7 @@ TEST_F(scene::Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "frames.h5");
   EXPECT_EQ(file.numbers("/vertices/4"), (std::vector<double>{0, 1, 2, 3}));
   EXPECT_EQ(file.numbers("/vertices/6").size(), 6u);
-  const std::string xml = test::contents(folder_ / "frames.xdmf");
+  const std::string xml = contents(folder_ / "frames.xdmf");
   int uses = 0;
   for (std::size_t at = 0; (at = xml.find(">frames.h5:/vertices/4<", at)) != std::string::npos; ++at) ++uses;
   EXPECT_EQ(uses, 3);
@@ -229,14 +230,13 @@ TEST_F(scene::Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
     EXPECT_FALSE(file.has(std::string(frame) + "/grains/vertex")) << frame;
 }
 
-TEST_F(scene::Output, SinkageCsvHasOneColumnAShoe) {
+TEST_F(Output, SinkageCsvHasOneColumnAShoe) {
   {
     RunWriter writer(folder_, scene(), channels(), {});
     for (int r = 0; r < 4; ++r) writer.row(numbered(r));
     writer.finish({});
   }
-  const std::vector<std::string> text =
-      lines(test::contents(writeSinkageCsv(folder_ / "results.h5", folder_ / "deeper")));
+  const std::vector<std::string> text = lines(contents(writeSinkageCsv(folder_ / "results.h5", folder_ / "deeper")));
   ASSERT_EQ(text.size(), 5u);
   EXPECT_EQ(text[0], "time [s],left 0 [m],left 1 [m],left 2 [m],right 0 [m],right 1 [m],right 2 [m]");
   const std::vector<double> row = cells(text[4]);
@@ -244,7 +244,7 @@ TEST_F(scene::Output, SinkageCsvHasOneColumnAShoe) {
   EXPECT_TRUE(std::isnan(row[3]));
 }
 
-TEST_F(scene::Output, SinkageOfAForeignFileIsAnInputError) {
+TEST_F(Output, SinkageOfAForeignFileIsAnInputError) {
   fs::create_directories(folder_);
   EXPECT_THROW(writeSinkageCsv(folder_ / "nothing.h5", folder_), base::InputError);
   std::ofstream(folder_ / "text.h5") << "not HDF5";

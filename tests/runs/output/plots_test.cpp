@@ -12,6 +12,9 @@
 #include <cstdlib>
 
 namespace grouser::output {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,17 +23,17 @@ constexpr int kShoes = 12, kRows = 80;
 
 /// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
 /// comes down at row 60 only.
-class Plots : public test::FolderTest {
+class Plots : public FolderTest {
 protected:
   void SetUp() override {
-    test::FolderTest::SetUp();
+    FolderTest::SetUp();
     std::vector<Channel> channels = {
         {"vehicle/left/sinkage", "m", "", kShoes, {}}, {"vehicle/left/pad_height", "m", "", kShoes, {}},
         {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
         {"vehicle/left/speed", "m/s", "", 1, {}},      {"vehicle/left/drive_torque", "N m", "", 1, {}}};
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
-    RunWriter writer(folder_, setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"),
-                     channels, {});
+    RunWriter writer(folder_, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels,
+                     {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
     RowBuilder row(channels);
     for (int r = 0; r < kRows; ++r) {
@@ -56,7 +59,7 @@ protected:
   }
   void TearDown() override {
     unsetenv("GROUSER_SHARE");
-    test::FolderTest::TearDown();
+    FolderTest::TearDown();
   }
 };
 
@@ -76,8 +79,8 @@ TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
   const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},
                                          {"vehicle/left/pad_height", "m", "", kShoes, {}}};
   {
-    RunWriter writer(hanging, setup::parseScene(test::goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"),
-                     channels, {});
+    RunWriter writer(hanging, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels,
+                     {});
     RowBuilder row(channels);
     row.begin(0, 0); // all NaN
     writer.row(row.row());

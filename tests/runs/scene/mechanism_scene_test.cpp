@@ -9,6 +9,9 @@
 #include <filesystem>
 
 namespace grouser::scene {
+
+using namespace test; // fixtures
+
 namespace {
 
 /// Two rods on hinges, a spring, a bushing, a drive and a coupling; line numbers count from 1.
@@ -93,7 +96,7 @@ TEST(MechanismScene, ResolvedCopyLoadsToTheSameMechanism) {
 
 TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
   const Scene scene =
-      setup::parseScene(test::replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
+      setup::parseScene(replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
   const auto& I = setup::buildModel(scene.mechanism).bodies()[0].inertia_B.m;
   EXPECT_EQ(I[0][1], 0.01);
   EXPECT_EQ(I[0][2], 0.02);
@@ -102,10 +105,9 @@ TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
 
 TEST(MechanismScene, QuaternionAndAxisWithAngleMeanTheSameTurn) {
   const Scene turned = setup::parseScene(kScene, "scene.toml");
-  const Scene given =
-      setup::parseScene(test::replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
-                                       "orientation = [0.70710678118654757, 0, 0.70710678118654757, 0]"),
-                        "scene.toml");
+  const Scene given = setup::parseScene(replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
+                                                 "orientation = [0.70710678118654757, 0, 0.70710678118654757, 0]"),
+                                        "scene.toml");
   const base::Quat a = setup::buildModel(turned.mechanism).bodies()[1].pose.orientation,
                    b = setup::buildModel(given.mechanism).bodies()[1].pose.orientation;
   EXPECT_NEAR(a.w, b.w, 1e-15); // a few units in the last place
@@ -121,7 +123,7 @@ class MechanismMistakes : public testing::TestWithParam<Mistake> {};
 
 TEST_P(MechanismMistakes, NamePlaceValueAndRemedy) {
   const auto& [from, to, message] = GetParam();
-  const std::string text = test::replaced(kScene, from, to);
+  const std::string text = replaced(kScene, from, to);
   ASSERT_FALSE(text.empty()) << from;
   const std::string error = errorOf(text);
   EXPECT_NE(error.find(message), std::string::npos) << error;

@@ -11,6 +11,9 @@
 #include <filesystem>
 
 namespace grouser::scene {
+
+using namespace test; // fixtures
+
 namespace {
 
 Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -18,7 +21,7 @@ Scene parse(const std::string& text, const std::vector<std::string>& overrides =
 }
 
 TEST(Scene, EverySectionIsRead) {
-  const Scene s = parse(test::goodScene());
+  const Scene s = parse(goodScene());
   EXPECT_EQ(s.run.duration, 2);
   EXPECT_EQ(s.run.timeStep, 1e-4);
   ASSERT_EQ(s.materials.size(), 2u);
@@ -45,8 +48,8 @@ TEST(Scene, WhatIsAbsentIsNotBuilt) {
 }
 
 TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
-  std::string text = test::replaced(test::goodScene(), "sprocket_speed = 1\n",
-                                    "[driver.table]\ntime = [0, 1.5]\nleft = [0, 1]\nright = [0, -1]\n");
+  std::string text = replaced(goodScene(), "sprocket_speed = 1\n",
+                              "[driver.table]\ntime = [0, 1.5]\nleft = [0, 1]\nright = [0, -1]\n");
   text += "[[plane]]\nnormal = [0, 0.1, 1]\nmaterial = \"soil\"\n[material.\"wet clay\"]\ndamping = 12.5\nattraction = "
           "true\n"
           "[[grain]]\nposition = [0.1, 0.2, 3]\nvelocity = [0, 0, -1]\nradius = 0.05\nmaterial = \"wet clay\"\n"
@@ -59,7 +62,7 @@ TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
   EXPECT_EQ(second.contacts, first.contacts);
   EXPECT_EQ(second.grains, first.grains);
   EXPECT_EQ(second.planes, first.planes);
-  EXPECT_EQ(second.blocks, first.blocks);
+  EXPECT_EQ(second.fills, first.fills);
   EXPECT_EQ(second.material("glass").poisson, 0.25);
   EXPECT_EQ(second.terrain, first.terrain);
   EXPECT_EQ(second.vehicle, first.vehicle);
@@ -75,7 +78,7 @@ TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
   std::filesystem::create_directories(folder / "heightmaps");
   std::filesystem::copy_file(std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/hills.png",
                              folder / "heightmaps/hills.png", std::filesystem::copy_options::overwrite_existing);
-  const Scene s = setup::parseScene(test::goodScene(), folder / "scene.toml");
+  const Scene s = setup::parseScene(goodScene(), folder / "scene.toml");
   EXPECT_EQ(s.terrain->heightmap, std::filesystem::canonical(folder / "heightmaps/hills.png").string());
   std::filesystem::remove_all(folder);
 }
@@ -89,14 +92,13 @@ TEST(Scene, PlacesLookedAtAreNamedOnce) {
 }
 
 TEST(Scene, DriverFormsGiveTheSameSpeeds) {
-  const SpeedTable both = parse(test::goodScene(), {"driver.sprocket_speed=2"}).driver.speeds();
+  const SpeedTable both = parse(goodScene(), {"driver.sprocket_speed=2"}).driver.speeds();
   EXPECT_EQ(both.left, std::vector<double>{2});
-  const SpeedTable sides =
-      parse(test::replaced(test::goodScene(), "sprocket_speed = 1", "left = 1\nright = -1")).driver.speeds();
+  const SpeedTable sides = parse(replaced(goodScene(), "sprocket_speed = 1", "left = 1\nright = -1")).driver.speeds();
   EXPECT_EQ(sides.left, std::vector<double>{1});
   EXPECT_EQ(sides.right, std::vector<double>{-1});
-  EXPECT_DOUBLE_EQ(parse(test::goodScene()).driver.driveBegins(), 0.45);
-  EXPECT_EQ(parse(test::goodScene(), {"driver.drive_start=2"}).driver.driveBegins(), 2);
+  EXPECT_DOUBLE_EQ(parse(goodScene()).driver.driveBegins(), 0.45);
+  EXPECT_EQ(parse(goodScene(), {"driver.drive_start=2"}).driver.driveBegins(), 2);
 }
 
 /// One mistake in a good scene, and what the message must hold: the place or key, and the remedy.
@@ -111,7 +113,7 @@ struct Broken {
 class BrokenScene : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenScene, GivesOneErrorWithKeyAndRemedy) {
-  const std::string text = test::replaced(test::goodScene(), GetParam().from, GetParam().to);
+  const std::string text = replaced(goodScene(), GetParam().from, GetParam().to);
   ASSERT_NE(text, "") << "the good scene has no such line";
   try {
     parse(text);
@@ -305,19 +307,19 @@ TEST(Scene, VehicleOverNothingMustBeFixed) {
 
 TEST(Scene, OverridesAreCheckedLikeTheFile) {
   try {
-    parse(test::goodScene(), {"driver.sproket_speed=2"});
+    parse(goodScene(), {"driver.sproket_speed=2"});
     FAIL();
   } catch (const base::InputError& e) {
     EXPECT_EQ(std::string(e.what()).find("--set: unknown key driver.sproket_speed; did you mean sprocket_speed?"), 0u)
         << e.what();
   }
-  EXPECT_THROW(parse(test::goodScene(), {"driver.sprocket_speed=1e9"}), base::InputError);
-  EXPECT_THROW(parse(test::goodScene(), {"terrain.grain_radius=0"}), base::InputError);
+  EXPECT_THROW(parse(goodScene(), {"driver.sprocket_speed=1e9"}), base::InputError);
+  EXPECT_THROW(parse(goodScene(), {"terrain.grain_radius=0"}), base::InputError);
 }
 
 TEST(Scene, HelpListsEveryKeyOfTheResolvedCopy) {
   const std::string help = fieldHelp();
-  const std::string resolved = resolvedToml(parse(test::goodScene()));
+  const std::string resolved = resolvedToml(parse(goodScene()));
   std::size_t keys = 0;
   for (std::size_t begin = 0; begin < resolved.size();) {
     const std::size_t end = resolved.find('\n', begin), equals = resolved.find(" = ", begin);

@@ -104,8 +104,8 @@ TEST(Blocks, LatticeFillsItsBoxAndRandomGrainsDoNotTouch) {
   for (std::size_t i = 1; i < all.size(); ++i) {
     smallest = std::min(smallest, all[i].radius), largest = std::max(largest, all[i].radius);
     for (int a = 0; a < 3; ++a) {
-      EXPECT_GE(all[i].position[a] - all[i].radius, (*s.blocks[0].low)[a] - 1e-12);
-      EXPECT_LE(all[i].position[a] + all[i].radius, (*s.blocks[0].high)[a] + 1e-12);
+      EXPECT_GE(all[i].position[a] - all[i].radius, (*s.fills[0].low)[a] - 1e-12);
+      EXPECT_LE(all[i].position[a] + all[i].radius, (*s.fills[0].high)[a] + 1e-12);
     }
     for (std::size_t j = 1; j < i; ++j)
       EXPECT_GT(norm(all[i].position - all[j].position), all[i].radius + all[j].radius);
@@ -124,7 +124,7 @@ TEST(Blocks, LatticeThatIsShiftedStaysInItsBox) {
   for (const scene::Grain& g : all)
     for (int a = 0; a < 3; ++a) {
       EXPECT_GE(g.position[a] - g.radius, 0);
-      EXPECT_LE(g.position[a] + g.radius, (*s.blocks[0].high)[a]);
+      EXPECT_LE(g.position[a] + g.radius, (*s.fills[0].high)[a]);
     }
 }
 

@@ -18,14 +18,17 @@
 #include <unistd.h>
 
 namespace grouser::simulation {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
 
-class KeptBed : public test::FolderTest {
+class KeptBed : public FolderTest {
 protected:
   void SetUp() override {
-    test::FolderTest::SetUp();
+    FolderTest::SetUp();
     fs::remove(folder_); // the first bed makes it
   }
 
@@ -47,9 +50,9 @@ protected:
     bool settled = false;
     std::vector<double> row;
   };
-  test::Outcome run(BedCache* beds, const std::vector<std::string>& overrides = {},
-                    const base::Exec& exec = base::cpuExec(1)) const {
-    test::Outcome o;
+  Outcome run(BedCache* beds, const std::vector<std::string>& overrides = {},
+              const base::Exec& exec = base::cpuExec(1)) const {
+    Outcome o;
     Simulation simulation(
         scene(overrides), exec, [&](double, double) { o.settled = true; }, {}, beds);
     const auto note = [&] {
@@ -66,7 +69,7 @@ protected:
     if (beds) o.summary = beds->summary();
     return o;
   }
-  test::Outcome runIn(const fs::path& folder, const std::vector<std::string>& overrides = {}) const {
+  Outcome runIn(const fs::path& folder, const std::vector<std::string>& overrides = {}) const {
     BedCache beds(folder);
     return run(&beds, overrides);
   }
@@ -79,10 +82,10 @@ protected:
 };
 
 TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
-  const test::Outcome alone = run(nullptr), first = runIn(folder_), second = runIn(folder_);
+  const Outcome alone = run(nullptr), first = runIn(folder_), second = runIn(folder_);
   EXPECT_TRUE(first.settled);
   EXPECT_FALSE(second.settled);
-  for (const test::Outcome& o : {first, second}) {
+  for (const Outcome& o : {first, second}) {
     EXPECT_EQ(o.hash, alone.hash);
     EXPECT_EQ(o.row, alone.row);
   }
@@ -92,18 +95,18 @@ TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
 }
 
 TEST_F(KeptBed, ServesEverySkinAndEveryNumberOfThreads) {
-  const test::Outcome first = runIn(folder_);
+  const Outcome first = runIn(folder_);
   BedCache beds(folder_);
-  const test::Outcome other = run(&beds, {"run.skin=0.6"}, base::cpuExec(2));
+  const Outcome other = run(&beds, {"run.skin=0.6"}, base::cpuExec(2));
   EXPECT_FALSE(other.settled);
   EXPECT_EQ(other.hash, first.hash);
 }
 
 TEST_F(KeptBed, ServesCuda) {
   if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
-  const test::Outcome first = runIn(folder_);
+  const Outcome first = runIn(folder_);
   BedCache beds(folder_);
-  const test::Outcome other = run(&beds, {}, base::cudaExec());
+  const Outcome other = run(&beds, {}, base::cudaExec());
   EXPECT_FALSE(other.settled);
   EXPECT_EQ(other.hash, first.hash);
 }
@@ -148,16 +151,16 @@ TEST_F(KeptBed, KnowsWhereASurfaceStandsAndNotHowItWillMove) {
 }
 
 TEST_F(KeptBed, DamagedOrForeignIsToldAndSettledAnew) {
-  const test::Outcome first = runIn(folder_);
+  const Outcome first = runIn(folder_);
   ASSERT_EQ(files().size(), 1u);
   const fs::path file = files().front();
-  const std::string whole = test::contents(file);
+  const std::string whole = contents(file);
   std::string flipped = whole;
   flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
   for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 1), std::string("no bed"), std::string()}) {
     std::ofstream(file, std::ios::binary) << bad;
     testing::internal::CaptureStderr();
-    const test::Outcome again = runIn(folder_);
+    const Outcome again = runIn(folder_);
     const std::string told = testing::internal::GetCapturedStderr();
     EXPECT_NE(told.find(file.string()), std::string::npos) << told;
     EXPECT_TRUE(again.settled);
@@ -170,11 +173,11 @@ TEST_F(KeptBed, OfAnotherNameIsNotTaken) {
   runIn(folder_);
   const fs::path one = files().front();
   fs::rename(one, folder_ / "kept");
-  const test::Outcome other = runIn(folder_, {"run.seed=2"});
+  const Outcome other = runIn(folder_, {"run.seed=2"});
   const fs::path two = files().front();
   fs::rename(folder_ / "kept", two); // as if two origins had one hash
   testing::internal::CaptureStderr();
-  const test::Outcome again = runIn(folder_, {"run.seed=2"});
+  const Outcome again = runIn(folder_, {"run.seed=2"});
   EXPECT_NE(testing::internal::GetCapturedStderr().find("another bed"), std::string::npos);
   EXPECT_TRUE(again.settled);
   EXPECT_EQ(again.hash, other.hash);
@@ -183,7 +186,7 @@ TEST_F(KeptBed, OfAnotherNameIsNotTaken) {
 TEST_F(KeptBed, UnusableFolderIsAWarning) {
   std::ofstream(folder_) << "a file where the folder should be";
   testing::internal::CaptureStderr();
-  const test::Outcome o = runIn(folder_ / "below");
+  const Outcome o = runIn(folder_ / "below");
   EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot be kept"), std::string::npos);
   EXPECT_EQ(o.hash, run(nullptr).hash);
   EXPECT_NE(o.summary.find("not kept"), std::string::npos);
@@ -208,7 +211,7 @@ TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {
 }
 
 TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
-  test::Outcome a, b;
+  Outcome a, b;
   std::thread first([&] { a = runIn(folder_); });
   std::thread second([&] { b = runIn(folder_); });
   first.join(), second.join();
@@ -241,7 +244,7 @@ TEST_F(KeptBed, FolderComesFromTheSurroundings) {
   }
 }
 
-TEST(support::FileLock, IsHeldByOneAtATime) {
+TEST(FileLock, IsHeldByOneAtATime) {
   const fs::path file = fs::path(testing::TempDir()) / ("grouser_lock_" + std::to_string(getpid()));
   support::FileLock second;
   {

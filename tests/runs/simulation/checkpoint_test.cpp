@@ -22,6 +22,9 @@
 #include <unistd.h>
 
 namespace grouser::simulation {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,10 +44,10 @@ std::vector<std::uint64_t> rowOf(Simulation& simulation) {
   return bits;
 }
 
-class CheckpointFile : public test::FolderTest {
+class CheckpointFile : public FolderTest {
 protected:
   void SetUp() override {
-    test::FolderTest::SetUp();
+    FolderTest::SetUp();
     path_ = folder_ / "checkpoint.h5";
   }
 
@@ -69,7 +72,7 @@ protected:
   }
 
   std::string refusal(const std::string& bytes) const {
-    test::put(path_, bytes);
+    put(path_, bytes);
     try {
       readCheckpoint(path_);
     } catch (const base::InputError& error) {
@@ -148,7 +151,7 @@ TEST_F(CheckpointFile, ReadsBackToTheSameBits) {
 
 TEST_F(CheckpointFile, AnyByteThatDiffersIsSeen) {
   writeCheckpoint(path_, small());
-  const std::string whole = test::contents(path_);
+  const std::string whole = contents(path_);
   ASSERT_EQ(refusal(whole), "");
   for (std::size_t i = 0; i < whole.size(); i += i < support::kSealBytes ? 1 : 61) {
     std::string bytes = whole;
@@ -159,7 +162,7 @@ TEST_F(CheckpointFile, AnyByteThatDiffersIsSeen) {
 
 TEST_F(CheckpointFile, CutForeignAndOtherVersionsAreRefusedByName) {
   writeCheckpoint(path_, small());
-  const std::string whole = test::contents(path_);
+  const std::string whole = contents(path_);
   for (const std::size_t length :
        {whole.size() - 1, whole.size() / 2, support::kSealBytes, support::kSealBytes - 1, std::size_t{10}})
     EXPECT_NE(refusal(whole.substr(0, length)).find("damaged"), std::string::npos) << length;
@@ -167,7 +170,7 @@ TEST_F(CheckpointFile, CutForeignAndOtherVersionsAreRefusedByName) {
   EXPECT_NE(refusal("").find("no checkpoint"), std::string::npos);
   EXPECT_NE(refusal("version = 1\n").find("no checkpoint"), std::string::npos);
   { support::Hdf5File::create(path_).write("/steps", std::vector<std::int64_t>{1}, {1}); }
-  EXPECT_NE(refusal(test::contents(path_)).find("no checkpoint"), std::string::npos) << "results.h5 is HDF5 too";
+  EXPECT_NE(refusal(contents(path_)).find("no checkpoint"), std::string::npos) << "results.h5 is HDF5 too";
   std::string other = whole;
   const std::size_t version = other.find("\nversion ") + 9;
   other[version] = static_cast<char>(other[version] + 1);
@@ -233,7 +236,7 @@ TEST_F(CheckpointFile, EveryByteOfAFileOfTheSceneCounts) {
 
 TEST_F(CheckpointFile, FullDiskLeavesTheFormerOneAsItWas) {
   writeCheckpoint(path_, small(5));
-  const std::string former = test::contents(path_);
+  const std::string former = contents(path_);
   const auto oldHandler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit limit{}, narrow{};
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -243,7 +246,7 @@ TEST_F(CheckpointFile, FullDiskLeavesTheFormerOneAsItWas) {
     setrlimit(RLIMIT_FSIZE, &narrow);
     EXPECT_THROW(writeCheckpoint(path_, next), std::runtime_error) << bytes;
     setrlimit(RLIMIT_FSIZE, &limit);
-    EXPECT_EQ(test::contents(path_), former) << bytes;
+    EXPECT_EQ(contents(path_), former) << bytes;
     EXPECT_FALSE(fs::exists(path_.string() + ".part")) << bytes;
   }
   std::signal(SIGXFSZ, oldHandler);

@@ -19,14 +19,14 @@ scene::Scene rigid(const std::vector<std::string>& overrides) {
   return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides);
 }
 
-TEST(setup::Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
+TEST(Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
   for (const char* heading : {"0", "45", "90", "180", "270"}) {
     const scene::Scene scene = rigid({std::string("vehicle.heading=") + heading, "terrain.size=[5, 5]"});
     EXPECT_NO_THROW(setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec))) << heading;
   }
 }
 
-TEST(setup::Placement, OutsideIsRefusedWithTheRoomItNeeds) {
+TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
   const scene::Scene scene = rigid({"vehicle.position=[7.0, 0]"});
   try {
     setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
@@ -36,7 +36,7 @@ TEST(setup::Placement, OutsideIsRefusedWithTheRoomItNeeds) {
   }
 }
 
-TEST(setup::Placement, DrivingOffTheTerrainStopsTheRun) {
+TEST(Placement, DrivingOffTheTerrainStopsTheRun) {
   const scene::Scene scene =
       rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
   Simulation simulation(scene, base::cpuExec(1), [](double, double) {});

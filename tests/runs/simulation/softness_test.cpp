@@ -13,6 +13,9 @@
 #include <vector>
 
 namespace grouser::simulation {
+
+using namespace test; // fixtures
+
 namespace {
 
 /// Two materials, a plane, grains of 2 and 5 cm.
@@ -38,8 +41,8 @@ material = "a"
 )";
 
 std::string with(const std::string& law) {
-  const std::string first = test::replaced(kScene, "LAW", law);
-  return test::replaced(first, "LAW", law);
+  const std::string first = replaced(kScene, "LAW", law);
+  return replaced(first, "LAW", law);
 }
 
 std::string errorOf(const std::string& text, const std::vector<std::string>& overrides) {

@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 namespace grouser::simulation {
+
+using namespace test; // fixtures
+
 namespace {
 
 constexpr const char* kDrip = R"(version = 1
@@ -36,7 +39,7 @@ scene::Scene drip(const std::vector<std::string>& overrides = {}) {
   return setup::parseScene(kDrip, "drip.toml", overrides);
 }
 
-TEST(setup::Sources, GivesBatchesOnTimeAndTheRestLast) {
+TEST(Sources, GivesBatchesOnTimeAndTheRestLast) {
   const setup::Sources sources(drip(), 1e-4);
   std::vector<std::pair<std::int64_t, std::size_t>> seen;
   for (std::int64_t step = 0; step < 10000; ++step)
@@ -44,7 +47,7 @@ TEST(setup::Sources, GivesBatchesOnTimeAndTheRestLast) {
   EXPECT_EQ(seen, (std::vector<std::pair<std::int64_t, std::size_t>>{{500, 3}, {1500, 3}, {2500, 3}, {3500, 1}}));
 }
 
-TEST(setup::Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
+TEST(Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
   const scene::Scene scene = drip();
   const auto batch = setup::Sources(scene, 1e-4).enteringAt(1500);
   for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -58,7 +61,7 @@ TEST(setup::Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
   EXPECT_NE(batch[0].position, setup::Sources(drip({"run.seed=4"}), 1e-4).enteringAt(1500)[0].position);
 }
 
-TEST(setup::Sources, FallingGrainsBringTheirEnergyWithThem) {
+TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
   const scene::Scene scene = drip();
   Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
   while (simulation.steps() < 4000) simulation.step();
@@ -74,7 +77,7 @@ TEST(setup::Sources, FallingGrainsBringTheirEnergyWithThem) {
     EXPECT_NEAR(first[i].position.z - s.position[i].z, 0.35 + 5 * 0.35 * 0.35, 10 * 0.35 * 1e-4 / 2 * 1.01);
 }
 
-TEST(setup::Sources, ResumedBetweenTwoBatchesGivesTheSameBits) {
+TEST(Sources, ResumedBetweenTwoBatchesGivesTheSameBits) {
   const scene::Scene scene = drip();
   Simulation straight(scene, base::cpuExec(1), [](double, double) {});
   while (straight.steps() < 4000) straight.step();
@@ -87,7 +90,7 @@ TEST(setup::Sources, ResumedBetweenTwoBatchesGivesTheSameBits) {
   }
 }
 
-TEST(setup::Sources, ABoxWithoutRoomIsRefused) {
+TEST(Sources, ABoxWithoutRoomIsRefused) {
   try {
     Simulation simulation(drip({"source.0.number=200", "source.0.total=200"}), base::cpuExec(1), [](double, double) {});
     FAIL();
@@ -121,21 +124,21 @@ void expectParts(const std::string& message, const std::vector<std::string>& par
   for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
 }
 
-TEST(setup::Sources, AGrainThatLiesInTheWayStopsTheRunAndBothAreNamed) {
+TEST(Sources, AGrainThatLiesInTheWayStopsTheRunAndBothAreNamed) {
   expectParts(stopOf(dropAt("[0, 0, 1]", "0.0"), {"source.0.total=2"}),
               {"crowd.toml:9: source.0 would set a grain at (0, 0, 1) m at step 500, time 0.05 s",
                "0.04 m deep in grain 0", "later (start)", "every"});
   EXPECT_EQ(stopOf(dropAt("[0, 0, 1]", "0.0"), {"source.0.total=2", "source.0.velocity=[0, 0, 1]"}), "");
 }
 
-TEST(setup::Sources, TheDeepestOfManyInTheWayIsNamed) {
+TEST(Sources, TheDeepestOfManyInTheWayIsNamed) {
   // 0.03 - 0.021 m and 0.03 - 0.019 m, of radii 0.01 and 0.02 m.
   const std::string two = dropAt("[0.521, 0, 1]", "0.0", "0.01") + dropAt("[0.481, 0, 1]", "0.0", "0.01");
   expectParts(stopOf(two + dropAt("[0.5, 0, 1]", "0.01")),
               {"crowd.toml:25: source.2", "0.011 m deep in grain 1 at (0.481, 0, 1)"});
 }
 
-TEST(setup::Sources, AnImageAcrossJoinedSidesLiesInTheWayToo) {
+TEST(Sources, AnImageAcrossJoinedSidesLiesInTheWayToo) {
   // Not 1 m apart, which is 2^32 units of length: differences of the low words alone would find that image.
   const std::string two = dropAt("[-0.59, 0, 1]", "0.0") + dropAt("[0.59, 0, 1]", "0.01");
   expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.6, 0.6]"}),
@@ -143,7 +146,7 @@ TEST(setup::Sources, AnImageAcrossJoinedSidesLiesInTheWayToo) {
   EXPECT_EQ(stopOf(two), "");
 }
 
-TEST(setup::Sources, ASurfaceThatForcesHaveMovedLiesInTheWayToo) {
+TEST(Sources, ASurfaceThatForcesHaveMovedLiesInTheWayToo) {
   // Under 100 N a box of 1 kg rises by 50 t^2 = 0.125 m in 0.05 s, and its top comes to 0.175 m.
   const std::string lid = "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nmaterial = \"glass\"\n"
                           "free = \"z\"\nmass = 1\nload = 100\n";
@@ -151,7 +154,7 @@ TEST(setup::Sources, ASurfaceThatForcesHaveMovedLiesInTheWayToo) {
   EXPECT_EQ(stopOf(lid + dropAt("[0, 0, 0.2]", "0.05")), "");
 }
 
-TEST(setup::Sources, ARunFindsTheRoomThatItsSceneWasFoundToHave) {
+TEST(Sources, ARunFindsTheRoomThatItsSceneWasFoundToHave) {
   // The second source throws its grains on a line that holds them about every second time.
   constexpr const char* kLine = R"(
 [[source]]

@@ -48,7 +48,7 @@ std::unique_ptr<Simulation> made(const scene::Scene& scene, std::int64_t steps =
   return s;
 }
 
-TEST(setup::SurfaceMotion, VelocityIsTheSlopeOfThePlaceAndEndsWithIt) {
+TEST(SurfaceMotion, VelocityIsTheSlopeOfThePlaceAndEndsWithIt) {
   scene::SurfaceSection s;
   s.velocity = {0.3, -0.1, 0}, s.spin = {1, 2, -2}, s.pivot = {1, 0, 0}, s.amplitude = {0, 0.02, 0.01};
   s.frequency = 3, s.phase = 40, s.start = 0.25, s.until = 1.75;

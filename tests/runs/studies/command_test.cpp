@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace grouser::studies {
+
+using namespace test; // fixtures
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,11 +21,11 @@ struct StudyCall {
   std::vector<std::string> files, words;
 };
 
-class StudyCommand : public test::ProgramTest, public testing::WithParamInterface<StudyCall> {};
+class StudyCommand : public ProgramTest, public testing::WithParamInterface<StudyCall> {};
 
 TEST_P(StudyCommand, WritesItsTablesAndKeepsThem) {
   const StudyCall& study = GetParam();
-  const test::Outcome all = call("study --help"), help = call("study " + study.name + " --help");
+  const Outcome all = call("study --help"), help = call("study " + study.name + " --help");
   EXPECT_EQ(all.code, 0);
   EXPECT_NE(all.out.find(study.name), std::string::npos) << all.out;
   EXPECT_EQ(help.code, 0);
@@ -30,7 +33,7 @@ TEST_P(StudyCommand, WritesItsTablesAndKeepsThem) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
 
   const std::string words = "study " + study.name + " " + study.options + " --out results";
-  const test::Outcome o = call(words);
+  const Outcome o = call(words);
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const std::string& word : study.words) EXPECT_NE(o.out.find(word), std::string::npos) << word << "\n" << o.out;
   for (const std::string& file : study.files) {
@@ -38,12 +41,12 @@ TEST_P(StudyCommand, WritesItsTablesAndKeepsThem) {
     if (path.extension() == ".png" && o.errors.find("python3") != std::string::npos) continue; // no matplotlib here
     EXPECT_TRUE(fs::exists(path) && fs::file_size(path) > 100) << path << "\n" << o.errors;
   }
-  const auto json = nlohmann::json::parse(test::contents(folder_ / "results" / "study.json"));
+  const auto json = nlohmann::json::parse(contents(folder_ / "results" / "study.json"));
   EXPECT_EQ(json.at("study"), study.name);
   EXPECT_FALSE(json.at("commit").get<std::string>().empty());
   EXPECT_FALSE(json.at("machine").get<std::string>().empty());
 
-  const test::Outcome again = call(words);
+  const Outcome again = call(words);
   EXPECT_EQ(again.code, 2) << "there are results in it";
   EXPECT_NE(again.errors.find("--force"), std::string::npos) << again.errors;
   EXPECT_EQ(call("study " + study.name + " --colour blue").code, 2);
