@@ -43,11 +43,7 @@ void readMechanism(const Section& root, Scene& scene) {
     const auto table = tableOf(sections);
     for (const Section& section : root.list(key)) sections.push_back(section.read(table));
   });
-  if (m.bodies.empty()) {
-    for (const char* key : {"joint", "spring", "bushing", "drive", "coupling"})
-      for (const Section& section : root.list(key)) section.fail("", "has no body to act on; add a [[body]]");
-    return;
-  }
+  if (m.bodies.empty()) return;
   for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain", "vehicle"})
     if (root.has(other))
       root.list("body").front().fail("",

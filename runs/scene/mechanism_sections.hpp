@@ -92,6 +92,11 @@ struct MechanismSections {
   std::vector<DriveSection> drives;
   std::vector<CouplingSection> couplings;
   bool empty() const { return bodies.empty(); }
+  /// Nor anything that would need a body.
+  bool nothing() const {
+    return bodies.empty() && joints.empty() && springs.empty() && bushings.empty() && drives.empty() &&
+           couplings.empty();
+  }
   bool operator==(const MechanismSections&) const = default;
 };
 

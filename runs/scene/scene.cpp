@@ -364,7 +364,7 @@ Scene sceneOf(base::Document read, const std::filesystem::path& file, const std:
   checkSettling(root.section("run"), scene);
   if (root.has("parallel")) readParallel(root.section("parallel"), scene);
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
-      scene.mechanism.empty())
+      scene.mechanism.nothing())
     throw InputError(fmt::format(
         "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
         file.string()));

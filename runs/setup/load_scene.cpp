@@ -48,12 +48,16 @@ template <class Check> void withPlace(const Section& section, const Check& check
 }
 
 void checkMechanism(const Section& root, const scene::Scene& scene) {
-  if (scene.mechanism.empty()) return;
   MechanismBuilder builder;
   scene::forEachKind(scene.mechanism, [&](const char* key, const auto& sections) {
     const std::vector<Section> places = root.list(key);
     for (std::size_t k = 0; k < sections.size(); ++k) withPlace(places[k], [&] { builder.add(sections[k]); });
   });
+  if (scene.mechanism.empty()) {
+    for (const char* key : {"joint", "spring", "bushing", "drive", "coupling"})
+      for (const Section& section : root.list(key)) section.fail("", "has no body to act on; add a [[body]]");
+    return;
+  }
   const std::vector<Section> joints = root.list("joint");
   for (std::size_t j = 0; j < joints.size(); ++j)
     withPlace(joints[j], [&] { checkStartVelocity(builder.model(), static_cast<int>(j)); });

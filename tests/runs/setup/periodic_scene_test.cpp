@@ -154,7 +154,7 @@ TEST(PeriodicBoundaries, GrainsOfASceneTouchAcrossThem) {
   EXPECT_EQ(buildGround(scene("-0.459"), base::cpuExec(1), kStep).grains->ledger().contacts, 0);
   EXPECT_THROW(buildGround(scene("-0.49"), base::cpuExec(1), kStep), base::InputError) << "too deep at the start";
   EXPECT_THROW(buildGround(scene("-0.51"), base::cpuExec(1), kStep), base::InputError) << "outside";
-  EXPECT_NE(commands::planText(scene("0")).find("on   periodic boundaries               x"), std::string::npos)
+  EXPECT_NE(commands::planText(scene("0")).find("on   periodic boundaries        x"), std::string::npos)
       << commands::planText(scene("0"));
 }
 
