@@ -68,7 +68,7 @@ public:
   /// relative to each other since the refresh [m]; at most the margin.
   void compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads);
 
-  std::size_t probesListed() const { return buffers_.entries; }
+  std::size_t samplesListed() const { return buffers_.entries; }
   PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }
   SavedPatches save() const { return buffers_.save(); }
   void restore(const SavedPatches& saved) { buffers_.restore(saved); }

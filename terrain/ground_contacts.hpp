@@ -24,7 +24,7 @@ public:
   /// `travelled`, on the device: no part has moved farther than this since the refresh [m]; at most the margin.
   void compute(const base::Array<contact::PartMotion>& motion, const double* travelled, contact::PartLoad* loads);
 
-  std::size_t probesListed() const { return buffers_.entries; }
+  std::size_t samplesListed() const { return buffers_.entries; }
   contact::PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }
   contact::SavedPatches save() const { return buffers_.save(); }
   void restore(const contact::SavedPatches& saved) { buffers_.restore(saved); }

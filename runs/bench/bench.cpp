@@ -45,15 +45,16 @@ void advance(simulation::Simulation& simulation, std::int64_t steps, const char*
 
 /// Contacts a step, by kind, and what is listed as near: means over the instrumented pass.
 struct Contacts {
-  double grainGrain = 0, grainBoundary = 0, grainPart = 0, partPart = 0, pairsListed = 0, probesListed = 0;
+  double grainGrain = 0, grainBoundary = 0, grainPart = 0, partPart = 0, pairsListed = 0, samplesListed = 0;
   int counts = 0;
   void count(simulation::Simulation& simulation) {
     const simulation::Simulation::Ledger l = simulation.ledger();
     grainGrain += static_cast<double>(l.grainContacts), grainBoundary += static_cast<double>(l.boundaryContacts);
     grainPart += static_cast<double>(l.partContacts), partPart += static_cast<double>(l.patches);
     if (const simulation::VehicleRig* rig = simulation.vehicle()) {
-      pairsListed += static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->grainPairsListed())));
-      probesListed += static_cast<double>(rig->probesListed());
+      pairsListed +=
+          static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->contacts().grainPairsListed())));
+      samplesListed += static_cast<double>(rig->contacts().samplesListed());
     }
     ++counts;
   }
@@ -165,11 +166,11 @@ void benchStepCommand(const BenchCommand& command) {
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
   };
-  simulation::Simulation simulation(scene, exec, settle, comm);
+  simulation::Simulation simulation(setup::simulationSetup(scene, comm.size()), exec, settle, comm);
   if (settling) settling->finish("at rest");
   const double prepared = std::chrono::duration<double>(Clock::now() - start).count();
   const std::size_t grains = simulation.ground().grains ? simulation.ground().grains->count() : 0;
-  const std::size_t spheres = simulation.vehicle() ? simulation.vehicle()->totalSpheres() : 0;
+  const std::size_t spheres = simulation.vehicle() ? simulation.vehicle()->parts().totalSpheres() : 0;
   fmt::print("scene     {}: {} grains, {} spheres on the vehicle, step {:g} s; {:.1f} s preparation\n",
              scene.file.string(), grains, spheres, simulation.timeStep(), prepared);
   std::fflush(stdout);
@@ -224,7 +225,7 @@ void benchStepCommand(const BenchCommand& command) {
                {"grain on part, patches", "grain_part_patches", contacts.grainPart},
                {"part on part and ground, patches", "part_patches", contacts.partPart},
                {"grain-part pairs listed", "grain_part_pairs_listed", contacts.pairsListed},
-               {"probes listed", "probes_listed", contacts.probesListed}};
+               {"probes listed", "probes_listed", contacts.samplesListed}};
   fmt::print("\ncontacts a step (mean of {} counts)\n", contacts.counts);
   for (const auto& kind : kinds) {
     fmt::print("  {:<34} {:10.1f}\n", kind.text, contacts.mean(kind.sum));

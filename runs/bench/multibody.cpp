@@ -25,7 +25,7 @@ const Vec3d kGravity{0, 0, -9.81};
 constexpr double kTensionRamp = 0.05, kWeightRamp = 0.1, kDriveRamp = 0.2; // [s]
 constexpr double kGoal = 20;                                               // [us] a step of the vehicle's graph
 constexpr double kLoose = 1e-8, kTight = 1e-13;                            // [m, rad] tolerances of the gaps
-constexpr double kGrowth = 2.2;                                   // for twice the shoes
+constexpr double kGrowth = 2.2;                                            // for twice the shoes
 
 double microsecondsSince(Clock::time_point start) {
   return 1e6 * std::chrono::duration<double>(Clock::now() - start).count();

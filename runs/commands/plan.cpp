@@ -3,10 +3,10 @@
 
 #include "base/math.hpp"
 #include "runs/output/mechanism_output.hpp"
-#include "runs/setup/bed.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
@@ -66,7 +66,7 @@ std::string surfacesLine(const scene::Scene& scene) {
   int moved = 0, freed = 0;
   for (const setup::SceneSurface& s : setup::surfacesOf(scene)) {
     names += (names.empty() ? "" : ", ") + s.name;
-    s.section.free ? ++freed : moved += s.section.moves() ? 1 : 0;
+    s.free ? ++freed : moved += s.moves ? 1 : 0;
   }
   if (names.empty())
     return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no plane that moves or has a name");
@@ -110,7 +110,8 @@ std::string switches(const scene::Scene& scene) {
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
   const scene::MechanismSections& m = scene.mechanism;
-  text += onOff(!m.empty(), "mechanism", m.empty() ? "no [[body]]" : output::integratorText(scene.run));
+  text += onOff(!m.empty(), "mechanism",
+                m.empty() ? "no [[body]]" : output::integratorText(setup::solverOptions(scene.run)));
   text += onOff(scene.output.frames, "frames",
                 scene.output.frames ? fmt::format("{:.0f}, one each {} s",
                                                   std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,

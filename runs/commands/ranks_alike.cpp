@@ -2,7 +2,6 @@
 #include "runs/commands/ranks_alike.hpp"
 
 #include "base/error.hpp"
-#include "runs/simulation/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
 
 #include <fmt/format.h>
@@ -22,14 +21,14 @@ void requireSameCommand(const std::string& command, const base::Comm& comm) {
                       std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
 }
 
-void requireAlike(const scene::Scene& scene, const std::string& commandLine, const base::Comm& comm) {
+void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm) {
   if (comm.alone()) return;
   const support::BuildInfo build = support::buildInfo();
   const std::pair<const char*, std::string> facts[] = {
       {"program (version, commit, compiler, hash of its file)",
        fmt::format("{}, {}, {}, {}", build.version, build.commit, build.compiler, support::programHash())},
-      {"scene", scene::resolvedToml(scene)},
-      {"files that the scene names", simulation::inputsOf(scene)},
+      {"scene", provenance.resolved},
+      {"files that the scene names", provenance.inputs},
       {"command line", commandLine.substr(std::min(commandLine.find(' '), commandLine.size()))},
   };
   for (const auto& [what, mine] : facts) {
@@ -40,7 +39,7 @@ void requireAlike(const scene::Scene& scene, const std::string& commandLine, con
       const bool brief = first.size() < 200 && other.size() < 200;
       throw base::InputError(fmt::format("{}: rank {} has another {} than rank 0{}; start all ranks with the same "
                                          "program, files and words",
-                                         scene.file.string(), r, what,
+                                         provenance.file.string(), r, what,
                                          brief ? fmt::format(" ({} beside {})", other, first) : ""));
     }
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/provenance.hpp"
 
 #include <string>
 
@@ -15,6 +15,6 @@ void requireSameCommand(const std::string& command, const base::Comm& comm);
 /// Throws base::InputError, naming the rank and what differs, where the ranks run other programs or other scenes than
 /// the first one, or were told to do something else with them: the promise of one answer holds for one program and one
 /// scene. `commandLine`: the program, and all its words behind the first space.
-void requireAlike(const scene::Scene& scene, const std::string& commandLine, const base::Comm& comm);
+void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm);
 
 } // namespace grouser::commands

@@ -40,7 +40,7 @@ std::vector<output::FramePart> frameParts(const simulation::VehicleRig& rig) {
   std::vector<output::FramePart> parts;
   for (std::size_t p = 0; p < rig.assembly().parts.size(); ++p) {
     const vehicle::Part& part = rig.assembly().parts[p];
-    parts.push_back({part.name, kindName(part.kind), rig.meshes()[rig.meshOfPart(p)]});
+    parts.push_back({part.name, kindName(part.kind), rig.parts().meshes()[rig.parts().meshOfPart(p)]});
   }
   return parts;
 }
@@ -63,10 +63,10 @@ base::TriangleMesh groundMesh(const terrain::HeightField& field) {
   return mesh;
 }
 
-std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation, const scene::Scene& scene) {
+std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation) {
   std::vector<output::Channel> channels;
   if (simulation.mechanism())
-    channels = output::mechanismChannels(simulation.mechanism()->model(), scene.output.record);
+    channels = output::mechanismChannels(simulation.mechanism()->model(), simulation.setup().output.record);
   if (simulation.vehicle())
     for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
       channels.push_back(output::channelOf(q));
@@ -79,12 +79,12 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
 }
-output::RunWriter::Options writerOptions(const scene::Scene& scene, const RunOptions& options, const base::Exec& exec,
+output::RunWriter::Options writerOptions(bool frames, const RunOptions& options, const base::Exec& exec,
                                          const std::vector<output::Channel>& channels,
                                          const simulation::Checkpoint* former) {
   output::RunWriter::Options w;
   w.force = options.force;
-  w.frames = scene.output.frames;
+  w.frames = frames;
   w.comm = options.comm();
   w.metadata = {{"command_line", options.commandLine}, {"device", base::describe(exec)}};
   if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
@@ -137,35 +137,35 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 } // namespace
 
-Recorder::Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options,
-                   const base::Exec& exec, const simulation::Checkpoint* former)
-    : simulation_(simulation), channels_(channelsOf(simulation, scene)), row_(channels_), record_(scene.output.record),
-      frames_(scene.output.frames),
-      writer_(options.folder, scene, channels_, writerOptions(scene, options, exec, channels_, former)) {
+Recorder::Recorder(simulation::Simulation& simulation, const RunOptions& options, const base::Exec& exec,
+                   const simulation::Checkpoint* former)
+    : simulation_(simulation), channels_(channelsOf(simulation)), row_(channels_),
+      writer_(options.folder, simulation.setup().provenance, channels_,
+              writerOptions(simulation.setup().output.frames, options, exec, channels_, former)) {
   try {
-    begin(scene, options, former);
+    begin(options, former);
   } catch (const std::exception& error) {
     writer_.abandon(error.what());
     throw;
   }
 }
 
-void Recorder::begin(const scene::Scene& scene, const RunOptions& options, const simulation::Checkpoint* former) {
+void Recorder::begin(const RunOptions& options, const simulation::Checkpoint* former) {
+  const setup::SimulationSetup& setup = simulation_.setup();
   if (const simulation::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
     writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
   }
-  if (const simulation::Mechanism* mechanism = simulation_.mechanism())
-    parts_ = output::mechanismParts(scene, mechanism->model());
+  if (setup.mechanism) parts_ = output::mechanismParts(*setup.mechanism);
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
       parts_.push_back(
-          {surfaces->surface(i).name, output::kSurfaceKind, output::surfaceMesh(scene, surfaces->surface(i))});
-  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(scene);
+          {surfaces->surface(i).name, output::kSurfaceKind, output::surfaceMesh(setup.planes, surfaces->surface(i))});
+  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(setup.planes);
   writer_.setParts(parts_, ground_);
   if (const auto& grains = simulation_.ground().grains;
-      grains && output::GrainsCsv::isWanted(scene, static_cast<std::int64_t>(grains->count())))
+      grains && output::GrainsCsv::isWanted(setup, static_cast<std::int64_t>(grains->count())))
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
 }
 
@@ -189,7 +189,7 @@ void Recorder::row() {
       row_.set(group + "power", o.power), row_.set(group + "position", o.position);
     }
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
-    output::setMechanismRow(row_, *mechanism, record_);
+    output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
   row_.set("ledger/drive_work", l.driveWork);
   row_.set("ledger/kinetic", l.kinetic);
   row_.set("ledger/potential", l.potential);
@@ -203,7 +203,7 @@ void Recorder::row() {
 }
 
 void Recorder::frame() {
-  if (frames_) writer_.frame(currentFrame());
+  if (simulation_.setup().output.frames) writer_.frame(currentFrame());
 }
 
 output::Frame Recorder::currentFrame() const {

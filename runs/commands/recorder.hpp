@@ -18,8 +18,8 @@ namespace grouser::commands {
 class Recorder {
 public:
   /// `former`: the checkpoint that the run goes on from, or null.
-  Recorder(simulation::Simulation& simulation, const scene::Scene& scene, const RunOptions& options,
-           const base::Exec& exec, const simulation::Checkpoint* former);
+  Recorder(simulation::Simulation& simulation, const RunOptions& options, const base::Exec& exec,
+           const simulation::Checkpoint* former);
 
   void row();
   void frame();
@@ -29,14 +29,12 @@ public:
   output::RunWriter& writer() { return writer_; }
 
 private:
-  void begin(const scene::Scene& scene, const RunOptions& options, const simulation::Checkpoint* former);
+  void begin(const RunOptions& options, const simulation::Checkpoint* former);
   output::Frame currentFrame() const;
 
   simulation::Simulation& simulation_;
   std::vector<output::Channel> channels_;
   output::RowBuilder row_;
-  const std::vector<std::string> record_;
-  bool frames_;
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;

@@ -93,7 +93,7 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
   if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
-               rig->assembly().model.bodies().size(), rig->totalSpheres(), rig->sphereSets().size());
+               rig->assembly().model.bodies().size(), rig->parts().totalSpheres(), rig->parts().setFigures().size());
   }
   if (const simulation::Mechanism* mechanism = simulation.mechanism())
     fmt::print("{}", output::mechanismSize(*mechanism));
@@ -103,10 +103,10 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
 /// The checkpoint of a run, written again and again.
 class Checkpoints {
 public:
-  Checkpoints(const scene::Scene& scene, const RunOptions& options)
+  Checkpoints(const setup::Provenance& provenance, const RunOptions& options)
       : path_(options.folder / simulation::kCheckpointName) {
-    checkpoint_.scene = scene::resolvedToml(scene);
-    checkpoint_.inputs = simulation::inputsOf(scene);
+    checkpoint_.scene = provenance.resolved;
+    checkpoint_.inputs = provenance.inputs;
     checkpoint_.commit = support::buildInfo().commit;
   }
 
@@ -132,10 +132,10 @@ private:
 };
 
 /// Reads the checkpoint of a run to be resumed; null for one from the start.
-std::unique_ptr<simulation::Checkpoint> formerRun(const scene::Scene& scene, const RunOptions& options) {
+std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& provenance, const RunOptions& options) {
   if (!options.resume) return nullptr;
   auto former = std::make_unique<simulation::Checkpoint>(simulation::readCheckpoint(*options.resume, options.comm()));
-  simulation::checkSameScene(*former, *options.resume, scene);
+  simulation::checkSameScene(*former, *options.resume, provenance);
   if (former->commit != support::buildInfo().commit && options.comm().first())
     fmt::print(stderr,
                "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
@@ -145,31 +145,32 @@ std::unique_ptr<simulation::Checkpoint> formerRun(const scene::Scene& scene, con
 }
 
 /// At the checkpoint, or at the start: then the bed is settled first.
-std::unique_ptr<simulation::Simulation> makeSimulation(const scene::Scene& scene, const base::Exec& exec,
+std::unique_ptr<simulation::Simulation> makeSimulation(setup::SimulationSetup setup, const base::Exec& exec,
                                                        const simulation::Checkpoint* former, const base::Comm& comm,
                                                        simulation::BedCache* beds) {
-  if (former) return std::make_unique<simulation::Simulation>(scene, exec, former->state, comm);
+  if (former) return std::make_unique<simulation::Simulation>(std::move(setup), exec, former->state, comm);
+  const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
+  const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;
   std::unique_ptr<support::Progress> settling;
   const auto settle = [&](double time, double agitation) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
       throw support::Stopped(signal, fmt::format("stopped by {} while the bed settled; nothing was written",
                                                  support::StopSignals::name(signal)));
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
-    settling->update(time / scene.terrain->settleTimeLimit,
-                     fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
+    settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   };
-  auto simulation = std::make_unique<simulation::Simulation>(scene, exec, settle, comm, beds);
+  auto simulation = std::make_unique<simulation::Simulation>(std::move(setup), exec, settle, comm, beds);
   if (settling) settling->finish("at rest");
   return simulation;
 }
 
 /// Steps to the end, with rows, frames and checkpoints on the way. Throws Stopped where a signal came.
-void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const scene::Scene& scene,
-           std::int64_t total) {
+void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, std::int64_t total) {
+  const setup::RunSetup& run = simulation.setup().run;
   const double dt = simulation.timeStep();
   const auto stepsOf = [dt](double interval) { return std::max<std::int64_t>(1, std::llround(interval / dt)); };
-  const std::int64_t rowEvery = stepsOf(scene.run.outputInterval), frameEvery = stepsOf(scene.run.frameInterval);
-  const std::int64_t saveEvery = scene.run.checkpointInterval > 0 ? stepsOf(scene.run.checkpointInterval) : total + 1;
+  const std::int64_t rowEvery = stepsOf(run.outputInterval), frameEvery = stepsOf(run.frameInterval);
+  const std::int64_t saveEvery = run.checkpointInterval > 0 ? stepsOf(run.checkpointInterval) : total + 1;
   support::Progress progress("running", simulation.comm().first());
   SignalWatch signals(simulation.comm());
   while (simulation.steps() < total) {
@@ -197,43 +198,12 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
   progress.finish(fmt::format("{} steps", simulation.steps()));
 }
 
-} // namespace
-
-output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
-  const Clock::time_point start = Clock::now();
-  const support::StopSignals signals;
-  requireAlike(scene, options.commandLine, options.comm());
-  const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
-  support::FileLock folder; // of a run that goes on; one that begins makes its folder later
-  if (options.resume && options.comm().first()) output::claimFolder(folder, options.folder);
-  const std::unique_ptr<simulation::Checkpoint> former = formerRun(scene, options);
-  std::optional<simulation::BedCache> beds;
-  if (options.cache && scene.terrain && scene.terrain->cache) beds = simulation::BedCache::ofUser(options.comm());
-  const std::unique_ptr<simulation::Simulation> made =
-      makeSimulation(scene, exec, former.get(), options.comm(), beds ? &*beds : nullptr);
-  simulation::Simulation& simulation = *made;
-  const std::int64_t whole = std::llround(scene.run.duration / simulation.timeStep()), begin = simulation.steps(),
-                     total = std::min(whole, options.steps.value_or(whole));
-  if (begin > total)
-    throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
-                                       options.resume->string(), begin, total));
-  const double prepared = since(start);
-  describeBuild(simulation, exec, beds ? &*beds : nullptr);
-  if (simulation.mechanism() && !former && options.comm().first())
-    if (const std::string warning = setup::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
-      fmt::print(stderr, "grouser: warning: {}\n", warning);
-
-  Recorder recorder(simulation, scene, options, exec, former.get());
-  Checkpoints checkpoints(scene, options);
-  const Clock::time_point driving = Clock::now();
-  const double waitedBefore = options.comm().waited();
-  if (former) {
-    checkpoints.begunAt(begin);
-    fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
-  }
+/// Rows and frames, from the start or from `former` on, to step `total`. What ends the run early is left in the folder.
+void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, bool resumed,
+            std::int64_t total) {
   try {
-    if (!former) recorder.row(), recorder.frame();
-    drive(simulation, recorder, checkpoints, scene, total);
+    if (!resumed) recorder.row(), recorder.frame();
+    drive(simulation, recorder, checkpoints, total);
   } catch (const support::Stopped& stopped) {
     recorder.writer().stop(stopped.what());
     throw;
@@ -246,8 +216,59 @@ output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
     recorder.writer().abandon(error.what());
     throw;
   }
-  const double drove = since(driving), waiting = (options.comm().waited() - waitedBefore) / drove;
-  if (scene.output.picture) recorder.picture(scene.output.pictureWidth);
+}
+
+/// Prints what the run's energies and momenta leave over.
+void describeLedger(simulation::Simulation& simulation) {
+  const simulation::Simulation::Ledger l = simulation.ledger();
+  fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
+             "dissipated {:+.4g}; left over {:.3g}\n",
+             l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
+  if (!simulation.mechanism())
+    fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
+               l.impulseResidual.z);
+}
+
+} // namespace
+
+output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const support::StopSignals signals;
+  const base::Comm comm = options.comm();
+  const setup::Provenance provenance = setup::provenanceOf(scene);
+  requireAlike(provenance, options.commandLine, comm);
+  const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
+  support::FileLock folder; // of a run that goes on; one that begins makes its folder later
+  if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
+  const std::unique_ptr<simulation::Checkpoint> former = formerRun(provenance, options);
+  std::optional<simulation::BedCache> beds;
+  if (options.cache && scene.terrain && scene.terrain->cache) beds = simulation::BedCache::ofUser(comm);
+  const std::unique_ptr<simulation::Simulation> made =
+      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), comm, beds ? &*beds : nullptr);
+  simulation::Simulation& simulation = *made;
+  const setup::SimulationSetup& setup = simulation.setup();
+  const std::int64_t whole = std::llround(setup.run.duration / setup.timeStep), begin = simulation.steps(),
+                     total = std::min(whole, options.steps.value_or(whole));
+  if (begin > total)
+    throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
+                                       options.resume->string(), begin, total));
+  const double prepared = since(start);
+  describeBuild(simulation, exec, beds ? &*beds : nullptr);
+  if (simulation.mechanism() && !former && comm.first())
+    if (const std::string warning = setup::tensionStepWarningAtStart(scene, setup.timeStep); !warning.empty())
+      fmt::print(stderr, "grouser: warning: {}\n", warning);
+
+  Recorder recorder(simulation, options, exec, former.get());
+  Checkpoints checkpoints(provenance, options);
+  const Clock::time_point driving = Clock::now();
+  const double waitedBefore = comm.waited();
+  if (former) {
+    checkpoints.begunAt(begin);
+    fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
+  }
+  record(simulation, recorder, checkpoints, former != nullptr, total);
+  const double drove = since(driving), waiting = (comm.waited() - waitedBefore) / drove;
+  if (setup.output.picture) recorder.picture(setup.output.pictureWidth);
 
   output::Summary summary;
   summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
@@ -256,15 +277,9 @@ output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
   summary.figures["wall_steps_s"] = drove;
   summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
   if (options.hash) summary.stateHash = simulation.stateHash();
-  const simulation::Simulation::Ledger l = simulation.ledger();
-  fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
-             "dissipated {:+.4g}; left over {:.3g}\n",
-             l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated, l.residual);
-  if (!simulation.mechanism())
-    fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
-               l.impulseResidual.z);
+  describeLedger(simulation);
   fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
-             simulation.steps() - begin, simulation.timeStep(), summary.figures["microseconds_a_step"]);
+             simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"]);
   describeSharing(simulation, waiting, summary);
   recorder.writer().finish(summary);
   return summary;

@@ -2,9 +2,9 @@
 // How a scene would be shared out among ranks, before it is run.
 #include "runs/commands/plan.hpp"
 
-#include "runs/setup/bed.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/placement.hpp"
 #include "terrain/partition.hpp"

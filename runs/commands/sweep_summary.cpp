@@ -2,7 +2,7 @@
 #include "runs/commands/sweep_summary.hpp"
 
 #include "runs/output/channels.hpp"
-#include "runs/simulation/surfaces.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/text_file.hpp"
 

@@ -47,11 +47,10 @@ template <class T> std::vector<T> onFirst(const std::vector<T>& mine, const base
 
 } // namespace
 
-bool GrainsCsv::isWanted(const scene::Scene& scene, std::int64_t grains) {
-  if (scene.output.grainsCsv)
-    return *scene.output.grainsCsv && grains + static_cast<std::int64_t>(scene.sources.size()) > 0;
-  for (const scene::Source& s : scene.sources) grains += s.total;
-  const double rows = std::floor(scene.run.duration / scene.run.outputInterval) + 2;
+bool GrainsCsv::isWanted(const setup::SimulationSetup& setup, std::int64_t grains) {
+  if (setup.ground.grains) grains += setup.ground.grains->sources.total();
+  if (setup.output.grainsCsv) return *setup.output.grainsCsv && grains > 0;
+  const double rows = std::floor(setup.run.duration / setup.run.outputInterval) + 2;
   return grains > 0 && grains <= kMostGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMostLines);
 }
 

@@ -35,10 +35,10 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
 
 } // namespace
 
-Manifest::Manifest(const fs::path& folder, const scene::Scene& scene,
+Manifest::Manifest(const fs::path& folder, const setup::Provenance& provenance,
                    const std::map<std::string, std::string>& metadata)
-    : path_(folder / kName), scene_(fs::absolute(scene.file).lexically_normal().string()), started_(now()),
-      overrides_(scene.overrides), notes_(metadata) {}
+    : path_(folder / kName), scene_(fs::absolute(provenance.file).lexically_normal().string()), started_(now()),
+      overrides_(provenance.overrides), notes_(metadata) {}
 
 void Manifest::write(const std::string& status) const {
   const support::BuildInfo build = support::buildInfo();

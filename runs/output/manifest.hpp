@@ -12,7 +12,7 @@ namespace grouser::output {
 /// manifest.json: what was run, by which program, on which machine, and what came of it.
 class Manifest {
 public:
-  Manifest(const std::filesystem::path& folder, const scene::Scene& scene,
+  Manifest(const std::filesystem::path& folder, const setup::Provenance& provenance,
            const std::map<std::string, std::string>& metadata);
 
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }

@@ -250,9 +250,10 @@ void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, co
   row.set("constraints/singular_steps", drift.singularSteps);
 }
 
-std::string integratorText(const scene::RunSettings& run) {
-  if (run.integrator != "rattle") return "symplectic Euler, order 1, springs implicit";
-  return fmt::format("RATTLE, order {}, springs {}", run.integratorOrder, run.springs);
+std::string integratorText(const multibody::SolverOptions& options) {
+  if (options.integrator != multibody::Integrator::kRattle) return "symplectic Euler, order 1, springs implicit";
+  return fmt::format("RATTLE, order {}, springs {}", options.order,
+                     options.springs == multibody::Springs::kImplicit ? "implicit" : "explicit");
 }
 
 std::string mechanismSize(const simulation::Mechanism& mechanism) {
@@ -281,7 +282,8 @@ std::string mechanismSize(const simulation::Mechanism& mechanism) {
   return text;
 }
 
-std::vector<FramePart> mechanismParts(const scene::Scene& scene, const multibody::Model& model) {
+std::vector<FramePart> mechanismParts(const setup::MechanismSetup& setup) {
+  const multibody::Model& model = setup.model;
   const double size = sizeOf(model);
   std::vector<FramePart> parts;
   for (std::size_t b = 0; b < model.bodies().size(); ++b) {
@@ -295,7 +297,7 @@ std::vector<FramePart> mechanismParts(const scene::Scene& scene, const multibody
     const bool isSmall = !ends.empty() || body.fixed || body.point;
     const Vec3d fallback =
         isSmall ? Vec3d{1, 1, 1} * (kCentre * size) : boxOf(body, kLeastEdge * size, kGreatestEdge * size);
-    const std::optional<Vec3d>& box = scene.mechanism.bodies[b].box;
+    const std::optional<Vec3d>& box = setup.boxes[b];
     addBox(part.mesh, {}, base::Mat3d::identity(), box.value_or(fallback));
     if (!box)
       for (const Vec3d& end : ends) addBar(part.mesh, end, kBar * size);

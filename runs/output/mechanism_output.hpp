@@ -19,12 +19,12 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
 void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, const std::vector<std::string>& record);
 
 /// "RATTLE of order 2, springs implicit".
-std::string integratorText(const scene::RunSettings& run);
+std::string integratorText(const multibody::SolverOptions& options);
 
 /// Lines about the size of a mechanism: bodies, joints, freedoms, rows held more than once.
 std::string mechanismSize(const simulation::Mechanism& mechanism);
 
 /// Each body as a box and thin bars to its joints, for pictures and ParaView.
-std::vector<FramePart> mechanismParts(const scene::Scene& scene, const multibody::Model& model);
+std::vector<FramePart> mechanismParts(const setup::MechanismSetup& setup);
 
 } // namespace grouser::output

@@ -105,11 +105,11 @@ struct RunWriter::Series {
   /// While former rows are copied the new files have another name, so that a kill loses none.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
-  Series(const fs::path& where, const scene::Scene& scene, std::vector<Channel> list, const Options& given)
+  Series(const fs::path& where, const setup::Provenance& provenance, std::vector<Channel> list, const Options& given)
       : folder(prepared(where, given, lock)), options(given), channels(std::move(list)),
         results(support::Hdf5File::create(atFirst("results.h5"))), csv(atFirst("timeseries.csv"), std::ios::binary),
-        manifest(folder, scene, options.metadata) {
-    const std::string resolved = scene::resolvedToml(scene);
+        manifest(folder, provenance, options.metadata) {
+    const std::string& resolved = provenance.resolved;
     support::replaceTextFile(folder / "scene.toml", resolved);
     const support::BuildInfo build = support::buildInfo();
     results.attribute("/", "creator", std::string("grouser"));
@@ -197,15 +197,16 @@ struct RunWriter::Impl {
   std::optional<FramesFile> frames;
   std::int64_t rows = 0, framesAdded = 0;
 
-  Impl(const fs::path& where, const scene::Scene& scene, std::vector<Channel> channels, Options given)
+  Impl(const fs::path& where, const setup::Provenance& provenance, std::vector<Channel> channels, Options given)
       : folder(where), options(std::move(given)) {
-    if (options.comm.first()) series = std::make_unique<Series>(where, scene, std::move(channels), options);
+    if (options.comm.first()) series = std::make_unique<Series>(where, provenance, std::move(channels), options);
     options.comm.wait(); // the folder is there now
     if (options.former) rows = static_cast<std::int64_t>(options.former->rows.size());
   }
 };
 
-RunWriter::RunWriter(fs::path folder, const scene::Scene& scene, std::vector<Channel> channels, Options options) {
+RunWriter::RunWriter(fs::path folder, const setup::Provenance& provenance, std::vector<Channel> channels,
+                     Options options) {
   for (const Channel& c : channels)
     if (!c.columns.empty() && c.columns.size() != static_cast<std::size_t>(c.width))
       throw std::logic_error("channel " + c.path + ": as many columns as numbers");
@@ -219,7 +220,7 @@ RunWriter::RunWriter(fs::path folder, const scene::Scene& scene, std::vector<Cha
     if (begun && !there) fs::remove(folder, error);
   };
   try {
-    impl_ = std::make_unique<Impl>(folder, scene, std::move(channels), std::move(options));
+    impl_ = std::make_unique<Impl>(folder, provenance, std::move(channels), std::move(options));
   } catch (const base::InputError&) {
     throw; // before anything was touched
   } catch (...) {

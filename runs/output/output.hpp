@@ -4,7 +4,7 @@
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/support/file_lock.hpp"
 
 #include <array>
@@ -95,7 +95,8 @@ public:
     base::Comm comm;                             ///< one rank writes rows, all of them frames
     std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
   };
-  RunWriter(std::filesystem::path folder, const scene::Scene& scene, std::vector<Channel> channels, Options options);
+  RunWriter(std::filesystem::path folder, const setup::Provenance& provenance, std::vector<Channel> channels,
+            Options options);
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;

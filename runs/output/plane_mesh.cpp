@@ -27,42 +27,12 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h
   return kept;
 }
 
-/// Corners of a box that holds where grains start, the planes' points, cylinders, and some room.
-std::pair<Vec3d, Vec3d> room(const scene::Scene& scene) {
-  std::vector<Vec3d> points;
-  double margin = 0;
-  for (const scene::Grain& g : scene.grains) points.push_back(g.position), margin = std::max(margin, 4 * g.radius);
-  for (const scene::GrainFill& b : scene.fills) {
-    for (const scene::Grain& g : b.fromFile) points.push_back(g.position);
-    if (b.low) points.push_back(*b.low), points.push_back(*b.high);
-    margin = std::max(margin, 4 * b.largestRadius());
-  }
-  for (const scene::Source& s : scene.sources)
-    points.push_back(s.low), points.push_back(s.high), margin = std::max(margin, 4 * s.radius);
-  for (const scene::Plane& p : scene.planes) points.push_back(p.point);
-  for (const scene::CylinderSection& c : scene.cylinders)
-    for (const double side : {-c.radius, c.radius}) points.push_back(c.position + Vec3d{side, side, side});
-  if (points.empty()) points.push_back({});
-  Vec3d low = points.front(), high = low;
-  for (const Vec3d& p : points) low = base::min(low, p), high = base::max(high, p);
-  const Vec3d size = high - low;
-  const double spare = std::max(margin, 0.15 * std::max({size.x, size.y, size.z}));
-  return {low - Vec3d{spare, spare, spare}, high + Vec3d{spare, spare, 0}};
-}
-
-} // namespace
-
-namespace {
-
-base::TriangleMesh meshOf(const scene::Scene& scene, const std::vector<std::size_t>& planes) {
+base::TriangleMesh meshOf(const setup::DrawnPlanes& drawn, const std::vector<std::size_t>& planes) {
   base::TriangleMesh mesh;
   if (planes.empty()) return mesh;
-  const auto [low, high] = room(scene);
+  const auto& [all, low, high] = drawn;
   std::vector<HalfSpace> spaces;
-  for (const scene::Plane& p : scene.planes) {
-    const Vec3d n = base::normalized(p.normal);
-    spaces.push_back({n, dot(n, p.point)});
-  }
+  for (const setup::DrawnPlanes::Plane& p : all) spaces.push_back({p.normal, p.offset});
   for (int a = 0; a < 3; ++a) {
     Vec3d n{};
     n[a] = 1;
@@ -89,13 +59,13 @@ base::TriangleMesh meshOf(const scene::Scene& scene, const std::vector<std::size
 
 } // namespace
 
-base::TriangleMesh planeMesh(const scene::Scene& scene) {
+base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn) {
   std::vector<std::size_t> walls;
-  for (std::size_t k = 0; k < scene.planes.size(); ++k)
-    if (scene.planes[k].isWall()) walls.push_back(k);
-  return meshOf(scene, walls);
+  for (std::size_t k = 0; k < drawn.planes.size(); ++k)
+    if (drawn.planes[k].wall) walls.push_back(k);
+  return meshOf(drawn, walls);
 }
 
-base::TriangleMesh planeMesh(const scene::Scene& scene, std::size_t plane) { return meshOf(scene, {plane}); }
+base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn, std::size_t plane) { return meshOf(drawn, {plane}); }
 
 } // namespace grouser::output

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "base/sphere_set.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/drawn_planes.hpp"
 
 namespace grouser::output {
 
 /// The planes of a scene as triangles, for pictures: of each the polygon that borders the room between all of them,
 /// within a box around the grains. Empty without planes; those that move or have a name are left out.
-base::TriangleMesh planeMesh(const scene::Scene& scene);
+base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn);
 /// One of them, where it is at the start.
-base::TriangleMesh planeMesh(const scene::Scene& scene, std::size_t plane);
+base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn, std::size_t plane);
 
 } // namespace grouser::output

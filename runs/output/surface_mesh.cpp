@@ -55,7 +55,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 
 } // namespace
 
-TriangleMesh surfaceMesh(const scene::Scene& scene, const setup::SceneSurface& surface) {
+TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface) {
   if (surface.mesh) return surface.mesh->mesh();
   const Vec3d& half = surface.geometry.half;
   switch (surface.geometry.shape) {
@@ -67,7 +67,7 @@ TriangleMesh surfaceMesh(const scene::Scene& scene, const setup::SceneSurface& s
   case SurfaceShape::plane:
     break;
   }
-  TriangleMesh mesh = planeMesh(scene, surface.number);
+  TriangleMesh mesh = planeMesh(planes, surface.number);
   for (Vec3d& v : mesh.vertices) v = surface.start.toBody(v);
   return mesh;
 }

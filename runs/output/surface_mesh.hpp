@@ -2,7 +2,8 @@
 #pragma once
 
 #include "base/sphere_set.hpp"
-#include "runs/simulation/surfaces.hpp"
+#include "runs/setup/drawn_planes.hpp"
+#include "runs/setup/surface_setup.hpp"
 
 namespace grouser::output {
 
@@ -11,6 +12,6 @@ inline constexpr const char* kSurfaceKind = "surface";
 
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
 /// cylinder shows its inside.
-base::TriangleMesh surfaceMesh(const scene::Scene& scene, const setup::SceneSurface& surface);
+base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface);
 
 } // namespace grouser::output

@@ -14,7 +14,7 @@ namespace grouser::render {
 
 enum class LookAt {
   Vehicle, ///< moves with its hull
-  All,            ///< all grains, ground and parts of all frames, but a few strays
+  All,     ///< all grains, ground and parts of all frames, but a few strays
   Point
 };
 

@@ -64,7 +64,9 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
 }
 
 MechanismSetup mechanismSetup(const scene::Scene& scene) {
-  return {buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity};
+  MechanismSetup setup{buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, {}};
+  for (const scene::BodySection& body : scene.mechanism.bodies) setup.boxes.push_back(body.box);
+  return setup;
 }
 
 double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multibody::State& state,

@@ -5,7 +5,9 @@
 #include "multibody/state.hpp"
 #include "runs/scene/scene.hpp"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace grouser::setup {
 
@@ -14,6 +16,8 @@ struct MechanismSetup {
   multibody::Model model;
   multibody::SolverOptions solver;
   base::Vec3d gravity; ///< [m/s2]
+  std::vector<std::optional<base::Vec3d>>
+      boxes; ///< edges of each body as it is drawn [m]; empty: as its inertia has it
 };
 
 /// Throws SectionFault where the sections make no mechanism: loading has made sure that they do.

@@ -109,19 +109,4 @@ double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
   return highest;
 }
 
-std::string offTerrain(const scene::Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state) {
-  const std::optional<terrain::Rectangle> area = terrainArea(scene);
-  if (!area) return {};
-  for (const int index : assembly.groundParts) {
-    const vehicle::Part& part = assembly.parts[static_cast<std::size_t>(index)];
-    const base::Vec3d p = state.pose[static_cast<std::size_t>(part.body)].position;
-    if (p.x >= area->xMin && p.x <= area->xMax && p.y >= area->yMin && p.y <= area->yMax) continue;
-    return fmt::format(
-        "the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position or "
-        "shorten run.duration",
-        part.name, p.x, p.y);
-  }
-  return {};
-}
-
 } // namespace grouser::setup

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/state.hpp"
 #include "runs/scene/scene.hpp"
 #include "terrain/height_field.hpp"
-#include "vehicle/assembly.hpp"
+#include "vehicle/spec.hpp"
 
 #include <functional>
 #include <optional>
@@ -32,8 +31,5 @@ void checkParts(const scene::Scene& scene);
 /// Highest ground under the tracks [m].
 double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
                    const std::function<double(double, double)>& surfaceHeight);
-
-/// Which shoe has left the terrain, in words; empty while none has.
-std::string offTerrain(const scene::Scene& scene, const vehicle::Assembly& assembly, const multibody::State& state);
 
 } // namespace grouser::setup

@@ -10,12 +10,43 @@ namespace grouser::setup {
 using base::Vec3d;
 using terrain::SurfaceShape;
 
+namespace {
+
+SurfaceMotion motionOf(const scene::SurfaceSection& s, const Vec3d& centre) {
+  SurfaceMotionLaw law;
+  law.pivot = s.pivot.value_or(centre);
+  law.velocity = s.velocity.value_or(Vec3d{}), law.spin = s.spin.value_or(Vec3d{});
+  law.amplitude = s.amplitude.value_or(Vec3d{});
+  law.frequency = s.frequency.value_or(0), law.phase = s.phase.value_or(0) / 360;
+  law.start = s.start.value_or(0);
+  if (s.until) law.until = *s.until;
+  return SurfaceMotion(law, centre);
+}
+
+std::optional<FreeSurface> freedomOf(const scene::SurfaceSection& s) {
+  if (!s.free) return {};
+  FreeSurface free;
+  free.axis[(*s.free)[0] - 'x'] = 1;
+  free.mass = *s.mass, free.load = s.load.value_or(0), free.loadRamp = s.loadRamp.value_or(0);
+  return free;
+}
+
+} // namespace
+
 std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
   std::vector<SceneSurface> all;
   const auto add = [&](const char* kind, std::size_t number, const scene::SurfaceSection& section, SurfaceShape shape,
                        const Vec3d& half, const base::Pose& pose) {
-    all.push_back(
-        {section.name.value_or(fmt::format("{}{}", kind, number)), kind, number, section, {shape, half}, pose});
+    all.push_back({{.name = section.name.value_or(fmt::format("{}{}", kind, number)),
+                    .kind = kind,
+                    .number = number,
+                    .material = section.material,
+                    .geometry = {shape, half},
+                    .start = pose,
+                    .motion = motionOf(section, pose.position),
+                    .free = freedomOf(section),
+                    .moves = section.moves()},
+                   section});
   };
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
     const scene::Plane& p = scene.planes[k];
@@ -36,24 +67,9 @@ std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
     const auto [low, high] = spheredecomp::bounds(m.loaded.query->mesh());
     add("mesh", k, m, SurfaceShape::box, 0.5 * (high - low),
         {m.position, support::orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
-    all.back().mesh = m.loaded.query;
+    all.back().mesh = m.loaded.query, all.back().sphereRadius = *m.sphereRadius;
   }
   return all;
-}
-
-terrain::SurfacePose startingPose(const SceneSurface& surface) {
-  const base::Pose& pose = surface.start;
-  return {{pose.position, pose.orientation.matrix(), pose.position, {}, {}}, base::Mat3d::identity()};
-}
-
-double startingOverlap(const SceneSurface& surface, const Vec3d& position, double radius) {
-  return overlapAt(surface, surface.start, position, radius);
-}
-
-double overlapAt(const SceneSurface& surface, const base::Pose& pose, const Vec3d& position, double radius) {
-  const Vec3d p = pose.toBody(position);
-  if (surface.mesh) return radius - surface.mesh->signedDistance(p);
-  return radius - terrain::gapTo(surface.geometry, p).distance;
 }
 
 } // namespace grouser::setup

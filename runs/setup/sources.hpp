@@ -11,15 +11,31 @@
 
 namespace grouser::setup {
 
+/// One [[source]]: boxes of grains that enter while the run goes.
+struct SourceSetup {
+  std::string place;                     ///< in messages: "scene.toml:14: source.0"
+  base::Vec3d low, high;                 ///< corners of the box that their centres start in [m]
+  base::Vec3d velocity, spin;            ///< [m/s], [rad/s]
+  double radius{};                       ///< [m]
+  int material{};                        ///< among those of the scene's grains
+  std::int64_t number{}, total{};        ///< that enter together; in all
+  std::int64_t every{}, first{}, last{}; ///< [steps]
+  std::uint64_t seed{};
+};
+
 /// The [[source]]s of a scene: which grains enter at which step. A pure function of the scene and the step's number, so
 /// that there is nothing to save in a checkpoint.
 class Sources {
 public:
-  Sources(const scene::Scene& scene, double timeStep);
+  Sources() = default;
+  Sources(std::vector<SourceSetup> sources, const terrain::PeriodicBoundaries& sides)
+      : sources_(std::move(sources)), sides_(sides) {}
 
   /// Grains that enter at the beginning of this step (the first is step 0).
   std::vector<terrain::GrainSpec> enteringAt(std::int64_t step) const;
   bool empty() const { return sources_.empty(); }
+  std::int64_t total() const; ///< grains that enter in all
+  const SourceSetup& source(std::size_t i) const { return sources_[i]; }
 
   /// What one source sets at a step.
   struct Batch {
@@ -31,19 +47,14 @@ public:
   std::optional<std::int64_t> nextEntry(std::int64_t step) const;
 
 private:
-  struct Stream {
-    scene::Source source;
-    std::size_t index{};                   ///< among the scene's sources
-    std::string place;                     ///< "scene.toml:14: source.0"
-    int material{};                        ///< among those of the scene's grains
-    std::int64_t every{}, first{}, last{}; ///< [steps]
-    std::uint64_t seed{};
-  };
-  std::vector<terrain::GrainSpec> batch(const Stream& stream, std::int64_t number) const;
+  std::vector<terrain::GrainSpec> batch(const SourceSetup& source, std::int64_t number) const;
 
-  std::vector<Stream> sources_;
+  std::vector<SourceSetup> sources_;
   terrain::PeriodicBoundaries sides_;
 };
+
+/// Those of a scene, with their times in steps.
+Sources sourcesOf(const scene::Scene& scene, double timeStep);
 
 /// Throws base::InputError naming the source whose grains do not fit into its box beside each other.
 void checkSources(const scene::Scene& scene);

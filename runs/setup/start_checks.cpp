@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/sources.hpp"
-#include "runs/setup/surface_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,9 +57,7 @@ public:
       : scene_(scene), around_(around), joined_(periodicBoundaries(scene)),
         largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, joined_[0]),
                                                     CellsAlong(2 * largest_, joined_[1]),
-                                                    CellsAlong(2 * largest_, {})} {
-    for (const SceneSurface& s : around.surfaces) motions_.emplace_back(s.section, s.start.position);
-  }
+                                                    CellsAlong(2 * largest_, {})} {}
 
   /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
   void place(const Ball& ball) {
@@ -71,9 +69,9 @@ public:
       if (const double depth = ball.radius - around_.floor->closestPoint(ball.position).distance;
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, "the terrain's floor");
-    for (std::size_t i = 0; i < motions_.size(); ++i) {
+    for (std::size_t i = 0; i < around_.surfaces.size(); ++i) {
       const SceneSurface& s = around_.surfaces[i];
-      if (s.section.free && ball.time > 0) continue;
+      if (s.free && ball.time > 0) continue;
       if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, fmt::format("{} {}", s.kind, s.number));
@@ -88,8 +86,8 @@ private:
 
   base::Pose poseAt(std::size_t i, double time) const {
     const SceneSurface& s = around_.surfaces[i];
-    if (!s.section.moves() || time <= 0) return s.start;
-    const SurfaceMotion::State now = motions_[i].at(time);
+    if (!s.moves || time <= 0) return s.start;
+    const SurfaceMotion::State now = s.motion.at(time);
     return {now.centre, now.turned * s.start.orientation};
   }
 
@@ -134,7 +132,6 @@ private:
   terrain::PeriodicBoundaries joined_;
   double largest_;
   std::array<CellsAlong, 3> along_;
-  std::vector<SurfaceMotion> motions_;
   std::vector<Ball> balls_;
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
@@ -157,7 +154,7 @@ void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grai
   checkSources(scene);
   Placing placing(scene, around);
   placeStarting(scene, grains, placing);
-  const Sources sources(scene, timeStep);
+  const Sources sources = sourcesOf(scene, timeStep);
   std::size_t checked = 0;
   for (auto step = sources.nextEntry(0); step && checked < kMostChecked; step = sources.nextEntry(*step + 1)) {
     const double time = static_cast<double>(*step) * timeStep;
@@ -169,32 +166,6 @@ void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grai
         ++checked;
       }
   }
-}
-
-void watchSources(const scene::Scene& scene, double timeStep, terrain::Grains& grains) {
-  if (scene.sources.empty()) return;
-  std::vector<std::string> places, surfaces;
-  for (std::size_t k = 0; k < scene.sources.size(); ++k) places.push_back(scene.placeOf("source", k));
-  for (const SceneSurface& s : surfacesOf(scene))
-    if (!s.mesh) surfaces.push_back(s.name);
-  const double maxOverlap = scene.run.maxOverlap;
-  grains.onInsertionOverlap([=, sources = Sources(scene, timeStep), all = &grains](const terrain::InsertionOverlap& c) {
-    std::size_t before = 0, source = 0;
-    terrain::GrainSpec grain;
-    for (const Sources::Batch& batch : sources.batchesAt(all->steps())) {
-      if (c.entering >= before && c.entering < before + batch.grains.size())
-        source = batch.source, grain = batch.grains[c.entering - before];
-      before += batch.grains.size();
-    }
-    const std::string message = fmt::format(
-        "{} would set a grain {} at step {}, time {:.6g} s, {:.3g} m deep in {}, more than run.max_overlap = {:g} of "
-        "the radius; let it enter elsewhere (low, high), later (start), or leave those before it more time to get away "
-        "(every, number, velocity)",
-        places[source], at(grain.position), all->steps(), static_cast<double>(all->steps()) * timeStep, c.overlap,
-        c.grain ? fmt::format("grain {} {}", *c.grain, at(c.position)) : surfaces[c.surface], maxOverlap);
-    if (all->steps() == 0) throw base::InputError(message);
-    throw base::SimulationError(message);
-  });
 }
 
 } // namespace grouser::setup

@@ -3,7 +3,6 @@
 
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
-#include "terrain/grains.hpp"
 
 namespace grouser::setup {
 
@@ -13,9 +12,5 @@ namespace grouser::setup {
 /// and [[grains]].
 void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
                 double timeStep);
-
-/// Lets `grains` refuse what sources would set upon others of them, which only shows when they enter: InputError before
-/// the first step, SimulationError later, both naming the source.
-void watchSources(const scene::Scene& scene, double timeStep, terrain::Grains& grains);
 
 } // namespace grouser::setup

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace grouser::setup {
 
@@ -18,26 +17,20 @@ double angleOf(double turns) { return 2 * base::kPi * (turns - std::floor(turns)
 
 } // namespace
 
-SurfaceMotion::SurfaceMotion(const scene::SurfaceSection& s, const Vec3d& centre)
-    : pivot_(s.pivot.value_or(centre)), arm_(centre - pivot_), velocity_(s.velocity.value_or(Vec3d{})),
-      spin_(s.spin.value_or(Vec3d{})), amplitude_(s.amplitude.value_or(Vec3d{})), frequency_(s.frequency.value_or(0)),
-      phase_(s.phase.value_or(0) / 360), start_(s.start.value_or(0)),
-      until_(s.until.value_or(std::numeric_limits<double>::infinity())) {}
-
 SurfaceMotion::State SurfaceMotion::at(double time) const {
-  const bool moving = time >= start_ && time < until_;
-  const double t = std::clamp(time, start_, until_) - start_;
+  const bool moving = time >= law_.start && time < law_.until;
+  const double t = std::clamp(time, law_.start, law_.until) - law_.start;
   State s;
-  s.centre = pivot_ + velocity_ * t;
-  if (moving) s.velocity = velocity_, s.spin = spin_;
-  if (norm2(amplitude_) > 0) {
-    const double angle = angleOf(frequency_ * t + phase_), zero = angleOf(phase_);
-    s.centre += amplitude_ * (base::sin(angle) - base::sin(zero));
-    if (moving) s.velocity += amplitude_ * (2 * base::kPi * frequency_ * base::cos(angle));
+  s.centre = law_.pivot + law_.velocity * t;
+  if (moving) s.velocity = law_.velocity, s.spin = law_.spin;
+  if (norm2(law_.amplitude) > 0) {
+    const double angle = angleOf(law_.frequency * t + law_.phase), zero = angleOf(law_.phase);
+    s.centre += law_.amplitude * (base::sin(angle) - base::sin(zero));
+    if (moving) s.velocity += law_.amplitude * (2 * base::kPi * law_.frequency * base::cos(angle));
   }
-  if (const double rate = norm(spin_); rate > 0) {
+  if (const double rate = norm(law_.spin); rate > 0) {
     const double half = 0.5 * angleOf(rate * t / (2 * base::kPi));
-    const Vec3d v = spin_ * (base::sin(half) / rate);
+    const Vec3d v = law_.spin * (base::sin(half) / rate);
     s.turned = base::Quat{base::cos(half), v.x, v.y, v.z}.normalized();
   }
   const Vec3d arm = norm2(arm_) > 0 ? rotate(s.turned, arm_) : Vec3d{};

@@ -2,9 +2,19 @@
 #pragma once
 
 #include "base/vec.hpp"
-#include "runs/scene/surface_sections.hpp"
+
+#include <limits>
 
 namespace grouser::setup {
+
+/// The constants of a prescribed motion; see SurfaceMotion.
+struct SurfaceMotionLaw {
+  base::Vec3d pivot;                                     ///< [m] that it turns about
+  base::Vec3d velocity, spin, amplitude;                 ///< [m/s], [rad/s], [m]
+  double frequency{}, phase{};                           ///< [Hz], [turns]
+  double start{};                                        ///< [s]
+  double until{std::numeric_limits<double>::infinity()}; ///< [s]
+};
 
 /// How a rigid surface is moved: closed functions of time, so that nothing adds up and a resumed run has the same bits.
 ///
@@ -13,7 +23,8 @@ namespace grouser::setup {
 ///   turn(s)  = |spin| s about spin,   centre(s) = pivot(s) + turn(s) (centre - pivot)
 class SurfaceMotion {
 public:
-  SurfaceMotion(const scene::SurfaceSection& section, const base::Vec3d& centre);
+  SurfaceMotion() = default; ///< at rest at the origin
+  SurfaceMotion(const SurfaceMotionLaw& law, const base::Vec3d& centre) : law_(law), arm_(centre - law.pivot) {}
 
   struct State {
     base::Vec3d centre;         ///< [m]
@@ -23,8 +34,8 @@ public:
   State at(double time) const;
 
 private:
-  base::Vec3d pivot_, arm_, velocity_, spin_, amplitude_;
-  double frequency_, phase_, start_, until_;
+  SurfaceMotionLaw law_;
+  base::Vec3d arm_; ///< from the pivot to the centre at the start [m]
 };
 
 } // namespace grouser::setup

@@ -3,10 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/simulation/checkpoint.hpp"
-#include "runs/simulation/surfaces.hpp"
-#include "runs/support/build_info.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/shared_folder.hpp"
 
@@ -43,47 +40,6 @@ void warn(const base::Comm& comm, const std::string& message) {
 bool agreed(const base::Comm& comm, bool answer) { return comm.maximumOf(comm.first() && answer ? 1 : 0) != 0; }
 bool allOf(const base::Comm& comm, bool answer) { return comm.maximumOf(answer ? 0 : 1) == 0; }
 
-/// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
-bool isOfBed(const scene::Scene& scene, const std::string& material) {
-  const std::vector<std::string> grains = setup::grainKinds(scene).material;
-  const std::vector<setup::SceneSurface> surfaces = setup::surfacesOf(scene);
-  return material == scene.terrain->groundMaterial ||
-         std::find(grains.begin(), grains.end(), material) != grains.end() ||
-         std::any_of(scene.planes.begin(), scene.planes.end(),
-                     [&](const scene::Plane& plane) { return plane.material == material; }) ||
-         std::any_of(surfaces.begin(), surfaces.end(),
-                     [&](const setup::SceneSurface& s) { return s.section.material == material; });
-}
-
-/// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
-/// they are called. A plane that is felt as a surface stays one.
-void bringToRest(scene::SurfaceSection& s, bool named) {
-  const std::string material = s.material;
-  s = {};
-  s.material = material;
-  if (named) s.name = "surface";
-}
-
-/// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make
-/// two beds of one, but never one of two.
-scene::Scene bedAlone(scene::Scene scene) {
-  const scene::RunSettings fresh;
-  scene.run.duration = fresh.duration, scene.run.outputInterval = fresh.outputInterval;
-  scene.run.frameInterval = fresh.frameInterval, scene.run.checkpointInterval = fresh.checkpointInterval;
-  scene.run.device = fresh.device, scene.run.threads = fresh.threads; // one answer on all
-  scene.run.skin = fresh.skin;                                        // of lists, which change no bit
-  scene.run.timeStep.reset();                                         // the step itself is named
-  std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
-  std::erase_if(scene.contacts,
-                [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
-  scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
-  scene.terrain->cache = true;
-  for (scene::Plane& p : scene.planes) bringToRest(p, !p.isWall());
-  for (scene::BoxSection& b : scene.boxes) bringToRest(b, false);
-  for (scene::CylinderSection& c : scene.cylinders) bringToRest(c, false);
-  return scene;
-}
-
 /// Empty where nothing is to be kept.
 std::string folderOfUser() {
   if (const char* set = std::getenv("GROUSER_CACHE")) return set;
@@ -109,34 +65,26 @@ std::optional<BedCache> BedCache::ofUser(const base::Comm& comm) {
   return folder.empty() ? std::nullopt : std::optional(BedCache(folder, limit));
 }
 
-std::string BedCache::origin(const scene::Scene& scene, double timeStep) {
-  scene::Scene bed = bedAlone(scene);
-  const std::string inputs = inputsOf(bed);
-  bed.terrain->heightmap.clear(); // by its bytes, not by its name
-  return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs,
-                     scene::resolvedToml(bed));
-}
-
-setup::SettleReport BedCache::settle(const scene::Scene& scene, setup::Ground& ground,
-                                     const setup::SettleProgress& progress, const base::Comm& comm) {
+SettleReport BedCache::settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress,
+                              const base::Comm& comm) {
   const Clock::time_point start = Clock::now();
   const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  const std::string made = origin(scene, ground.grains->model().timeStep);
+  const std::string& made = bed.origin;
   base::StateHash key;
   for (const char c : made) key.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   const fs::path file = folder_ / (kPrefix + comm.broadcast(key.hex()) + ".h5");
 
-  setup::SettleReport report;
+  SettleReport report;
   const auto taken = [&] {
-    if (!reuse(file, made, ground, report, comm)) return false;
-    story_ = fmt::format("taken from {}, in {:.2f} s", file.string(), seconds());
+    if (!reuse(file, made, grains, report, comm)) return false;
+    summary_ = fmt::format("taken from {}, in {:.2f} s", file.string(), seconds());
     return true;
   };
   if (taken()) return report;
 
   std::error_code error;
   if (comm.first()) fs::create_directories(folder_, error);
-  const bool fits = kBytesPerGrain * static_cast<double>(ground.grains->count()) <= static_cast<double>(limit_);
+  const bool fits = kBytesPerGrain * static_cast<double>(grains.count()) <= static_cast<double>(limit_);
   const bool usable = agreed(comm, !error && ::access(folder_.c_str(), W_OK) == 0) &&
                       !support::rankNotSeeing(folder_, comm).has_value();
   if (!usable) warn(comm, fmt::format("{}: settled beds cannot be kept in this folder", folder_.string()));
@@ -151,17 +99,17 @@ setup::SettleReport BedCache::settle(const scene::Scene& scene, setup::Ground& g
     }
     if (taken()) return report;
   }
-  report = setup::settle(scene, ground, progress);
+  report = simulation::settle(bed, grains, progress);
   const double settledIn = seconds();
-  const bool kept = usable && fits && keep(file, made, ground, report, comm);
-  story_ = fmt::format("settled in {:.2f} s; {}", settledIn,
-                       kept    ? "kept in " + file.string()
-                       : !fits ? "not kept, since it is larger than what GROUSER_CACHE_GIB allows"
-                               : "not kept");
+  const bool kept = usable && fits && keep(file, made, grains, report, comm);
+  summary_ = fmt::format("settled in {:.2f} s; {}", settledIn,
+                         kept    ? "kept in " + file.string()
+                         : !fits ? "not kept, since it is larger than what GROUSER_CACHE_GIB allows"
+                                 : "not kept");
   return report;
 }
 
-bool BedCache::reuse(const fs::path& file, const std::string& made, setup::Ground& ground, setup::SettleReport& report,
+bool BedCache::reuse(const fs::path& file, const std::string& made, terrain::Grains& grains, SettleReport& report,
                      const base::Comm& comm) const {
   std::error_code error;
   if (!allOf(comm, fs::is_regular_file(file, error))) return false;
@@ -185,26 +133,25 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, setup::Groun
     }
     if (!allOf(comm, good)) return false;
     bed = readState(*open, comm);
-    if (bed.scene != made || !bed.state.grains ||
-        bed.state.grains->total != static_cast<std::int64_t>(ground.grains->count()))
+    if (bed.scene != made || !bed.state.grains || bed.state.grains->total != static_cast<std::int64_t>(grains.count()))
       damage = fmt::format("{}: holds another bed than its name says", file.string());
   }
   if (!damage.empty()) {
     warn(comm, damage);
     return false;
   }
-  ground.grains->restore(*bed.state.grains);
+  grains.restore(*bed.state.grains);
   report = bed.state.settled;
   if (comm.first()) fs::last_write_time(file, fs::file_time_type::clock::now(), error); // now it is the newest
   return true;
 }
 
-bool BedCache::keep(const fs::path& file, const std::string& made, const setup::Ground& ground,
-                    const setup::SettleReport& report, const base::Comm& comm) const {
+bool BedCache::keep(const fs::path& file, const std::string& made, const terrain::Grains& grains,
+                    const SettleReport& report, const base::Comm& comm) const {
   Checkpoint bed;
-  bed.scene = made, bed.timeStep = ground.grains->model().timeStep;
+  bed.scene = made, bed.timeStep = grains.model().timeStep;
   bed.state.settled = report, bed.state.energyAtStart = {0, 0, 0, 0};
-  bed.state.grains = ground.grains->state();
+  bed.state.grains = grains.state();
   // Made under a name of its own, so that another machine that shares the folder does no harm.
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);

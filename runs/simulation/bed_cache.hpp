@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "runs/setup/bed.hpp"
+#include "runs/simulation/ground.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -32,27 +32,22 @@ public:
   /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a
   /// file in it is a warning, never the end of the run. On several ranks all of them call it; the folder must be seen
   /// by all, or nothing is reused. Throws what `progress` throws, and SimulationError as settle() does.
-  setup::SettleReport settle(const scene::Scene& scene, setup::Ground& ground, const setup::SettleProgress& progress,
-                             const base::Comm& comm);
+  SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress,
+                      const base::Comm& comm);
 
   /// One line: where the bed came from and how long that took. Empty before settle().
-  const std::string& summary() const { return story_; }
-
-  /// Everything that makes the bits of a settled bed, as text: the parts of the scene that have a share in it with all
-  /// their values, the bytes of the height-map, the time step, and the running program. The program is known by a hash
-  /// of its file, since neither a version nor a commit tells of changes that are not committed, or of a compiler.
-  static std::string origin(const scene::Scene& scene, double timeStep);
+  const std::string& summary() const { return summary_; }
 
 private:
-  bool reuse(const std::filesystem::path& file, const std::string& origin, setup::Ground& ground,
-             setup::SettleReport& report, const base::Comm& comm) const;
-  bool keep(const std::filesystem::path& file, const std::string& origin, const setup::Ground& ground,
-            const setup::SettleReport& report, const base::Comm& comm) const;
+  bool reuse(const std::filesystem::path& file, const std::string& origin, terrain::Grains& grains,
+             SettleReport& report, const base::Comm& comm) const;
+  bool keep(const std::filesystem::path& file, const std::string& origin, const terrain::Grains& grains,
+            const SettleReport& report, const base::Comm& comm) const;
   void deleteOldest(const std::filesystem::path& except) const;
 
   std::filesystem::path folder_;
   std::uint64_t limit_;
-  std::string story_;
+  std::string summary_;
 };
 
 } // namespace grouser::simulation

@@ -226,19 +226,6 @@ private:
   base::Comm comm_;
 };
 
-std::string hashOfFile(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
-  base::StateHash hash;
-  std::vector<char> block(std::size_t{1} << 20);
-  do {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(block[static_cast<std::size_t>(i)])));
-  } while (file);
-  return hash.hex();
-}
-
 std::vector<std::string> linesOf(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -276,20 +263,6 @@ std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& re
 }
 
 } // namespace
-
-std::string inputsOf(const scene::Scene& scene) {
-  std::string text;
-  if (scene.terrain) text += fmt::format("terrain.heightmap {}\n", hashOfFile(scene.terrain->heightmap));
-  for (const scene::MeshSection& mesh : scene.meshes)
-    text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
-  if (!scene.vehicle) return text;
-  text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
-  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-  for (const std::string& mesh :
-       {spec.chassis.mesh, spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh, spec.roller.mesh, spec.idler.mesh})
-    text += fmt::format("mesh:{} {}\n", mesh, hashOfFile(fs::path(spec.meshFolder) / mesh));
-  return text;
-}
 
 void writeState(const fs::path& path, const char* kind, const Checkpoint& checkpoint, const base::Comm& comm) {
   const auto write = [&](const fs::path& part) {
@@ -348,11 +321,11 @@ Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
   return readState(support::Hdf5File::open(path), comm);
 }
 
-void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const scene::Scene& scene) {
-  const auto was = entriesOf(checkpoint.scene), is = entriesOf(scene::resolvedToml(scene));
+void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const setup::Provenance& provenance) {
+  const auto was = entriesOf(checkpoint.scene), is = entriesOf(provenance.resolved);
   const auto refuse = [&](const std::string& what) {
     throw base::InputError(
-        fmt::format("{}: {}; set it back, or start anew without --resume", scene.file.string(), what));
+        fmt::format("{}: {}; set it back, or start anew without --resume", provenance.file.string(), what));
   };
   const std::map<std::string, std::string> then(was.begin(), was.end()), now(is.begin(), is.end());
   for (const auto& [key, value] : is) {
@@ -365,7 +338,7 @@ void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const sc
   for (const auto& [key, value] : was)
     if (!now.contains(key))
       refuse(fmt::format("{} = {} is missing, with which {} was written", key, value, path.string()));
-  const auto filesThen = linesOf(checkpoint.inputs), filesNow = linesOf(inputsOf(scene));
+  const auto filesThen = linesOf(checkpoint.inputs), filesNow = linesOf(provenance.inputs);
   for (const std::string& file : filesNow)
     if (std::find(filesThen.begin(), filesThen.end(), file) == filesThen.end())
       refuse(fmt::format("the file of {} is another than the one that {} was written with",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/simulation/simulation_state.hpp"
 #include "runs/support/hdf5_file.hpp"
 
@@ -19,16 +19,13 @@ inline constexpr const char* kBedFile = "settled bed";
 /// A stopped run: all that is needed to go on as if it had not been stopped.
 struct Checkpoint {
   std::string scene;   ///< resolved
-  std::string inputs;  ///< what the files that the scene names held: see inputsOf()
+  std::string inputs;  ///< what the files that the scene names held: see setup::inputsOf()
   std::string commit;  ///< of the program that wrote it
   double timeStep{};   ///< [s]
   std::int64_t rows{}; ///< written by then
   std::int64_t frames{};
   SimulationState state;
 };
-
-/// One line a file that the scene reads (height-map, vehicle, meshes): its role and a hash of its bytes.
-std::string inputsOf(const scene::Scene& scene);
 
 /// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
 /// Throws std::runtime_error.
@@ -49,6 +46,7 @@ Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
 /// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
 /// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by
 /// what is in them.
-void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path, const scene::Scene& scene);
+void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path,
+                    const setup::Provenance& provenance);
 
 } // namespace grouser::simulation

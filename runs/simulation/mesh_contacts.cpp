@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/mesh_contacts.hpp"
 
-#include "runs/setup/grain_part_model.hpp"
-#include "runs/setup/laws.hpp"
+#include "runs/simulation/grain_part_model.hpp"
+#include "runs/simulation/ground.hpp"
 #include "spheredecomp/decompose.hpp"
 
 #include <algorithm>
@@ -11,24 +11,22 @@ namespace grouser::simulation {
 
 using base::Vec3d;
 
-MeshContacts::MeshContacts(const scene::Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains)
+MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains)
     : exec_(exec), comm_(grains.comm()), room_(0.5 * grains.smallestRadius()) {
   std::vector<contact::GrainPart> parts;
-  for (const scene::MeshSection& mesh : scene.meshes) {
+  for (const setup::SurfaceSetup& surface : setup.surfaces) {
+    if (!surface.mesh) continue;
     spheredecomp::DecompositionOptions options;
-    options.radius = *mesh.sphereRadius, options.interior = false;
+    options.radius = surface.sphereRadius, options.interior = false;
     parts.push_back({static_cast<int>(sets_.size()), {}, {}});
-    sets_.push_back(spheredecomp::decompose(mesh.loaded.query->mesh(), mesh.file, options));
+    sets_.push_back(spheredecomp::decompose(surface.mesh->mesh(), surface.name, options));
     reach_.push_back(contact::enclosingRadius(sets_.back()));
   }
   std::vector<const base::SphereSet*> sets;
   for (const base::SphereSet& set : sets_) sets.push_back(&set);
-  const auto [model, materials] =
-      setup::grainPartModel(scene, grains, timeStep, room_, [&](const std::string& soil, std::optional<double> mass) {
-        return setup::pairLaw(scene, soil, scene.meshes.front().material, mass);
-      });
+  const contact::GrainPartModel model = grainPartModel(*setup.grains, grains, room_);
   force_ = model.force, torque_ = model.torque;
-  contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, materials);
+  contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, setup.grains->partLaws);
   grains.onMigrate([this](const std::uint32_t* destination) { contacts_->migrate(destination); });
   motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
   sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size());
@@ -57,10 +55,10 @@ void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vec
   motion_.upload();
   sums_.device().zero();
   if (slotsChanged || haveLeft(motions)) {
-    contacts_->refresh(setup::viewOf(grains), motion_.device());
+    contacts_->refresh(viewOf(grains), motion_.device());
     listedAt_ = motions;
   }
-  contacts_->compute(setup::viewOf(grains), motion_.device(), sums_.device().data());
+  contacts_->compute(viewOf(grains), motion_.device(), sums_.device().data());
   grainLoads_ = contacts_->grainLoads();
   sums_.download();
   base::synchronize(exec_);

@@ -3,7 +3,7 @@
 
 #include "base/array.hpp"
 #include "contact/grain_part_contacts.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "terrain/grains.hpp"
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace grouser::simulation {
 class MeshContacts {
 public:
   /// Tells the grains that history must follow those that go to other ranks; so it outlives their steps.
-  MeshContacts(const scene::Scene& scene, const base::Exec& exec, double timeStep, terrain::Grains& grains);
+  MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;
 

@@ -2,11 +2,10 @@
 #include "runs/simulation/simulation.hpp"
 
 #include "base/error.hpp"
-#include "runs/setup/placement.hpp"
-#include "runs/setup/step_limit.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace grouser::simulation {
 
@@ -16,22 +15,21 @@ constexpr double kEnergyFloor = 1e-6;  // [J] below which nothing is judged
 constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
 } // namespace
 
-Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const setup::SettleProgress& progress,
+Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds)
-    : scene_(scene), exec_(exec), comm_(comm), timeStep_(setup::chooseTimeStep(scene)),
-      ground_(setup::buildGround(scene, exec, timeStep_, comm)), sources_(scene, timeStep_) {
-  const bool bed = scene.terrain && scene.terrain->granular();
-  if (scene.vehicle)
-    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec)); // before the bed takes its time
-  if (bed && scene.terrain->settleTimeLimit > 0)
-    settled_ = beds ? beds->settle(scene, ground_, progress, comm) : setup::settle(scene, ground_, progress);
-  if (bed) setup::keepSurface(ground_, exec);
-  surface_ = setup::surfaceHeight(ground_);
-  if (scene.vehicle) vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
-  if (!scene.mechanism.empty()) mechanism_ = std::make_unique<Mechanism>(setup::mechanismSetup(scene), timeStep_);
+    : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)) {
+  if (hasBed()) {
+    const setup::BedSetup& bed = *setup_.ground.grains->bed;
+    if (bed.settle.timeLimit > 0)
+      settled_ = beds ? beds->settle(bed, *ground_.grains, progress, comm) : settle(bed, *ground_.grains, progress);
+    keepSurface(ground_, exec);
+  }
+  surface_ = surfaceHeight(ground_);
+  if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_);
+  if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
   if (ground_.grains) ground_.grains->setSteps(0);
   makeSurfaces(nullptr);
-  if (surfaces_) surfaces_->makeMeshContacts(scene_, exec_, *ground_.grains);
+  if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
   start_ = ledger();
   addGrains();
 }
@@ -69,7 +67,8 @@ void Simulation::step(StepObserver* observer) {
 }
 
 std::int64_t Simulation::advance(std::int64_t most) {
-  const bool grainsAlone = ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && sources_.empty();
+  const bool grainsAlone =
+      ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && setup_.ground.grains->sources.empty();
   if (!grainsAlone) {
     step();
     return 1;
@@ -81,22 +80,23 @@ std::int64_t Simulation::advance(std::int64_t most) {
 
 /// Of the rigid parts that touch the grains in this step; null without.
 const contact::GrainLoadsView* Simulation::partLoads() const {
-  if (vehicle_) return vehicle_->grainLoads();
+  if (vehicle_) return vehicle_->contacts().grainLoads();
   return surfaces_ ? surfaces_->grainLoads() : nullptr;
 }
 
-/// Where they are at this step; until now the grains had them at rest.
+/// The surfaces of a scene, at the poses of this step. The grains have been made with them where they start: a run that
+/// goes on must not compute a contact before they stand where they were.
 void Simulation::makeSurfaces(const SurfaceStates* former) {
-  if (!ground_.grains || setup::surfacesOf(scene_).empty()) return;
-  surfaces_ = std::make_unique<Surfaces>(scene_, timeStep_);
+  if (!ground_.grains || setup_.ground.surfaces.empty()) return;
+  surfaces_ = std::make_unique<Surfaces>(setup_.ground, setup_.gravity, setup_.timeStep);
   if (former) surfaces_->restore(*former);
   surfaces_->place(*ground_.grains, steps_);
 }
 
 /// Grains of the sources that enter now, before the next step. What they bring with them is no change of energy.
 void Simulation::addGrains() {
-  if (sources_.empty()) return;
-  const std::vector<terrain::GrainSpec> entering = sources_.enteringAt(steps_);
+  if (!ground_.grains || setup_.ground.grains->sources.empty()) return;
+  const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
   if (entering.empty()) return;
   const terrain::GrainLedger before = ground_.grains->ledger();
   ground_.grains->add(entering);
@@ -107,8 +107,7 @@ void Simulation::addGrains() {
 }
 
 void Simulation::checkAlarm() {
-  std::string alarm = vehicle_->alarm();
-  if (alarm.empty()) alarm = setup::offTerrain(scene_, vehicle_->assembly(), vehicle_->state());
+  const std::string alarm = vehicle_->alarm();
   if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
 }
 
@@ -128,10 +127,10 @@ Simulation::Ledger Simulation::ledger() {
     ledger.driveWork = v.driveWork;
     ledger.kinetic += v.kinetic;
     ledger.potential += v.potentialGain;
-    ledger.elastic += v.elastic;
+    ledger.elastic += v.contacts.elastic;
     ledger.dissipated += v.dissipated;
-    ledger.partContacts = v.grainContacts, ledger.patches = v.patches;
-    ledger.impulseResidual = v.impulseOnParts + v.impulseOnGrains;
+    ledger.partContacts = v.contacts.grainContacts, ledger.patches = v.contacts.patches;
+    ledger.impulseResidual = v.contacts.impulseOnParts + v.contacts.impulseOnGrains;
   }
   if (surfaces_) {
     const Surfaces::Ledger s = surfaces_->ledger();

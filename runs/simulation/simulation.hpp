@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/bed.hpp"
-#include "runs/setup/sources.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/bed_cache.hpp"
+#include "runs/simulation/ground.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/simulation_state.hpp"
 #include "runs/simulation/step_observer.hpp"
@@ -21,11 +20,11 @@ namespace grouser::simulation {
 class Simulation {
 public:
   /// `beds`: where settled beds are kept; null: settles by itself.
-  Simulation(const scene::Scene& scene, const base::Exec& exec, const setup::SettleProgress& progress,
+  Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
              const base::Comm& comm = {}, BedCache* beds = nullptr);
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
-  Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state,
+  Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
              const base::Comm& comm = {});
   SimulationState save() const;
 
@@ -34,12 +33,13 @@ public:
   /// At least one step, at most `most`: as many as can be given to the device at once. Returns how many were taken.
   std::int64_t advance(std::int64_t most);
 
-  double timeStep() const { return timeStep_; }
+  const setup::SimulationSetup& setup() const { return setup_; }
+  double timeStep() const { return setup_.timeStep; }
   std::int64_t steps() const { return steps_; }
-  double time() const { return static_cast<double>(steps_) * timeStep_; } ///< since the bed has settled [s]
+  double time() const { return static_cast<double>(steps_) * setup_.timeStep; } ///< since the bed has settled [s]
 
   const base::Comm& comm() const { return comm_; }
-  const setup::Ground& ground() const { return ground_; }
+  const Ground& ground() const { return ground_; }
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
@@ -49,7 +49,7 @@ public:
     if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
   }
-  const setup::SettleReport& settled() const { return settled_; }
+  const SettleReport& settled() const { return settled_; }
 
   /// Changes of all energies [J] since the first step, and what does not balance:
   /// residual = kinetic + potential + elastic + dissipated - driveWork.
@@ -73,15 +73,14 @@ private:
   void addGrains();
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
+  bool hasBed() const { return ground_.grains && setup_.ground.grains->bed; }
 
-  const scene::Scene scene_;
+  const setup::SimulationSetup setup_;
   base::Exec exec_;
   base::Comm comm_;
-  double timeStep_;
-  setup::Ground ground_;
-  setup::SettleReport settled_;
+  Ground ground_;
+  SettleReport settled_;
   std::function<double(double, double)> surface_;
-  setup::Sources sources_;
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;

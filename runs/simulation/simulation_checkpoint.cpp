@@ -3,7 +3,6 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
-#include "runs/setup/step_limit.hpp"
 
 namespace grouser::simulation {
 
@@ -32,32 +31,30 @@ SimulationState Simulation::save() const {
   return state;
 }
 
-Simulation::Simulation(const scene::Scene& scene, const base::Exec& exec, const SimulationState& state,
+Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
                        const base::Comm& comm)
-    : scene_(scene), exec_(exec), comm_(comm), timeStep_(setup::chooseTimeStep(scene)),
-      ground_(setup::buildGround(scene, exec, timeStep_, comm)), settled_(state.settled), sources_(scene, timeStep_),
-      steps_(state.steps) {
-  const bool bed = ground_.grains && ground_.walls;
-  if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == bed ||
-      state.vehicle.has_value() != scene.vehicle.has_value() ||
-      state.mechanism.has_value() == scene.mechanism.empty() || state.energyAtStart.size() != 4 ||
-      state.surfaces.has_value() != (ground_.grains && !setup::surfacesOf(scene).empty()))
+    : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)),
+      settled_(state.settled), steps_(state.steps) {
+  if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
+      state.vehicle.has_value() != setup_.vehicle.has_value() ||
+      state.mechanism.has_value() != setup_.mechanism.has_value() || state.energyAtStart.size() != 4 ||
+      state.surfaces.has_value() != (ground_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
-  if (bed) setup::keepSurface(ground_, state.surface);
-  surface_ = setup::surfaceHeight(ground_);
+  if (hasBed()) keepSurface(ground_, state.surface);
+  surface_ = surfaceHeight(ground_);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {
-    ground_.grains->restore(*state.grains, !sources_.empty());
+    ground_.grains->restore(*state.grains, !setup_.ground.grains->sources.empty());
     ground_.grains->setSteps(steps_);
-    if (surfaces_) surfaces_->makeMeshContacts(scene_, exec_, *ground_.grains);
+    if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
   }
-  if (scene.vehicle) {
+  if (setup_.vehicle) {
     // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
-    vehicle_ = std::make_unique<VehicleRig>(scene, exec, timeStep_, ground_, surface_);
+    vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_);
     vehicle_->restore(*state.vehicle);
   }
-  if (!scene.mechanism.empty()) {
-    mechanism_ = std::make_unique<Mechanism>(setup::mechanismSetup(scene_), timeStep_);
+  if (setup_.mechanism) {
+    mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
     mechanism_->restore(*state.mechanism);
   }
   const std::vector<double>& e = state.energyAtStart;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/setup/bed.hpp"
+#include "runs/simulation/ground.hpp"
 #include "runs/simulation/mechanism_state.hpp"
 #include "runs/simulation/surface_state.hpp"
 #include "runs/simulation/vehicle_state.hpp"
@@ -17,7 +17,7 @@ namespace grouser::simulation {
 struct SimulationState {
   std::int64_t steps{};
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
-  setup::SettleReport settled;
+  SettleReport settled;
   std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
   double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
   std::optional<terrain::GrainState> grains;

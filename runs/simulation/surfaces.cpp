@@ -12,48 +12,31 @@ namespace grouser::simulation {
 using base::Vec3d;
 using terrain::SurfaceShape;
 
-namespace {
-
-Vec3d freeAxisOf(const scene::SurfaceSection& s) {
-  Vec3d axis;
-  if (s.free) axis[(*s.free)[0] - 'x'] = 1;
-  return axis;
-}
-
-/// Load on a free surface [N].
-double loadAt(const scene::SurfaceSection& s, double time) {
-  const double ramp = s.loadRamp.value_or(0);
-  return s.load.value_or(0) * (time < ramp ? time / ramp : 1);
-}
-
-} // namespace
-
-Surfaces::Surfaces(const scene::Scene& scene, double timeStep)
-    : surfaces_(setup::surfacesOf(scene)), gravity_(scene.run.gravity), timeStep_(timeStep) {
-  for (const setup::SceneSurface& s : surfaces_) {
-    motions_.emplace_back(s.section, s.start.position);
-    freeAxes_.push_back(freeAxisOf(s.section));
+Surfaces::Surfaces(const setup::GroundSetup& setup, const Vec3d& gravity, double timeStep)
+    : setup_(setup), surfaces_(setup.surfaces), gravity_(gravity), timeStep_(timeStep) {
+  for (const setup::SurfaceSetup& s : surfaces_)
     if (!s.mesh) ++shapes_;
-  }
   states_.surfaces.resize(surfaces_.size());
 }
 
+Vec3d Surfaces::freeAxis(std::size_t i) const { return surfaces_[i].free ? surfaces_[i].free->axis : Vec3d{}; }
+
 terrain::SurfacePose Surfaces::placement(std::size_t i, std::int64_t step) const {
-  const setup::SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
+  const setup::SurfaceMotion::State law = surfaces_[i].motion.at(static_cast<double>(step) * timeStep_);
   const SurfaceState& s = states_.surfaces[i];
-  const Vec3d centre = law.centre + freeAxes_[i] * s.offset, velocity = law.velocity + freeAxes_[i] * s.speed;
+  const Vec3d centre = law.centre + freeAxis(i) * s.offset, velocity = law.velocity + freeAxis(i) * s.speed;
   return {{centre, (law.turned * surfaces_[i].start.orientation).matrix(), centre, velocity, law.spin},
           law.turned.matrix()};
 }
 
 base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {
-  const setup::SurfaceMotion::State law = motions_[i].at(static_cast<double>(step) * timeStep_);
-  return {law.centre + freeAxes_[i] * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
+  const setup::SurfaceMotion::State law = surfaces_[i].motion.at(static_cast<double>(step) * timeStep_);
+  return {law.centre + freeAxis(i) * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
 }
 
-void Surfaces::makeMeshContacts(const scene::Scene& scene, const base::Exec& exec, terrain::Grains& grains) {
+void Surfaces::makeMeshContacts(const base::Exec& exec, terrain::Grains& grains) {
   if (shapes_ == surfaces_.size()) return;
-  meshes_ = std::make_unique<MeshContacts>(scene, exec, timeStep_, grains);
+  meshes_ = std::make_unique<MeshContacts>(setup_, exec, grains);
   if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
 }
 
@@ -79,7 +62,7 @@ void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
 /// What goes farther in a step than half a radius could pass through a grain unfelt.
 void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const {
   const bool plane = surfaces_[i].geometry.shape == terrain::SurfaceShape::plane;
-  const double across = plane ? std::fabs(dot(freeAxes_[i], placement(i, step).normal())) : 1;
+  const double across = plane ? std::fabs(dot(freeAxis(i), placement(i, step).normal())) : 1;
   const double speed = std::fabs(states_.surfaces[i].speed), most = 0.5 * smallestRadius / timeStep_;
   if (speed * across <= most) return;
   throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {}, which forces move, goes at {:.4g} m/s, more "
@@ -93,13 +76,13 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const terrain::SurfaceLoad& load = i < shapes_ ? grains.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
-    const setup::SurfaceMotion::State law = motions_[i].at(time);
+    const setup::SurfaceMotion::State law = surfaces_[i].motion.at(time);
     SurfaceState& s = states_.surfaces[i];
     double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
-    if (surfaces_[i].section.free) {
+    if (const auto& free = surfaces_[i].free) {
       // Symplectic Euler, as the grains.
-      const double mass = *surfaces_[i].section.mass, given = loadAt(surfaces_[i].section, time);
-      s.speed += (dot(load.force + gravity_ * mass, freeAxes_[i]) + given) / mass * timeStep_;
+      const double mass = free->mass, given = free->loadAt(time);
+      s.speed += (dot(load.force + gravity_ * mass, freeAxis(i)) + given) / mass * timeStep_;
       s.offset += s.speed * timeStep_;
       checkSpeed(i, step, grains.smallestRadius());
       power += given * s.speed;
@@ -128,10 +111,10 @@ Surfaces::Ledger Surfaces::ledger() const {
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const SurfaceState& s = states_.surfaces[i];
     ledger.work += s.work;
-    if (!surfaces_[i].section.free) continue;
-    const double mass = *surfaces_[i].section.mass;
+    if (!surfaces_[i].free) continue;
+    const double mass = surfaces_[i].free->mass;
     ledger.kinetic += 0.5 * mass * s.speed * s.speed;
-    ledger.potential -= mass * dot(gravity_, freeAxes_[i]) * s.offset;
+    ledger.potential -= mass * dot(gravity_, freeAxis(i)) * s.offset;
   }
   return ledger;
 }

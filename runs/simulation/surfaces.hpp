@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/scene_surfaces.hpp"
-#include "runs/setup/surface_motion.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/simulation/mesh_contacts.hpp"
 #include "runs/simulation/surface_state.hpp"
 #include "terrain/grains.hpp"
@@ -18,10 +16,11 @@ namespace grouser::simulation {
 /// move give way. The same on all ranks.
 class Surfaces {
 public:
-  Surfaces(const scene::Scene& scene, double timeStep);
+  /// `setup` outlives it.
+  Surfaces(const setup::GroundSetup& setup, const base::Vec3d& gravity, double timeStep);
 
   /// The meshes' contacts; after grains have been restored, before the first computeContacts().
-  void makeMeshContacts(const scene::Scene& scene, const base::Exec& exec, terrain::Grains& grains);
+  void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains);
 
   /// Contacts of grains with meshes in step `step`.
   void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
@@ -34,7 +33,7 @@ public:
   void advance(terrain::Grains& grains, std::int64_t step);
 
   std::size_t count() const { return surfaces_.size(); }
-  const setup::SceneSurface& surface(std::size_t i) const { return surfaces_[i]; }
+  const setup::SurfaceSetup& surface(std::size_t i) const { return surfaces_[i]; }
   base::Pose pose(std::size_t i, std::int64_t step) const;
 
   /// Loads by the grains, about the centre, and the power of what moves the surface: means since restartMeans().
@@ -62,9 +61,10 @@ private:
   terrain::SurfacePose placement(std::size_t i, std::int64_t step) const;
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
-  std::vector<setup::SceneSurface> surfaces_;
-  std::vector<setup::SurfaceMotion> motions_;
-  std::vector<base::Vec3d> freeAxes_; ///< zero where it is not free
+  base::Vec3d freeAxis(std::size_t i) const; ///< zero where it is not free
+
+  const setup::GroundSetup& setup_;
+  const std::vector<setup::SurfaceSetup>& surfaces_;
   base::Vec3d gravity_;
   double timeStep_;
   SurfaceStates states_;

@@ -93,7 +93,7 @@ Collapse collapseColumn(const SampleGrains& material, double length, double widt
 
   Sample open = buildSample(columnScene(material, gate, deep, fill, seed, false), base::cpuExec(1));
   open.grains().restore(withoutGate(column.grains().state()));
-  const double g = norm(open.scene.run.gravity), unit = std::sqrt(2 * mean / g);
+  const double g = norm(open.grains().model().gravity), unit = std::sqrt(2 * mean / g);
   const auto every = std::max<std::int64_t>(1, static_cast<std::int64_t>(kLookEvery * unit / open.timeStep));
   const double look = static_cast<double>(every) * open.timeStep;
   const double restful = kCalm * material.mass() * g * d * static_cast<double>(result.grains);

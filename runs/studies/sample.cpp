@@ -3,7 +3,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/math.hpp"
-#include "runs/setup/step_limit.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/studies/common.hpp"
 
 #include <fmt/format.h>
@@ -22,11 +22,8 @@ std::string SampleGrains::toml(const std::string& name) const {
 }
 
 Sample buildSample(const std::string& toml, const base::Exec& exec) {
-  Sample sample;
-  sample.scene = setup::parseScene(toml, "sample.toml");
-  sample.timeStep = setup::chooseTimeStep(sample.scene);
-  sample.ground = setup::buildGround(sample.scene, exec, sample.timeStep);
-  return sample;
+  const setup::SimulationSetup setup = setup::simulationSetup(setup::parseScene(toml, "sample.toml"));
+  return {setup.timeStep, simulation::buildGround(setup.ground, exec)};
 }
 
 void advanceSample(terrain::Grains& grains, std::int64_t steps) {

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "runs/scene/scene.hpp"
-#include "runs/setup/bed.hpp"
+#include "runs/simulation/ground.hpp"
 
 #include <cstdint>
 #include <string>
@@ -24,11 +23,10 @@ struct SampleGrains {
   std::string toml(const std::string& name) const; ///< [material.NAME]
 };
 
-/// A sample and the scene that made it.
+/// A sample and its step.
 struct Sample {
-  scene::Scene scene;
   double timeStep = 0; ///< [s]
-  setup::Ground ground;
+  simulation::Ground ground;
   terrain::Grains& grains() { return *ground.grains; }
 };
 

@@ -52,8 +52,8 @@ std::string shearScene(const SampleGrains& material, const ShearBox& box, double
   put("upper_left", -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
   put("upper_right", 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
   put("lid", 0, top + 0.5 * d, l, d,
-            drawn + fmt::format("free = \"z\"\nmass = {}\nload = {:.17g}\nload_ramp = {:.17g}\n", kLidMass,
-                                -stress * l * w, 0.5 * kRest));
+      drawn + fmt::format("free = \"z\"\nmass = {}\nload = {:.17g}\nload_ramp = {:.17g}\n", kLidMass, -stress * l * w,
+                          0.5 * kRest));
   return text;
 }
 
@@ -64,7 +64,7 @@ double degrees(double t) { return std::atan(t) * 180 / base::kPi; }
 
 std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& box, double stress, std::int64_t seed) {
   const scene::Scene scene = setup::parseScene(shearScene(material, box, stress, seed), "shear.toml");
-  simulation::Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+  simulation::Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   const auto steps = [&](double seconds) { return static_cast<std::int64_t>(seconds / simulation.timeStep() + 0.5); };
   const std::int64_t every = std::max<std::int64_t>(1, steps(kRow)), all = steps(scene.run.duration);
   std::vector<ShearRow> rows;

@@ -34,7 +34,7 @@ struct PlateOnPlate {
     PartMotion a = atRest(origin, {std::sqrt(1 - tilt * tilt / 4), 0, tilt / 2, 0}), b = atRest({});
     a.velocity = v;
     motion = base::Array<PartMotion>(exec, std::vector<PartMotion>{a, b});
-    if (contacts->probesListed() == 0) contacts->refresh(motion);
+    if (contacts->samplesListed() == 0) contacts->refresh(motion);
     loads.zero();
     const base::Array<double> travelled(exec, std::vector<double>{model.margin});
     contacts->compute(motion, travelled.data(), loads.data());

@@ -279,8 +279,7 @@ template <class Placed> std::vector<std::vector<std::uint32_t>> byBand(const std
 
 } // namespace
 
-void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets,
-               Surfaces& surfaces) {
+void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, Surfaces& surfaces) {
   const std::vector<PlacedSphere> placed = place(surfaces.view, spheres);
   const std::vector<ScreenTriangle> triangles = place(surfaces.view, facets);
   const int bands = (surfaces.view.height + kBandRows - 1) / kBandRows;

@@ -73,7 +73,6 @@ struct Facet {
 std::vector<Facet> facetsOf(const RenderScene& scene);
 
 /// Fills the depth buffer with everything.
-void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets,
-               Surfaces& surfaces);
+void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, Surfaces& surfaces);
 
 } // namespace grouser::render::detail

@@ -34,7 +34,8 @@ scene::Scene shortScene() {
 TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
   const scene::Scene scene = shortScene();
   const auto quiet = [](double, double) {};
-  simulation::Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  simulation::Simulation timed(setup::simulationSetup(scene), base::cpuExec(1), quiet),
+      plain(setup::simulationSetup(scene), base::cpuExec(1), quiet);
   StepBench bench(timed, base::cpuExec(1));
   for (int i = 0; i < 150; ++i) bench.step(), plain.step();
   EXPECT_EQ(timed.stateHash(), plain.stateHash());
@@ -50,7 +51,8 @@ TEST(StepBench, ComputesTheSameBitsAsTheLoop) {
 TEST(StepBench, ComputesTheSameBitsForAMechanism) {
   const scene::Scene scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/mechanisms/gears.toml", {});
   const auto quiet = [](double, double) {};
-  simulation::Simulation timed(scene, base::cpuExec(1), quiet), plain(scene, base::cpuExec(1), quiet);
+  simulation::Simulation timed(setup::simulationSetup(scene), base::cpuExec(1), quiet),
+      plain(setup::simulationSetup(scene), base::cpuExec(1), quiet);
   const std::string atRest = plain.stateHash();
   StepBench bench(timed, base::cpuExec(1));
   for (int i = 0; i < 150; ++i) bench.step(), plain.step();

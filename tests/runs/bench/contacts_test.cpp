@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/device_under_test.hpp"
 #include "base/error.hpp"
 #include "contact/pair_search.hpp"
 #include "runs/bench/bullet.hpp"
 #include "runs/bench/contact_spheres.hpp"
 #include "runs/bench/contacts.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -275,7 +275,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
     for (const char* shoes : {"sinkage", "tension"})
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
   }
-  output::RunWriter writer(folder_ / "sprocket_speed=2", scene, channels, {});
+  output::RunWriter writer(folder_ / "sprocket_speed=2", setup::provenanceOf(scene), channels, {});
   writer.constant("vehicle/pitch_radius", "m", 0.25);
   output::RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {

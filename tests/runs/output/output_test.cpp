@@ -80,7 +80,7 @@ protected:
 
 TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
   {
-    RunWriter writer(folder_, scene(), channels(), {});
+    RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
     for (int r = 0; r < 100; ++r) writer.row(numbered(r));
     writer.finish({});
@@ -107,7 +107,7 @@ TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
 }
 
 TEST_F(Output, ResultsHoldSceneCommitAndMachine) {
-  RunWriter(folder_, scene(), channels(), {}).finish({});
+  RunWriter(folder_, setup::provenanceOf(scene()), channels(), {}).finish({});
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "results.h5");
   EXPECT_EQ(file.text("/", "scene"), scene::resolvedToml(scene()));
   EXPECT_NE(file.text("/", "commit"), "");
@@ -116,7 +116,7 @@ TEST_F(Output, ResultsHoldSceneCommitAndMachine) {
 }
 
 TEST_F(Output, CsvHasTheNarrowChannelsToTheSameBits) {
-  RunWriter writer(folder_, scene(), channels(), {});
+  RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
   for (int r = 0; r < 3; ++r) writer.row(numbered(r));
   const std::vector<std::string> text = lines(contents(folder_ / "timeseries.csv"));
   ASSERT_EQ(text.size(), 4u);
@@ -126,7 +126,7 @@ TEST_F(Output, CsvHasTheNarrowChannelsToTheSameBits) {
 }
 
 TEST_F(Output, UnfinishedRunLeavesReadableRows) {
-  RunWriter writer(folder_, scene(), channels(), {});
+  RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
   for (int r = 0; r < 5; ++r) writer.row(numbered(r));
   // A copy of the files as they are on disk now is what a killed program leaves.
   fs::copy_file(folder_ / "results.h5", folder_ / "killed.h5");
@@ -141,7 +141,7 @@ TEST_F(Output, ManifestSaysWhatWasRunAndHowItEnded) {
   options.metadata = {{"device", "cpu"}};
   scene::Scene s = scene();
   s.overrides = {"run.seed=3"};
-  RunWriter writer(folder_, s, channels(), options);
+  RunWriter writer(folder_, setup::provenanceOf(s), channels(), options);
   Summary summary;
   summary.steps = 42, summary.stateHash = "00ff", summary.figures["grain_steps_per_second"] = 1e6;
   writer.finish(summary);
@@ -157,7 +157,7 @@ TEST_F(Output, FilledFolderIsLeftAloneWithoutForce) {
   std::ofstream(folder_ / "results.h5") << "precious";
   std::ofstream(folder_ / "notes.txt") << "mine";
   try {
-    RunWriter(folder_, scene(), channels(), {});
+    RunWriter(folder_, setup::provenanceOf(scene()), channels(), {});
     FAIL();
   } catch (const base::InputError& e) {
     EXPECT_NE(std::string(e.what()).find("--force"), std::string::npos);
@@ -168,7 +168,7 @@ TEST_F(Output, FilledFolderIsLeftAloneWithoutForce) {
 
   RunWriter::Options force;
   force.force = true;
-  RunWriter(folder_, scene(), channels(), force).finish({});
+  RunWriter(folder_, setup::provenanceOf(scene()), channels(), force).finish({});
   EXPECT_NO_THROW(support::Hdf5File::open(folder_ / "results.h5"));
   EXPECT_EQ(contents(folder_ / "notes.txt"), "mine");
 }
@@ -179,7 +179,7 @@ TEST_F(Output, FileWhereTheFolderShouldBeIsAnInputError) {
 }
 
 TEST_F(Output, WrongRowLengthIsACallersFault) {
-  RunWriter writer(folder_, scene(), channels(), {});
+  RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
   EXPECT_THROW(writer.row({0, 0, {1, 2}}), std::logic_error);
   RowBuilder row(channels());
   EXPECT_THROW(row.set("vehicle/positon", 1.0), std::logic_error);
@@ -187,7 +187,7 @@ TEST_F(Output, WrongRowLengthIsACallersFault) {
 }
 
 TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
-  RunWriter writer(folder_, scene(), channels(), {});
+  RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
   writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
   for (int f = 0; f < 3; ++f) writer.frame(frame(f, 4 + f));
   writer.finish({});
@@ -215,7 +215,7 @@ TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
 }
 
 TEST_F(Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
-  RunWriter writer(folder_, scene(), channels(), {});
+  RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
   writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
   for (const int grains : {4, 4, 6, 4}) writer.frame(frame(0, grains));
   writer.finish({});
@@ -232,7 +232,7 @@ TEST_F(Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
 
 TEST_F(Output, SinkageCsvHasOneColumnAShoe) {
   {
-    RunWriter writer(folder_, scene(), channels(), {});
+    RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
     for (int r = 0; r < 4; ++r) writer.row(numbered(r));
     writer.finish({});
   }
@@ -251,7 +251,7 @@ TEST_F(Output, SinkageOfAForeignFileIsAnInputError) {
   EXPECT_THROW(writeSinkageCsv(folder_ / "text.h5", folder_), base::InputError);
   support::Hdf5File::create(folder_ / "foreign.h5").makeGroup("/vehicle");
   EXPECT_THROW(writeSinkageCsv(folder_ / "foreign.h5", folder_), base::InputError);
-  RunWriter(folder_ / "bed", scene(), {{"ledger/residual", "J", "", 1, {}}}, {}).finish({});
+  RunWriter(folder_ / "bed", setup::provenanceOf(scene()), {{"ledger/residual", "J", "", 1, {}}}, {}).finish({});
   EXPECT_THROW(writeSinkageCsv(folder_ / "bed" / "results.h5", folder_), base::InputError);
   EXPECT_FALSE(fs::exists(folder_ / "sinkage.csv"));
 }

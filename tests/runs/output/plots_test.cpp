@@ -32,8 +32,9 @@ protected:
         {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
         {"vehicle/left/speed", "m/s", "", 1, {}},      {"vehicle/left/drive_torque", "N m", "", 1, {}}};
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
-    RunWriter writer(folder_, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels,
-                     {});
+    RunWriter writer(
+        folder_, setup::provenanceOf(setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
+        channels, {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
     RowBuilder row(channels);
     for (int r = 0; r < kRows; ++r) {
@@ -79,8 +80,9 @@ TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
   const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},
                                          {"vehicle/left/pad_height", "m", "", kShoes, {}}};
   {
-    RunWriter writer(hanging, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml"), channels,
-                     {});
+    RunWriter writer(
+        hanging, setup::provenanceOf(setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
+        channels, {});
     RowBuilder row(channels);
     row.begin(0, 0); // all NaN
     writer.row(row.row());

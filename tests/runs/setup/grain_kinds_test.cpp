@@ -149,12 +149,13 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
   for (const std::string precision : {"single", "double"}) {
     const scene::Scene s = parse(kMixed, {"run.precision=" + precision});
     const auto quiet = [](double, double) {};
-    simulation::Simulation one(s, base::cpuExec(1), quiet), two(s, base::cpuExec(2), quiet);
+    simulation::Simulation one(simulationSetup(s), base::cpuExec(1), quiet),
+        two(simulationSetup(s), base::cpuExec(2), quiet);
     EXPECT_EQ(one.ground().grains->features() & contact::kRollingFriction, contact::kRollingFriction);
     for (int i = 0; i < 300; ++i) one.step(), two.step();
     const simulation::SimulationState saved = one.save();
     EXPECT_EQ(one.stateHash(), two.stateHash());
-    simulation::Simulation resumed(s, base::cpuExec(1), saved);
+    simulation::Simulation resumed(simulationSetup(s), base::cpuExec(1), saved);
     for (int i = 0; i < 200; ++i) one.step(), resumed.step();
     EXPECT_EQ(one.stateHash(), resumed.stateHash());
     const auto ledger = one.ledger();

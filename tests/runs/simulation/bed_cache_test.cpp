@@ -54,7 +54,7 @@ protected:
               const base::Exec& exec = base::cpuExec(1)) const {
     Outcome o;
     Simulation simulation(
-        scene(overrides), exec, [&](double, double) { o.settled = true; }, {}, beds);
+        setup::simulationSetup(scene(overrides)), exec, [&](double, double) { o.settled = true; }, {}, beds);
     const auto note = [&] {
       const Simulation::Ledger l = simulation.ledger();
       for (const double v :
@@ -112,18 +112,18 @@ TEST_F(KeptBed, ServesCuda) {
 }
 
 TEST_F(KeptBed, WhatMadeItMakesAnother) {
-  const std::string origin = BedCache::origin(scene(), 2e-4);
-  EXPECT_NE(BedCache::origin(scene(), 1e-4), origin);
+  const std::string origin = setup::bedOrigin(scene(), 2e-4);
+  EXPECT_NE(setup::bedOrigin(scene(), 1e-4), origin);
   for (const char* key :
        {"run.seed=2", "run.gravity=[0,0,-9]", "run.max_overlap=0.3", "material.soil.stiffness=2e5",
         "material.soil.friction=0.1", "terrain.layers=3", "terrain.grain_radius=0.02", "terrain.size=[0.6,0.7]",
         "terrain.height_range=[0,0.02]", "terrain.settle_kinetic_energy=1e-3", "terrain.walls=false",
         "terrain.ground_material=steel", "terrain.heightmap=heightmaps/flat.png"})
-    EXPECT_NE(BedCache::origin(scene({key}), 2e-4), origin) << key;
+    EXPECT_NE(setup::bedOrigin(scene({key}), 2e-4), origin) << key;
 }
 
 TEST_F(KeptBed, WhatHasNoPartInItChangesNothing) {
-  const std::string origin = BedCache::origin(scene(), 2e-4);
+  const std::string origin = setup::bedOrigin(scene(), 2e-4);
   fs::create_directories(folder_);
   fs::copy(fs::path(GROUSER_SOURCE_DIR) / "assets/heightmaps/hills.png", folder_ / "copy.png");
   for (const std::string& key :
@@ -131,14 +131,14 @@ TEST_F(KeptBed, WhatHasNoPartInItChangesNothing) {
         std::string("run.device=cpu"), std::string("run.output_interval=0.03"),
         std::string("material.steel.friction=0"), std::string("output.frames=false"),
         std::string("parallel.rebalance=false"), "terrain.heightmap=" + (folder_ / "copy.png").string()})
-    EXPECT_EQ(BedCache::origin(scene({key}), 2e-4), origin) << key;
+    EXPECT_EQ(setup::bedOrigin(scene({key}), 2e-4), origin) << key;
 }
 
 TEST_F(KeptBed, KnowsWhereASurfaceStandsAndNotHowItWillMove) {
   const std::string box = "[[box]]\nposition = [0.3, 0, 0.2]\nsize = [0.2, 0.2, 0.1]\nmaterial = \"steel\"\n";
   const std::string plane = "[[plane]]\npoint = [0, 0, -1]\nmaterial = \"steel\"\n";
   const auto origin = [](const std::string& more, const std::vector<std::string>& overrides = {}) {
-    return BedCache::origin(scene(overrides, more), 2e-4);
+    return setup::bedOrigin(scene(overrides, more), 2e-4);
   };
   for (const char* key : {"box.0.velocity=[0, 0, -1]", "box.0.name=lid", "box.0.spin=[0, 0, 1]"})
     EXPECT_EQ(origin(box, {key}), origin(box)) << key;

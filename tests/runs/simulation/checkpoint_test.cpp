@@ -62,10 +62,10 @@ protected:
 
   /// A checkpoint of two grains in touch, after `steps`.
   static Checkpoint small(std::int64_t steps = 5) {
-    Simulation simulation(grains(), base::cpuExec(1), quiet);
+    Simulation simulation(setup::simulationSetup(grains()), base::cpuExec(1), quiet);
     while (simulation.steps() < steps) simulation.step();
     Checkpoint c;
-    c.scene = scene::resolvedToml(grains()), c.inputs = inputsOf(grains()), c.commit = "here";
+    c.scene = scene::resolvedToml(grains()), c.inputs = setup::inputsOf(grains()), c.commit = "here";
     c.timeStep = simulation.timeStep(), c.rows = 3, c.frames = 2;
     c.state = simulation.save();
     return c;
@@ -92,7 +92,7 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
                                           "driver.drive_ramp=0.02"};
   overrides.insert(overrides.end(), ramps.begin(), ramps.end());
-  Simulation straight(setup::loadScene(file, ramps), base::cpuExec(1), quiet);
+  Simulation straight(setup::simulationSetup(setup::loadScene(file, ramps)), base::cpuExec(1), quiet);
   while (straight.steps() < stop - 37) straight.step();
   straight.restartMeans(); // a row was written: its means go on from here
   while (straight.steps() < stop) straight.step();
@@ -100,12 +100,13 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   ASSERT_GT(touching.partContacts + touching.patches, 20) << "there must be history to carry over";
   const scene::Scene again = setup::loadScene(file, overrides);
   Checkpoint c;
-  c.scene = scene::resolvedToml(setup::loadScene(file, ramps)), c.inputs = inputsOf(again), c.state = straight.save();
+  c.scene = scene::resolvedToml(setup::loadScene(file, ramps)), c.inputs = setup::inputsOf(again),
+  c.state = straight.save();
   writeCheckpoint(path, c);
   const Checkpoint read = readCheckpoint(path);
-  EXPECT_NO_THROW(checkSameScene(read, path, again));
+  EXPECT_NO_THROW(checkSameScene(read, path, setup::provenanceOf(again)));
   EXPECT_EQ(read.state.hash(), straight.stateHash());
-  Simulation resumed(again, exec, read.state);
+  Simulation resumed(setup::simulationSetup(again), exec, read.state);
   EXPECT_EQ(resumed.steps(), stop);
   EXPECT_EQ(resumed.stateHash(), straight.stateHash());
   EXPECT_EQ(rowOf(resumed), rowOf(straight)) << "before the first step";
@@ -185,7 +186,7 @@ TEST_F(CheckpointFile, AnotherSceneIsRefusedByItsKey) {
   const Checkpoint c = small();
   for (const char* key : {"run.gravity=[0,0,-9]", "run.time_step=2e-5", "run.seed=8", "material.glass.friction=0.4"}) {
     try {
-      checkSameScene(c, path_, grains({key}));
+      checkSameScene(c, path_, setup::provenanceOf(grains({key})));
       ADD_FAILURE() << key;
     } catch (const base::InputError& error) {
       EXPECT_NE(std::string(error.what()).find(std::string(key).substr(4, 4)), std::string::npos) << error.what();
@@ -195,7 +196,7 @@ TEST_F(CheckpointFile, AnotherSceneIsRefusedByItsKey) {
   for (const char* key : {"run.duration=7", "run.output_interval=0.5", "run.frame_interval=0.5", "run.threads=3",
                           "run.checkpoint_interval=0", "run.device=cpu", "run.skin=0.7", "run.max_overlap=0.3",
                           "output.frames=false", "output.folder=elsewhere"})
-    EXPECT_NO_THROW(checkSameScene(c, path_, grains({key}))) << key;
+    EXPECT_NO_THROW(checkSameScene(c, path_, setup::provenanceOf(grains({key})))) << key;
 }
 
 TEST_F(CheckpointFile, FilesOfTheSceneAreComparedByWhatIsInThem) {
@@ -208,11 +209,11 @@ TEST_F(CheckpointFile, FilesOfTheSceneAreComparedByWhatIsInThem) {
   fs::copy(assets / "heightmaps/hills.png", folder_ / "map.png");
   fs::copy(assets / "heightmaps/hills.png", folder_ / "copy.png");
   Checkpoint c;
-  c.scene = scene::resolvedToml(terrain("map.png")), c.inputs = inputsOf(terrain("map.png"));
-  EXPECT_NO_THROW(checkSameScene(c, path_, terrain("copy.png")));
+  c.scene = scene::resolvedToml(terrain("map.png")), c.inputs = setup::inputsOf(terrain("map.png"));
+  EXPECT_NO_THROW(checkSameScene(c, path_, setup::provenanceOf(terrain("copy.png"))));
   fs::copy(assets / "heightmaps/flat.png", folder_ / "map.png", fs::copy_options::overwrite_existing);
   try {
-    checkSameScene(c, path_, terrain("map.png"));
+    checkSameScene(c, path_, setup::provenanceOf(terrain("map.png")));
     ADD_FAILURE();
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("terrain.heightmap"), std::string::npos) << error.what();
@@ -230,7 +231,7 @@ TEST_F(CheckpointFile, EveryByteOfAFileOfTheSceneCounts) {
     for (const char c : bytes) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
     scene::Scene scene = grains();
     scene.terrain.emplace().heightmap = (folder_ / "map.png").string();
-    EXPECT_EQ(inputsOf(scene), "terrain.heightmap " + hash.hex() + "\n") << size;
+    EXPECT_EQ(setup::inputsOf(scene), "terrain.heightmap " + hash.hex() + "\n") << size;
   }
 }
 

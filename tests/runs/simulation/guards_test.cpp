@@ -39,7 +39,7 @@ TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
 TEST(Placement, DrivingOffTheTerrainStopsTheRun) {
   const scene::Scene scene =
       rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
-  Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   EXPECT_THROW(while (simulation.time() < 1.0) simulation.step(), base::SimulationError);
 }
 
@@ -84,7 +84,8 @@ TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
 }
 
 TEST(Energy, FromNowhereStopsTheRun) {
-  Simulation simulation(setup::parseScene(kBall, "ball.toml"), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::simulationSetup(setup::parseScene(kBall, "ball.toml")), base::cpuExec(1),
+                        [](double, double) {});
   for (int i = 0; i < 2000; ++i) simulation.step();
   Simulation::Ledger now = simulation.ledger();
   EXPECT_NO_THROW(simulation.checkEnergy(now));

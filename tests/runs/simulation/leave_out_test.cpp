@@ -31,7 +31,7 @@ scene::Scene rigid() {
 }
 
 std::unique_ptr<Simulation> made(const scene::Scene& scene, int steps = 3) {
-  auto s = std::make_unique<Simulation>(scene, base::cpuExec(1), [](double, double) {});
+  auto s = std::make_unique<Simulation>(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   while (s->steps() < steps) s->step();
   return s;
 }
@@ -111,7 +111,7 @@ TEST(LeaveOut, OneRankHasNoSubdomainAndNoGhosts) {
 TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
   for (const char* friction : {"material.soil.friction=0.5", "material.soil.friction=0"}) {
     const scene::Scene scene = bed({friction, "terrain.size=[3, 3]"});
-    Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+    Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
     terrain::Grains& grains = *simulation.ground().grains;
     grains.refreshNeighbours();
     const double taken = static_cast<double>(grains.deviceBytes()) / static_cast<double>(grains.count());

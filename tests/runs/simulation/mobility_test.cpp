@@ -20,7 +20,7 @@ constexpr const char* kCoupledHash = "1b51b847c6bb1914";
 void quiet(double, double) {}
 
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {}) {
-  Simulation simulation(setup::loadScene(testScene("coupled.toml"), overrides), exec, quiet);
+  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"), overrides)), exec, quiet);
   while (simulation.steps() < 2000) simulation.step();
   EXPECT_EQ(simulation.ledger().impulseResidual, base::Vec3d{}) << "vehicle and bed exchange exact opposites";
   return simulation.stateHash();
@@ -123,7 +123,7 @@ std::size_t fourShoes(const Drive& d, double from) {
 }
 
 TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
-  Simulation simulation(setup::loadScene(testScene("rigid.toml")), testExec(), quiet);
+  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("rigid.toml"))), testExec(), quiet);
   const double omega = 2, begin = 0.5;
   const Drive d = drive(simulation, 4.0);
   const vehicle::VehicleSpec& spec = simulation.vehicle()->assembly().spec;
@@ -154,9 +154,10 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
 }
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
-  Simulation simulation(setup::loadScene(testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2",
-                                                                     "terrain.size=[4.7,2.6]"}),
-                        testExec(), quiet);
+  Simulation simulation(
+      setup::simulationSetup(setup::loadScene(
+          testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2", "terrain.size=[4.7,2.6]"})),
+      testExec(), quiet);
   const double begin = 0.5;
   const Drive d = drive(simulation, 2.6);
   const Line line = slopeOnGround(d, fourShoes(d, begin), begin);
@@ -166,14 +167,14 @@ TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
 }
 
 TEST(GranularBed, CarriesTheWholeWeightAtRest) {
-  Simulation simulation(
-      setup::loadScene(testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"}), testExec(),
-      quiet);
+  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"),
+                                                                {"driver.sprocket_speed=0", "driver.weight_ramp=0.3"})),
+                        testExec(), quiet);
   while (simulation.time() < 1.0) simulation.step();
   simulation.restartMeans();
   while (simulation.time() < 2.0) simulation.step();
   const double weight = simulation.vehicle()->assembly().mass * 9.81;
-  const double force = simulation.vehicle()->ledger().groundForce.z;
+  const double force = simulation.vehicle()->meanGroundForce().z;
   std::printf("rest: ground force / weight = %.5f\n", force / weight);
   EXPECT_NEAR(force / weight, 1, 0.005);
 }

@@ -26,8 +26,8 @@ std::ostream& operator<<(std::ostream& out, const Golden& g) { return out << g.s
 class OneAnswerScenes : public testing::TestWithParam<Golden> {};
 
 Simulation begin(const Golden& g, int threads, const std::vector<std::string>& overrides = {}) {
-  return Simulation(setup::loadScene(testScene(std::string(g.scene) + ".toml"), overrides), testExec(threads),
-                    [](double, double) {});
+  return Simulation(setup::simulationSetup(setup::loadScene(testScene(std::string(g.scene) + ".toml"), overrides)),
+                    testExec(threads), [](double, double) {});
 }
 
 void advance(Simulation& simulation, int to) {
@@ -48,7 +48,8 @@ TEST_P(OneAnswerScenes, HashIsThatOfAResumedRun) {
   const Golden& g = GetParam();
   Simulation first = begin(g, 1);
   advance(first, g.steps / 3);
-  Simulation second(setup::loadScene(testScene(std::string(g.scene) + ".toml")), testExec(2), first.save());
+  Simulation second(setup::simulationSetup(setup::loadScene(testScene(std::string(g.scene) + ".toml"))), testExec(2),
+                    first.save());
   advance(second, g.steps);
   EXPECT_EQ(second.stateHash(), g.hash);
 }

@@ -40,7 +40,7 @@ scene::Scene drip(const std::vector<std::string>& overrides = {}) {
 }
 
 TEST(Sources, GivesBatchesOnTimeAndTheRestLast) {
-  const setup::Sources sources(drip(), 1e-4);
+  const setup::Sources sources = setup::sourcesOf(drip(), 1e-4);
   std::vector<std::pair<std::int64_t, std::size_t>> seen;
   for (std::int64_t step = 0; step < 10000; ++step)
     if (const auto batch = sources.enteringAt(step); !batch.empty()) seen.emplace_back(step, batch.size());
@@ -49,7 +49,7 @@ TEST(Sources, GivesBatchesOnTimeAndTheRestLast) {
 
 TEST(Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
   const scene::Scene scene = drip();
-  const auto batch = setup::Sources(scene, 1e-4).enteringAt(1500);
+  const auto batch = setup::sourcesOf(scene, 1e-4).enteringAt(1500);
   for (std::size_t i = 0; i < batch.size(); ++i) {
     for (int a = 0; a < 3; ++a) {
       EXPECT_GE(batch[i].position[a], scene.sources[0].low[a]);
@@ -57,13 +57,13 @@ TEST(Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
     }
     for (std::size_t j = 0; j < i; ++j) EXPECT_GE(norm(batch[i].position - batch[j].position), 0.04);
   }
-  EXPECT_EQ(batch[0].position, setup::Sources(drip(), 1e-4).enteringAt(1500)[0].position);
-  EXPECT_NE(batch[0].position, setup::Sources(drip({"run.seed=4"}), 1e-4).enteringAt(1500)[0].position);
+  EXPECT_EQ(batch[0].position, setup::sourcesOf(drip(), 1e-4).enteringAt(1500)[0].position);
+  EXPECT_NE(batch[0].position, setup::sourcesOf(drip({"run.seed=4"}), 1e-4).enteringAt(1500)[0].position);
 }
 
 TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
   const scene::Scene scene = drip();
-  Simulation simulation(scene, base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   while (simulation.steps() < 4000) simulation.step();
   EXPECT_EQ(simulation.ground().grains->count(), 10u);
   const Simulation::Ledger l = simulation.ledger();
@@ -72,19 +72,19 @@ TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
   EXPECT_NEAR(l.residual, 0, 10 * 0.084 * 10 * 4.5 * 1e-4 / 2 * 1.01);
   // The first three have fallen for 0.35 s: h = v t + g t^2 / 2, exactly but for the step's g t dt / 2.
   const auto s = simulation.ground().grains->snapshot();
-  const auto first = setup::Sources(scene, 1e-4).enteringAt(500);
+  const auto first = setup::sourcesOf(scene, 1e-4).enteringAt(500);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(first[i].position.z - s.position[i].z, 0.35 + 5 * 0.35 * 0.35, 10 * 0.35 * 1e-4 / 2 * 1.01);
 }
 
 TEST(Sources, ResumedBetweenTwoBatchesGivesTheSameBits) {
   const scene::Scene scene = drip();
-  Simulation straight(scene, base::cpuExec(1), [](double, double) {});
+  Simulation straight(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   while (straight.steps() < 4000) straight.step();
   for (const std::int64_t stop : {0, 499, 500, 1500, 2600}) {
-    Simulation first(scene, base::cpuExec(1), [](double, double) {});
+    Simulation first(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
     while (first.steps() < stop) first.step();
-    Simulation second(scene, base::cpuExec(2), first.save());
+    Simulation second(setup::simulationSetup(scene), base::cpuExec(2), first.save());
     while (second.steps() < 4000) second.step();
     EXPECT_EQ(second.stateHash(), straight.stateHash()) << "stopped at step " << stop;
   }
@@ -92,7 +92,8 @@ TEST(Sources, ResumedBetweenTwoBatchesGivesTheSameBits) {
 
 TEST(Sources, ABoxWithoutRoomIsRefused) {
   try {
-    Simulation simulation(drip({"source.0.number=200", "source.0.total=200"}), base::cpuExec(1), [](double, double) {});
+    Simulation simulation(setup::simulationSetup(drip({"source.0.number=200", "source.0.total=200"})), base::cpuExec(1),
+                          [](double, double) {});
     FAIL();
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("source.0: 200 grains of radius 0.02 m do not find room"),
@@ -106,7 +107,8 @@ std::string stopOf(const std::string& sections, const std::vector<std::string>& 
   const std::string text = "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\ngravity = [0, 0, 0]\nthreads = 1\n"
                            "[material.glass]\nstiffness = 1e5\n" +
                            sections;
-  Simulation simulation(setup::parseScene(text, "crowd.toml", overrides), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::simulationSetup(setup::parseScene(text, "crowd.toml", overrides)), base::cpuExec(1),
+                        [](double, double) {});
   try {
     while (simulation.steps() < 1000) simulation.step();
   } catch (const base::SimulationError& error) {
@@ -180,7 +182,7 @@ total = 8
       EXPECT_NE(std::string(error.what()).find("drip.toml:21: source.1: 8 grains"), std::string::npos) << error.what();
     }
     try {
-      setup::Sources(scene, 1e-4).enteringAt(0);
+      setup::sourcesOf(scene, 1e-4).enteringAt(0);
     } catch (const base::InputError&) {
       thrown = false;
     }

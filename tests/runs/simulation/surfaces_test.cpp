@@ -9,6 +9,7 @@
 #include "runs/commands/plan.hpp"
 #include "runs/output/surface_mesh.hpp"
 #include "runs/setup/laws.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
 
@@ -43,16 +44,16 @@ scene::Scene sceneOf(const std::string& rest, const std::vector<std::string>& ov
 }
 
 std::unique_ptr<Simulation> made(const scene::Scene& scene, std::int64_t steps = 0, int threads = 1) {
-  auto s = std::make_unique<Simulation>(scene, base::cpuExec(threads), [](double, double) {});
+  auto s = std::make_unique<Simulation>(setup::simulationSetup(scene), base::cpuExec(threads), [](double, double) {});
   while (s->steps() < steps) s->step();
   return s;
 }
 
 TEST(SurfaceMotion, VelocityIsTheSlopeOfThePlaceAndEndsWithIt) {
-  scene::SurfaceSection s;
-  s.velocity = {0.3, -0.1, 0}, s.spin = {1, 2, -2}, s.pivot = {1, 0, 0}, s.amplitude = {0, 0.02, 0.01};
-  s.frequency = 3, s.phase = 40, s.start = 0.25, s.until = 1.75;
-  const setup::SurfaceMotion motion(s, {0.2, 0.5, 0});
+  setup::SurfaceMotionLaw law;
+  law.velocity = {0.3, -0.1, 0}, law.spin = {1, 2, -2}, law.pivot = {1, 0, 0}, law.amplitude = {0, 0.02, 0.01};
+  law.frequency = 3, law.phase = 40.0 / 360, law.start = 0.25, law.until = 1.75;
+  const setup::SurfaceMotion motion(law, {0.2, 0.5, 0});
   EXPECT_LT(norm(motion.at(0.1).centre - Vec3d{0.2, 0.5, 0}), 1e-15);
   EXPECT_EQ(norm(motion.at(0.1).velocity), 0);
   constexpr double kStep = 1e-5;
@@ -130,12 +131,14 @@ TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
 
 TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
   const auto built = [](const std::string& surface) {
-    return setup::buildGround(
-        setup::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
-                          "radius = 0.01\nposition = [0, 0, 1]\n" +
-                              surface + "material = \"soil\"\n",
-                          "quick.toml"),
-        base::cpuExec(1), 1e-5);
+    return buildGround(
+        setup::groundSetup(
+            setup::parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\n[[grain]]\nmaterial = \"soil\"\n"
+                              "radius = 0.01\nposition = [0, 0, 1]\n" +
+                                  surface + "material = \"soil\"\n",
+                              "quick.toml"),
+            1e-5),
+        base::cpuExec(1));
   };
   const std::string box = "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.001]\n";
   EXPECT_NO_THROW(built(box + "velocity = [0, 0, 499]\n")); // half a radius a step is 500 m/s
@@ -151,13 +154,13 @@ TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
 
 TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {
   const auto stop = [](const std::string& load) -> std::string {
-    Simulation s(
-        setup::parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
-                          "0.01\nposition = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"lid\"\nmaterial = "
-                          "\"soil\"\nposition = [5, 0, 0]\nsize = [1, 1, 1]\nfree = \"z\"\nmass = 1\nload = " +
-                              load + "\n",
-                          "lid.toml"),
-        base::cpuExec(1), [](double, double) {});
+    Simulation s(setup::simulationSetup(setup::parseScene(
+                     "version = 1\n[run]\nduration = 1\ntime_step = 1e-5\n[material.soil]\n[[grain]]\nradius = "
+                     "0.01\nposition = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"lid\"\nmaterial = "
+                     "\"soil\"\nposition = [5, 0, 0]\nsize = [1, 1, 1]\nfree = \"z\"\nmass = 1\nload = " +
+                         load + "\n",
+                     "lid.toml")),
+                 base::cpuExec(1), [](double, double) {});
     try {
       while (s.steps() < 100) s.step();
     } catch (const base::SimulationError& error) {
@@ -180,7 +183,8 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
   for (int k = 0; k < 16; ++k)
     text += "[[grain]]\nmaterial = \"soil\"\nradius = 0.01\nposition = [" + std::to_string(0.03 * (k % 4)) + ", " +
             std::to_string(0.03 * (k / 4)) + ", 0.01]\n";
-  Simulation simulation(setup::parseScene(text, "lid.toml"), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(setup::simulationSetup(setup::parseScene(text, "lid.toml")), base::cpuExec(1),
+                        [](double, double) {});
   // Sixteen springs on the lid: omega^2 = k (1 / m + 16 / M); undamped limit 2 / omega.
   const double grain = 2500 * 4.0 / 3 * base::kPi * 1e-6, omega = std::sqrt(1e5 * (1 / grain + 16 / 0.02));
   EXPECT_LT(simulation.timeStep(), 2 / omega);
@@ -273,7 +277,7 @@ TEST(Mill, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
   EXPECT_NE(straight->surfaces()->save().surfaces[3].offset, 0);
   for (const std::int64_t stop : {0, 4001}) {
     const auto first = made(scene, stop);
-    Simulation second(scene, base::cpuExec(1), first->save());
+    Simulation second(setup::simulationSetup(scene), base::cpuExec(1), first->save());
     while (second.steps() < 9000) second.step();
     EXPECT_EQ(second.stateHash(), straight->stateHash()) << "stopped at " << stop;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -319,16 +323,17 @@ TEST(Surfaces, ResolvedCopyLoadsToTheSameScene) {
 TEST(Surfaces, PicturesShowThemFromWhereGrainsAre) {
   const scene::Scene scene = sceneOf(kMill);
   const auto surfaces = setup::surfacesOf(scene);
+  const setup::DrawnPlanes planes = setup::drawnPlanes(scene);
   const auto volume = [&](std::size_t i) {
-    return spheredecomp::signedVolume(output::surfaceMesh(scene, surfaces[i]));
+    return spheredecomp::signedVolume(output::surfaceMesh(planes, surfaces[i]));
   };
-  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(scene, surfaces[1])), "box"));
-  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(scene, surfaces[3])), "rod"));
+  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(planes, surfaces[1])), "box"));
+  EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(planes, surfaces[3])), "rod"));
   EXPECT_NEAR(volume(1), 0.012 * 0.1 * 0.02, 1e-12);
   EXPECT_NEAR(volume(3), base::kPi * 0.08 * 0.08 * 0.02, 0.002 * volume(3)) << "a prism of 64 sides";
   // The wall of a drum looks inwards: without its ends the theorem gives two thirds of the volume.
   EXPECT_NEAR(volume(2), -2.0 / 3 * base::kPi * 0.08 * 0.08 * 0.1, -0.002 * volume(2));
-  const base::TriangleMesh plane = output::surfaceMesh(scene, surfaces[0]);
+  const base::TriangleMesh plane = output::surfaceMesh(planes, surfaces[0]);
   ASSERT_FALSE(plane.indices.empty());
   for (const Vec3d& v : plane.vertices) EXPECT_NEAR(v.z, 0, 1e-12) << "in its own frame";
 }
@@ -382,7 +387,7 @@ TEST(Mesh, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
   EXPECT_EQ(made(scene, 5000, 2)->stateHash(), straight->stateHash());
   for (const std::int64_t stop : {0, 2500}) {
     const auto first = made(scene, stop);
-    Simulation second(scene, base::cpuExec(1), first->save());
+    Simulation second(setup::simulationSetup(scene), base::cpuExec(1), first->save());
     while (second.steps() < 5000) second.step();
     EXPECT_EQ(second.stateHash(), straight->stateHash()) << "stopped at " << stop;
     EXPECT_EQ(second.surfaces()->observe(0, 5000).force, straight->surfaces()->observe(0, 5000).force);

@@ -2,27 +2,27 @@
 // Scenes with periodic boundaries, and beds made of copies of a settled tile.
 #include "base/error.hpp"
 #include "runs/commands/plan.hpp"
-#include "runs/setup/bed.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/sources.hpp"
+#include "runs/simulation/ground.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::setup {
+namespace grouser::simulation {
 namespace {
 
 constexpr double kStep = 1e-4, kRadius = 0.03;
 
 scene::Scene bed(const std::vector<std::string>& overrides = {}) {
-  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
-                    "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\n"
-                    "height_range = [0.1, 0.1]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 3\n"
-                    "settle_kinetic_energy = 1e-4\ncache = false\n",
-                    "bed.toml", overrides);
+  return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
+                           "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\n"
+                           "height_range = [0.1, 0.1]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 3\n"
+                           "settle_kinetic_energy = 1e-4\ncache = false\n",
+                           "bed.toml", overrides);
 }
 
 const std::vector<std::string> kJoined = {"run.periodic=[true, true]"};
@@ -32,8 +32,9 @@ std::vector<std::string> with(std::vector<std::string> list, const std::vector<s
 }
 
 SettleReport settled(const scene::Scene& scene, Ground& ground) {
-  ground = buildGround(scene, base::cpuExec(1), kStep);
-  return settle(scene, ground, [](double, double) {});
+  const setup::GroundSetup setup = setup::groundSetup(scene, kStep);
+  ground = buildGround(setup, base::cpuExec(1));
+  return settle(*setup.grains->bed, *ground.grains, [](double, double) {});
 }
 
 TEST(JoinedBed, IsAsDenseAtItsSidesAsInside) {
@@ -51,19 +52,20 @@ TEST(JoinedBed, IsAsDenseAtItsSidesAsInside) {
 }
 
 TEST(JoinedBed, HeightMapMustBeLevelAcrossTheSides) {
-  EXPECT_THROW(buildGround(bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.05]",
-                                "run.periodic=[true, false]"}),
-                           base::cpuExec(1), kStep),
+  EXPECT_THROW(buildGround(setup::groundSetup(bed({"terrain.heightmap=heightmaps/hills.png",
+                                                   "terrain.height_range=[0, 0.05]", "run.periodic=[true, false]"}),
+                                              kStep),
+                           base::cpuExec(1)),
                base::InputError);
   const auto slope = terrain::HeightField::plane({0, 1, -0.4, 0.4}, 0.1, 0, 0.2);
-  EXPECT_NO_THROW(checkLevelAcross(bed({"run.periodic=[true, false]"}), slope));
-  EXPECT_THROW(checkLevelAcross(bed({"run.periodic=[false, true]"}), slope), base::InputError);
+  EXPECT_NO_THROW(setup::checkLevelAcross(bed({"run.periodic=[true, false]"}), slope));
+  EXPECT_THROW(setup::checkLevelAcross(bed({"run.periodic=[false, true]"}), slope), base::InputError);
 }
 
 TEST(TiledBed, OfJoinedTilesIsInBalanceAtOnce) {
   const std::vector<std::string> level = with(kJoined, {"terrain.height_range=[0, 0]"}),
                                  tiles = with(level, {"terrain.tile=[0.5, 0.4]"});
-  Ground tile, whole = buildGround(bed(tiles), base::cpuExec(1), kStep);
+  Ground tile, whole = buildGround(setup::groundSetup(bed(tiles), kStep), base::cpuExec(1));
   settled(bed(with(level, {"terrain.size=[0.5, 0.4]"})), tile);
   EXPECT_EQ(whole.grains->count(), 4 * tile.grains->count());
   const terrain::GrainLedger one = tile.grains->ledger(), four = whole.grains->ledger();
@@ -94,12 +96,13 @@ TEST(TiledBed, BetweenWallsIsABedLikeOneThatFell) {
 TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
   const scene::Scene scene = bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.3]",
                                   "terrain.floor=flat", "terrain.tile=[0.5, 0.4]"});
-  Ground ground = buildGround(scene, base::cpuExec(1), kStep);
+  Ground ground = buildGround(setup::groundSetup(scene, kStep), base::cpuExec(1));
   for (const base::Vec3d& x : ground.grains->snapshot().position)
     ASSERT_LE(x.z, ground.surface->height(x.x, x.y) + 1e-6);
-  EXPECT_THROW(buildGround(bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.3]",
-                                "terrain.tile=[0.5, 0.4]"}),
-                           base::cpuExec(1), kStep),
+  EXPECT_THROW(buildGround(setup::groundSetup(bed({"terrain.heightmap=heightmaps/hills.png",
+                                                   "terrain.height_range=[0, 0.3]", "terrain.tile=[0.5, 0.4]"}),
+                                              kStep),
+                           base::cpuExec(1)),
                base::InputError);
 }
 
@@ -112,7 +115,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
         "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\nheight_range = [0, 0]\n"
         "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\ntile = [0.5, 0.4]\ncache = false\n" +
         box;
-    Ground ground = buildGround(parseScene(text, "bed.toml"), base::cpuExec(1), kStep);
+    Ground ground = buildGround(setup::groundSetup(setup::parseScene(text, "bed.toml"), kStep), base::cpuExec(1));
     for (int k = 0; k < 20; ++k) ground.grains->refreshNeighbours(), ground.grains->step();
     return ground.grains->ledger();
   };
@@ -127,36 +130,37 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
 
 TEST(PeriodicBoundaries, GrainsOfASourceDoNotEnterInEachOthersImages) {
   for (int seed = 1; seed <= 20; ++seed) {
-    const scene::Scene scene =
-        parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
-                   "[-0.1, 0.1]\nseed = " +
-                       std::to_string(seed) +
-                       "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
-                       "material = \"soil\"\nnumber = 25\ntotal = 25\nevery = 1\n",
-                   "rain.toml");
-    const std::vector<terrain::GrainSpec> grains = Sources(scene, kStep).enteringAt(0);
+    const scene::Scene scene = setup::parseScene(
+        "version = 1\n[run]\nduration = 0.1\nperiodic = [true, true]\ndomain_x = [0, 0.2]\ndomain_y = "
+        "[-0.1, 0.1]\nseed = " +
+            std::to_string(seed) +
+            "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
+            "material = \"soil\"\nnumber = 25\ntotal = 25\nevery = 1\n",
+        "rain.toml");
+    const std::vector<terrain::GrainSpec> grains = setup::sourcesOf(scene, kStep).enteringAt(0);
     ASSERT_EQ(grains.size(), 25u);
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        EXPECT_GT(norm(toNearestImage(periodicBoundaries(scene), grains[i].position - grains[j].position)), 0.02);
+        EXPECT_GT(norm(setup::toNearestImage(setup::periodicBoundaries(scene), grains[i].position - grains[j].position)), 0.02);
   }
 }
 
 TEST(PeriodicBoundaries, GrainsOfASceneTouchAcrossThem) {
   const auto scene = [](const std::string& x) {
-    return parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
-                      "[material.soil]\nstiffness = 1e5\n[[grain]]\nposition = [0.48, 0, 0]\nradius = 0.03\n"
-                      "material = \"soil\"\n[[grain]]\nposition = [" +
-                          x + ", 0, 0]\nradius = 0.03\nmaterial = \"soil\"\n",
-                      "two.toml");
+    return setup::parseScene("version = 1\n[run]\nduration = 0.1\nperiodic = [true, false]\ndomain_x = [-0.5, 0.5]\n"
+                             "[material.soil]\nstiffness = 1e5\n[[grain]]\nposition = [0.48, 0, 0]\nradius = 0.03\n"
+                             "material = \"soil\"\n[[grain]]\nposition = [" +
+                                 x + ", 0, 0]\nradius = 0.03\nmaterial = \"soil\"\n",
+                             "two.toml");
   };
-  EXPECT_EQ(buildGround(scene("-0.461"), base::cpuExec(1), kStep).grains->ledger().contacts, 1);
-  EXPECT_EQ(buildGround(scene("-0.459"), base::cpuExec(1), kStep).grains->ledger().contacts, 0);
-  EXPECT_THROW(buildGround(scene("-0.49"), base::cpuExec(1), kStep), base::InputError) << "too deep at the start";
-  EXPECT_THROW(buildGround(scene("-0.51"), base::cpuExec(1), kStep), base::InputError) << "outside";
+  EXPECT_EQ(buildGround(setup::groundSetup(scene("-0.461"), kStep), base::cpuExec(1)).grains->ledger().contacts, 1);
+  EXPECT_EQ(buildGround(setup::groundSetup(scene("-0.459"), kStep), base::cpuExec(1)).grains->ledger().contacts, 0);
+  EXPECT_THROW(buildGround(setup::groundSetup(scene("-0.49"), kStep), base::cpuExec(1)), base::InputError)
+      << "too deep at the start";
+  EXPECT_THROW(buildGround(setup::groundSetup(scene("-0.51"), kStep), base::cpuExec(1)), base::InputError) << "outside";
   EXPECT_NE(commands::planText(scene("0")).find("on   periodic boundaries        x"), std::string::npos)
       << commands::planText(scene("0"));
 }
 
 } // namespace
-} // namespace grouser::setup
+} // namespace grouser::simulation

@@ -1,67 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/tiled_bed.hpp"
+#include "runs/simulation/tiled_bed.hpp"
 
-#include "runs/setup/bed.hpp"
+#include "runs/simulation/ground.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <fmt/format.h>
+#include <utility>
 
-namespace grouser::setup {
+namespace grouser::simulation {
 
-namespace {
-
-/// The tile as a scene of its own: level, without all that is not bed.
-scene::Scene tileScene(const scene::Scene& scene, const terrain::BedPlan& plan, const std::array<double, 2>& size) {
-  scene::Scene tile = scene;
-  tile.run.periodic = {true, true};
-  tile.grains.clear(), tile.fills.clear(), tile.sources.clear();
-  tile.planes.clear(), tile.boxes.clear(), tile.cylinders.clear(), tile.meshes.clear();
-  tile.vehicle.reset(), tile.mechanism = {}, tile.parallel = {};
-  scene::Terrain& t = *tile.terrain;
-  t.tile.reset();
-  t.size = size;
-  t.heightRange = {0, 0};
-  t.floor = "follow";
-  t.layers = plan.layers;
-  t.depth.reset();
-  return tile;
-}
-
-} // namespace
-
-TiledBed::TiledBed(const scene::Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
-                   const base::Exec& exec, double timeStep)
-    : joined_(scene.run.periodic) {
-  const scene::Terrain& t = *scene.terrain;
-  const double radius = *t.grainRadius;
-  const terrain::HeightFieldBounds floor = plan.floor.bounds();
-  if (floor.highest - floor.lowest > 1e-6 * radius)
-    scene.fail("terrain", "tile",
-               fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
-                           "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
-                           t.floor, floor.lowest, floor.highest));
-  // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the
-  // last one.
-  const double cell = t.spacing * radius;
-  std::array<double, 2> size{};
-  for (std::size_t a = 0; a < 2; ++a) {
-    const double wanted = std::min((*t.tile)[a], t.size[a]);
-    if (joined_[a]) {
-      copies_[a] = std::max<std::int64_t>(1, static_cast<std::int64_t>(t.size[a] / wanted + 0.5));
-      size[a] = t.size[a] / static_cast<double>(copies_[a]);
-    } else {
-      size[a] = std::floor(wanted / cell + 0.5) * cell;
-      copies_[a] = static_cast<std::int64_t>(std::ceil(t.size[a] / size[a]));
-    }
-  }
-  const scene::Scene alone = tileScene(scene, plan, size);
-  Ground ground = buildGround(alone, exec, timeStep);
-  if (t.settleTimeLimit > 0) settle(alone, ground, [](double, double) {});
+TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::HeightField& surface, double radius,
+                   const base::Exec& exec)
+    : joined_(tile.periodic), copies_(tile.copies) {
+  Ground ground = buildGround(*tile.ground, exec);
+  const setup::BedSetup& bed = *tile.ground->grains->bed;
+  if (bed.settle.timeLimit > 0) settle(bed, *ground.grains, [](double, double) {});
   tile_ = ground.grains->state(), scale_ = ground.grains->scale(), period_ = ground.grains->period();
   // The tile lies in [0, size x] and [-size y / 2, size y / 2], as every terrain does.
-  lift_ = base::toUnits(
-      scale_.fromMetres({0, 0.5 * size[1] - 0.5 * t.size[1], floor.lowest - ground.rigid->bounds().lowest}));
+  lift_ = base::toUnits(scale_.fromMetres(
+      {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - ground.rigid->bounds().lowest}));
 
   const auto clear = [&](std::size_t a, double x, double low, double high) {
     return joined_[a] || (x >= low + radius && x <= high - radius);
@@ -73,8 +29,8 @@ TiledBed::TiledBed(const scene::Scene& scene, const terrain::HeightField& surfac
       for (std::size_t g = 0; g < tile_.rows(); ++g) {
         const Copy copy{{i, j}, g};
         const base::Vec3d x = scale_.toMetres(base::fromUnits(place(copy)));
-        const bool stays = clear(0, x.x, plan.walls.xMin, plan.walls.xMax) &&
-                           clear(1, x.y, plan.walls.yMin, plan.walls.yMax) &&
+        const bool stays = clear(0, x.x, tile.walls.xMin, tile.walls.xMax) &&
+                           clear(1, x.y, tile.walls.yMin, tile.walls.yMax) &&
                            (level || x.z <= surface.height(x.x, x.y));
         id_.push_back(stays ? static_cast<std::int64_t>(grains_.size()) : -1);
         if (stays) grains_.push_back(copy);
@@ -137,4 +93,4 @@ void TiledBed::bringToRest(terrain::Grains& grains, std::size_t floor) const {
   grains.restore(s);
 }
 
-} // namespace grouser::setup
+} // namespace grouser::simulation

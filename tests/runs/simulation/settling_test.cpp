@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When a bed counts as settled.
 #include "base/error.hpp"
-#include "runs/setup/bed.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/simulation/ground.hpp"
 
 #include <gtest/gtest.h>
 
-namespace grouser::setup {
+namespace grouser::simulation {
 namespace {
 
 scene::Scene bed(const std::vector<std::string>& overrides) {
-  return parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
-                    "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
-                    "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
-                    "settle_kinetic_energy = 1e-2\n",
-                    "bed.toml", overrides);
+  return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+                           "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
+                           "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
+                           "settle_kinetic_energy = 1e-2\n",
+                           "bed.toml", overrides);
 }
 
 TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
   const auto settled = [](const scene::Scene& scene, double& ratio) {
-    Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
-    const SettleReport report = settle(scene, ground, [](double, double) {});
+    const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
+    Ground ground = buildGround(setup, base::cpuExec(1));
+    const SettleReport report = settle(*setup.grains->bed, *ground.grains, [](double, double) {});
     ground.grains->refreshNeighbours();
     ground.grains->step();
     ratio = ground.grains->forceRatio();
@@ -36,9 +37,10 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
 
 TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   const scene::Scene scene = bed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
-  Ground ground = buildGround(scene, base::cpuExec(1), 2e-4);
+  const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
+  Ground ground = buildGround(setup, base::cpuExec(1));
   try {
-    settle(scene, ground, [](double, double) {});
+    settle(*setup.grains->bed, *ground.grains, [](double, double) {});
     FAIL() << "nothing rests to 1e-9";
   } catch (const base::SimulationError& error) {
     for (const char* part : {"has not settled within 0.3 s", "of its weight, wanted is 1e-09", "settle_force_ratio"})
@@ -47,4 +49,4 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
 }
 
 } // namespace
-} // namespace grouser::setup
+} // namespace grouser::simulation

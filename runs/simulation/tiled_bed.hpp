@@ -2,15 +2,14 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/layers.hpp"
 
 #include <array>
 #include <vector>
 
-namespace grouser::setup {
+namespace grouser::simulation {
 
 /// A bed made of copies of one settled tile.
 ///
@@ -20,10 +19,9 @@ namespace grouser::setup {
 /// the height-map; what lay against them has to come to rest again. Every rank makes the same tile.
 class TiledBed {
 public:
-  /// `plan` is that of `surface`. Throws InputError where the floor is not level, SimulationError where the tile does
-  /// not settle.
-  TiledBed(const scene::Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
-           const base::Exec& exec, double timeStep);
+  /// `surface`: of the whole terrain; `radius` [m] of the grains. Throws SimulationError where the tile does not
+  /// settle.
+  TiledBed(const setup::TileSetup& tile, const terrain::HeightField& surface, double radius, const base::Exec& exec);
 
   /// Where the grains are, by id.
   std::vector<terrain::GrainSpec> start(double radius, int material) const;
@@ -49,4 +47,4 @@ private:
   std::vector<std::int64_t> id_; ///< [copies x][copies y][grains of the tile]; -1: left out
 };
 
-} // namespace grouser::setup
+} // namespace grouser::simulation

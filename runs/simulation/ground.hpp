@@ -2,25 +2,24 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "runs/scene/scene.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "terrain/bed_surface.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/layers.hpp"
 
 #include <functional>
 #include <memory>
 #include <optional>
 
-namespace grouser::setup {
+namespace grouser::simulation {
 
-/// The terrain of a scene as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone.
+/// The terrain as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone.
 struct Ground {
   std::optional<terrain::HeightField> surface; ///< as the height-map says
   std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
   std::unique_ptr<terrain::Grains> grains;     ///< null without grains
   std::optional<terrain::Rectangle> walls;     ///< around a bed
-  int layers{1};                               ///< of a bed that has to fall into place; 0: it does not
   std::shared_ptr<const terrain::BedSurface> undisturbed; ///< of a settled bed, before the vehicle touched it
 };
 
@@ -34,25 +33,15 @@ struct SettleReport {
   std::int64_t steps{};
 };
 
-/// The ground's surface as the height-map says. Throws InputError where that cannot be read.
-terrain::HeightField readSurface(const scene::Scene& scene);
-
-/// How the scene's bed is laid.
-terrain::LayerOptions layerOptions(const scene::Scene& scene);
-
-/// Throws what buildGround() would, and lays nothing: grains that overlap each other (up to a hundred thousand of
-/// them), sources in solids, surfaces too quick for the step.
-void checkGround(const scene::Scene& scene, double timeStep);
-
-/// Reads the height-map, lays the grains and places the walls. Nothing moves yet.
+/// Lays the grains and places the walls. Nothing moves yet, but a tile that is to be copied settles.
 /// On several ranks each takes the grains of its subdomain.
-Ground buildGround(const scene::Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm = {});
+Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {});
 
 /// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
 /// m g radius, and the mean resultant force below the scene's share of the weight where it names one, for a whole tenth
 /// of a second, but at least for the time a grain takes to fall the bed's looseness.
 /// Throws SimulationError when the scene's time limit passes first.
-SettleReport settle(const scene::Scene& scene, Ground& ground, const SettleProgress& progress);
+SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress);
 
 /// Takes the surface of a bed as it lies now for the undisturbed one, or `heights` of one taken earlier.
 void keepSurface(Ground& ground, const base::Exec& exec);
@@ -61,4 +50,9 @@ void keepSurface(Ground& ground, const std::vector<double>& heights);
 /// Height of the undisturbed bed, or of the rigid ground; null where there is neither.
 std::function<double(double x, double y)> surfaceHeight(const Ground& ground);
 
-} // namespace grouser::setup
+/// What contacts with rigid parts see of the grains.
+inline contact::GrainPartContacts::GrainsView viewOf(const terrain::Grains& grains) {
+  return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
+}
+
+} // namespace grouser::simulation

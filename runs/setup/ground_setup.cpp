@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/bed.hpp"
+#include "runs/setup/ground_setup.hpp"
 
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/lattice.hpp"
+#include "runs/setup/laws.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/setup/tiled_bed.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 
@@ -38,12 +40,13 @@ terrain::HeightField readSurface(const scene::Scene& scene) {
 namespace {
 
 /// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them.
-Surroundings surroundingsOf(const scene::Scene& scene, const Ground& ground) {
+Surroundings surroundingsOf(const scene::Scene& scene, const GroundSetup& ground,
+                            const std::optional<terrain::BedPlan>& bed) {
   Surroundings around;
   around.floor = ground.rigid;
   if (scene.terrain && scene.terrain->granular()) {
     const std::string& material = scene.terrain->groundMaterial;
-    const terrain::Rectangle& w = *ground.walls;
+    const terrain::Rectangle& w = bed->walls;
     const auto add = [&](const Vec3d& normal, double offset) {
       around.walls.push_back({normal, offset, material, "a wall of the terrain"});
     };
@@ -98,9 +101,8 @@ void checkBedSize(const scene::Scene& scene, const terrain::LayerOptions& option
                            grains, grains * bytes / kGiB, memory / kGiB));
 }
 
-terrain::PartitionOptions partitionOf(const scene::Scene& scene, const base::Comm& comm) {
+terrain::PartitionOptions partitionOf(const scene::Scene& scene, int ranks) {
   terrain::PartitionOptions partition;
-  partition.comm = comm;
   partition.rebalance = scene.parallel.rebalance;
   partition.peers = base::peerUse(scene.parallel.peerMemory);
   partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
@@ -109,13 +111,14 @@ terrain::PartitionOptions partitionOf(const scene::Scene& scene, const base::Com
   for (std::vector<double>& planes : partition.cuts)
     for (double& place : planes) place = std::clamp(place, -end, end);
   partition.subdomains = wantedSubdomains(scene);
-  checkLattice(scene, comm.size());
+  checkLattice(scene, ranks);
   return partition;
 }
 
 /// The terrain without its grains. Empty where it has none.
-std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, Ground& ground) {
+std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSetup& ground) {
   if (!scene.terrain) return {};
+  ground.area = terrainArea(scene);
   ground.surface = readSurface(scene);
   if (!scene.terrain->granular()) {
     ground.rigid = ground.surface;
@@ -124,53 +127,104 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, Ground& g
   const terrain::LayerOptions options = layerOptions(scene);
   checkBedSize(scene, options);
   terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
-  ground.rigid = plan.floor, ground.walls = plan.walls, ground.layers = plan.layers;
+  ground.rigid = plan.floor;
   checkLevelAcross(scene, *ground.surface);
   return plan;
 }
 
-void layBed(const scene::Scene& scene, const terrain::BedPlan& plan, const Surroundings& around, const base::Exec& exec,
-            double timeStep, const base::Comm& comm, Ground& ground) {
-  const scene::Terrain& t = *scene.terrain;
-  const terrain::LayerOptions options = layerOptions(scene);
-  const GrainKinds kinds = grainKinds(scene);
-  terrain::Boundaries boundaries;
-  const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
-  std::optional<TiledBed> tiles;
-  std::vector<terrain::GrainSpec> start;
-  // The bed is laid around what stands in it.
-  const auto taken = [&](const Vec3d& centre) {
-    return std::any_of(around.surfaces.begin(), around.surfaces.end(),
-                       [&](const SceneSurface& s) { return startingOverlap(s, centre, options.radius) > 0; });
-  };
-  if (t.tile) {
-    tiles.emplace(scene, *ground.surface, plan, exec, timeStep);
-    start = tiles->start(options.radius, kinds.indexOf(t.material));
-    ground.layers = 0; // nothing falls
-    if (std::any_of(start.begin(), start.end(), [&](const auto& g) { return taken(g.position); }))
-      scene.fail("terrain", "tile",
-                 "[m] copies a settled bed, which a box, cylinder or plane of the scene reaches into; move that, or "
-                 "remove tile");
-  } else {
-    for (const terrain::Seed& seed : terrain::layGrains(*ground.surface, options))
-      if (!taken(seed.centre)) start.push_back({seed.centre, {}, {}, options.radius, kinds.indexOf(t.material)});
-  }
-  const std::size_t floor = boundaries.walls.size(); // behind the walls, before the surfaces
-  ground.grains =
-      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
-  if (tiles) tiles->bringToRest(*ground.grains, floor);
+/// The tile as a scene of its own: level, without all that is not bed.
+scene::Scene tileScene(const scene::Scene& scene, int layers, const std::array<double, 2>& size) {
+  scene::Scene tile = scene;
+  tile.run.periodic = {true, true};
+  tile.grains.clear(), tile.fills.clear(), tile.sources.clear();
+  tile.planes.clear(), tile.boxes.clear(), tile.cylinders.clear(), tile.meshes.clear();
+  tile.vehicle.reset(), tile.mechanism = {}, tile.parallel = {};
+  scene::Terrain& t = *tile.terrain;
+  t.tile.reset();
+  t.size = size;
+  t.heightRange = {0, 0};
+  t.floor = "follow";
+  t.layers = layers;
+  t.depth.reset();
+  t.cache = false;
+  return tile;
 }
 
-void placeGrains(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
-                 const base::Exec& exec, double timeStep, const base::Comm& comm, Ground& ground) {
-  const GrainKinds kinds = grainKinds(scene);
-  std::vector<terrain::GrainSpec> start;
-  for (const scene::Grain& g : grains)
-    start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
-  terrain::Boundaries boundaries;
-  const terrain::GrainModel model = grainModel(scene, kinds, timeStep, around, boundaries);
-  ground.grains =
-      std::make_unique<terrain::Grains>(exec, model, std::move(boundaries), start, partitionOf(scene, comm));
+/// The message of a fault that only shows later.
+template <class Fail> std::string messageOf(const Fail& fail) {
+  try {
+    fail();
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TileSetup tileSetup(const scene::Scene& scene, const terrain::BedPlan& plan, double timeStep) {
+  const scene::Terrain& t = *scene.terrain;
+  const double radius = *t.grainRadius;
+  const terrain::HeightFieldBounds floor = plan.floor.bounds();
+  if (floor.highest - floor.lowest > 1e-6 * radius)
+    scene.fail("terrain", "tile",
+               fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
+                           "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
+                           t.floor, floor.lowest, floor.highest));
+  TileSetup tile;
+  tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
+  tile.walls = plan.walls, tile.floorHeight = floor.lowest;
+  // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the
+  // last one.
+  const double cell = t.spacing * radius;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double wanted = std::min((*t.tile)[a], t.size[a]);
+    if (tile.periodic[a]) {
+      tile.copies[a] = std::max<std::int64_t>(1, static_cast<std::int64_t>(t.size[a] / wanted + 0.5));
+      tile.size[a] = t.size[a] / static_cast<double>(tile.copies[a]);
+    } else {
+      tile.size[a] = std::floor(wanted / cell + 0.5) * cell;
+      tile.copies[a] = static_cast<std::int64_t>(std::ceil(t.size[a] / tile.size[a]));
+    }
+  }
+  tile.ground = std::make_shared<const GroundSetup>(groundSetup(tileScene(scene, plan.layers, tile.size), timeStep));
+  tile.inTheWay = messageOf([&] {
+    scene.fail("terrain", "tile",
+               "[m] copies a settled bed, which a box, cylinder or plane of the scene reaches into; move that, or "
+               "remove tile");
+  });
+  return tile;
+}
+
+BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::BedPlan& plan, double timeStep) {
+  const scene::Terrain& t = *scene.terrain;
+  BedSetup bed;
+  bed.layers = layerOptions(scene), bed.walls = plan.walls, bed.layerCount = plan.layers;
+  bed.material = kinds.indexOf(t.material);
+  bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio};
+  bed.cache = t.cache;
+  if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
+  if (t.tile) bed.tile = tileSetup(scene, plan, timeStep);
+  return bed;
+}
+
+/// The laws between each material of the grains and the parts that they meet: the vehicle's, or meshes.
+contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds& kinds, double grainMass) {
+  contact::GrainPartMaterials all;
+  if (!scene.vehicle && scene.meshes.empty()) return all;
+  // Of one mass, damping is a constant; of many it follows from each contact's.
+  const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
+  std::optional<double> specFriction;
+  if (scene.vehicle && scene.vehicle->material.empty())
+    specFriction = vehicle::readVehicleSpec(scene.vehicle->spec).contact.frictionGround;
+  for (const std::string& soil : kinds.material) {
+    const std::string& part = !scene.vehicle                    ? scene.meshes.front().material
+                              : scene.vehicle->material.empty() ? soil
+                                                                : scene.vehicle->material;
+    contact::ContactLaw law = pairLaw(scene, soil, part, mass);
+    if (specFriction) law.friction = *specFriction;
+    all.laws.push_back(law);
+    all.massPerCube.push_back(sphereMass(scene.material(soil).density, 1));
+  }
+  return all;
 }
 
 } // namespace
@@ -211,81 +265,34 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   checkSpeeds(scene, timeStep);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
-  Ground ground;
-  readTerrain(scene, ground);
-  checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground), timeStep);
+  GroundSetup ground;
+  const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
+  checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground, bed), timeStep);
 }
 
-Ground buildGround(const scene::Scene& scene, const base::Exec& exec, double timeStep, const base::Comm& comm) {
+GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
   checkSpeeds(scene, timeStep);
-  Ground ground;
+  GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
-  if (!grainKinds(scene).any()) return ground;
+  const GrainKinds kinds = grainKinds(scene);
+  if (!kinds.any()) return ground;
   checkBlockSizes(scene);
-  const Surroundings around = surroundingsOf(scene, ground);
-  const std::vector<scene::Grain> grains = placedGrains(scene);
-  checkStart(scene, grains, around, timeStep);
-  if (bed)
-    layBed(scene, *bed, around, exec, timeStep, comm, ground);
-  else
-    placeGrains(scene, grains, around, exec, timeStep, comm, ground);
-  watchSources(scene, timeStep, *ground.grains);
+  const Surroundings around = surroundingsOf(scene, ground, bed);
+  const std::vector<scene::Grain> placed = placedGrains(scene);
+  checkStart(scene, placed, around, timeStep);
+  ground.surfaces.assign(around.surfaces.begin(), around.surfaces.end());
+  GrainsSetup& grains = ground.grains.emplace();
+  grains.model = grainModel(scene, kinds, timeStep, around, grains.boundaries);
+  grains.manyKinds = kinds.many();
+  for (const scene::Grain& g : placed)
+    grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+  if (bed) grains.bed = bedSetup(scene, kinds, *bed, timeStep);
+  grains.sources = sourcesOf(scene, timeStep);
+  grains.partition = partitionOf(scene, ranks);
+  grains.partLaws = partLaws(scene, kinds, grains.model.mass);
   return ground;
-}
-
-SettleReport settle(const scene::Scene& scene, Ground& ground, const SettleProgress& progress) {
-  const scene::Terrain& t = *scene.terrain;
-  terrain::Grains& grains = *ground.grains;
-  const terrain::GrainModel& model = grains.model();
-  const double g = norm(model.gravity), dt = model.timeStep;
-  const double unit = model.mass * g * model.radius * static_cast<double>(grains.count());
-  // Loose layers fall first; nothing is judged before they have landed.
-  const double layers = ground.layers;
-  const double fall = std::sqrt(2 * layers * (t.spacing - 1.6) * model.radius / g);
-  const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
-  SettleReport report;
-  double forceRatio = 0;
-  int calm = 0;
-  while (report.time < t.settleTimeLimit) {
-    for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
-    report.steps += checkEvery;
-    report.time = static_cast<double>(report.steps) * dt;
-    if (t.settleForceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step
-    const terrain::GrainLedger ledger = grains.ledger();
-    report.agitation = (ledger.kinetic + ledger.rotational) / unit;
-    progress(report.time, report.agitation);
-    const bool rests =
-        report.agitation < t.settleKineticEnergy && (!t.settleForceRatio || forceRatio < *t.settleForceRatio);
-    calm = rests ? calm + 1 : 0;
-    if (calm >= 5 && report.time > fall) return report;
-  }
-  throw base::SimulationError(
-      fmt::format("the bed has not settled within {:g} s: kinetic energy a grain is {:.3g} of m g "
-                  "radius, wanted is {:.3g}{}; raise terrain.settle_time_limit, lower the material's "
-                  "restitution or raise terrain.settle_kinetic_energy{}",
-                  t.settleTimeLimit, report.agitation, t.settleKineticEnergy,
-                  t.settleForceRatio ? fmt::format(", and the mean resultant force on a grain is {:.3g} of its weight, "
-                                                   "wanted is {:.3g}",
-                                                   forceRatio, *t.settleForceRatio)
-                                     : "",
-                  t.settleForceRatio ? " and settle_force_ratio" : ""));
-}
-
-void keepSurface(Ground& ground, const base::Exec& exec) {
-  ground.undisturbed = std::make_shared<terrain::BedSurface>(exec, *ground.grains, ground.rigid->view(), *ground.walls);
-}
-
-void keepSurface(Ground& ground, const std::vector<double>& heights) {
-  ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * ground.grains->model().radius, heights);
-}
-
-std::function<double(double, double)> surfaceHeight(const Ground& ground) {
-  if (const auto bed = ground.undisturbed) return [bed](double x, double y) { return bed->height(x, y); };
-  if (!ground.surface) return {};
-  const auto field = std::make_shared<terrain::HeightField>(*ground.surface);
-  return [field](double x, double y) { return field->height(x, y); };
 }
 
 } // namespace grouser::setup

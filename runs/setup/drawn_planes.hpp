@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <vector>
+
+namespace grouser::setup {
+
+/// The planes of a scene, which have no end, and the room in which pictures show them.
+struct DrawnPlanes {
+  struct Plane {
+    base::Vec3d normal; ///< unit
+    double offset{};    ///< normal . x on it [m]
+    bool wall{};        ///< neither moved nor asked for by name
+  };
+  std::vector<Plane> planes; ///< in the order of the file
+  base::Vec3d low, high;     ///< [m]
+};
+DrawnPlanes drawnPlanes(const scene::Scene& scene);
+
+} // namespace grouser::setup

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/grain_part_contacts.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/sources.hpp"
+#include "runs/setup/surface_setup.hpp"
+#include "terrain/grains.hpp"
+#include "terrain/height_field.hpp"
+#include "terrain/layers.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+struct GroundSetup;
+
+/// When a bed counts as at rest.
+struct SettleSetup {
+  double timeLimit{};               ///< [s]; 0: the bed is not settled
+  double kineticEnergy{};           ///< [-] mean kinetic energy a grain over m g radius
+  std::optional<double> forceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
+};
+
+/// A bed that is one settled tile, copied.
+struct TileSetup {
+  std::shared_ptr<const GroundSetup> ground;   ///< of the tile alone: level, with periodic boundaries
+  std::array<double, 2> size{}, terrainSize{}; ///< [m] along x, y
+  std::array<std::int64_t, 2> copies{};
+  std::array<bool, 2> periodic{}; ///< of the whole terrain
+  terrain::Rectangle walls;       ///< of the whole bed
+  double floorHeight{};           ///< of the whole bed [m]
+  std::string inTheWay;           ///< the message where a surface of the scene reaches into the settled tile
+};
+
+/// A bed of grains, laid in layers under a height-map.
+struct BedSetup {
+  terrain::LayerOptions layers;
+  terrain::Rectangle walls; ///< inner faces [m]
+  int layerCount{};         ///< that have to fall into place
+  int material{};           ///< of its grains, among those of the model
+  SettleSetup settle;
+  bool cache{};       ///< keep the settled bed for later runs, and take it from one
+  std::string origin; ///< all that makes the bits of the settled bed, as text; see bedOrigin()
+  std::optional<TileSetup> tile;
+};
+
+/// All grains of a scene.
+struct GrainsSetup {
+  terrain::GrainModel model;
+  terrain::Boundaries boundaries;
+  std::vector<terrain::GrainSpec> start; ///< where the scene sets them one by one; empty for a bed
+  std::optional<BedSetup> bed;
+  Sources sources;
+  terrain::PartitionOptions partition;  ///< but for the ranks
+  contact::GrainPartMaterials partLaws; ///< of each material against the parts of the vehicle or the meshes
+  bool manyKinds{};                     ///< grains differ in radius or material
+};
+
+/// What a scene's vehicle or grains stand on.
+struct GroundSetup {
+  std::optional<terrain::Rectangle> area;      ///< of the terrain
+  std::optional<terrain::HeightField> surface; ///< as the height-map says
+  std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
+  std::vector<SurfaceSetup> surfaces;          ///< that grains meet: planes that move or have a name, boxes, ...
+  std::optional<GrainsSetup> grains;
+};
+
+/// The ground of a scene, for this step and number of ranks: reads the height-map, places grains, finds the laws of all
+/// contacts. Nothing is computed on a device. Throws InputError with the place of what is not possible.
+GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks = 1);
+
+/// Throws what groundSetup() would, and lays nothing: grains that overlap each other (up to a hundred thousand of
+/// them), sources in solids, surfaces too quick for the step.
+void checkGround(const scene::Scene& scene, double timeStep);
+
+/// The ground's surface as the height-map says. Throws InputError where that cannot be read.
+terrain::HeightField readSurface(const scene::Scene& scene);
+
+/// How the scene's bed is laid.
+terrain::LayerOptions layerOptions(const scene::Scene& scene);
+
+} // namespace grouser::setup

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/provenance.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+#include "runs/support/build_info.hpp"
+#include "vehicle/spec.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+
+namespace grouser::setup {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string hashOfFile(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
+  base::StateHash hash;
+  std::vector<char> block(std::size_t{1} << 20);
+  do {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(block[static_cast<std::size_t>(i)])));
+  } while (file);
+  return hash.hex();
+}
+
+/// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
+bool isOfBed(const scene::Scene& scene, const std::string& material) {
+  const std::vector<std::string> grains = grainKinds(scene).material;
+  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
+  return material == scene.terrain->groundMaterial ||
+         std::find(grains.begin(), grains.end(), material) != grains.end() ||
+         std::any_of(scene.planes.begin(), scene.planes.end(),
+                     [&](const scene::Plane& plane) { return plane.material == material; }) ||
+         std::any_of(surfaces.begin(), surfaces.end(),
+                     [&](const SceneSurface& s) { return s.section.material == material; });
+}
+
+/// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
+/// they are called. A plane that is felt as a surface stays one.
+void bringToRest(scene::SurfaceSection& s, bool named) {
+  const std::string material = s.material;
+  s = {};
+  s.material = material;
+  if (named) s.name = "surface";
+}
+
+/// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make
+/// two beds of one, but never one of two.
+scene::Scene bedAlone(scene::Scene scene) {
+  const scene::RunSettings fresh;
+  scene.run.duration = fresh.duration, scene.run.outputInterval = fresh.outputInterval;
+  scene.run.frameInterval = fresh.frameInterval, scene.run.checkpointInterval = fresh.checkpointInterval;
+  scene.run.device = fresh.device, scene.run.threads = fresh.threads; // one answer on all
+  scene.run.skin = fresh.skin;                                        // of lists, which change no bit
+  scene.run.timeStep.reset();                                         // the step itself is named
+  std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
+  std::erase_if(scene.contacts,
+                [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
+  scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
+  scene.terrain->cache = true;
+  for (scene::Plane& p : scene.planes) bringToRest(p, !p.isWall());
+  for (scene::BoxSection& b : scene.boxes) bringToRest(b, false);
+  for (scene::CylinderSection& c : scene.cylinders) bringToRest(c, false);
+  return scene;
+}
+
+} // namespace
+
+Provenance provenanceOf(const scene::Scene& scene) {
+  return {scene.file, scene.overrides, scene::resolvedToml(scene), inputsOf(scene)};
+}
+
+std::string inputsOf(const scene::Scene& scene) {
+  std::string text;
+  if (scene.terrain) text += fmt::format("terrain.heightmap {}\n", hashOfFile(scene.terrain->heightmap));
+  for (const scene::MeshSection& mesh : scene.meshes)
+    text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
+  if (!scene.vehicle) return text;
+  text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  for (const std::string& mesh :
+       {spec.chassis.mesh, spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh, spec.roller.mesh, spec.idler.mesh})
+    text += fmt::format("mesh:{} {}\n", mesh, hashOfFile(fs::path(spec.meshFolder) / mesh));
+  return text;
+}
+
+std::string bedOrigin(const scene::Scene& scene, double timeStep) {
+  scene::Scene bed = bedAlone(scene);
+  const std::string inputs = inputsOf(bed);
+  bed.terrain->heightmap.clear(); // by its bytes, not by its name
+  return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs,
+                     scene::resolvedToml(bed));
+}
+
+} // namespace grouser::setup

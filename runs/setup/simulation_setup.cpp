@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/simulation_setup.hpp"
+
+#include "runs/setup/step_limit.hpp"
+
+namespace grouser::setup {
+
+SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
+  SimulationSetup setup;
+  setup.timeStep = chooseTimeStep(scene);
+  setup.gravity = scene.run.gravity;
+  setup.ground = groundSetup(scene, setup.timeStep, ranks);
+  if (scene.vehicle) setup.vehicle = vehicleSetup(scene);
+  if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);
+  setup.run = {scene.run.duration, scene.run.outputInterval, scene.run.frameInterval, scene.run.checkpointInterval};
+  const scene::Output& o = scene.output;
+  setup.output = {o.record, o.frames, o.grainsCsv, o.picture, o.pictureWidth};
+  setup.planes = drawnPlanes(scene);
+  setup.provenance = provenanceOf(scene);
+  return setup;
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/surface_motion.hpp"
+#include "spheredecomp/mesh_query.hpp"
+#include "terrain/rigid_surface.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace grouser::setup {
+
+/// A surface that forces move along one axis.
+struct FreeSurface {
+  base::Vec3d axis;  ///< unit vector
+  double mass{};     ///< [kg]
+  double load{};     ///< beside gravity, along the axis [N]
+  double loadRamp{}; ///< over which the load comes on [s]
+
+  double loadAt(double time) const { return load * (time < loadRamp ? time / loadRamp : 1); } ///< [N]
+};
+
+/// One rigid surface of a scene as grains meet it, whatever section it stands in.
+struct SurfaceSetup {
+  std::string name;     ///< "lid"
+  const char* kind{};   ///< "box": the section's name
+  std::size_t number{}; ///< among those of its kind
+  std::string material;
+  terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
+  base::Pose start;
+  SurfaceMotion motion;
+  std::optional<FreeSurface> free;
+  bool moves{};                                          ///< by its motion or by forces
+  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
+  double sphereRadius{};                                 ///< of the spheres that a mesh is cut into [m]
+};
+
+/// At rest where it stands at the start.
+terrain::SurfacePose startingPose(const SurfaceSetup& surface);
+/// Overlap of a sphere with it at the start [m]; negative where they do not touch.
+double startingOverlap(const SurfaceSetup& surface, const base::Vec3d& position, double radius);
+/// The same where the surface's own frame has come to `pose`.
+double overlapAt(const SurfaceSetup& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
+
+} // namespace grouser::setup

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/vehicle_setup.hpp"
+
+namespace grouser::setup {
+
+namespace {
+
+vehicle::DriverOptions driverOptions(const scene::Driver& d) {
+  vehicle::DriverOptions options;
+  options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
+  options.driveStart = d.driveBegins(), options.driveRamp = d.driveRamp;
+  const scene::SpeedTable table = d.speeds();
+  options.speeds = {table.time, table.left, table.right};
+  return options;
+}
+
+} // namespace
+
+VehicleSetup vehicleSetup(const scene::Scene& scene) {
+  const scene::Vehicle& v = *scene.vehicle;
+  VehicleSetup setup;
+  setup.spec = vehicle::readVehicleSpec(v.spec);
+  setup.place = placeVehicle(scene, setup.spec);
+  setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
+  setup.fixChassis = v.chassis == "fixed";
+  setup.sphereRadius = v.sphereRadius;
+  setup.driver = driverOptions(scene.driver);
+  return setup;
+}
+
+} // namespace grouser::setup

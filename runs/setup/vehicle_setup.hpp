@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+#include "runs/setup/placement.hpp"
+#include "vehicle/driver.hpp"
+#include "vehicle/spec.hpp"
+
+#include <string>
+
+namespace grouser::setup {
+
+/// A vehicle, where it is set down, and its driver.
+struct VehicleSetup {
+  vehicle::VehicleSpec spec;
+  Placement place;
+  double clearance{};    ///< between the lowest grouser and the ground at the start [m]
+  bool onTerrain{};      ///< else it hangs at height 0
+  bool fixChassis{};     ///< as on a bench
+  double sphereRadius{}; ///< of the parts' sphere sets [m]
+  vehicle::DriverOptions driver;
+};
+
+/// Reads the spec. Throws InputError where that, or where the vehicle stands, is not possible.
+VehicleSetup vehicleSetup(const scene::Scene& scene);
+
+} // namespace grouser::setup

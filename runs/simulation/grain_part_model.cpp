@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/grain_part_model.hpp"
+
+#include <algorithm>
+
+namespace grouser::simulation {
+
+contact::GrainPartModel grainPartModel(const setup::GrainsSetup& setup, const terrain::Grains& grains, double margin) {
+  const terrain::GrainModel& bed = grains.model();
+  contact::GrainPartModel model;
+  model.radius = bed.radius, model.mass = bed.mass, model.timeStep = bed.timeStep;
+  // A grain listed at one end of its half skin may touch at the other.
+  model.margin = bed.skin * bed.radius + margin;
+  model.law = setup.partLaws.laws.front();
+  model.manyRadii = setup.manyKinds;
+  model.scale = grains.scale();
+  double pressed = 0;
+  for (const contact::ContactLaw& law : setup.partLaws.laws)
+    pressed = std::max(pressed, law.stiffness * bed.radius * (law.hertz ? 0.1 * bed.radius : 1.0));
+  // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
+  model.force = base::fixedPointFor(pressed, 36);
+  model.torque = base::fixedPointFor(pressed, 36);
+  model.energy = base::fixedPointFor(pressed * bed.radius, 36);
+  return model;
+}
+
+} // namespace grouser::simulation

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/sources.hpp"
+#include "terrain/grains.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::simulation {
+
+/// Lets `grains` refuse what sources would set upon others of them, which only shows when they enter: InputError before
+/// the first step, SimulationError later, both naming the source. `surfaces`: names of those that the grains know.
+void guardInsertion(terrain::Grains& grains, const setup::Sources& sources, const std::vector<std::string>& surfaces);
+
+} // namespace grouser::simulation

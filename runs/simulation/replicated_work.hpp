@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grains.hpp"
+
+#include <chrono>
+
+namespace grouser::simulation {
+
+/// Runs work that every rank does alike, and tells the grains how long it took: where they compare the ranks' times to
+/// move the cuts between subdomains, they leave it out, since no cut could shift it. On one rank it just runs it.
+class ReplicatedWork {
+public:
+  ReplicatedWork() = default;
+  explicit ReplicatedWork(terrain::Grains* grains) : grains_(grains && !grains->comm().alone() ? grains : nullptr) {}
+
+  template <class Work> void run(const Work& work) const {
+    if (!grains_) return work();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    grains_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+private:
+  terrain::Grains* grains_{nullptr};
+};
+
+} // namespace grouser::simulation

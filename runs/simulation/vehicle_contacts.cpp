@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/vehicle_contacts.hpp"
+
+#include "base/error.hpp"
+#include "runs/simulation/grain_part_model.hpp"
+
+#include <algorithm>
+
+namespace grouser::simulation {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr double kTrackMargin = 0.004; // [m] how far before touching a sample is listed
+constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their own skin
+
+} // namespace
+
+VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
+                                 const setup::GroundSetup& setup, const base::Exec& exec, double timeStep,
+                                 const Ground& ground)
+    : assembly_(assembly), parts_(parts), exec_(exec), side_(exec), graph_(exec), replicated_(ground.grains.get()),
+      timeStep_(timeStep) {
+  if (ground.grains) comm_ = ground.grains->comm();
+  const std::size_t n = parts.contactParts();
+  motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
+  travelled_ = base::Mirrored<double>(exec_, 2);
+  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n);
+  // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
+  const double largest = 1e4 * assembly_.mass * 9.81;
+  quanta_.force = base::fixedPointFor(largest, 46);
+  quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
+  quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums begin anew every step
+  quanta_.area = base::fixedPointFor(1, 40);
+  groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
+  makeTrack();
+  makeGround(setup, ground);
+}
+
+void VehicleContacts::makeTrack() {
+  const vehicle::ContactSpec& spec = assembly_.spec.contact;
+  const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionInside, spec.tangentialRatio};
+  std::vector<contact::PartPair> pairs;
+  for (const vehicle::PartPair& pair : assembly_.pairs)
+    pairs.push_back({parts_.contactIndex(pair.shoe), parts_.contactIndex(pair.other)});
+  track_ = std::make_unique<contact::PartPartContacts>(
+      exec_, contact::PartPartContacts::Model{law, quanta_, timeStep_, kTrackMargin}, parts_.sets(),
+      parts_.setOfContactPart(), pairs);
+}
+
+void VehicleContacts::makeGround(const setup::GroundSetup& setup, const Ground& ground) {
+  if (ground.grains) {
+    const contact::GrainPartModel model = grainPartModel(*setup.grains, *ground.grains, kBedMargin);
+    groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
+    std::vector<contact::GrainPart> parts;
+    for (const int set : parts_.setOfContactPart()) parts.push_back({set, {}, {}});
+    bed_ =
+        std::make_unique<contact::GrainPartContacts>(exec_, model, parts_.sets(), parts, comm_, setup.grains->partLaws);
+    ground.grains->onMigrate([this](const std::uint32_t* destination) { bed_->migrate(destination); });
+  } else if (ground.rigid) {
+    const vehicle::ContactSpec& spec = assembly_.spec.contact;
+    const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
+    std::vector<int> shoes;
+    for (const int part : assembly_.groundParts) shoes.push_back(parts_.contactIndex(part));
+    rigidGround_ = std::make_unique<terrain::GroundContacts>(
+        exec_, terrain::GroundContacts::Model{law, quanta_, timeStep_, kBedMargin}, *ground.rigid, parts_.sets(),
+        parts_.setOfContactPart(), shoes);
+  }
+}
+
+contact::PartMotion VehicleContacts::motionOf(std::size_t c, const multibody::State& state) const {
+  const vehicle::Part& part = assembly_.parts[parts_.partOf(c)];
+  const base::Pose pose = vehicle::partPose(part, state);
+  const auto body = static_cast<std::size_t>(part.body);
+  return {pose.position, pose.orientation.matrix(), state.pose[body].position, state.twist[body].v,
+          state.twist[body].w};
+}
+
+void VehicleContacts::setPoses(const multibody::State& state) {
+  for (std::size_t c = 0; c < parts_.contactParts(); ++c) motion_.host()[c] = motionOf(c, state);
+}
+
+void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
+  // Two parts approach each other at most as fast as both move relative to the hull.
+  const bool trackIsDue = 2 * relativeTravel_ > kTrackMargin;
+  const bool groundIsDue = onGround() ? absoluteTravel_ > kBedMargin || slotsChanged : absoluteTravel_ > 0;
+  if (!trackIsDue && !groundIsDue) return;
+  motion_.upload();
+  graph_.forget();
+  if (trackIsDue) {
+    track_->refresh(motion_.device());
+    relativeTravel_ = 0;
+  }
+  if (!groundIsDue) return;
+  if (bed_) {
+    bed_->refresh(viewOf(*grains), motion_.device());
+    grainLoads_ = bed_->grainLoads();
+  }
+  if (rigidGround_) rigidGround_->refresh(motion_.device());
+  absoluteTravel_ = 0;
+}
+
+void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* observer) {
+  noteTravel();
+  if (observer) return computeInParts(grains, *observer);
+  graph_.from(grains ? grains->positions() : nullptr).run([this, grains] {
+    uploadPoses();
+    side_.fork();
+    computeGround(grains, side_.exec());
+    computeTrack();
+    side_.join();
+    downloadLoads();
+  });
+}
+
+/// The same one after another, for who wants to know how long each takes.
+void VehicleContacts::computeInParts(const terrain::Grains* grains, StepObserver& observer) {
+  uploadPoses();
+  observer.after(Stage::posesUploaded);
+  computeTrack();
+  observer.after(Stage::trackContacts);
+  computeGround(grains, exec_);
+  observer.after(Stage::groundContacts);
+  downloadLoads();
+}
+
+/// On the host and outside the graph, which records what the device does and nothing else.
+void VehicleContacts::noteTravel() {
+  travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_;
+}
+
+void VehicleContacts::uploadPoses() {
+  motion_.upload();
+  travelled_.upload();
+  loadSums_.device().zero();
+}
+
+/// Shoes against sprocket, wheels, rollers, idler.
+void VehicleContacts::computeTrack() {
+  replicated_.run([this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
+}
+
+/// All parts against the bed, or shoes against rigid ground.
+void VehicleContacts::computeGround(const terrain::Grains* grains, const base::Exec& exec) {
+  contact::PartLoad* groundLoads = loadSums_.device().data() + parts_.contactParts();
+  if (bed_) bed_->computeOn(exec, viewOf(*grains), motion_.device(), groundLoads);
+  if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);
+}
+
+void VehicleContacts::collect(multibody::Loads& loads) {
+  base::synchronize(exec_);
+  const std::size_t n = parts_.contactParts();
+  const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
+  // Whole quanta, so that every order of ranks gives the same bits: all ranks move the vehicle alike.
+  constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
+  static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
+  if (bed_) comm_.sum(&(loadSums_.host() + n)->force.x, n * kNumbers);
+  for (multibody::Wrench& wrench : loads.external) wrench = {};
+  for (std::size_t c = 0; c < n; ++c) {
+    multibody::Wrench& wrench = loads.external[static_cast<std::size_t>(assembly_.parts[parts_.partOf(c)].body)];
+    wrench.force += quanta_.force.checked(track[c].force, "forces on a part") +
+                    groundForceQuantum_.checked(ground[c].force, "forces on a part");
+    wrench.torque += quanta_.torque.checked(track[c].torque, "torques on a part") +
+                     groundTorqueQuantum_.checked(ground[c].torque, "torques on a part");
+    impulseOnParts_ += ground[c].force;
+  }
+}
+
+const base::Vec3l& VehicleContacts::groundForce(std::size_t c) const {
+  return (loadSums_.host() + parts_.contactParts() + c)->force;
+}
+
+void VehicleContacts::trackTravel(const multibody::State& state) {
+  const auto hull = static_cast<std::size_t>(assembly_.chassis);
+  const Vec3d hullPosition = state.pose[hull].position;
+  const multibody::Twist& hullTwist = state.twist[hull];
+  double relative = 0, absolute = 0;
+  for (std::size_t c = 0; c < parts_.contactParts(); ++c) {
+    const auto body = static_cast<std::size_t>(assembly_.parts[parts_.partOf(c)].body);
+    const multibody::Twist& twist = state.twist[body];
+    const Vec3d carried = hullTwist.v + cross(hullTwist.w, state.pose[body].position - hullPosition);
+    relative = std::max(relative, norm(twist.v - carried) + norm(twist.w - hullTwist.w) * parts_.reach(c));
+    absolute = std::max(absolute, norm(twist.v) + norm(twist.w) * parts_.reach(c));
+  }
+  relativeTravel_ += relative * timeStep_;
+  absoluteTravel_ += absolute * timeStep_;
+}
+
+VehicleContacts::Ledger VehicleContacts::ledger() const {
+  Ledger ledger;
+  const contact::PatchBuffers::Ledger track = track_->ledger();
+  ledger.elastic = track.elastic, ledger.dissipated = track.dissipated, ledger.patches = track.patches;
+  if (rigidGround_) {
+    const contact::PatchBuffers::Ledger ground = rigidGround_->ledger();
+    ledger.elastic += ground.elastic, ledger.dissipated += ground.dissipated, ledger.patches += ground.patches;
+  }
+  if (bed_) {
+    const contact::GrainPartContacts::Ledger bed = bed_->ledger();
+    ledger.elastic += bed.elastic;
+    ledger.grainContacts = bed.contacts;
+    ledger.impulseOnGrains = bed.impulseOnGrains;
+    ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
+  }
+  return ledger;
+}
+
+std::size_t VehicleContacts::samplesListed() const {
+  return track_->samplesListed() + (rigidGround_ ? rigidGround_->samplesListed() : 0);
+}
+
+void VehicleContacts::save(VehicleState& s) const {
+  s.track = track_->save();
+  if (rigidGround_) s.ground = rigidGround_->save();
+  if (bed_) s.bed = bed_->save();
+  s.impulseOnParts = impulseOnParts_;
+}
+
+void VehicleContacts::restore(const VehicleState& s) {
+  track_->restore(s.track);
+  if (rigidGround_) rigidGround_->restore(s.ground);
+  if (bed_) bed_->restore(s.bed);
+  impulseOnParts_ = s.impulseOnParts;
+  relativeTravel_ = absoluteTravel_ = kNeverListed;
+}
+
+} // namespace grouser::simulation

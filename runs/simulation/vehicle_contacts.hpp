@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "base/device_graph.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "contact/patch_contacts.hpp"
+#include "multibody/state.hpp"
+#include "runs/simulation/ground.hpp"
+#include "runs/simulation/replicated_work.hpp"
+#include "runs/simulation/step_observer.hpp"
+#include "runs/simulation/vehicle_parts.hpp"
+#include "runs/simulation/vehicle_state.hpp"
+#include "terrain/ground_contacts.hpp"
+#include "vehicle/assembly.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace grouser::simulation {
+
+/// What the parts of a vehicle touch: shoes the running gear, all parts the grains, shoes rigid ground. Computed on the
+/// device where there is one. On several ranks each computes the contacts with its own grains; all else is done alike.
+class VehicleContacts {
+public:
+  /// `parts` outlives it.
+  VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const setup::GroundSetup& setup,
+                  const base::Exec& exec, double timeStep, const Ground& ground);
+
+  // One step, in this order.
+  void setPoses(const multibody::State& state);
+  void refreshLists(const terrain::Grains* grains, bool slotsChanged);
+  /// The device works, the host does not wait. `observer`: told of each kind of contacts.
+  void compute(const terrain::Grains* grains, StepObserver* observer);
+  /// Waits for the sums of loads of all ranks and puts them on the bodies.
+  void collect(multibody::Loads& loads);
+  /// How far the parts may have moved in the step that has brought them to `state`.
+  void trackTravel(const multibody::State& state);
+
+  /// For the grains' step; null on rigid ground.
+  const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
+  bool onGround() const { return bed_ || rigidGround_; }
+  /// Force of the ground on a contact part in the last step, in quanta of groundForceQuantum().
+  const base::Vec3l& groundForce(std::size_t contactPart) const;
+  const base::FixedPoint& groundForceQuantum() const { return groundForceQuantum_; }
+
+  /// Energies of the contacts [J].
+  struct Ledger {
+    double elastic{};       ///< held now
+    double dissipated{};    ///< since the start; that with grains is in the grains' own ledger
+    std::int64_t patches{}; ///< of parts on parts and on ground
+    std::int64_t grainContacts{};
+    base::Vec3d impulseOnParts; ///< from the grains since the start [N s]
+    base::Vec3d impulseOnGrains;
+  };
+  Ledger ledger() const;
+
+  /// Listed as near now: samples of parts against parts and rigid ground, and pairs of grain and part.
+  std::size_t samplesListed() const;
+  std::size_t grainPairsListed() const { return bed_ ? bed_->pairs() : 0; }
+
+  void save(VehicleState& state) const;
+  /// The lists belong to another place: the next step makes them anew.
+  void restore(const VehicleState& state);
+
+private:
+  void makeTrack();
+  void makeGround(const setup::GroundSetup& setup, const Ground& ground);
+  contact::PartMotion motionOf(std::size_t contactPart, const multibody::State& state) const;
+
+  // What compute() is made of.
+  void computeInParts(const terrain::Grains* grains, StepObserver& observer);
+  void noteTravel();
+  void uploadPoses();
+  void computeTrack();
+  void computeGround(const terrain::Grains* grains, const base::Exec& exec);
+  void downloadLoads() { loadSums_.download(); }
+
+  const vehicle::Assembly& assembly_;
+  const VehicleParts& parts_;
+  base::Exec exec_;
+  base::SideStream side_;
+  base::DoubleBufferedGraph graph_; ///< of a step's contacts, by the buffer that holds the grains' state
+  base::Comm comm_;
+  ReplicatedWork replicated_;
+  double timeStep_;
+
+  contact::PatchQuanta quanta_;
+  base::FixedPoint groundForceQuantum_, groundTorqueQuantum_;
+  base::Mirrored<contact::PartMotion> motion_;
+  base::Mirrored<double> travelled_; ///< relative and absolute travel since the lists were made [m], for the device
+  base::Mirrored<contact::PartLoad> loadSums_; ///< of all contact parts: from the track, then from the ground
+  std::unique_ptr<contact::PartPartContacts> track_;
+  std::unique_ptr<terrain::GroundContacts> rigidGround_;
+  std::unique_ptr<contact::GrainPartContacts> bed_;
+  contact::GrainLoadsView grainLoads_;
+  static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
+  double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};
+  base::Vec3l impulseOnParts_{};
+};
+
+} // namespace grouser::simulation

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+#include "base/sphere_set.hpp"
+#include "vehicle/assembly.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace grouser::simulation {
+
+/// Surfaces of a vehicle's parts: meshes, and the spheres that these are cut into, once for each kind of part. All
+/// parts but the hull touch something: the contact parts.
+class VehicleParts {
+public:
+  /// Reads the meshes and cuts them; the ranks share the cutting. Throws InputError where a mesh is of no use.
+  VehicleParts(const vehicle::Assembly& assembly, double sphereRadius, const base::Comm& comm);
+
+  const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
+  std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
+
+  struct SetFigures {
+    std::string mesh;
+    std::size_t spheres{};
+    int instances{};
+  };
+  const std::vector<SetFigures>& setFigures() const { return setFigures_; }
+  std::size_t totalSpheres() const;
+
+  std::size_t contactParts() const { return contactParts_.size(); }
+  /// Its place among the assembly's parts.
+  std::size_t partOf(std::size_t contactPart) const { return static_cast<std::size_t>(contactParts_[contactPart]); }
+  /// Of a part of the assembly among the contact parts; -1 for the hull.
+  int contactIndex(int part) const { return contactIndex_[static_cast<std::size_t>(part)]; }
+  /// Farthest point of its surface from its body's centre of mass [m].
+  double reach(std::size_t contactPart) const { return reach_[contactPart]; }
+  std::vector<const base::SphereSet*> sets() const;
+  /// [contact part] its place among the sets.
+  std::vector<int> setOfContactPart() const;
+
+private:
+  void share(const base::Comm& comm);
+
+  std::vector<base::TriangleMesh> meshes_;
+  std::vector<std::size_t> meshOfPart_;
+  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for the hull
+  std::vector<SetFigures> setFigures_;
+  std::vector<int> contactParts_, contactIndex_;
+  std::vector<double> reach_;
+};
+
+} // namespace grouser::simulation
