@@ -85,8 +85,8 @@ Json printParts(const StepBench& bench) {
 } // namespace
 
 void benchBedCommand(const BenchCommand& command) {
-  const base::Exec exec =
-      support::chooseDevice(command.device.empty() ? "auto" : command.device, command.threads, command.ranks);
+  const base::Exec exec = support::chooseDevice(support::deviceChoice(command.device.empty() ? "auto" : command.device),
+                                                command.threads, command.ranks);
   Json json = benchOrigin("bed", exec);
   const BedBench& b = command.bed;
   fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
@@ -152,7 +152,8 @@ void benchBedCommand(const BenchCommand& command) {
 
 void benchStepCommand(const BenchCommand& command) {
   const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
-  const std::string device = command.device.empty() ? scene.run.device : command.device;
+  const support::DeviceChoice device =
+      command.device.empty() ? scene.run.device : support::deviceChoice(command.device);
   const base::Exec exec =
       support::chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
   const StepBenchOptions& o = command.step;

@@ -112,10 +112,9 @@ void addBench(CLI::App& app, bench::BenchCommand& c) {
       ->capture_default_str();
   bed->add_option("--steps", b.steps, "of one batch; default: about a second's")->check(support::wholeNumber(1));
   bed->add_option("--batches", b.batches, "timed batches")->check(support::wholeNumber(1, 1000))->capture_default_str();
-  bed->add_option("--peer-memory", b.peerMemory,
-                  "several ranks: GPUs of one machine read each other's memory where they can, never, or not without")
-      ->check(CLI::IsMember({"auto", "never", "always"}))
-      ->capture_default_str();
+  support::addChoice(
+      *bed, "--peer-memory", b.peerMemory,
+      "several ranks: GPUs of one machine read each other's memory where they can, never, or not without");
   bed->add_flag("--ledger", b.ledger, "sum dissipation grain by grain, as runs do");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(bed);

@@ -251,8 +251,8 @@ void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, co
 }
 
 std::string integratorText(const scene::RunSettings& run) {
-  if (run.integrator != "rattle") return "symplectic Euler, order 1, springs implicit";
-  return fmt::format("RATTLE, order {}, springs {}", run.integratorOrder, run.springs);
+  if (run.integrator != multibody::Integrator::kRattle) return "symplectic Euler, order 1, springs implicit";
+  return fmt::format("RATTLE, order {}, springs {}", run.integratorOrder, base::wordOf(run.springs));
 }
 
 std::string mechanismSize(const simulation::Mechanism& mechanism) {

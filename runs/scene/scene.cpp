@@ -33,7 +33,7 @@ template <class S> void checkOneLoss(const Section& section, const S& s) {
 
 /// What belongs to the material's law gets its default; what belongs to the other must not stand there.
 void completeLaw(const Section& section, Material& m) {
-  const bool hertz = m.law == "hertz";
+  const bool hertz = m.law == ContactLawKind::hertz;
   for (const char* key : {"stiffness", "tangential_stiffness_ratio", "damping"})
     if (hertz && section.has(key))
       section.fail(key, "belongs to law = \"linear\"; remove it: young, poisson and restitution say it for hertz");
@@ -94,7 +94,7 @@ void readContacts(const Section& root, Scene& scene) {
     checkMaterial(scene, section, "", pair.second);
     checkOneLoss(section, pair);
     for (const char* key : {"stiffness", "damping"})
-      if (section.has(key) && scene.material(pair.first).law == "hertz")
+      if (section.has(key) && scene.material(pair.first).law == ContactLawKind::hertz)
         section.fail(key, "belongs to law = \"linear\", but this pair is hertz; remove it");
     if (scene.contact(pair.first, pair.second))
       section.fail("", "is given twice, in both orders; remove one of the two");
@@ -123,15 +123,15 @@ void resolveFile(const Scene& scene, const Section& section, const std::string& 
 void readBlock(const Section& section, Scene& scene) {
   GrainFill b = section.read(detail::fillTable());
   checkMaterial(scene, section, "material", b.material);
-  const bool file = b.form == "file";
+  const bool file = b.form == FillForm::file;
   for (const char* key : {"low", "high", "radius"})
     if (file == section.has(key))
       section.fail(key, file ? "has no meaning for form = \"file\"; remove it"
-                             : "[m] is missing, which form = \"" + b.form + "\" needs; add it");
+                             : fmt::format("[m] is missing, which form = \"{}\" needs; add it", base::wordOf(b.form)));
   if (file && b.radiusTo) section.fail("radius_to", "has no meaning for form = \"file\"; remove it");
-  if ((b.form == "random") != section.has("number"))
-    section.fail("number", b.form == "random" ? "is missing, which form = \"random\" needs; add it"
-                                              : "belongs to form = \"random\"; remove it");
+  if ((b.form == FillForm::random) != section.has("number"))
+    section.fail("number", b.form == FillForm::random ? "is missing, which form = \"random\" needs; add it"
+                                                      : "belongs to form = \"random\"; remove it");
   if (file != section.has("file"))
     section.fail("file",
                  file ? "is missing, which form = \"file\" needs; add it" : "belongs to form = \"file\"; remove it");
@@ -216,7 +216,7 @@ void readVehicle(const Section& section, Scene& scene) {
   if (!v.material.empty()) checkMaterial(scene, section, "material", v.material);
   resolveFile(scene, section, "spec", v.spec);
   const bool hasGround = scene.terrain || !scene.planes.empty();
-  if (!hasGround && v.chassis != "fixed")
+  if (!hasGround && v.chassis != ChassisMount::fixed)
     section.fail("chassis", "is \"free\" over no ground; add [terrain] or [[plane]], or set chassis = \"fixed\"");
   if (v.position && scene.terrain) {
     const auto [sizeX, sizeY] = scene.terrain->size;
@@ -292,7 +292,7 @@ void checkFolder(const Section& output, const std::string& folder) {
 
 void checkOrder(const Section& run, const RunSettings& settings) {
   const int order = settings.integratorOrder;
-  if (settings.integrator == "rattle" && order != 2 && order != 4 && order != 6 && order != 8)
+  if (settings.integrator == multibody::Integrator::kRattle && order != 2 && order != 4 && order != 6 && order != 8)
     run.fail("integrator_order", "[-] is none of 2, 4, 6, 8; choose one of these");
 }
 

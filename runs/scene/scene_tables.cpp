@@ -30,10 +30,8 @@ Table<RunSettings> runTable() {
       .atLeast(0)
       .atMost(1e5);
   t.add("seed", &S::seed, "-", "of every random number").atLeast(0);
-  t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one")
-      .oneOf({"auto", "cpu", "cuda"});
-  t.add("precision", &S::precision, "", "of the grains' forces; each gives the same bits everywhere")
-      .oneOf({"single", "double"});
+  t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one");
+  t.add("precision", &S::precision, "", "of the grains' forces; each gives the same bits everywhere");
   t.add("impact_speed", &S::impactSpeed, "m/s",
         "fastest impact that the time step of hertz materials is chosen and checked for")
       .above(0)
@@ -42,13 +40,11 @@ Table<RunSettings> runTable() {
       .atLeast(0)
       .atMost(1024);
   t.add("integrator", &S::integrator, "",
-        "of mechanisms: symplectic Euler (order 1, springs implicit) or RATTLE (order 2 and higher)")
-      .oneOf({"symplectic_euler", "rattle"});
+        "of mechanisms: symplectic Euler (order 1, springs implicit) or RATTLE (order 2 and higher)");
   t.add("integrator_order", &S::integratorOrder, "-", "of rattle: 2, or 4, 6, 8 by 5, 9, 17 stages a step")
       .atLeast(1)
       .atMost(8);
-  t.add("springs", &S::springs, "", "of rattle: explicit needs a step below 2 / omega, implicit takes any")
-      .oneOf({"explicit", "implicit"});
+  t.add("springs", &S::springs, "", "of rattle: explicit needs a step below 2 / omega, implicit takes any");
   t.add("constraint_tolerance", &S::constraintTolerance, "m or rad",
         fmt::format(
             "to which joints of a mechanism are closed; \"auto\": {:g} for symplectic_euler, {:g} (round-off) for "
@@ -73,8 +69,7 @@ Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
   t.add("density", &S::density, "kg/m3", "of the solid").atLeast(1e-3).atMost(1e5);
-  t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction")
-      .oneOf({"linear", "hertz"});
+  t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction");
   t.add("stiffness", &S::stiffness, "N/m", "linear: normal stiffness k of a contact; 1e6 where not given")
       .atLeast(1e-3)
       .atMost(1e12);
@@ -140,8 +135,7 @@ Table<Grain> grainTable() {
 Table<GrainFill> fillTable() {
   using S = GrainFill;
   Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of places and radii");
-  t.add("form", &S::form, "", "lattice and random fill a box, file reads lines of x, y, z, r [m]")
-      .oneOf({"lattice", "random", "file"});
+  t.add("form", &S::form, "", "lattice and random fill a box, file reads lines of x, y, z, r [m]");
   t.add("low", &S::low, "m", "corner of the box that holds the grains whole; not of a file");
   t.add("high", &S::high, "m", "the opposite corner");
   t.add("radius", &S::radius, "m", "of each, or of the smallest where radius_to is given; not of a file")
@@ -181,7 +175,7 @@ Table<Terrain> terrainTable() {
       .required();
   t.add("size", &S::size, "m", "extent in x, from 0, and in y, to both sides of 0").above(0).atMost(1e5).required();
   t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();
-  t.add("kind", &S::kind, "", "a bed of grains or rigid ground").oneOf({"granular", "rigid"});
+  t.add("kind", &S::kind, "", "a bed of grains or rigid ground");
   t.add("material", &S::material, "", "of the grains, or of the rigid ground").required();
   t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");
   t.add("grain_radius", &S::grainRadius, "m", "of every grain; required for a granular bed").above(0).atMost(10);
@@ -196,7 +190,7 @@ Table<Terrain> terrainTable() {
         "x, y of a piece that is settled alone, with periodic boundaries, and copied over the terrain; needs a level "
         "floor")
       .above(0);
-  t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat").oneOf({"follow", "flat"});
+  t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat");
   t.add("walls", &S::walls, "", "upright walls along the edges of the map, that hold the bed");
   t.add("settle_time_limit", &S::settleTimeLimit, "s", "the bed must be at rest by then; 0 leaves settling out")
       .atLeast(0)
@@ -228,7 +222,7 @@ Table<Vehicle> vehicleTable() {
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
   t.add("material", &S::material, "", "of the parts against the ground; the contact data of the spec where not given");
-  t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench").oneOf({"free", "fixed"});
+  t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
   return t;
 }
 
@@ -290,8 +284,7 @@ Table<Parallel> parallelTable() {
   t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
   t.add("peer_memory", &S::peerMemory, "",
         "GPUs of one machine read each other's memory instead of sending messages: where they can, never, or not "
-        "without (then ranks on CPUs share memory too)")
-      .oneOf({"auto", "never", "always"});
+        "without (then ranks on CPUs share memory too)");
   return t;
 }
 

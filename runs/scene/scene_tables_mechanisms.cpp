@@ -35,8 +35,7 @@ Table<JointSection> jointTable() {
   t.add("name", &S::name, "", "what springs and drives call it").required();
   t.add("type", &S::type, "",
         "what stays free: one turn, all turns, two turns, a slide, turn and slide, nothing, or all "
-        "but a distance")
-      .oneOf({"revolute", "spherical", "universal", "prismatic", "cylindrical", "fixed", "distance"});
+        "but a distance");
   t.add("bodies", &S::bodies, "", "names of the two, e.g. [\"world\", \"rod\"]").required();
   t.add("point", &S::point, "m", "where it is at the start, in the world");
   t.add("axis", &S::axis, "-", "of turn or slide at the start, in the world; of a universal joint the first body's");
@@ -67,7 +66,7 @@ Table<SpringSection> springTable() {
   t.add("joint", &S::joint, "",
         "name of a revolute, prismatic or cylindrical joint on whose axis it acts; instead of "
         "bodies");
-  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint");
   t.add("stiffness", &S::stiffness, "N/m or N m/rad", "of the spring").atLeast(0);
   t.add("damping", &S::damping, "N s/m or N m s/rad", "of the damper; taken implicitly: any size is stable").atLeast(0);
   t.add("preload", &S::preload, "N or N m", "force at free_position, positive pushes apart");
@@ -100,9 +99,8 @@ Table<DriveSection> driveTable() {
                         "takes is in the results");
   t.add("name", &S::name, "", "in results and messages").required();
   t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
-  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
-  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)")
-      .oneOf({"speed", "position", "torque"});
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint");
+  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)");
   t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times");
   t.add("polynomial", &S::polynomial, "of value over s^i", "c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
   t.add("amplitude", &S::amplitude, "as value", "of a sine");
@@ -125,8 +123,7 @@ Table<CouplingSection> couplingTable() {
   t.add("joints", &S::joints, "", "names of the two").required();
   t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis over that of the first").required();
   t.add("offset", &S::offset, "rad or m", "as at the start where not given");
-  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]")
-      .oneOf({"angle", "slide"});
+  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]");
   return t;
 }
 

@@ -31,9 +31,8 @@ template <class S> void addSurface(Table<S>& t) {
       .atMost(360);
   t.template add<Number>("start", &S::start, "s", "when velocity, spin and oscillation begin").atLeast(0).atMost(1e5);
   t.template add<Number>("until", &S::until, "s", "when they end").above(0).atMost(1e5);
-  t.template add<std::optional<std::string>>("free", &S::free, "",
-                                             "axis along which load, grains and weight move it, from the start")
-      .oneOf({"x", "y", "z"});
+  t.template add<std::optional<Axis>>("free", &S::free, "",
+                                      "axis along which load, grains and weight move it, from the start");
   t.template add<Number>("mass", &S::mass, "kg", "of a free surface; required there").above(0).atMost(1e12);
   t.template add<Number>("load", &S::load, "N", "on a free surface along its axis; negative presses down where z is up")
       .atLeast(-1e12)

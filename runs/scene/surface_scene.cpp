@@ -32,19 +32,19 @@ void checkFree(const Section& section, const SurfaceSection& s) {
   }
   if (!s.mass) section.fail("mass", "[kg] is missing, which a free surface needs; add it");
   if (s.loadRamp && !s.load) section.fail("load_ramp", "[s] has no meaning without load; add that, or remove it");
-  const int axis = (*s.free)[0] - 'x';
+  const int axis = static_cast<int>(*s.free);
   const auto prescribed = [&](const char* key, const std::optional<base::Vec3d>& v) {
     if (v && (*v)[axis] != 0)
       section.fail(key, fmt::format("moves the surface along {}, where free leaves it to the forces; set that entry to "
                                     "0, or remove free",
-                                    *s.free));
+                                    base::wordOf(*s.free)));
   };
   prescribed("velocity", s.velocity), prescribed("amplitude", s.amplitude);
   for (int a = 0; s.spin && a < 3; ++a)
     if (a != axis && (*s.spin)[a] != 0)
       section.fail("spin", fmt::format("turns the surface about another axis than {}, along which it is free; give "
                                        "that one, or remove free",
-                                       *s.free));
+                                       base::wordOf(*s.free)));
 }
 
 /// What all surfaces have alike. `names`: those that are taken.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "runs/scene/choices.hpp"
 #include "spheredecomp/mesh_query.hpp"
 
 #include <memory>
@@ -23,7 +24,7 @@ struct SurfaceSection {
   std::optional<base::Vec3d> amplitude;   ///< [m] of an oscillation along this vector
   std::optional<double> frequency, phase; ///< [Hz], [deg] of that oscillation
   std::optional<double> start, until;     ///< [s] between which all this takes place
-  std::optional<std::string> free;        ///< x, y or z: the axis that forces move it along
+  std::optional<Axis> free;               ///< along which forces move it
   std::optional<double> loadRamp;         ///< [s] over which the load comes on
   std::optional<double> mass, load;       ///< [kg], [N] of a free surface
   bool operator==(const SurfaceSection&) const = default;

@@ -22,7 +22,7 @@ scene::Scene tileScene(const scene::Scene& scene, const terrain::BedPlan& plan, 
   t.tile.reset();
   t.size = size;
   t.heightRange = {0, 0};
-  t.floor = "follow";
+  t.floor = terrain::FloorShape::follow;
   t.layers = plan.layers;
   t.depth.reset();
   return tile;
@@ -40,7 +40,7 @@ TiledBed::TiledBed(const scene::Scene& scene, const terrain::HeightField& surfac
     scene.fail("terrain", "tile",
                fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
                            "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
-                           t.floor, floor.lowest, floor.highest));
+                           base::wordOf(t.floor), floor.lowest, floor.highest));
   // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the
   // last one.
   const double cell = t.spacing * radius;

@@ -16,7 +16,7 @@ namespace {
 
 Vec3d freeAxisOf(const scene::SurfaceSection& s) {
   Vec3d axis;
-  if (s.free) axis[(*s.free)[0] - 'x'] = 1;
+  if (s.free) axis[static_cast<int>(*s.free)] = 1;
   return axis;
 }
 

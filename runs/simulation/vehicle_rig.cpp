@@ -39,7 +39,7 @@ vehicle::AssemblyOptions assemblyOptions(const scene::Scene& scene, const vehicl
   const setup::Placement place = setup::placeVehicle(scene, spec);
   const double z = scene.terrain ? setup::groundUnder(spec, place, surfaceHeight) + scene.vehicle->clearance : 0.0;
   vehicle::AssemblyOptions options;
-  options.fixChassis = scene.vehicle->chassis == "fixed";
+  options.fixChassis = scene.vehicle->chassis == scene::ChassisMount::fixed;
   options.pose_W = vehicle::placeOnGround(spec, place.x, place.y, z, 0, place.heading);
   return options;
 }

@@ -8,17 +8,34 @@
 namespace grouser::base {
 namespace {
 
+enum class WheelKind { road, idler, spare };
+enum class Side { left, right };
+
+} // namespace
+
+/// A spare wheel cannot be asked for.
+template <> struct EnumWords<WheelKind> {
+  static constexpr EnumWord<WheelKind> list[] = {{WheelKind::road, "road"}, {WheelKind::idler, "idler"}};
+};
+template <> struct EnumWords<Side> {
+  static constexpr EnumWord<Side> list[] = {{Side::left, "left"}, {Side::right, "right"}};
+};
+
+namespace {
+
 struct Wheel {
   double radius = 0.2;
   int count = 5;
   bool steered = false;
-  std::string kind = "road";
+  WheelKind kind = WheelKind::road;
   Vec3d centre;
   std::array<double, 2> range{0, 1};
   std::vector<double> angles;
   std::vector<std::string> tags;
   std::optional<double> step;
   std::optional<double> width;
+  std::optional<Side> side;
+  std::vector<Side> brakes;
 };
 
 Table<Wheel> wheelTable() {
@@ -26,13 +43,15 @@ Table<Wheel> wheelTable() {
   t.add("radius", &Wheel::radius, "m", "rolling radius").above(0).atMost(10);
   t.add("count", &Wheel::count, "-", "how many").atLeast(1).atMost(20);
   t.add("steered", &Wheel::steered, "", "turns about z");
-  t.add("kind", &Wheel::kind, "", "what it does").oneOf({"road", "idler"});
+  t.add("kind", &Wheel::kind, "", "what it does");
   t.add("centre", &Wheel::centre, "m", "of the axle");
   t.add("range", &Wheel::range, "m", "from, to");
   t.add("angles", &Wheel::angles, "rad", "of the spokes");
   t.add("tags", &Wheel::tags, "", "free words");
   t.add("step", &Wheel::step, "s", "time step").above(0).orWord("auto");
   t.add("width", &Wheel::width, "m", "of the tread").above(0);
+  t.add("side", &Wheel::side, "", "where it is");
+  t.add("brakes", &Wheel::brakes, "", "where it has one");
   return t;
 }
 
@@ -56,17 +75,20 @@ Wheel read(const std::string& text, const std::vector<std::string>& overrides = 
 TEST(Table, EveryTypeIsRead) {
   const Wheel w =
       read("radius = 1\ncount = 7\nsteered = true\nkind = \"idler\"\ncentre = [1, 2.5, -3]\nrange = [0, 2]\n"
-           "angles = [0.1, 1]\ntags = [\"a\", \"b\"]\nstep = 1e-4\nwidth = 0.5\n");
+           "angles = [0.1, 1]\ntags = [\"a\", \"b\"]\nstep = 1e-4\nwidth = 0.5\n"
+           "side = \"right\"\nbrakes = [\"right\", \"left\"]\n");
   EXPECT_EQ(w.radius, 1.0);
   EXPECT_EQ(w.count, 7);
   EXPECT_TRUE(w.steered);
-  EXPECT_EQ(w.kind, "idler");
+  EXPECT_EQ(w.kind, WheelKind::idler);
   EXPECT_EQ(w.centre, (Vec3d{1, 2.5, -3}));
   EXPECT_EQ(w.range, (std::array<double, 2>{0, 2}));
   EXPECT_EQ(w.angles, (std::vector<double>{0.1, 1}));
   EXPECT_EQ(w.tags, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(w.step, 1e-4);
   EXPECT_EQ(w.width, 0.5);
+  EXPECT_EQ(w.side, Side::right);
+  EXPECT_EQ(w.brakes, (std::vector{Side::right, Side::left}));
 }
 
 TEST(Table, WhatIsAbsentKeepsItsDefault) {
@@ -74,6 +96,7 @@ TEST(Table, WhatIsAbsentKeepsItsDefault) {
   EXPECT_EQ(w.radius, 0.2);
   EXPECT_FALSE(w.step.has_value());
   EXPECT_FALSE(w.width.has_value());
+  EXPECT_FALSE(w.side.has_value());
 }
 
 struct Broken {
@@ -106,6 +129,12 @@ INSTANTIATE_TEST_SUITE_P(
                "w.toml:3: wheel.steered = 1 has the wrong type; give true or false (turns about z)"},
         Broken{"UnknownWord", "kind = \"idle\"",
                "w.toml:3: wheel.kind = \"idle\" is none of road, idler; did you mean \"idler\"? (what it does)"},
+        Broken{"WordWithoutAName", "kind = \"spare\"",
+               "w.toml:3: wheel.kind = \"spare\" is none of road, idler; did you mean \"road\"? (what it does)"},
+        Broken{"UnknownWordInAList", "brakes = [\"left\", \"rigth\"]",
+               "w.toml:3: wheel.brakes = \"rigth\" is none of left, right; did you mean \"right\"? (where it has one)"},
+        Broken{"NumberForAWord", "side = 1",
+               "w.toml:3: wheel.side = 1 has the wrong type; give a text in quotes (where it is)"},
         Broken{"ShortVector", "centre = [1, 2]",
                "w.toml:3: wheel.centre = [1, 2] has the wrong type; give three numbers [x, y, z] [m] (of the axle)"},
         Broken{"WordWhereAutoIsMeant", "step = \"automatic\"",
@@ -163,7 +192,7 @@ TEST(Table, VersionIsRequiredAndChecked) {
 TEST(Overrides, ReplaceAndAddValues) {
   EXPECT_EQ(read("radius = 1", {"wheel.radius=2.5"}).radius, 2.5);
   EXPECT_EQ(read("", {"wheel.count=3"}).count, 3);
-  EXPECT_EQ(read("", {"wheel.kind=idler"}).kind, "idler");
+  EXPECT_EQ(read("", {"wheel.kind=idler"}).kind, WheelKind::idler);
   EXPECT_EQ(read("", {"wheel.centre=[1, 2, 3]"}).centre, (Vec3d{1, 2, 3}));
 }
 
@@ -190,9 +219,9 @@ TEST(Overrides, ReachIntoListsAndQuotedNames) {
 
 TEST(Table, WrittenValuesReadBackToTheSameBits) {
   Wheel w;
-  w.radius = 0.1 + 0.2, w.centre = {1e-300, -2.0 / 3.0, 1e6}, w.kind = "idler", w.angles = {3, 5e-324},
+  w.radius = 0.1 + 0.2, w.centre = {1e-300, -2.0 / 3.0, 1e6}, w.kind = WheelKind::idler, w.angles = {3, 5e-324},
   w.tags = {"a \"b\"\\\n"};
-  w.width = 7;
+  w.width = 7, w.side = Side::left, w.brakes = {Side::right};
   const Wheel back = read(wheelTable().write(w));
   EXPECT_EQ(back.radius, w.radius);
   EXPECT_EQ(back.centre, w.centre);
@@ -200,11 +229,16 @@ TEST(Table, WrittenValuesReadBackToTheSameBits) {
   EXPECT_EQ(back.tags, w.tags);
   EXPECT_EQ(back.width, w.width);
   EXPECT_EQ(back.step, w.step);
+  EXPECT_EQ(back.kind, w.kind);
+  EXPECT_EQ(back.side, w.side);
+  EXPECT_EQ(back.brakes, w.brakes);
 }
 
 TEST(Table, DescriptionShowsUnitDefaultRangeAndHelp) {
   const std::string text = describe(wheelTable());
   EXPECT_NE(text.find("| `radius` | m | 0.2 | (0, 10] | rolling radius |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `kind` |  | \"road\" | one of road, idler | what it does |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `side` |  | none | one of left, right | where it is |"), std::string::npos) << text;
   EXPECT_NE(text.find("| `step` | s | \"auto\" | (0, inf) | time step |"), std::string::npos) << text;
 }
 
