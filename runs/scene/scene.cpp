@@ -42,13 +42,14 @@ void completeLaw(const Section& section, Material& m) {
       section.fail(key, "belongs to law = \"hertz\"; add that, or remove it: stiffness says it for linear");
   if (hertz && !m.young)
     section.fail("young", "[Pa] is missing, which law = \"hertz\" needs; add it, e.g. young = 7e7");
-  if (!m.restitution && !m.damping) m.restitution = 0.5;
-  if (!m.tangentialDampingRatio) m.tangentialDampingRatio = hertz ? 1 : 0.5;
+  if (!m.restitution && !m.damping) m.restitution = Material::kRestitution;
+  if (!m.tangentialDampingRatio)
+    m.tangentialDampingRatio = hertz ? Material::kHertzTangentialDampingRatio : Material::kLinearTangentialDampingRatio;
   if (hertz) {
-    m.poisson = m.poisson.value_or(0.25);
+    m.poisson = m.poisson.value_or(Material::kPoisson);
   } else {
-    m.stiffness = m.stiffness.value_or(1e6);
-    m.tangentialStiffnessRatio = m.tangentialStiffnessRatio.value_or(2.0 / 7.0);
+    m.stiffness = m.stiffness.value_or(Material::kStiffness);
+    m.tangentialStiffnessRatio = m.tangentialStiffnessRatio.value_or(Material::kTangentialStiffnessRatio.value());
   }
 }
 

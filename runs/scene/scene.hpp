@@ -23,6 +23,12 @@ class Document;
 /// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
 namespace grouser::scene {
 
+/// A number that help shows as a fraction.
+struct Fraction {
+  int numerator, denominator;
+  constexpr double value() const { return static_cast<double>(numerator) / denominator; }
+};
+
 /// [run]
 struct RunSettings {
   double duration = 0;            ///< [s] after the bed has settled
@@ -51,6 +57,12 @@ struct RunSettings {
 
 /// [material.NAME]
 struct Material {
+  /// What loading takes where the law needs a value and none is given. Densities, friction and the like, which every
+  /// material has, begin with theirs below.
+  static constexpr double kStiffness = 1e6, kPoisson = 0.25, kRestitution = 0.5;
+  static constexpr Fraction kTangentialStiffnessRatio{2, 7}; ///< linear
+  static constexpr double kLinearTangentialDampingRatio = 0.5, kHertzTangentialDampingRatio = 1;
+
   std::string name;
   double density = 2500;
   ContactLawKind law = ContactLawKind::linear; ///< what belongs to the law has a value after loading

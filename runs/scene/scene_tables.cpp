@@ -11,6 +11,17 @@ namespace grouser::scene::detail {
 
 using base::Table;
 
+namespace {
+
+/// A default as a person writes it: 0.25, 1e6.
+std::string brief(double x) {
+  std::string text = fmt::format("{:g}", x);
+  if (const std::size_t at = text.find("e+0"); at != std::string::npos) text.erase(at + 1, 2);
+  return text;
+}
+
+} // namespace
+
 Table<RunSettings> runTable() {
   using S = RunSettings;
   Table<S> t("run", "Time, gravity, and the machine to run on");
@@ -70,14 +81,17 @@ Table<Material> materialTable() {
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
   t.add("density", &S::density, "kg/m3", "of the solid").atLeast(1e-3).atMost(1e5);
   t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction");
-  t.add("stiffness", &S::stiffness, "N/m", "linear: normal stiffness k of a contact; 1e6 where not given")
+  t.add("stiffness", &S::stiffness, "N/m",
+        fmt::format("linear: normal stiffness k of a contact; {} where not given", brief(S::kStiffness)))
       .atLeast(1e-3)
       .atMost(1e12);
   t.add("young", &S::young, "Pa", "hertz: Young's modulus of the solid; required").atLeast(1).atMost(1e13);
-  t.add("poisson", &S::poisson, "-", "hertz: Poisson's ratio of the solid; 0.25 where not given")
+  t.add("poisson", &S::poisson, "-",
+        fmt::format("hertz: Poisson's ratio of the solid; {} where not given", brief(S::kPoisson)))
       .atLeast(0)
       .atMost(0.5);
-  t.add("restitution", &S::restitution, "-", "rebound over impact speed; 0.5 where damping is not given either")
+  t.add("restitution", &S::restitution, "-",
+        fmt::format("rebound over impact speed; {} where damping is not given either", brief(S::kRestitution)))
       .atLeast(1e-6)
       .atMost(1);
   t.add("damping", &S::damping, "1/s", "linear: gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
@@ -86,13 +100,15 @@ Table<Material> materialTable() {
   t.add("attraction", &S::attraction, "", "whether the damping force may pull two parting surfaces together");
   t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
-        "linear: tangential over normal stiffness; 2/7 where not given")
+        fmt::format("linear: tangential over normal stiffness; {}/{} where not given",
+                    S::kTangentialStiffnessRatio.numerator, S::kTangentialStiffnessRatio.denominator))
       .above(0)
       .atMost(1);
-  t.add(
-       "tangential_damping_ratio", &S::tangentialDampingRatio, "-",
-       "linear: tangential over normal damping, 0.5 where not given; hertz: over the damping 2 beta sqrt(k_t m_eff), 1 "
-       "where not given")
+  t.add("tangential_damping_ratio", &S::tangentialDampingRatio, "-",
+        fmt::format(
+            "linear: tangential over normal damping, {} where not given; hertz: over the damping 2 beta sqrt(k_t "
+            "m_eff), {} where not given",
+            brief(S::kLinearTangentialDampingRatio), brief(S::kHertzTangentialDampingRatio)))
       .atLeast(0)
       .atMost(2);
   t.add("rolling_friction", &S::rollingFriction, "-",

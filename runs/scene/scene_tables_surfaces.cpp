@@ -4,6 +4,8 @@
 
 #include "spheredecomp/decompose.hpp"
 
+#include <fmt/format.h>
+
 namespace grouser::scene::detail {
 
 using base::Table;
@@ -91,7 +93,8 @@ Table<MeshSection> meshTable() {
   t.add("position", &S::position, "m", "of the file's origin, about which loads are taken");
   addTurn(t, "file's");
   t.add("sphere_radius", &S::sphereRadius, "m",
-        "of the spheres it is cut into, which round its edges; a fortieth of its diagonal where not given")
+        fmt::format("of the spheres it is cut into, which round its edges; {} of its diagonal where not given",
+                    S::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   addSurface(t);

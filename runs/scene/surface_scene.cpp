@@ -113,7 +113,7 @@ void loadMesh(const Section& section, MeshSection& mesh) {
   for (base::Vec3d& v : triangles.vertices) v *= mesh.scale;
   const auto [low, high] = spheredecomp::bounds(triangles);
   const base::Vec3d size = high - low;
-  const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / 40;
+  const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / MeshSection::kRadiiInDiagonal;
   if (!mesh.sphereRadius && !(byDefault >= spheredecomp::kSmallestRadius && byDefault <= spheredecomp::kLargestRadius))
     section.fail("scale",
                  fmt::format("[m] makes the mesh {:.4g} m long, and its spheres {:.3g} m, outside [{:g}, {:g}];"

@@ -65,6 +65,10 @@ struct LoadedMesh {
 
 /// [[mesh]]
 struct MeshSection : SurfaceSection {
+  /// Where no sphere radius is given it is the mesh's diagonal over this.
+  static constexpr double kRadiiInDiagonal = 40;
+  static constexpr const char* kShareOfDiagonal = "a fortieth";
+
   std::string file;     ///< absolute path after loading
   double scale = 1;     ///< metres a unit of the file
   base::Vec3d position; ///< [m] of the file's origin
