@@ -90,6 +90,7 @@ struct Node::Entry {
 namespace detail {
 FieldValue readValue(const Node& node, const Field& field, const std::string& fullKey);
 [[noreturn]] void failMissing(const Node& section, const Field& field, const std::string& path);
+bool isEmpty(const FieldValue& value); ///< a text or a list of any length, without anything in it
 void checkKeys(const Node& section, const std::string& path, const std::vector<std::string>& valid);
 
 template <class T> struct FieldTypeOf;
@@ -224,11 +225,15 @@ public:
     }
   }
 
+  /// Texts and lists without entries are taken for not given where sections are written.
+  Table& leaveOutEmpty() { return leavesOutEmpty_ = true, *this; }
+
   /// `key = value` lines of every field that has a value, in the table's order.
   std::string write(const S& s) const {
     std::string text;
     for (const Entry& e : entries_) {
       const FieldValue v = e.get(s);
+      if (leavesOutEmpty_ && detail::isEmpty(v)) continue;
       if (!std::holds_alternative<std::monostate>(v))
         text += e.field.key + " = " + toToml(v) + "\n";
       else if (!e.field.autoWord.empty())
@@ -245,6 +250,7 @@ private:
   };
   std::string name_, help_;
   std::vector<Entry> entries_;
+  bool leavesOutEmpty_ = false;
 };
 
 /// A view of one table of a file.

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// What a scene file says of a mechanism: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// runs/scene_tables.cpp.
+/// mechanism_sections.cpp.
 namespace grouser::scene {
 
 /// [[body]]

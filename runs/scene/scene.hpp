@@ -20,7 +20,8 @@ class Document;
 } // namespace grouser::base
 
 /// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
-/// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
+/// built. Units, ranges and meanings of all keys stand once, in the tables of *_section(s).cpp; `grouser fields` prints
+/// them.
 namespace grouser::scene {
 
 /// A number that help shows as a fraction.

@@ -11,7 +11,7 @@
 #include <vector>
 
 /// What a scene file says of rigid surfaces: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// runs/scene_tables.cpp.
+/// surface_sections.cpp.
 namespace grouser::scene {
 
 /// What every rigid surface may have: a name, and a motion.

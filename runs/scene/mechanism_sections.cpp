@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields of a scene file: bodies, joints and what acts on them.
-#include "runs/scene/detail/scene_tables.hpp"
+// Keys and checks of [[body]], [[joint]], [[spring]], [[bushing]], [[drive]] and [[coupling]].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include <fmt/format.h>
 
 namespace grouser::scene::detail {
 
+namespace {
+
+using base::Section;
 using base::Table;
 
 Table<BodySection> bodyTable() {
@@ -125,6 +130,31 @@ Table<CouplingSection> couplingTable() {
   t.add("offset", &S::offset, "rad or m", "as at the start where not given");
   t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]");
   return t;
+}
+
+/// Free bodies touch nothing else of a scene.
+void checkBody(const Section& section, BodySection&, const Scene& scene) {
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain", "vehicle"})
+    if (scene.document->root().has(other))
+      section.fail("", fmt::format("stands beside {}, but free bodies touch neither ground nor grains nor a vehicle; "
+                                   "give the mechanism a scene of its own",
+                                   other));
+}
+
+/// One kind of part of a mechanism. A text or list that is empty was not given, and is not written.
+template <class Part> SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts,
+                                        base::Table<Part> table, CheckOf<Part> check = {}) {
+  const auto where = [parts](auto& scene) -> auto& { return scene.mechanism.*parts; };
+  return list<Part>(name, where, table.leaveOutEmpty(), check);
+}
+
+} // namespace
+
+SectionList mechanismSections() {
+  using M = MechanismSections;
+  return {part("body", &M::bodies, bodyTable(), checkBody), part("joint", &M::joints, jointTable()),
+          part("spring", &M::springs, springTable()),       part("bushing", &M::bushings, bushingTable()),
+          part("drive", &M::drives, driveTable()),          part("coupling", &M::couplings, couplingTable())};
 }
 
 } // namespace grouser::scene::detail
