@@ -50,8 +50,9 @@ struct Field {
   double max = std::numeric_limits<double>::infinity();
   bool minOpen = false, maxOpen = false;
   bool isRequired = false;
-  std::string autoWord;             ///< a word that stands for "not given", e.g. "auto"
-  std::vector<std::string> choices; ///< the words of an enum; empty: any text
+  std::string autoWord;                ///< a word that stands for "not given", e.g. "auto"
+  std::vector<std::string> formerKeys; ///< that files may still say, for one version; Document::renameKeys reads them
+  std::vector<std::string> choices;    ///< the words of an enum; empty: any text
 
   Field& above(double a) { return min = a, minOpen = true, *this; }
   Field& atLeast(double a) { return min = a, minOpen = false, *this; }
@@ -61,8 +62,15 @@ struct Field {
   /// The word may be written instead of a value; the member must be a `std::optional` and is then left empty.
   Field& orWord(std::string word) { return autoWord = std::move(word), *this; }
 
+  Field& formerly(std::string former) { return formerKeys.push_back(std::move(former)), *this; }
+
   /// "(0, 10]", "one of cpu, cuda", or "" where everything goes.
   std::string rangeText() const;
+};
+
+/// A key that has a new name.
+struct FormerKey {
+  std::string former, now;
 };
 
 /// Value as TOML text; a real always shows as one ("1.0") and reads back to the same bits.
@@ -203,6 +211,12 @@ public:
     for (const Entry& e : entries_) list.push_back(e.field);
     return list;
   }
+  std::vector<FormerKey> formerKeys() const {
+    std::vector<FormerKey> list;
+    for (const Entry& e : entries_)
+      for (const std::string& former : e.field.formerKeys) list.push_back({former, e.field.key});
+    return list;
+  }
   FieldValue value(const S& s, std::string_view key) const {
     for (const Entry& e : entries_)
       if (e.field.key == key) return e.get(s);
@@ -301,12 +315,20 @@ public:
   /// The same from text; `name` stands for the file in messages.
   static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
+  /// Gives keys that files may still call by a former name the one of today, before anything is read. `where` is the
+  /// path of a section, whose entries are meant where it is a list, and with ".*" behind it all sections in it:
+  /// "run", "grain", "material.*". Throws InputError where both names stand.
+  void renameKeys(const std::string& where, const std::vector<FormerKey>& keys);
+  /// One line for each key that was renamed, and where: what users should change in their files.
+  const std::vector<std::string>& notes() const { return notes_; }
+
   /// Valid as long as the document lives. Sections may be read with `version` among their subsections.
   Section root() const& { return {root_, ""}; }
   Section root() const&& = delete;
 
 private:
   Node root_;
+  std::vector<std::string> notes_;
 };
 
 /// Number of edits (insert, delete, replace, swap of neighbours; case ignored) between two words.

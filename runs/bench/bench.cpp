@@ -152,6 +152,7 @@ void benchBedCommand(const BenchCommand& command) {
 
 void benchStepCommand(const BenchCommand& command) {
   const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
+  if (command.comm().first()) scene::printNotes(scene);
   const support::DeviceChoice device =
       command.device.empty() ? scene.run.device : support::deviceChoice(command.device);
   const base::Exec exec =

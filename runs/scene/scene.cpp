@@ -35,6 +35,7 @@ void allowOnlyKnown(const base::Section& root, const SectionList& sections) {
 
 Scene sceneOf(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const SectionList sections = allSections();
+  for (const SectionEntry& entry : sections) entry.renameKeys(read);
   Scene scene;
   scene.file = file, scene.overrides = overrides;
   scene.document = std::make_shared<const base::Document>(std::move(read));

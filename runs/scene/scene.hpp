@@ -253,6 +253,9 @@ Scene readScene(const std::filesystem::path& file, const std::vector<std::string
 Scene readSceneText(std::string_view text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
+/// Says on stderr, a line each, which keys of the scene's file have a new name.
+void printNotes(const Scene& scene);
+
 /// The scene with every default filled in, as TOML that loads to the same scene.
 std::string resolvedToml(const Scene& scene);
 

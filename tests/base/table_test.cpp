@@ -249,6 +249,87 @@ TEST(NearestWord, CountsSwapsAsOneEdit) {
   EXPECT_EQ(nearestWord("fricton", {"density", "friction", "fraction"}), "friction");
 }
 
+/// Tracks whose length was once called span, and before that reach.
+struct Track {
+  double length = 1;
+  std::vector<Side> sides;
+};
+
+Table<Track> trackTable() {
+  Table<Track> t("track", "One track");
+  t.add("length", &Track::length, "m", "around").above(0).formerly("reach").formerly("span");
+  t.add("sides", &Track::sides, "", "where they are");
+  return t;
+}
+
+Document trackDocument(const std::string& text, const std::string& where = "track",
+                       const std::vector<std::string>& overrides = {}) {
+  Document doc = Document::parse("version = 1\n" + text, "t.toml", overrides);
+  doc.renameKeys(where, trackTable().formerKeys());
+  return doc;
+}
+
+TEST(FormerKeys, AreReadAndNoted) {
+  for (const std::string former : {"reach", "span"}) {
+    const Document doc = trackDocument("[track]\n" + former + " = 7\n");
+    EXPECT_EQ(doc.root().section("track").read(trackTable()).length, 7) << former;
+    EXPECT_EQ(doc.notes(), std::vector{"t.toml:3: track." + former +
+                                       " is called length now; rename it, for the next version knows that name only"});
+  }
+  EXPECT_TRUE(trackDocument("[track]\nlength = 7\n").notes().empty());
+  EXPECT_TRUE(trackDocument("[wheel]\nspan = 7\n").notes().empty()); // another section's own key
+}
+
+TEST(FormerKeys, AreNotedOnceForAllEntriesOfAList) {
+  const Document doc = trackDocument("[[track]]\nlength = 1\n[[track]]\nspan = 2\n[[track]]\nspan = 3\n");
+  const std::vector<Section> tracks = doc.root().list("track");
+  EXPECT_EQ(tracks[1].read(trackTable()).length, 2);
+  EXPECT_EQ(tracks[2].read(trackTable()).length, 3);
+  ASSERT_EQ(doc.notes().size(), 1u);
+  EXPECT_EQ(doc.notes().front().find("t.toml:5: track.1.span is called length now"), 0u) << doc.notes().front();
+}
+
+TEST(FormerKeys, AreFoundInNamedAndInnerSections) {
+  const Document named = trackDocument("[track.a]\nspan = 2\n[track.b]\nspan = 3\n", "track.*");
+  EXPECT_EQ(named.root().named("track")[1].second.read(trackTable()).length, 3);
+  const Document inner = trackDocument("[vehicle.track]\nspan = 4\n", "vehicle.track");
+  EXPECT_EQ(inner.root().section("vehicle").section("track").read(trackTable()).length, 4);
+  EXPECT_EQ(inner.notes().front().find("t.toml:3: vehicle.track.span"), 0u) << inner.notes().front();
+}
+
+TEST(FormerKeys, MayBeOverridden) {
+  const Document doc = trackDocument("[track]\nspan = 4\n", "track", {"track.span=5"});
+  EXPECT_EQ(doc.root().section("track").read(trackTable()).length, 5);
+}
+
+TEST(FormerKeys, BesideTheirNewNamesAreAnError) {
+  const auto complaintAbout = [](const std::string& text, const std::vector<std::string>& overrides) -> std::string {
+    try {
+      trackDocument(text, "track", overrides);
+      return "";
+    } catch (const InputError& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(complaintAbout("[track]\nlength = 2\nspan = 4\n", {}),
+            "t.toml:4: track.span is the former name of track.length, which stands at t.toml:3 too; remove span");
+  EXPECT_EQ(complaintAbout("[track]\nlength = 2\n", {"track.span=4"}),
+            "--set: track.span is the former name of track.length, which stands at t.toml:3 too; remove span");
+  EXPECT_NE(complaintAbout("[track]\nspan = 2\nreach = 4\n", {}), ""); // two former names
+}
+
+TEST(FormerKeys, AreNotShownAndTheirValuesAreChecked) {
+  EXPECT_EQ(describe(trackTable()).find("span"), std::string::npos);
+  const Document doc = trackDocument("[track]\nspan = -1\n");
+  try {
+    doc.root().section("track").read(trackTable());
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "t.toml:3: track.length = -1 [m] is outside (0, inf); choose a value in that range (around)");
+  }
+}
+
 TEST(Document, MissingFileIsAnInputError) {
   EXPECT_THROW(Document::load("/nonexistent/x.toml"), InputError);
   EXPECT_THROW(Document::load("/"), InputError);

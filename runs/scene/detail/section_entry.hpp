@@ -21,6 +21,7 @@ struct SectionEntry {
   std::function<void(const base::Section& root, Scene& scene)> read; ///< and check; throws InputError
   std::function<std::string(const Scene& scene)> write;              ///< TOML with headings
   std::function<std::string()> describe;                             ///< Markdown
+  std::function<void(base::Document& document)> renameKeys;          ///< that files still call by a former name
 
   /// As long as `holds` does not, nothing is written.
   SectionEntry writtenIf(bool (*holds)(const Scene&)) && {
@@ -72,7 +73,8 @@ template <class S, class Where> SectionEntry single(const std::string& name, Whe
                                                     const std::vector<std::string>& subsections = {}) {
   return {name, readerOfOne<S>(name, where, table, check, subsections),
           [=](const Scene& scene) { return written<S>("[" + name + "]", table, std::invoke(where, scene)); },
-          [=] { return base::describe(table); }};
+          [=] { return base::describe(table); },
+          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
 }
 
 /// [name], without which a file is no scene.
@@ -94,7 +96,8 @@ SectionEntry optional(const std::string& name, Where where, const base::Table<S>
             const std::optional<S>& s = std::invoke(where, scene);
             return s ? written<S>("[" + name + "]", table, *s) : std::string();
           },
-          [=] { return base::describe(table); }};
+          [=] { return base::describe(table); },
+          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
 }
 
 /// [[name]]: as many as there are, in the file's order.
@@ -110,7 +113,8 @@ SectionEntry list(const std::string& name, Where where, const base::Table<S>& ta
             for (const S& s : std::invoke(where, scene)) text += written<S>("[[" + name + "]]", table, s);
             return text;
           },
-          [=] { return base::describe(table); }};
+          [=] { return base::describe(table); },
+          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
 }
 
 /// [name.KEY], in the file's order. `begin` makes a section with its key, `keyOf` gives that back.
@@ -129,7 +133,8 @@ template <class S, class Where> SectionEntry named(const std::string& name, Wher
           text += written<S>("[" + name + "." + base::toToml(keyOf(s)) + "]", table, s);
         return text;
       },
-      [=] { return base::describe(table); }};
+      [=] { return base::describe(table); },
+      [=](base::Document& document) { document.renameKeys(name + ".*", table.formerKeys()); }};
 }
 
 } // namespace grouser::scene::detail
