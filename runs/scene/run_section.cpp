@@ -60,7 +60,7 @@ Table<RunSettings> runTable() {
       .above(0)
       .atMost(1);
   t.add("periodic", &S::periodic, "",
-        "whether opposite sides along x, y are joined: grains that leave through one enter through the other");
+        "whether boundaries along x, y are periodic: grains that leave through one enter through the opposite one");
   t.add("domain_x", &S::domainX, "m",
         "where periodic boundaries stand along x; without it at the borders of the terrain");
   t.add("domain_y", &S::domainY, "m", "the same along y");

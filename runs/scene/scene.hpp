@@ -51,7 +51,7 @@ struct RunSettings {
   std::optional<double> constraintTolerance;  ///< [m], [rad] to which joints are closed; empty: the solver's own
   double skin = 0.3;                          ///< [-] of a grain's radius
   double maxOverlap = 0.2;                    ///< [-] of a grain's radius; beyond it the run stops
-  std::array<bool, 2> periodic{false, false}; ///< x, y: opposite sides are joined
+  std::array<bool, 2> periodic{false, false}; ///< x, y
   std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
   bool operator==(const RunSettings&) const = default;
 };

@@ -55,7 +55,7 @@ void checkMeshes(const Section& root, const Scene& scene) {
   }
 }
 
-/// Joined sides: where they stand must be known, and what stands between them must be able to do without sides.
+/// Where periodic boundaries stand must be known, and what stands between them must be able to do without sides.
 void checkPeriodic(const Section& section, const Scene& scene) {
   const RunSettings& run = scene.run;
   const std::optional<std::array<double, 2>>* domains[] = {&run.domainX, &run.domainY};
@@ -63,21 +63,22 @@ void checkPeriodic(const Section& section, const Scene& scene) {
     const auto& domain = *domains[a];
     const std::string key = std::string("domain_") + "xy"[a];
     if (domain && !run.periodic[a])
-      section.fail(key,
-                   fmt::format("[m] has no meaning where run.periodic does not join the sides along {}; remove it, "
-                               "or join them",
-                               "xy"[a]));
-    if (domain && scene.terrain) section.fail(key, "[m] stands beside [terrain], whose borders are joined; remove it");
+      section.fail(key, fmt::format("[m] has no meaning without periodic boundaries along {}; remove it, or set "
+                                    "run.periodic there",
+                                    "xy"[a]));
+    if (domain && scene.terrain)
+      section.fail(key, "[m] stands beside [terrain], whose borders are the periodic boundaries; remove it");
     if (domain && !((*domain)[1] > (*domain)[0])) section.fail(key, "[m] does not increase; give the lower side first");
     if (run.periodic[a] && !domain && !scene.terrain)
-      section.fail("periodic",
-                   fmt::format("joins sides along {} that stand nowhere; give run.{} = [from, to] [m]", "xy"[a], key));
+      section.fail(
+          "periodic",
+          fmt::format("asks for boundaries along {} that stand nowhere; give run.{} = [from, to] [m]", "xy"[a], key));
   }
   if (!run.periodic[0] && !run.periodic[1]) return;
   if (scene.vehicle) section.fail("periodic", "is not possible beside a [vehicle]; set it to [false, false]");
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() &&
       !(scene.terrain && scene.terrain->granular()))
-    section.fail("periodic", "joins sides for grains, of which this scene has none; remove it");
+    section.fail("periodic", "is for grains, of which this scene has none; remove it");
 }
 
 /// What stands at one of two periodic boundaries must stand at the other, too.
@@ -86,9 +87,10 @@ void checkPlanesAcross(const std::vector<Section>& sections, const Scene& scene)
     for (int a = 0; a < 2; ++a)
       if (scene.run.periodic[static_cast<std::size_t>(a)] &&
           std::fabs(scene.planes[k].normal[a]) > 1e-9 * norm(scene.planes[k].normal))
-        sections[k].fail("normal", fmt::format("[-] leans along {}, where run.periodic joins the sides, at which the "
-                                               "plane must look alike; set that entry to 0, or do not join them",
-                                               "xy"[a]));
+        sections[k].fail("normal",
+                         fmt::format("[-] leans along {}, where boundaries are periodic and a plane must look "
+                                     "alike at both; set that entry to 0, or run.periodic to false there",
+                                     "xy"[a]));
 }
 
 void checkSettling(const Section& run, const Scene& scene) {
