@@ -97,7 +97,7 @@ std::string fieldHelp() {
   std::string text =
       "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required; a section "
       "that is absent is not built.\n";
-  for (const SectionEntry& entry : allSections()) text += "\n" + entry.describe();
+  for (const SectionEntry& entry : allSections()) text.append("\n").append(entry.describe());
   return text;
 }
 

@@ -4,6 +4,8 @@
 #include "base/table.hpp"
 #include "runs/scene/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -54,7 +56,7 @@ template <class S> S readChecked(const base::Section& section, const base::Table
 }
 
 template <class S> std::string written(const std::string& heading, const base::Table<S>& table, const S& s) {
-  return "\n" + heading + "\n" + table.write(s);
+  return fmt::format("\n{}\n{}", heading, table.write(s));
 }
 
 template <class S, class Where>
@@ -72,7 +74,7 @@ template <class S, class Where> SectionEntry single(const std::string& name, Whe
                                                     CheckOf<S> check = {},
                                                     const std::vector<std::string>& subsections = {}) {
   return {name, readerOfOne<S>(name, where, table, check, subsections),
-          [=](const Scene& scene) { return written<S>("[" + name + "]", table, std::invoke(where, scene)); },
+          [=](const Scene& scene) { return written<S>(fmt::format("[{}]", name), table, std::invoke(where, scene)); },
           [=] { return base::describe(table); },
           [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
 }
@@ -94,7 +96,7 @@ SectionEntry optional(const std::string& name, Where where, const base::Table<S>
   return {name, readerOfOne<S>(name, where, table, check),
           [=](const Scene& scene) {
             const std::optional<S>& s = std::invoke(where, scene);
-            return s ? written<S>("[" + name + "]", table, *s) : std::string();
+            return s ? written<S>(fmt::format("[{}]", name), table, *s) : std::string();
           },
           [=] { return base::describe(table); },
           [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
@@ -110,7 +112,7 @@ SectionEntry list(const std::string& name, Where where, const base::Table<S>& ta
           },
           [=](const Scene& scene) {
             std::string text;
-            for (const S& s : std::invoke(where, scene)) text += written<S>("[[" + name + "]]", table, s);
+            for (const S& s : std::invoke(where, scene)) text += written<S>(fmt::format("[[{}]]", name), table, s);
             return text;
           },
           [=] { return base::describe(table); },
@@ -130,7 +132,7 @@ template <class S, class Where> SectionEntry named(const std::string& name, Wher
       [=](const Scene& scene) {
         std::string text;
         for (const S& s : std::invoke(where, scene)) // in quotes always, which is always allowed
-          text += written<S>("[" + name + "." + base::toToml(keyOf(s)) + "]", table, s);
+          text += written<S>(fmt::format("[{}.{}]", name, base::toToml(keyOf(s))), table, s);
         return text;
       },
       [=] { return base::describe(table); },
