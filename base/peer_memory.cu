@@ -49,13 +49,6 @@ std::uint32_t markOf(int rank) { return 0x67726f75u + static_cast<std::uint32_t>
 
 } // namespace
 
-PeerUse peerUse(std::string_view word) {
-  if (word == "never") return PeerUse::never;
-  if (word == "auto") return PeerUse::automatic;
-  if (word == "always") return PeerUse::always;
-  throw std::invalid_argument("peer memory: never, auto or always");
-}
-
 PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::size_t bytes)
     : exec_(exec), comm_(comm), use_(use),
       shares_(!comm.alone() && (use == PeerUse::always || (use == PeerUse::automatic && !exec.onCpu()))),

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "base/enum_words.hpp"
 #include "base/exec.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace grouser::base {
@@ -19,8 +19,10 @@ enum class PeerUse {
   always     ///< InputError where they cannot; CPUs do too, and ranks that share one GPU go through steps together
 };
 
-/// Of "never", "auto" or "always"; throws std::invalid_argument for another word.
-PeerUse peerUse(std::string_view word);
+template <> struct EnumWords<PeerUse> {
+  static constexpr EnumWord<PeerUse> list[] = {
+      {PeerUse::automatic, "auto"}, {PeerUse::never, "never"}, {PeerUse::always, "always"}};
+};
 
 /// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
 /// memory (CUDA IPC), without the host and without MPI. Whether two of them can is tried, not assumed; where they

@@ -212,6 +212,13 @@ FieldValue readValue(const Node& node, const Field& field, const std::string& fu
   return {};
 }
 
+bool isEmpty(const FieldValue& value) {
+  return std::visit(
+      Overloaded{[](const std::string& s) { return s.empty(); }, [](const std::vector<double>& v) { return v.empty(); },
+                 [](const std::vector<std::string>& v) { return v.empty(); }, [](const auto&) { return false; }},
+      value);
+}
+
 void failMissing(const Node& section, const Field& field, const std::string& path) {
   const std::string range = field.rangeText();
   throw InputError(fmt::format("{}: {} lacks the required key {}{}; add {} = {}{} ({})", section.origin,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/enum_words.hpp"
 #include "base/error.hpp"
 #include "base/vec.hpp"
 
@@ -49,8 +50,9 @@ struct Field {
   double max = std::numeric_limits<double>::infinity();
   bool minOpen = false, maxOpen = false;
   bool isRequired = false;
-  std::string autoWord;             ///< a word that stands for "not given", e.g. "auto"
-  std::vector<std::string> choices; ///< of a text; empty: any text
+  std::string autoWord;                ///< a word that stands for "not given", e.g. "auto"
+  std::vector<std::string> formerKeys; ///< that files may still say, for one version; Document::renameKeys reads them
+  std::vector<std::string> choices;    ///< the words of an enum; empty: any text
 
   Field& above(double a) { return min = a, minOpen = true, *this; }
   Field& atLeast(double a) { return min = a, minOpen = false, *this; }
@@ -59,10 +61,16 @@ struct Field {
   Field& required() { return isRequired = true, *this; }
   /// The word may be written instead of a value; the member must be a `std::optional` and is then left empty.
   Field& orWord(std::string word) { return autoWord = std::move(word), *this; }
-  Field& oneOf(std::vector<std::string> words) { return choices = std::move(words), *this; }
+
+  Field& formerly(std::string former) { return formerKeys.push_back(std::move(former)), *this; }
 
   /// "(0, 10]", "one of cpu, cuda", or "" where everything goes.
   std::string rangeText() const;
+};
+
+/// A key that has a new name.
+struct FormerKey {
+  std::string former, now;
 };
 
 /// Value as TOML text; a real always shows as one ("1.0") and reads back to the same bits.
@@ -90,6 +98,7 @@ struct Node::Entry {
 namespace detail {
 FieldValue readValue(const Node& node, const Field& field, const std::string& fullKey);
 [[noreturn]] void failMissing(const Node& section, const Field& field, const std::string& path);
+bool isEmpty(const FieldValue& value); ///< a text or a list of any length, without anything in it
 void checkKeys(const Node& section, const std::string& path, const std::vector<std::string>& valid);
 
 template <class T> struct FieldTypeOf;
@@ -133,41 +142,64 @@ template <> struct FieldTypeOf<std::array<bool, 2>> {
   static constexpr FieldType type = FieldType::BooleanPair;
   using Stored = std::array<bool, 2>;
 };
+template <HasWords E> struct FieldTypeOf<E> : FieldTypeOf<std::string> {};
+template <HasWords E> struct FieldTypeOf<std::vector<E>> : FieldTypeOf<std::vector<std::string>> {};
 template <class T> struct FieldTypeOf<std::optional<T>> : FieldTypeOf<T> {};
-template <class T> inline constexpr bool isOptional = false;
-template <class T> inline constexpr bool isOptional<std::optional<T>> = true;
+
+/// The enum of a member that holds one, several or none; void where there are no words to choose from.
+template <class T> struct EnumOf { using type = void; };
+template <HasWords E> struct EnumOf<E> { using type = E; };
+template <class T> struct EnumOf<std::vector<T>> : EnumOf<T> {};
+template <class T> struct EnumOf<std::optional<T>> : EnumOf<T> {};
+
+/// Between a member and what stands for it in a FieldValue. A word that is read is known to be one of the enum's.
+template <class T> struct Conversion {
+  using Stored = typename FieldTypeOf<T>::Stored;
+  static FieldValue toField(const T& member) { return static_cast<Stored>(member); }
+  static T fromField(const FieldValue& value) { return static_cast<T>(std::get<Stored>(value)); }
+};
+template <HasWords E> struct Conversion<E> {
+  static FieldValue toField(E member) { return std::string(wordOf(member)); }
+  static E fromField(const FieldValue& value) { return *valueOf<E>(std::get<std::string>(value)); }
+};
+template <HasWords E> struct Conversion<std::vector<E>> {
+  static FieldValue toField(const std::vector<E>& members) {
+    std::vector<std::string> words;
+    for (const E e : members) words.emplace_back(wordOf(e));
+    return words;
+  }
+  static std::vector<E> fromField(const FieldValue& value) {
+    std::vector<E> members;
+    for (const std::string& word : std::get<std::vector<std::string>>(value)) members.push_back(*valueOf<E>(word));
+    return members;
+  }
+};
+template <class T> struct Conversion<std::optional<T>> {
+  static FieldValue toField(const std::optional<T>& member) {
+    return member ? Conversion<T>::toField(*member) : FieldValue{};
+  }
+  static std::optional<T> fromField(const FieldValue& value) { return Conversion<T>::fromField(value); }
+};
 } // namespace detail
 
 /// The fields of one section, bound to the members of `S`. Defaults are those of a default-constructed `S`.
 /// A member may be bool, int, int64, double, string, array<double, 2>, Vec3d, vector<double>, vector<string>,
-/// array<bool, 2>, or an optional of these (absent: not given).
+/// array<bool, 2>, an enum that has words or a vector of such, or an optional of these (absent: not given).
 template <class S> class Table {
 public:
   /// `name` as it stands in a file ("run", "material.NAME"), and one sentence of help.
   Table(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
 
   template <class T> Field& add(std::string key, T S::*member, std::string unit, std::string help) {
-    using Traits = detail::FieldTypeOf<T>;
-    using Stored = typename Traits::Stored;
     auto set = [member](S& s, const FieldValue& v) {
-      if (std::holds_alternative<std::monostate>(v)) {
-        s.*member = T{};
-      } else if constexpr (detail::isOptional<T>) {
-        s.*member = static_cast<typename T::value_type>(std::get<Stored>(v));
-      } else {
-        s.*member = static_cast<T>(std::get<Stored>(v));
-      }
+      s.*member = std::holds_alternative<std::monostate>(v) ? T{} : detail::Conversion<T>::fromField(v);
     };
-    auto get = [member](const S& s) -> FieldValue {
-      if constexpr (detail::isOptional<T>) {
-        if (!(s.*member)) return std::monostate{};
-        return static_cast<Stored>(*(s.*member));
-      } else {
-        return static_cast<Stored>(s.*member);
-      }
-    };
+    auto get = [member](const S& s) { return detail::Conversion<T>::toField(s.*member); };
     Field field;
-    field.key = std::move(key), field.unit = std::move(unit), field.help = std::move(help), field.type = Traits::type;
+    field.key = std::move(key), field.unit = std::move(unit), field.help = std::move(help);
+    field.type = detail::FieldTypeOf<T>::type;
+    using Enum = typename detail::EnumOf<T>::type;
+    if constexpr (!std::is_void_v<Enum>) field.choices = wordsOf<Enum>();
     entries_.push_back({std::move(field), std::move(set), std::move(get)});
     return entries_.back().field;
   }
@@ -177,6 +209,12 @@ public:
   std::vector<Field> fields() const {
     std::vector<Field> list;
     for (const Entry& e : entries_) list.push_back(e.field);
+    return list;
+  }
+  std::vector<FormerKey> formerKeys() const {
+    std::vector<FormerKey> list;
+    for (const Entry& e : entries_)
+      for (const std::string& former : e.field.formerKeys) list.push_back({former, e.field.key});
     return list;
   }
   FieldValue value(const S& s, std::string_view key) const {
@@ -201,11 +239,15 @@ public:
     }
   }
 
+  /// Texts and lists without entries are taken for not given where sections are written.
+  Table& leaveOutEmpty() { return leavesOutEmpty_ = true, *this; }
+
   /// `key = value` lines of every field that has a value, in the table's order.
   std::string write(const S& s) const {
     std::string text;
     for (const Entry& e : entries_) {
       const FieldValue v = e.get(s);
+      if (leavesOutEmpty_ && detail::isEmpty(v)) continue;
       if (!std::holds_alternative<std::monostate>(v))
         text += e.field.key + " = " + toToml(v) + "\n";
       else if (!e.field.autoWord.empty())
@@ -222,6 +264,7 @@ private:
   };
   std::string name_, help_;
   std::vector<Entry> entries_;
+  bool leavesOutEmpty_ = false;
 };
 
 /// A view of one table of a file.
@@ -272,12 +315,20 @@ public:
   /// The same from text; `name` stands for the file in messages.
   static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
+  /// Gives keys that files may still call by a former name the one of today, before anything is read. `where` is the
+  /// path of a section, whose entries are meant where it is a list, and with ".*" behind it all sections in it:
+  /// "run", "grain", "material.*". Throws InputError where both names stand.
+  void renameKeys(const std::string& where, const std::vector<FormerKey>& keys);
+  /// One line for each key that was renamed, and where: what users should change in their files.
+  const std::vector<std::string>& notes() const { return notes_; }
+
   /// Valid as long as the document lives. Sections may be read with `version` among their subsections.
   Section root() const& { return {root_, ""}; }
   Section root() const&& = delete;
 
 private:
   Node root_;
+  std::vector<std::string> notes_;
 };
 
 /// Number of edits (insert, delete, replace, swap of neighbours; case ignored) between two words.

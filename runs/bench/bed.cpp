@@ -116,8 +116,7 @@ double BatchTimes::most() const { return *std::max_element(microseconds.begin(),
 
 BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm& comm) {
   const terrain::GrainModel model = modelOf(b);
-  terrain::Grains grains(exec, model, box(b, model), lattice(b),
-                         {comm, {0, 0, 0}, {}, true, base::peerUse(b.peerMemory)});
+  terrain::Grains grains(exec, model, box(b, model), lattice(b), {comm, {0, 0, 0}, {}, true, b.peerMemory});
   BedFigures f;
   const Clock::time_point settling = Clock::now();
   advance(grains, std::llround(b.settleTime / b.timeStep));

@@ -83,26 +83,18 @@ Json printParts(const StepBench& bench) {
   return json;
 }
 
-} // namespace
+/// Steps of grains a second.
+double rate(const BedBench& bench, double microseconds) {
+  return static_cast<double>(bench.grains) / (1e-6 * microseconds);
+}
 
-void benchBedCommand(const BenchCommand& command) {
-  const base::Exec exec =
-      support::chooseDevice(command.device.empty() ? "auto" : command.device, command.threads, command.ranks);
-  Json json = benchOrigin("bed", exec);
-  const BedBench& b = command.bed;
-  fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
-             "settled {:g} s\n",
-             b.grains, b.radius, b.friction, b.skin, b.timeStep, b.settleTime);
-  std::fflush(stdout);
-  const BedFigures f = benchBed(b, exec, command.comm());
-  const double n = static_cast<double>(b.grains);
-  const auto rate = [n](double microseconds) { return n / (1e-6 * microseconds); };
+void printBed(const BedBench& b, const BedFigures& f, int ranks) {
   const double share = f.rebuildMicroseconds / f.stepsBetweenRebuilds;
   fmt::print("settling  {:.2f} s wall; kinetic energy a grain {:.2g} of m g radius\n", f.settleSeconds,
              f.kineticPerGrain);
   fmt::print("speed     {:.3e} particle-steps/s (median of {} batches of {} steps; {:.3e} to {:.3e})\n",
-             rate(f.times.median()), f.times.microseconds.size(), f.times.steps, rate(f.times.most()),
-             rate(f.times.least()));
+             rate(b, f.times.median()), f.times.microseconds.size(), f.times.steps, rate(b, f.times.most()),
+             rate(b, f.times.least()));
   fmt::print("step      {:.2f} us (median; {:.2f} to {:.2f})\n", f.times.median(), f.times.least(), f.times.most());
   fmt::print("contacts  {:.3f} a grain, each counted once; {:.2f} neighbours listed a grain\n", f.contactsPerGrain,
              f.listLength);
@@ -111,7 +103,6 @@ void benchBedCommand(const BenchCommand& command) {
                  ? fmt::format("one in {:.0f} steps: {:.2f} us a step", f.stepsBetweenRebuilds, share)
                  : std::string("none was needed while timing"));
   fmt::print("memory    {:.0f} bytes a grain\n", f.bytesPerGrain);
-  const int ranks = command.comm().size();
   if (ranks > 1)
     fmt::print(
         "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest ({}); waiting "
@@ -119,7 +110,9 @@ void benchBedCommand(const BenchCommand& command) {
         ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, f.way,
         100 * f.leastWait, 100 * f.mostWait);
   if (!f.stateHash.empty()) fmt::print("state-hash {} step {}\n", f.stateHash, f.stepsTaken);
+}
 
+void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["grains"] = b.grains;
   json["radius_m"] = b.radius;
   json["jitter"] = b.jitter;
@@ -134,7 +127,7 @@ void benchBedCommand(const BenchCommand& command) {
   json["kinetic_energy_a_grain_over_mgr"] = f.kineticPerGrain;
   json["microseconds_a_step"] = jsonOf(f.times);
   json["particle_steps_per_second"] = {
-      {"median", rate(f.times.median())}, {"min", rate(f.times.most())}, {"max", rate(f.times.least())}};
+      {"median", rate(b, f.times.median())}, {"min", rate(b, f.times.most())}, {"max", rate(b, f.times.least())}};
   json["contacts_a_grain"] = f.contactsPerGrain;
   json["neighbours_listed_a_grain"] = f.listLength;
   json["steps_between_rebuilds"] = std::isfinite(f.stepsBetweenRebuilds) ? Json(f.stepsBetweenRebuilds) : Json(nullptr);
@@ -148,36 +141,37 @@ void benchBedCommand(const BenchCommand& command) {
   json["bytes_a_step"] = f.bytesAStep;
   json["waiting_share"] = {{"least", f.leastWait}, {"most", f.mostWait}};
   if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
-  writeBench(json, command.json, command.comm());
 }
 
-void benchStepCommand(const BenchCommand& command) {
-  const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
-  const std::string device = command.device.empty() ? scene.run.device : command.device;
-  const base::Exec exec =
-      support::chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
-  const StepBenchOptions& o = command.step;
-  const base::Comm comm = command.comm();
-  Json json = benchOrigin("step", exec);
-
+/// The scene with its bed at rest, and how long that took [s].
+std::unique_ptr<simulation::Simulation> prepare(const scene::Scene& scene, const base::Exec& exec,
+                                                const base::Comm& comm, double& seconds) {
   std::unique_ptr<support::Progress> settling;
   const Clock::time_point start = Clock::now();
   const auto settle = [&](double time, double) {
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
   };
-  simulation::Simulation simulation(setup::simulationSetup(scene, comm.size()), exec, settle, comm);
+  auto simulation = std::make_unique<simulation::Simulation>(setup::simulationSetup(scene, comm.size()), exec, settle, comm);
   if (settling) settling->finish("at rest");
-  const double prepared = std::chrono::duration<double>(Clock::now() - start).count();
+  seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return simulation;
+}
+
+/// What is timed.
+Json describeScene(const scene::Scene& scene, const simulation::Simulation& simulation, double preparation) {
   const std::size_t grains = simulation.ground().grains ? simulation.ground().grains->count() : 0;
   const std::size_t spheres = simulation.vehicle() ? simulation.vehicle()->parts().totalSpheres() : 0;
   fmt::print("scene     {}: {} grains, {} spheres on the vehicle, step {:g} s; {:.1f} s preparation\n",
-             scene.file.string(), grains, spheres, simulation.timeStep(), prepared);
+             scene.file.string(), grains, spheres, simulation.timeStep(), preparation);
   std::fflush(stdout);
+  return {{"ranks", simulation.comm().size()}, {"scene", scene.file.string()},
+          {"overrides", scene.overrides},      {"grains", grains},
+          {"vehicle_spheres", spheres},        {"time_step_s", simulation.timeStep()}};
+}
 
-  const double from = o.after < 0 ? defaultStart(scene) : o.after;
-  advance(simulation, std::llround(from / simulation.timeStep()), "up to speed");
-
+/// Batches of steps without clocks inside.
+BatchTimes timeBatches(simulation::Simulation& simulation, const StepBenchOptions& o, const base::Exec& exec) {
   BatchTimes times;
   times.steps = o.steps;
   for (int k = 0; k < o.batches; ++k) {
@@ -188,35 +182,35 @@ void benchStepCommand(const BenchCommand& command) {
     times.microseconds.push_back(1e6 * std::chrono::duration<double>(Clock::now() - begin).count() /
                                  static_cast<double>(o.steps));
   }
-  StepBench bench(simulation, exec);
+  return times;
+}
+
+/// The same steps with a clock at each stage, and contacts counted now and then.
+Contacts instrument(StepBench& bench, simulation::Simulation& simulation, std::int64_t steps) {
   Contacts contacts;
-  const std::int64_t countEvery = std::max<std::int64_t>(1, o.steps / kCountsTaken);
-  for (std::int64_t i = 0; i < o.steps; ++i) {
+  const std::int64_t countEvery = std::max<std::int64_t>(1, steps / kCountsTaken);
+  for (std::int64_t i = 0; i < steps; ++i) {
     bench.step();
     if ((i + 1) % countEvery == 0) contacts.count(simulation);
   }
+  return contacts;
+}
 
+void printTimes(const BatchTimes& times, const StepBenchOptions& o, double from, int ranks) {
   fmt::print("step      {:.2f} us (median of {} batches of {} steps without clocks inside; {:.2f} to {:.2f}), from t = "
              "{:g} s on\n",
              times.median(), o.batches, o.steps, times.least(), times.most(), from);
-  const double bytes = static_cast<double>(base::memoryTaken(exec));
-  const double host = static_cast<double>(base::memoryTaken(base::cpuExec()));
-  if (comm.size() > 1)
-    fmt::print("ranks     {}: the times are the first one's, with its waiting for the others\n", comm.size());
-  json["ranks"] = simulation.comm().size();
-  json["scene"] = scene.file.string();
-  json["overrides"] = scene.overrides;
-  json["grains"] = grains;
-  json["vehicle_spheres"] = spheres;
-  json["time_step_s"] = simulation.timeStep();
-  json["timed_from_s"] = from;
-  json["preparation_wall_s"] = prepared;
-  json["microseconds_a_step"] = jsonOf(times);
-  json["instrumented_microseconds_a_step"] = printParts(bench);
-  json["rebuilds_while_instrumented"] = bench.rebuilds();
+  if (ranks > 1) fmt::print("ranks     {}: the times are the first one's, with its waiting for the others\n", ranks);
+}
+
+void printRebuilds(const StepBench& bench) {
   const double rebuild = bench.part(simulation::Stage::neighbourList).microseconds;
   fmt::print("  neighbour lists built {} times{}\n", bench.rebuilds(),
              bench.rebuilds() ? fmt::format(", {:.1f} us each", rebuild / static_cast<double>(bench.rebuilds())) : "");
+}
+
+Json printContacts(const Contacts& contacts) {
+  Json json;
   const struct {
     const char *text, *key;
     double sum;
@@ -229,14 +223,67 @@ void benchStepCommand(const BenchCommand& command) {
   fmt::print("\ncontacts a step (mean of {} counts)\n", contacts.counts);
   for (const auto& kind : kinds) {
     fmt::print("  {:<34} {:10.1f}\n", kind.text, contacts.mean(kind.sum));
-    json["contacts_a_step"][kind.key] = contacts.mean(kind.sum);
+    json[kind.key] = contacts.mean(kind.sum);
   }
+  return json;
+}
+
+void printMemory(Json& json, const base::Exec& exec) {
+  const double bytes = static_cast<double>(base::memoryTaken(exec));
+  const double host = static_cast<double>(base::memoryTaken(base::cpuExec()));
   fmt::print("\nmemory    host {:.0f} MiB at most", host / 1048576);
   if (!exec.onCpu()) fmt::print(", device {:.0f} MiB taken by all programs", bytes / 1048576);
   fmt::print("\n");
   json["host_peak_bytes"] = host;
   if (!exec.onCpu()) json["device_bytes_taken"] = bytes;
-  writeBench(json, command.json, comm);
+}
+
+} // namespace
+
+void benchBedCommand(const BenchCommand& command) {
+  const base::Exec exec = support::chooseDevice(support::deviceChoice(command.device.empty() ? "auto" : command.device),
+                                                command.threads, command.ranks);
+  Json json = benchOrigin("bed", exec);
+  const BedBench& b = command.bed;
+  fmt::print("bed       {} grains of radius {:g} m in five layers, friction {:g}, skin {:g} radii, step {:g} s, "
+             "settled {:g} s\n",
+             b.grains, b.radius, b.friction, b.skin, b.timeStep, b.settleTime);
+  std::fflush(stdout);
+  const BedFigures f = benchBed(b, exec, command.comm());
+  printBed(b, f, command.comm().size());
+  addBed(json, b, f, command.comm().size());
+  writeBench(json, command.json, command.comm());
+}
+
+void benchStepCommand(const BenchCommand& command) {
+  const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
+  if (command.comm().first()) scene::printNotes(scene);
+  const support::DeviceChoice device =
+      command.device.empty() ? scene.run.device : support::deviceChoice(command.device);
+  const base::Exec exec =
+      support::chooseDevice(device, command.threads ? command.threads : scene.run.threads, command.ranks);
+  const StepBenchOptions& o = command.step;
+  Json json = benchOrigin("step", exec);
+
+  double preparation = 0;
+  const std::unique_ptr<simulation::Simulation> simulation = prepare(scene, exec, command.comm(), preparation);
+  json.update(describeScene(scene, *simulation, preparation));
+  const double from = o.after < 0 ? defaultStart(scene) : o.after;
+  advance(*simulation, std::llround(from / simulation->timeStep()), "up to speed");
+  const BatchTimes times = timeBatches(*simulation, o, exec);
+  StepBench bench(*simulation, exec);
+  const Contacts contacts = instrument(bench, *simulation, o.steps);
+
+  printTimes(times, o, from, command.comm().size());
+  json["timed_from_s"] = from;
+  json["preparation_wall_s"] = preparation;
+  json["microseconds_a_step"] = jsonOf(times);
+  json["instrumented_microseconds_a_step"] = printParts(bench);
+  json["rebuilds_while_instrumented"] = bench.rebuilds();
+  printRebuilds(bench);
+  json["contacts_a_step"] = printContacts(contacts);
+  printMemory(json, exec);
+  writeBench(json, command.json, command.comm());
 }
 
 } // namespace grouser::bench

@@ -153,7 +153,7 @@ double growthExponent(const std::vector<double>& contacts, const std::vector<dou
 }
 
 void benchContactsCommand(const ContactsBench& bench) {
-  const base::Exec exec = support::chooseDevice(bench.device, bench.threads, bench.ranks);
+  const base::Exec exec = support::chooseDevice(support::deviceChoice(bench.device), bench.threads, bench.ranks);
   if (!bench.plot.empty() && !bench.plot.ends_with(".png"))
     throw base::InputError(fmt::format("--plot {}: its name must end with .png", bench.plot));
   if (!bench.plot.empty() && bench.json.empty())

@@ -60,6 +60,7 @@ void runCommand(const RunCommand& command) {
   if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
   if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
   const scene::Scene scene = setup::loadScene(command.scene, overrides);
+  if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
   RunOptions options;
   options.folder = !command.folder.empty()        ? fs::path(command.folder)
@@ -93,6 +94,7 @@ void sweepCommand(const SweepCommand& command) {
   if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
   if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
   const SweepPlan plan = planSweep(command.scene, command.sets, fixed);
+  if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
   SweepOptions options;
   options.program = fs::read_symlink("/proc/self/exe");
   options.folder =
@@ -117,6 +119,7 @@ void sinkageCommand(const SinkageCommand& command) {
 
 void planCommand(const PlanCommand& command) {
   const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
+  scene::printNotes(scene);
   fmt::print("{}", planText(scene));
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
 }

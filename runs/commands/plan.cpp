@@ -47,7 +47,7 @@ std::string memoryText(const scene::Scene& scene, double grains) {
 /// What the grains' steps cost where they have been measured; parts and vehicle come on top. A core works on several
 /// contacts at once where grains have one radius, linear springs and nothing rarer.
 std::string costText(const scene::Scene& scene, double grainSteps) {
-  const bool plain = scene.run.precision == "single" &&
+  const bool plain = scene.run.precision == terrain::Precision::single &&
                      !(setup::grainFeatures(scene, setup::grainKinds(scene)) &
                        ~(contact::kFriction | terrain::kBoundaries | terrain::kLoads | terrain::kLedger));
   std::string text;
@@ -90,10 +90,9 @@ std::string switches(const scene::Scene& scene) {
                   kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
                                     : fmt::format("all {:g} m", kinds.largest));
     text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
-    const auto precision = scene.run.precision == "double" ? terrain::Precision::double_ : terrain::Precision::single;
     text += fmt::format("       {:<22} {}: {}; {} precision\n", "kernel of the grains",
-                        terrain::hasOwnKernel(features, precision) ? "special" : "general",
-                        terrain::featureText(features), scene.run.precision);
+                        terrain::hasOwnKernel(features, scene.run.precision) ? "special" : "general",
+                        terrain::featureText(features), base::wordOf(scene.run.precision));
   }
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
   text += onOff(bed && t->settleTimeLimit > 0, "settling",

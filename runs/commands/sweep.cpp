@@ -33,7 +33,7 @@ constexpr const char* kLog = "log.txt"; // what a run printed
 
 /// What decides the result of a run, as text.
 std::string identity(scene::Scene scene) {
-  scene.run.device = "auto", scene.run.threads = 0;
+  scene.run.device = support::DeviceChoice::automatic, scene.run.threads = 0;
   scene.output.folder.clear();
   return scene::resolvedToml(scene);
 }
@@ -220,7 +220,8 @@ private:
 int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   for (const SweepRun& run : plan.runs) {
     if (!options.force) checkRunFolder(options.folder / run.name);
-    if (run.scene.run.device == "cuda" && !base::cudaAvailable()) base::cudaExec(); // throws, and says why
+    if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())
+      base::cudaExec(); // throws, and says why
   }
   std::error_code error;
   fs::create_directories(options.folder, error);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "runs/scene/choices.hpp"
 
 #include <array>
 #include <optional>
@@ -9,7 +10,7 @@
 #include <vector>
 
 /// What a scene file says of a mechanism: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// runs/scene_tables.cpp.
+/// mechanism_sections.cpp.
 namespace grouser::scene {
 
 /// [[body]]
@@ -30,7 +31,8 @@ struct BodySection {
 
 /// [[joint]]
 struct JointSection {
-  std::string name, type = "revolute";
+  std::string name;
+  multibody::JointType type = multibody::JointType::kRevolute;
   std::vector<std::string> bodies;
   std::optional<base::Vec3d> point, axis, secondAxis;      ///< world, at the start
   std::optional<base::Vec3d> pointA, pointB, axisA, axisB; ///< each in its body's frame
@@ -46,7 +48,8 @@ struct SpringSection {
   std::string name;
   std::vector<std::string> bodies;
   std::optional<base::Vec3d> pointA, pointB; ///< each in its body's frame [m]
-  std::string joint, actsOn;                 ///< actsOn: "angle" or "slide"; empty: the only one
+  std::string joint;
+  std::optional<multibody::JointAxis> actsOn; ///< empty: the only one
   double stiffness = 0, damping = 0, preload = 0;
   std::optional<double> freePosition; ///< length [m], or axis position [m] or [rad]; empty: as at the start
   std::optional<std::array<double, 2>> limits;
@@ -66,7 +69,9 @@ struct BushingSection {
 
 /// [[drive]]: the sum of what is given.
 struct DriveSection {
-  std::string name, joint, actsOn, imposes = "speed";
+  std::string name, joint;
+  std::optional<multibody::JointAxis> actsOn; ///< empty: the only one
+  multibody::DriveKind imposes = multibody::DriveKind::kSpeed;
   std::optional<double> value;
   std::vector<double> polynomial;
   double amplitude = 0, frequency = 0, phase = 0; ///< sine; [Hz], [deg]
@@ -77,7 +82,8 @@ struct DriveSection {
 /// [[coupling]]: position of the second axis = ratio x position of the first + offset.
 struct CouplingSection {
   std::string name;
-  std::vector<std::string> joints, actsOn;
+  std::vector<std::string> joints;
+  std::vector<multibody::JointAxis> actsOn; ///< one a joint; empty: the only one of each
   double ratio = 1;
   std::optional<double> offset;
   bool operator==(const CouplingSection&) const = default;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "runs/scene/choices.hpp"
 #include "runs/scene/mechanism_sections.hpp"
 #include "runs/scene/surface_sections.hpp"
 
@@ -19,8 +20,15 @@ class Document;
 } // namespace grouser::base
 
 /// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
-/// built. Units, ranges and meanings of all keys stand once, in runs/scene_tables.cpp; `grouser fields` prints them.
+/// built. Units, ranges and meanings of all keys stand once, in the tables of *_section(s).cpp; `grouser fields` prints
+/// them.
 namespace grouser::scene {
+
+/// A number that help shows as a fraction.
+struct Fraction {
+  int numerator, denominator;
+  constexpr double value() const { return static_cast<double>(numerator) / denominator; }
+};
 
 /// [run]
 struct RunSettings {
@@ -31,30 +39,38 @@ struct RunSettings {
   double frameInterval = 0.1;
   double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
-  std::string device = "auto";                ///< auto | cpu | cuda
-  std::string precision = "single";           ///< of the grains' forces: single | double
-  double impactSpeed = 1.0;                   ///< [m/s] that the step of hertz materials is chosen for
-  int threads = 0;                            ///< 0: all
-  std::string integrator = "rattle";          ///< of mechanisms: rattle | symplectic_euler
-  int integratorOrder = 2;                    ///< of rattle: 2, 4, 6, 8
-  std::string springs = "implicit";           ///< of rattle: explicit | implicit
+  support::DeviceChoice device = support::DeviceChoice::automatic;
+  /// Of the grains' forces.
+  terrain::Precision precision = terrain::Precision::single;
+  double impactSpeed = 1.0; ///< [m/s] that the step of hertz materials is chosen for
+  int threads = 0;          ///< 0: all
+  /// Of mechanisms; the next two belong to rattle.
+  multibody::Integrator integrator = multibody::Integrator::kRattle;
+  int integratorOrder = 2; ///< 2, 4, 6, 8
+  multibody::Springs springs = multibody::Springs::kImplicit;
   std::optional<double> constraintTolerance;  ///< [m], [rad] to which joints are closed; empty: the solver's own
   double skin = 0.3;                          ///< [-] of a grain's radius
   double maxOverlap = 0.2;                    ///< [-] of a grain's radius; beyond it the run stops
-  std::array<bool, 2> periodic{false, false}; ///< x, y: opposite sides are joined
+  std::array<bool, 2> periodic{false, false}; ///< x, y
   std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
   bool operator==(const RunSettings&) const = default;
 };
 
 /// [material.NAME]
 struct Material {
+  /// What loading takes where the law needs a value and none is given. Densities, friction and the like, which every
+  /// material has, begin with theirs below.
+  static constexpr double kStiffness = 1e6, kPoisson = 0.25, kRestitution = 0.5;
+  static constexpr Fraction kTangentialStiffnessRatio{2, 7}; ///< linear
+  static constexpr double kLinearTangentialDampingRatio = 0.5, kHertzTangentialDampingRatio = 1;
+
   std::string name;
   double density = 2500;
-  std::string law = "linear";           ///< linear | hertz; what belongs to the law has a value after loading
-  std::optional<double> stiffness;      ///< [N/m] linear
-  std::optional<double> young, poisson; ///< [Pa], [-] hertz
-  std::optional<double> restitution;    ///< one of these two has a value after loading
-  std::optional<double> damping;        ///< [1/s] linear: gamma of F_n = k overlap - gamma m_eff v_n
+  ContactLawKind law = ContactLawKind::linear; ///< what belongs to the law has a value after loading
+  std::optional<double> stiffness;             ///< [N/m] linear
+  std::optional<double> young, poisson;        ///< [Pa], [-] hertz
+  std::optional<double> restitution;           ///< one of these two has a value after loading
+  std::optional<double> damping;               ///< [1/s] linear: gamma of F_n = k overlap - gamma m_eff v_n
   bool attraction = false;
   double friction = 0.5;
   std::optional<double> tangentialStiffnessRatio; ///< linear
@@ -82,7 +98,7 @@ struct Grain {
 
 /// [[grains]]: many grains at once.
 struct GrainFill {
-  std::string form = "lattice";         ///< lattice | random | file
+  FillForm form = FillForm::lattice;
   std::optional<base::Vec3d> low, high; ///< corners of the box that holds them whole [m]
   std::optional<double> radius;         ///< [m]
   std::optional<double> radiusTo;       ///< [m]; radii are then uniform from radius to this
@@ -118,7 +134,7 @@ struct Terrain {
   std::string heightmap;               ///< absolute path after loading
   std::array<double, 2> size{};        ///< [m] x, y
   std::array<double, 2> heightRange{}; ///< [m] of black, of white
-  std::string kind = "granular";       ///< granular | rigid
+  TerrainKind kind = TerrainKind::granular;
   std::string material;
   std::string groundMaterial; ///< of floor and walls; the bed's where not given
   std::optional<double> grainRadius;
@@ -127,14 +143,14 @@ struct Terrain {
   double spacing = 2.1; ///< [-] lattice spacing in grain radii
   double jitter = 0.9;  ///< [-] of the lattice's free gap
   double packing = 0.6; ///< [-] solid fraction expected once settled
-  std::string floor = "follow";
+  terrain::FloorShape floor = terrain::FloorShape::follow;
   bool walls = true;
   std::optional<std::array<double, 2>> tile; ///< [m] x, y; settle a piece of this size, then fill the terrain with it
   double settleTimeLimit = 3.0;
   double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy a grain over m g radius
   std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
   bool cache = true;                      ///< keep the settled bed for later runs, and take it from one
-  bool granular() const { return kind == "granular"; }
+  bool granular() const { return kind == TerrainKind::granular; }
   bool operator==(const Terrain&) const = default;
 };
 
@@ -145,8 +161,8 @@ struct Vehicle {
   double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
-  std::string material;         ///< of the parts against the ground; empty: the contact data of the spec
-  std::string chassis = "free"; ///< free | fixed
+  std::string material; ///< of the parts against the ground; empty: the contact data of the spec
+  ChassisMount chassis = ChassisMount::free;
   bool operator==(const Vehicle&) const = default;
 };
 
@@ -188,7 +204,7 @@ struct Parallel {
   std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
   std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen
   bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than the others
-  std::string peerMemory = "auto";         ///< whether GPUs of one machine read each other's memory
+  base::PeerUse peerMemory = base::PeerUse::automatic; ///< whether GPUs of one machine read each other's memory
   bool operator==(const Parallel&) const = default;
 };
 
@@ -236,6 +252,9 @@ Scene readScene(const std::filesystem::path& file, const std::vector<std::string
 /// The same from text; paths in it are relative to the folder of `file`.
 Scene readSceneText(std::string_view text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
+
+/// Says on stderr, a line each, which keys of the scene's file have a new name.
+void printNotes(const Scene& scene);
 
 /// The scene with every default filled in, as TOML that loads to the same scene.
 std::string resolvedToml(const Scene& scene);

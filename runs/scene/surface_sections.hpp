@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "runs/scene/choices.hpp"
 #include "spheredecomp/mesh_query.hpp"
 
 #include <memory>
@@ -10,7 +11,7 @@
 #include <vector>
 
 /// What a scene file says of rigid surfaces: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// runs/scene_tables.cpp.
+/// surface_sections.cpp.
 namespace grouser::scene {
 
 /// What every rigid surface may have: a name, and a motion.
@@ -23,7 +24,7 @@ struct SurfaceSection {
   std::optional<base::Vec3d> amplitude;   ///< [m] of an oscillation along this vector
   std::optional<double> frequency, phase; ///< [Hz], [deg] of that oscillation
   std::optional<double> start, until;     ///< [s] between which all this takes place
-  std::optional<std::string> free;        ///< x, y or z: the axis that forces move it along
+  std::optional<Axis> free;               ///< along which forces move it
   std::optional<double> loadRamp;         ///< [s] over which the load comes on
   std::optional<double> mass, load;       ///< [kg], [N] of a free surface
   bool operator==(const SurfaceSection&) const = default;
@@ -64,6 +65,10 @@ struct LoadedMesh {
 
 /// [[mesh]]
 struct MeshSection : SurfaceSection {
+  /// Where no sphere radius is given it is the mesh's diagonal over this.
+  static constexpr double kRadiiInDiagonal = 40;
+  static constexpr const char* kShareOfDiagonal = "a fortieth";
+
   std::string file;     ///< absolute path after loading
   double scale = 1;     ///< metres a unit of the file
   base::Vec3d position; ///< [m] of the file's origin

@@ -109,12 +109,12 @@ std::vector<scene::Grain> placedGrains(const scene::Scene& scene) {
   const auto seed = static_cast<std::uint64_t>(scene.run.seed);
   for (std::size_t k = 0; k < scene.fills.size(); ++k) {
     const scene::GrainFill& b = scene.fills[k];
-    if (b.form == "file") {
+    if (b.form == scene::FillForm::file) {
       all.insert(all.end(), b.fromFile.begin(), b.fromFile.end());
       continue;
     }
     std::vector<scene::Grain> own;
-    if (b.form == "lattice")
+    if (b.form == scene::FillForm::lattice)
       addLattice(b, seed, k, own);
     else
       addRandom(scene, b, seed, k, own);
@@ -124,8 +124,8 @@ std::vector<scene::Grain> placedGrains(const scene::Scene& scene) {
 }
 
 std::int64_t placedCount(const scene::GrainFill& b) {
-  if (b.form == "file") return static_cast<std::int64_t>(b.fromFile.size());
-  if (b.form == "random") return *b.number;
+  if (b.form == scene::FillForm::file) return static_cast<std::int64_t>(b.fromFile.size());
+  if (b.form == scene::FillForm::random) return *b.number;
   const base::Vec3<std::int64_t> n = latticeCount(b);
   return n.x * n.y * n.z;
 }

@@ -52,7 +52,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.gravity = scene.run.gravity;
   model.skin = scene.run.skin;
   model.maxOverlap = scene.run.maxOverlap;
-  model.precision = scene.run.precision == "double" ? terrain::Precision::double_ : terrain::Precision::single;
+  model.precision = scene.run.precision;
 
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const auto mass = [&](double share) { return kinds.many() ? std::nullopt : std::optional(share * model.mass); };

@@ -30,7 +30,7 @@ public:
     }
     for (std::size_t k = 0; k < scene_.fills.size(); ++k) {
       const scene::GrainFill& b = scene_.fills[k];
-      radius("grains", k, b.form == "file" ? "file" : "radius", b.smallestRadius());
+      radius("grains", k, b.form == scene::FillForm::file ? "file" : "radius", b.smallestRadius());
       if (b.low) place("grains", k, "low", *b.low), place("grains", k, "high", *b.high);
       for (const scene::Grain& g : b.fromFile) place("grains", k, "file", g.position);
     }
@@ -90,7 +90,7 @@ public:
     constexpr double kMostGrains = 4e9;
     for (std::size_t k = 0; k < scene_.fills.size(); ++k) {
       const scene::GrainFill& b = scene_.fills[k];
-      if (b.form != "lattice") continue;
+      if (b.form != scene::FillForm::lattice) continue;
       double grains = 1; // in a whole number they might not fit
       for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
       if (grains > kMostGrains)

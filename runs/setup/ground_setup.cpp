@@ -79,9 +79,9 @@ void checkBlockSizes(const scene::Scene& scene) {
     const auto grains = static_cast<double>(placedCount(scene.fills[k]));
     if (grains * bytes > memoryOfMachine())
       scene.fail(
-          "grains", k, scene.fills[k].form == "random" ? "number" : "radius",
+          "grains", k, scene.fills[k].form == scene::FillForm::random ? "number" : "radius",
           fmt::format("{} makes {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use fewer or larger grains",
-                      scene.fills[k].form == "random" ? "[-]" : "[m]", grains, grains * bytes / kGiB,
+                      scene.fills[k].form == scene::FillForm::random ? "[-]" : "[m]", grains, grains * bytes / kGiB,
                       memoryOfMachine() / kGiB));
   }
 }
@@ -104,7 +104,7 @@ void checkBedSize(const scene::Scene& scene, const terrain::LayerOptions& option
 terrain::PartitionOptions partitionOf(const scene::Scene& scene, int ranks) {
   terrain::PartitionOptions partition;
   partition.rebalance = scene.parallel.rebalance;
-  partition.peers = base::peerUse(scene.parallel.peerMemory);
+  partition.peers = scene.parallel.peerMemory;
   partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
   // A plane beyond all places that a grain can have is as good at their end, which whole units reach.
   const double end = base::positionScale(2 * grainKinds(scene).largest).limit();
@@ -143,7 +143,7 @@ scene::Scene tileScene(const scene::Scene& scene, int layers, const std::array<d
   t.tile.reset();
   t.size = size;
   t.heightRange = {0, 0};
-  t.floor = "follow";
+  t.floor = terrain::FloorShape::follow;
   t.layers = layers;
   t.depth.reset();
   t.cache = false;
@@ -168,7 +168,7 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::BedPlan& plan, dou
     scene.fail("terrain", "tile",
                fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
                            "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
-                           t.floor, floor.lowest, floor.highest));
+                           base::wordOf(t.floor), floor.lowest, floor.highest));
   TileSetup tile;
   tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
   tile.walls = plan.walls, tile.floorHeight = floor.lowest;
@@ -234,7 +234,7 @@ terrain::LayerOptions layerOptions(const scene::Scene& scene) {
   terrain::LayerOptions options;
   options.radius = *t.grainRadius, options.layers = t.layers.value_or(0), options.depth = t.depth.value_or(0);
   options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
-  options.floor = t.floor == "flat" ? terrain::FloorShape::flat : terrain::FloorShape::follow;
+  options.floor = t.floor;
   options.seed = static_cast<std::uint64_t>(scene.run.seed);
   options.joined = scene.run.periodic;
   return options;

@@ -88,7 +88,7 @@ ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const st
     scene.failMaterial(b.name, "law",
                        fmt::format("differs from law = \"{}\" of material.{}, which it meets; surfaces that touch must "
                                    "have the same law: give both one of the two",
-                                   a.law, a.name));
+                                   base::wordOf(a.law), a.name));
   ContactLaw law;
   law.attraction = a.attraction && b.attraction;
   law.friction = pair && pair->friction ? *pair->friction : std::min(a.friction, b.friction);
@@ -99,7 +99,7 @@ ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const st
                           : &a == &b             ? a.cohesion
                                                  : std::sqrt(a.cohesion * b.cohesion);
   law.pullPerRadius = 2 * base::kPi * cohesion;
-  if (a.law == "hertz")
+  if (a.law == scene::ContactLawKind::hertz)
     setHertz(a, b, pair, law);
   else
     setLinear(scene, a, b, pair, effectiveMass, law);
@@ -119,7 +119,7 @@ double contactTime(const ContactLaw& law, double effectiveMass, double effective
 }
 
 double rayleighTimeOf(const scene::Material& m, double radius) {
-  if (m.law != "hertz") return std::numeric_limits<double>::infinity();
+  if (m.law != scene::ContactLawKind::hertz) return std::numeric_limits<double>::infinity();
   return contact::rayleighTime(radius, m.density, shearModulus(m), *m.poisson);
 }
 

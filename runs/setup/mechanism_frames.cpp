@@ -11,6 +11,7 @@ namespace grouser::setup {
 
 using base::Pose;
 using base::Vec3d;
+using multibody::JointType;
 
 namespace {
 
@@ -25,7 +26,9 @@ Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
   return normalized(*v);
 }
 
-bool hasAxis(const std::string& type) { return type != "spherical" && type != "fixed" && type != "distance"; }
+bool hasAxis(JointType type) {
+  return type != JointType::kSpherical && type != JointType::kFixed && type != JointType::kDistance;
+}
 
 /// Both frames from what is said in the world.
 JointFrames placedInWorld(const scene::JointSection& j) {
@@ -39,7 +42,7 @@ JointFrames placedInWorld(const scene::JointSection& j) {
   if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
   const Vec3d z = direction("axis", j.axis);
   Pose X = multibody::frameWithZ(*j.point, z);
-  if (j.type == "universal") {
+  if (j.type == JointType::kUniversal) {
     const Vec3d x = direction("second_axis", j.secondAxis);
     if (std::fabs(dot(x, z)) > kStartGap)
       throw support::SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
@@ -70,7 +73,7 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
   }
   const Vec3d z = rotate(X_WA.orientation, direction("axis_a", j.axisA));
   const Vec3d b = rotate(X_WB.orientation, direction("axis_b", j.axisB));
-  if (j.type == "universal") {
+  if (j.type == JointType::kUniversal) {
     apart(p_B - p_A, "");
     if (std::fabs(dot(z, b)) > kStartGap)
       throw support::SectionFault("axis_b",
@@ -85,7 +88,7 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
                                 fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
                                             "apart; turn a body or an axis so that they are parallel",
                                             text(b), text(z), norm(b - z)));
-  const bool slides = j.type == "prismatic" || j.type == "cylindrical";
+  const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
   const double slide = slides ? dot(p_B - p_A, z) : 0;
   apart(p_B - p_A - slide * z, slides ? " beside the axis" : "");
   const Pose X = multibody::frameWithZ(p_A, z);
@@ -109,9 +112,9 @@ JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const P
 } // namespace
 
 JointFrames placeJoint(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
-  if (j.secondAxis && j.type != "universal")
+  if (j.secondAxis && j.type != JointType::kUniversal)
     throw support::SectionFault("second_axis", "has a meaning for a universal joint only; remove it");
-  if (j.type == "distance") return placedAtEnds(j, X_WA, X_WB);
+  if (j.type == JointType::kDistance) return placedAtEnds(j, X_WA, X_WB);
   if (!j.point && !j.pointA && !j.pointB)
     throw support::SectionFault("point", "[m] is missing; add where the joint is at the start, or point_a and point_b");
   return j.point ? placedInWorld(j) : placedInBodies(j, X_WA, X_WB);

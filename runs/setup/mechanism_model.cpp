@@ -37,18 +37,6 @@ Mat3d inertiaOf(const scene::BodySection& b) {
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
 }
 
-const std::pair<const char*, JointType> kTypes[] = {
-    {"revolute", JointType::kRevolute},   {"spherical", JointType::kSpherical},
-    {"universal", JointType::kUniversal}, {"prismatic", JointType::kPrismatic},
-    {"fixed", JointType::kFixed},         {"cylindrical", JointType::kCylindrical},
-    {"distance", JointType::kDistance}};
-
-JointType typeOf(const std::string& word) {
-  for (const auto& [name, type] : kTypes)
-    if (word == name) return type;
-  throw support::SectionFault("type", "is no type of joint");
-}
-
 /// Everything that a drive says over time, added up.
 multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   multibody::TimeLaw law;
@@ -68,7 +56,7 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
     if (!(d.time[i] > d.time[i - 1]))
       throw support::SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
   // A kink in a position would be a blow.
-  (d.imposes == "position" ? law.table : law.ramps) = {d.time, d.values};
+  (d.imposes == multibody::DriveKind::kPosition ? law.table : law.ramps) = {d.time, d.values};
   if (law.empty())
     throw support::SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
   return law;
@@ -142,7 +130,7 @@ int MechanismBuilder::joint(const std::string& key, const std::string& name) con
                                                                base::nearestWord(name, known)));
 }
 
-JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::string& word) const {
+JointAxis MechanismBuilder::axis(int index, const std::string& key, std::optional<JointAxis> named) const {
   const multibody::Joint& j = model_.joints()[static_cast<std::size_t>(index)];
   const bool turns = j.type == JointType::kRevolute || j.type == JointType::kCylindrical;
   const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
@@ -151,16 +139,16 @@ JointAxis MechanismBuilder::axis(int index, const std::string& key, const std::s
         "", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
                         "cylindrical joint",
                         j.name));
-  if (word.empty()) {
+  if (!named) {
     if (turns && slides)
       throw support::SectionFault(
           key, fmt::format("is missing, for joint \"{}\" has two axes; add {} = \"angle\" or \"slide\"", j.name, key));
     return turns ? JointAxis::kAngle : JointAxis::kSlide;
   }
-  if (word == "angle" ? !turns : !slides)
+  if (*named == JointAxis::kAngle ? !turns : !slides)
     throw support::SectionFault(
         key, fmt::format("is not free in joint \"{}\"; use \"{}\"", j.name, turns ? "angle" : "slide"));
-  return word == "angle" ? JointAxis::kAngle : JointAxis::kSlide;
+  return *named;
 }
 
 Pose MechanismBuilder::pose(int index) const {
@@ -187,14 +175,14 @@ void MechanismBuilder::add(const scene::BodySection& b) {
 void MechanismBuilder::add(const scene::JointSection& j) {
   checkName("joint", j.name);
   multibody::Joint joint;
-  joint.name = j.name, joint.type = typeOf(j.type);
+  joint.name = j.name, joint.type = j.type;
   joint.damping = j.damping, joint.slideDamping = j.slideDamping, joint.length = j.length.value_or(0);
   std::tie(joint.bodyA, joint.bodyB) = twoBodies(j.bodies);
   const Pose X_WA = pose(joint.bodyA), X_WB = pose(joint.bodyB);
   const JointFrames placed = placeJoint(j, X_WA, X_WB);
   joint.frame_A = multibody::compose(multibody::inverse(X_WA), placed.A);
   joint.frame_B = multibody::compose(multibody::inverse(X_WB), placed.B);
-  if (j.type == "distance") {
+  if (j.type == JointType::kDistance) {
     // Exactly the points that were given.
     joint.frame_A.position = j.pointA.value_or(Vec3d{}), joint.frame_B.position = j.pointB.value_or(Vec3d{});
     const double apart = norm(placed.B.position - placed.A.position);
@@ -209,7 +197,7 @@ void MechanismBuilder::add(const scene::JointSection& j) {
   if (!j.limits) return;
   multibody::AxisSpring stops;
   stops.name = j.name + " stops", stops.joint = index;
-  stops.axis = j.type == "cylindrical" ? JointAxis::kAngle : axis(index, "limits", "");
+  stops.axis = j.type == JointType::kCylindrical ? JointAxis::kAngle : axis(index, "limits", {});
   setStops(stops, *j.limits, j.stopStiffness, j.stopDamping);
   handed({"limits"}, [&] { return model_.addAxisSpring(stops); });
 }
@@ -278,9 +266,7 @@ void MechanismBuilder::add(const scene::DriveSection& d) {
   multibody::Drive drive;
   drive.name = d.name, drive.joint = joint("joint", d.joint), drive.axis = axis(drive.joint, "acts_on", d.actsOn);
   drive.law = lawOf(d);
-  drive.kind = d.imposes == "speed"      ? multibody::DriveKind::kSpeed
-               : d.imposes == "position" ? multibody::DriveKind::kPosition
-                                         : multibody::DriveKind::kForce;
+  drive.kind = d.imposes;
   for (const multibody::Drive& other : model_.drives())
     if (other.joint == drive.joint && other.axis == drive.axis && other.kind != multibody::DriveKind::kForce &&
         drive.kind != multibody::DriveKind::kForce)
@@ -300,8 +286,9 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   multibody::Coupling coupling;
   coupling.name = c.name, coupling.ratio = c.ratio;
   coupling.joint1 = joint("joints", c.joints[0]), coupling.joint2 = joint("joints", c.joints[1]);
-  coupling.axis1 = axis(coupling.joint1, "acts_on", c.actsOn.empty() ? "" : c.actsOn[0]);
-  coupling.axis2 = axis(coupling.joint2, "acts_on", c.actsOn.empty() ? "" : c.actsOn[1]);
+  const auto named = [&](std::size_t k) { return c.actsOn.empty() ? std::nullopt : std::optional(c.actsOn[k]); };
+  coupling.axis1 = axis(coupling.joint1, "acts_on", named(0));
+  coupling.axis2 = axis(coupling.joint2, "acts_on", named(1));
   if (c.ratio == 0)
     throw support::SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
   if (c.offset) coupling.offset = *c.offset;

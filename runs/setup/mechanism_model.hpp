@@ -6,6 +6,7 @@
 #include "runs/support/section_fault.hpp"
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -31,8 +32,8 @@ private:
   int body(const std::string& key, const std::string& name) const;
   int joint(const std::string& key, const std::string& name) const;
   std::pair<int, int> twoBodies(const std::vector<std::string>& names) const;
-  /// The axis of a joint that `word` ("angle", "slide" or empty) means.
-  multibody::JointAxis axis(int joint, const std::string& key, const std::string& word) const;
+  /// The axis of a joint that is meant, by name or as its only one.
+  multibody::JointAxis axis(int joint, const std::string& key, std::optional<multibody::JointAxis> named) const;
   base::Pose pose(int body) const;
   void checkName(const std::string& kind, const std::string& name);
   void addOnAxis(const scene::SpringSection& spring);

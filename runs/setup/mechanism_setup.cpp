@@ -53,10 +53,9 @@ double automaticTimeStep(const scene::Scene& scene) {
 
 multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   multibody::SolverOptions options;
-  options.integrator =
-      run.integrator == "rattle" ? multibody::Integrator::kRattle : multibody::Integrator::kSymplecticEuler;
+  options.integrator = run.integrator;
   options.order = run.integratorOrder;
-  options.springs = run.springs == "implicit" ? multibody::Springs::kImplicit : multibody::Springs::kExplicit;
+  options.springs = run.springs;
   options.positionTolerance = run.constraintTolerance.value_or(0);
   // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
   options.startVelocities = multibody::StartVelocities::kAccept;

@@ -26,7 +26,7 @@ SurfaceMotion motionOf(const scene::SurfaceSection& s, const Vec3d& centre) {
 std::optional<FreeSurface> freedomOf(const scene::SurfaceSection& s) {
   if (!s.free) return {};
   FreeSurface free;
-  free.axis[(*s.free)[0] - 'x'] = 1;
+  free.axis[static_cast<int>(*s.free)] = 1;
   free.mass = *s.mass, free.load = s.load.value_or(0), free.loadRamp = s.loadRamp.value_or(0);
   return free;
 }

@@ -159,7 +159,7 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
   const auto wanted = [&](double stiffness) {
     return fmt::format("{}; raise it to {:.3g} at least, or choose smaller grains", message, times * stiffness);
   };
-  if (a.law == "hertz") {
+  if (a.law == scene::ContactLawKind::hertz) {
     const scene::Material& soft = *b.young < *a.young ? b : a;
     scene.failMaterial(soft.name, "young", "[Pa] " + wanted(*soft.young));
   }
@@ -208,7 +208,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   automatic = std::min({automatic, kLongestStep, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                 [](const scene::Material& m) { return m.law == "hertz"; });
+                                 [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; });
   if (*scene.run.timeStep > limit.step)
     scene.fail("run", "time_step",
                fmt::format(

@@ -22,7 +22,7 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.spec = vehicle::readVehicleSpec(v.spec);
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
-  setup.fixChassis = v.chassis == "fixed";
+  setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
   setup.sphereRadius = v.sphereRadius;
   setup.driver = driverOptions(scene.driver);
   return setup;

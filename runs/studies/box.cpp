@@ -21,7 +21,7 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
                   StudyBox::kDensity, StudyBox::kStiffness, box.restitution, box.friction, StudyBox::kRadius),
       "study");
   scene.run.gravity = {0, 0, -box.gravity};
-  scene.run.precision = box.precision == terrain::Precision::single ? "single" : "double";
+  scene.run.precision = box.precision;
 
   constexpr std::uint64_t kSeed = 1, kJitter = base::purpose("study.box"), kShaken = base::purpose("study.shaken");
   const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(box.grains) / box.layers)));

@@ -19,11 +19,14 @@ constexpr int kSteps = 3000;
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
 
 struct Choice {
-  std::string name, integrator, springs;
+  std::string name;
+  multibody::Integrator integrator;
+  multibody::Springs springs;
 };
-const std::vector<Choice> kChoices = {{"euler", "symplectic_euler", "implicit"},
-                                      {"rattle2, springs implicit", "rattle", "implicit"},
-                                      {"rattle2, springs explicit", "rattle", "explicit"}};
+const std::vector<Choice> kChoices = {
+    {"euler", multibody::Integrator::kSymplecticEuler, multibody::Springs::kImplicit},
+    {"rattle2, springs implicit", multibody::Integrator::kRattle, multibody::Springs::kImplicit},
+    {"rattle2, springs explicit", multibody::Integrator::kRattle, multibody::Springs::kExplicit}};
 
 scene::Scene sceneOf(const scene::MechanismSections& sections, const Choice& choice, const base::Vec3d& gravity) {
   scene::Scene scene;
@@ -71,7 +74,7 @@ void springs(std::vector<StabilityPoint>& points) {
     body.name = "block", body.mass = kMass, body.inertia = {0.1, 0.1, 0.1};
     m.bodies.push_back(body);
     scene::JointSection slide;
-    slide.name = "slide", slide.type = "prismatic", slide.bodies = {"world", "block"};
+    slide.name = "slide", slide.type = multibody::JointType::kPrismatic, slide.bodies = {"world", "block"};
     slide.point = base::Vec3d{}, slide.axis = base::Vec3d{1, 0, 0};
     m.joints.push_back(slide);
     scene::SpringSection spring;
@@ -79,7 +82,7 @@ void springs(std::vector<StabilityPoint>& points) {
     m.springs.push_back(spring);
     const double omega = std::sqrt(spring.stiffness / kMass);
     for (const Choice& choice : kChoices) {
-      const bool limited = choice.springs == "explicit";
+      const bool limited = choice.springs == multibody::Springs::kExplicit;
       const double limit = limited ? 2 / omega : kAnyStep;
       for (const double step : stepsFor(limit, 1)) {
         StabilityPoint p{fmt::format("spring x {:g}", factor), choice.name, limit, step};
@@ -149,7 +152,8 @@ void massRatios(std::vector<StabilityPoint>& points) {
       body.position = {0, 0, -(isTip ? kLinks : i + 0.5) * kLength};
       m.bodies.push_back(body);
       scene::JointSection pin;
-      pin.name = fmt::format("pin {}", i), pin.type = isTip ? "spherical" : "revolute";
+      pin.name = fmt::format("pin {}", i),
+      pin.type = isTip ? multibody::JointType::kSpherical : multibody::JointType::kRevolute;
       pin.bodies = {i == 0 ? "world" : fmt::format("link {}", i - 1), body.name};
       pin.point = base::Vec3d{0, 0, -i * kLength};
       if (!isTip) pin.axis = base::Vec3d{0, 1, 0};

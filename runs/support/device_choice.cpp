@@ -9,10 +9,14 @@
 
 namespace grouser::support {
 
-base::Exec chooseDevice(const std::string& device, int threads, const base::Ranks* ranks) {
-  if (device != "auto" && device != "cpu" && device != "cuda")
-    throw base::InputError(fmt::format("--device {}: is none of auto, cpu, cuda", device));
-  if (device == "cuda" || (device == "auto" && base::cudaAvailable()))
+DeviceChoice deviceChoice(const std::string& word) {
+  if (const auto choice = base::valueOf<DeviceChoice>(word)) return *choice;
+  throw base::InputError(
+      fmt::format("--device {}: is none of {}", word, fmt::join(base::wordsOf<DeviceChoice>(), ", ")));
+}
+
+base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks) {
+  if (device == DeviceChoice::cuda || (device == DeviceChoice::automatic && base::cudaAvailable()))
     return base::cudaExec(ranks ? ranks->rankOnHost() % std::max(1, base::cudaDevices()) : 0);
   if (threads == 0 && ranks && ranks->ranksOnHost() > 1)
     threads = std::max(1, base::cpuExec().threads / ranks->ranksOnHost());

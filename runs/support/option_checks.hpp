@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/enum_words.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -21,6 +23,15 @@ CLI::Validator notNegative(const std::string& what);
 
 /// A finite number in [low, high].
 CLI::Validator between(double low, double high);
+
+/// An option that takes one of the words of an enum; help shows its default.
+template <base::HasWords E>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const std::string& help) {
+  const auto take = [&choice](const std::string& word) { choice = *base::valueOf<E>(word); };
+  return app.add_option_function<std::string>(name, take, help)
+      ->check(CLI::IsMember(base::wordsOf<E>()))
+      ->default_str(std::string(base::wordOf(choice)));
+}
 
 /// The message for a first word, or one after a command of commands, that is no command: it names the nearest. Empty
 /// where there is none such.

@@ -8,17 +8,34 @@
 namespace grouser::base {
 namespace {
 
+enum class WheelKind { road, idler, spare };
+enum class Side { left, right };
+
+} // namespace
+
+/// A spare wheel cannot be asked for.
+template <> struct EnumWords<WheelKind> {
+  static constexpr EnumWord<WheelKind> list[] = {{WheelKind::road, "road"}, {WheelKind::idler, "idler"}};
+};
+template <> struct EnumWords<Side> {
+  static constexpr EnumWord<Side> list[] = {{Side::left, "left"}, {Side::right, "right"}};
+};
+
+namespace {
+
 struct Wheel {
   double radius = 0.2;
   int count = 5;
   bool steered = false;
-  std::string kind = "road";
+  WheelKind kind = WheelKind::road;
   Vec3d centre;
   std::array<double, 2> range{0, 1};
   std::vector<double> angles;
   std::vector<std::string> tags;
   std::optional<double> step;
   std::optional<double> width;
+  std::optional<Side> side;
+  std::vector<Side> brakes;
 };
 
 Table<Wheel> wheelTable() {
@@ -26,13 +43,15 @@ Table<Wheel> wheelTable() {
   t.add("radius", &Wheel::radius, "m", "rolling radius").above(0).atMost(10);
   t.add("count", &Wheel::count, "-", "how many").atLeast(1).atMost(20);
   t.add("steered", &Wheel::steered, "", "turns about z");
-  t.add("kind", &Wheel::kind, "", "what it does").oneOf({"road", "idler"});
+  t.add("kind", &Wheel::kind, "", "what it does");
   t.add("centre", &Wheel::centre, "m", "of the axle");
   t.add("range", &Wheel::range, "m", "from, to");
   t.add("angles", &Wheel::angles, "rad", "of the spokes");
   t.add("tags", &Wheel::tags, "", "free words");
   t.add("step", &Wheel::step, "s", "time step").above(0).orWord("auto");
   t.add("width", &Wheel::width, "m", "of the tread").above(0);
+  t.add("side", &Wheel::side, "", "where it is");
+  t.add("brakes", &Wheel::brakes, "", "where it has one");
   return t;
 }
 
@@ -56,17 +75,20 @@ Wheel read(const std::string& text, const std::vector<std::string>& overrides = 
 TEST(Table, EveryTypeIsRead) {
   const Wheel w =
       read("radius = 1\ncount = 7\nsteered = true\nkind = \"idler\"\ncentre = [1, 2.5, -3]\nrange = [0, 2]\n"
-           "angles = [0.1, 1]\ntags = [\"a\", \"b\"]\nstep = 1e-4\nwidth = 0.5\n");
+           "angles = [0.1, 1]\ntags = [\"a\", \"b\"]\nstep = 1e-4\nwidth = 0.5\n"
+           "side = \"right\"\nbrakes = [\"right\", \"left\"]\n");
   EXPECT_EQ(w.radius, 1.0);
   EXPECT_EQ(w.count, 7);
   EXPECT_TRUE(w.steered);
-  EXPECT_EQ(w.kind, "idler");
+  EXPECT_EQ(w.kind, WheelKind::idler);
   EXPECT_EQ(w.centre, (Vec3d{1, 2.5, -3}));
   EXPECT_EQ(w.range, (std::array<double, 2>{0, 2}));
   EXPECT_EQ(w.angles, (std::vector<double>{0.1, 1}));
   EXPECT_EQ(w.tags, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(w.step, 1e-4);
   EXPECT_EQ(w.width, 0.5);
+  EXPECT_EQ(w.side, Side::right);
+  EXPECT_EQ(w.brakes, (std::vector{Side::right, Side::left}));
 }
 
 TEST(Table, WhatIsAbsentKeepsItsDefault) {
@@ -74,6 +96,7 @@ TEST(Table, WhatIsAbsentKeepsItsDefault) {
   EXPECT_EQ(w.radius, 0.2);
   EXPECT_FALSE(w.step.has_value());
   EXPECT_FALSE(w.width.has_value());
+  EXPECT_FALSE(w.side.has_value());
 }
 
 struct Broken {
@@ -106,6 +129,12 @@ INSTANTIATE_TEST_SUITE_P(
                "w.toml:3: wheel.steered = 1 has the wrong type; give true or false (turns about z)"},
         Broken{"UnknownWord", "kind = \"idle\"",
                "w.toml:3: wheel.kind = \"idle\" is none of road, idler; did you mean \"idler\"? (what it does)"},
+        Broken{"WordWithoutAName", "kind = \"spare\"",
+               "w.toml:3: wheel.kind = \"spare\" is none of road, idler; did you mean \"road\"? (what it does)"},
+        Broken{"UnknownWordInAList", "brakes = [\"left\", \"rigth\"]",
+               "w.toml:3: wheel.brakes = \"rigth\" is none of left, right; did you mean \"right\"? (where it has one)"},
+        Broken{"NumberForAWord", "side = 1",
+               "w.toml:3: wheel.side = 1 has the wrong type; give a text in quotes (where it is)"},
         Broken{"ShortVector", "centre = [1, 2]",
                "w.toml:3: wheel.centre = [1, 2] has the wrong type; give three numbers [x, y, z] [m] (of the axle)"},
         Broken{"WordWhereAutoIsMeant", "step = \"automatic\"",
@@ -163,7 +192,7 @@ TEST(Table, VersionIsRequiredAndChecked) {
 TEST(Overrides, ReplaceAndAddValues) {
   EXPECT_EQ(read("radius = 1", {"wheel.radius=2.5"}).radius, 2.5);
   EXPECT_EQ(read("", {"wheel.count=3"}).count, 3);
-  EXPECT_EQ(read("", {"wheel.kind=idler"}).kind, "idler");
+  EXPECT_EQ(read("", {"wheel.kind=idler"}).kind, WheelKind::idler);
   EXPECT_EQ(read("", {"wheel.centre=[1, 2, 3]"}).centre, (Vec3d{1, 2, 3}));
 }
 
@@ -190,9 +219,9 @@ TEST(Overrides, ReachIntoListsAndQuotedNames) {
 
 TEST(Table, WrittenValuesReadBackToTheSameBits) {
   Wheel w;
-  w.radius = 0.1 + 0.2, w.centre = {1e-300, -2.0 / 3.0, 1e6}, w.kind = "idler", w.angles = {3, 5e-324},
+  w.radius = 0.1 + 0.2, w.centre = {1e-300, -2.0 / 3.0, 1e6}, w.kind = WheelKind::idler, w.angles = {3, 5e-324},
   w.tags = {"a \"b\"\\\n"};
-  w.width = 7;
+  w.width = 7, w.side = Side::left, w.brakes = {Side::right};
   const Wheel back = read(wheelTable().write(w));
   EXPECT_EQ(back.radius, w.radius);
   EXPECT_EQ(back.centre, w.centre);
@@ -200,11 +229,16 @@ TEST(Table, WrittenValuesReadBackToTheSameBits) {
   EXPECT_EQ(back.tags, w.tags);
   EXPECT_EQ(back.width, w.width);
   EXPECT_EQ(back.step, w.step);
+  EXPECT_EQ(back.kind, w.kind);
+  EXPECT_EQ(back.side, w.side);
+  EXPECT_EQ(back.brakes, w.brakes);
 }
 
 TEST(Table, DescriptionShowsUnitDefaultRangeAndHelp) {
   const std::string text = describe(wheelTable());
   EXPECT_NE(text.find("| `radius` | m | 0.2 | (0, 10] | rolling radius |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `kind` |  | \"road\" | one of road, idler | what it does |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `side` |  | none | one of left, right | where it is |"), std::string::npos) << text;
   EXPECT_NE(text.find("| `step` | s | \"auto\" | (0, inf) | time step |"), std::string::npos) << text;
 }
 
@@ -213,6 +247,87 @@ TEST(NearestWord, CountsSwapsAsOneEdit) {
   EXPECT_EQ(editDistance("Radius", "radius"), 0);
   EXPECT_EQ(editDistance("", "abc"), 3);
   EXPECT_EQ(nearestWord("fricton", {"density", "friction", "fraction"}), "friction");
+}
+
+/// Tracks whose length was once called span, and before that reach.
+struct Track {
+  double length = 1;
+  std::vector<Side> sides;
+};
+
+Table<Track> trackTable() {
+  Table<Track> t("track", "One track");
+  t.add("length", &Track::length, "m", "around").above(0).formerly("reach").formerly("span");
+  t.add("sides", &Track::sides, "", "where they are");
+  return t;
+}
+
+Document trackDocument(const std::string& text, const std::string& where = "track",
+                       const std::vector<std::string>& overrides = {}) {
+  Document doc = Document::parse("version = 1\n" + text, "t.toml", overrides);
+  doc.renameKeys(where, trackTable().formerKeys());
+  return doc;
+}
+
+TEST(FormerKeys, AreReadAndNoted) {
+  for (const std::string former : {"reach", "span"}) {
+    const Document doc = trackDocument("[track]\n" + former + " = 7\n");
+    EXPECT_EQ(doc.root().section("track").read(trackTable()).length, 7) << former;
+    EXPECT_EQ(doc.notes(), std::vector{"t.toml:3: track." + former +
+                                       " is called length now; rename it, for the next version knows that name only"});
+  }
+  EXPECT_TRUE(trackDocument("[track]\nlength = 7\n").notes().empty());
+  EXPECT_TRUE(trackDocument("[wheel]\nspan = 7\n").notes().empty()); // another section's own key
+}
+
+TEST(FormerKeys, AreNotedOnceForAllEntriesOfAList) {
+  const Document doc = trackDocument("[[track]]\nlength = 1\n[[track]]\nspan = 2\n[[track]]\nspan = 3\n");
+  const std::vector<Section> tracks = doc.root().list("track");
+  EXPECT_EQ(tracks[1].read(trackTable()).length, 2);
+  EXPECT_EQ(tracks[2].read(trackTable()).length, 3);
+  ASSERT_EQ(doc.notes().size(), 1u);
+  EXPECT_EQ(doc.notes().front().find("t.toml:5: track.1.span is called length now"), 0u) << doc.notes().front();
+}
+
+TEST(FormerKeys, AreFoundInNamedAndInnerSections) {
+  const Document named = trackDocument("[track.a]\nspan = 2\n[track.b]\nspan = 3\n", "track.*");
+  EXPECT_EQ(named.root().named("track")[1].second.read(trackTable()).length, 3);
+  const Document inner = trackDocument("[vehicle.track]\nspan = 4\n", "vehicle.track");
+  EXPECT_EQ(inner.root().section("vehicle").section("track").read(trackTable()).length, 4);
+  EXPECT_EQ(inner.notes().front().find("t.toml:3: vehicle.track.span"), 0u) << inner.notes().front();
+}
+
+TEST(FormerKeys, MayBeOverridden) {
+  const Document doc = trackDocument("[track]\nspan = 4\n", "track", {"track.span=5"});
+  EXPECT_EQ(doc.root().section("track").read(trackTable()).length, 5);
+}
+
+TEST(FormerKeys, BesideTheirNewNamesAreAnError) {
+  const auto complaintAbout = [](const std::string& text, const std::vector<std::string>& overrides) -> std::string {
+    try {
+      trackDocument(text, "track", overrides);
+      return "";
+    } catch (const InputError& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(complaintAbout("[track]\nlength = 2\nspan = 4\n", {}),
+            "t.toml:4: track.span is the former name of track.length, which stands at t.toml:3 too; remove span");
+  EXPECT_EQ(complaintAbout("[track]\nlength = 2\n", {"track.span=4"}),
+            "--set: track.span is the former name of track.length, which stands at t.toml:3 too; remove span");
+  EXPECT_NE(complaintAbout("[track]\nspan = 2\nreach = 4\n", {}), ""); // two former names
+}
+
+TEST(FormerKeys, AreNotShownAndTheirValuesAreChecked) {
+  EXPECT_EQ(describe(trackTable()).find("span"), std::string::npos);
+  const Document doc = trackDocument("[track]\nspan = -1\n");
+  try {
+    doc.root().section("track").read(trackTable());
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "t.toml:3: track.length = -1 [m] is outside (0, inf); choose a value in that range (around)");
+  }
 }
 
 TEST(Document, MissingFileIsAnInputError) {

@@ -2,14 +2,12 @@
 // What users get wrong, as they would: a file is cut, a path is misspelt, a disk is full. Each ends with 2, or with 3
 // where a simulation failed, and one line that names cause and remedy, and leaves nothing half written.
 // Wrong keys and values inside a scene stand in scene_test.cpp.
-#include "tests/runs/program_fixture.hpp"
-#include "tests/runs/scene_fixture.hpp"
+#include "tests/runs/commands/mistake_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,155 +18,9 @@ using namespace test; // fixtures
 
 namespace {
 
-namespace fs = std::filesystem;
-
-fs::path asset(const std::string& name) { return fs::path(GROUSER_SOURCE_DIR) / "assets" / name; }
-
-/// A picture of the project with bytes changed: 16 to 19 width, 20 to 23 height, 24 bits, 25 colour type, 28 interlace.
-std::string picture(std::size_t at = 0, const std::string& bytes = "") {
-  std::string png = contents(asset("heightmaps/flat.png"));
-  return png.replace(at, bytes.size(), bytes);
-}
-
-/// 50 grains on a floor of map.png.
-const char* const kBed = R"(version = 1
-[run]
-duration = 0.01
-time_step = 1e-4
-[material.soil]
-stiffness = 1e5
-[terrain]
-heightmap = "map.png"
-size = [0.6, 0.4]
-height_range = [0, 0.1]
-material = "soil"
-grain_radius = 0.03
-layers = 1
-settle_time_limit = 0.0
-[output]
-picture = false
-plots = false
-)";
-
-/// Two grains on a plane.
-const char* const kGrains = R"(version = 1
-[run]
-duration = 1e-3
-time_step = 1e-5
-[material.glass]
-[[plane]]
-material = "glass"
-[[grain]]
-position = [0, 0, 0.5]
-radius = 0.01
-material = "glass"
-[[grain]]
-position = [0.1, 0, 0.5]
-radius = 0.01
-material = "glass"
-[output]
-picture = false
-plots = false
-)";
-
-/// A vehicle without ground.
-const char* const kBench = R"(version = 1
-[run]
-duration = 0.1
-[vehicle]
-spec = "vehicles/light_tracked.toml"
-sphere_radius = RADIUS
-chassis = "fixed"
-)";
-
-struct Mistake {
-  std::string name;
-  std::function<void(const fs::path& folder)> make; ///< puts scene.toml and what belongs to it there
-  std::string words = "run scene.toml";
-  std::vector<std::string> says; ///< parts of the message: cause and remedy
-  int code = 2;
-  std::string before = ""; ///< for the shell
-};
-
-std::ostream& operator<<(std::ostream& out, const Mistake& m) { return out << m.name; }
-
-Mistake badPicture(const std::string& name, const std::string& bytes, const std::vector<std::string>& says) {
-  return {name,
-          [bytes](const fs::path& f) {
-            put(f / "scene.toml", kBed);
-            put(f / "map.png", bytes);
-          },
-          "run scene.toml", says};
-}
-
-Mistake badScene(const std::string& name, const std::string& from, const std::string& to,
-                 const std::vector<std::string>& says, const std::string& scene = kGrains, int code = 2) {
-  return {name,
-          [=](const fs::path& f) {
-            put(f / "scene.toml", replaced(scene, from, to));
-            put(f / "map.png", picture());
-          },
-          "run scene.toml", says, code};
-}
-
-/// A run stopped at step 40, whose checkpoint is then spoilt; `words` go on with it.
-Mistake badCheckpoint(const std::string& name, const std::function<void(const fs::path& checkpoint)>& spoil,
-                      const std::vector<std::string>& says,
-                      const std::string& words = "run scene.toml --resume --out a") {
-  return {name,
-          [spoil](const fs::path& f) {
-            put(f / "scene.toml", kGrains);
-            ASSERT_EQ(shellIn(f, "\"$grouser\" run scene.toml --out a --steps 40").code, 0);
-            spoil(f / "a/checkpoint.h5");
-          },
-          words, says};
-}
-
-/// A source at one place beside the glass grains, before [output].
-std::string source(const std::string& place, const std::string& more = "", const std::string& material = "glass",
-                   const std::string& radius = "0.01") {
-  return "[[source]]\nlow = " + place + "\nhigh = " + place + "\nradius = " + radius + "\nmaterial = \"" + material +
-         "\"\nevery = 1\ntotal = 1\n" + more + "\n[output]";
-}
-
-/// A cube of 5 cm.
-std::string cube(const std::string& place, const std::string& more = "") {
-  return "[[box]]\nposition = " + place + "\nsize = [0.05, 0.05, 0.05]\nmaterial = \"glass\"\n" + more;
-}
-
-std::string manyPlanes(int count) {
-  std::string text;
-  for (int k = 0; k < count; ++k) text += "[[plane]]\nmaterial = \"glass\"\n";
-  return text;
-}
-
-Mistake badMesh(const std::string& name, const std::string& line, const std::vector<std::string>& says,
-                const std::string& mesh = contents(asset("meshes/idler.obj"))) {
-  return {name,
-          [=](const fs::path& f) {
-            put(f / "scene.toml", replaced(kGrains, "[[plane]]\n",
-                                           "[[mesh]]\nfile = \"part.obj\"\nposition = [0, 0, -9]\n" + line + "\n"));
-            put(f / "part.obj", mesh);
-          },
-          "run scene.toml", says};
-}
-
-Mistake badVehicle(const std::string& name, const std::function<void(const fs::path& spec)>& make,
-                   const std::vector<std::string>& says) {
-  return {name,
-          [make](const fs::path& f) {
-            put(f / "scene.toml", "version = 1\n[run]\nduration = 0.1\n[vehicle]\nspec = \"car.toml\"\nchassis = "
-                                  "\"fixed\"\n");
-            make(f / "car.toml");
-          },
-          "run scene.toml", says};
-}
-
-std::vector<Mistake> mistakes() {
-  const std::string spec = contents(asset("vehicles/light_tracked.toml"));
-  const auto nothing = [](const fs::path&) {};
+/// Scene files as such.
+std::vector<Mistake> sceneFiles() {
   return {
-      // Scene files as such.
       {"SceneMissing", nothing, "run nosuch.toml", {"nosuch.toml", "cannot be read", "check the path"}},
       {"SceneIsFolder",
        [](const fs::path& f) { fs::create_directory(f / "scene.toml"); },
@@ -201,7 +53,12 @@ std::vector<Mistake> mistakes() {
        {"scene.toml:"}},
       badScene("NothingInIt", std::string(kGrains).substr(std::string(kGrains).find("[material")), "",
                {"there is nothing to simulate", "add [terrain]"}),
-      // Pictures.
+  };
+}
+
+/// Pictures.
+std::vector<Mistake> pictures() {
+  return {
       {"PictureMissing",
        [](const fs::path& f) { put(f / "scene.toml", kBed); },
        "run scene.toml",
@@ -226,7 +83,13 @@ std::vector<Mistake> mistakes() {
        },
        "run scene.toml",
        {"terrain.heightmap", "is a folder"}},
-      // Vehicles.
+  };
+}
+
+/// Vehicles.
+std::vector<Mistake> vehicles() {
+  const std::string spec = contents(asset("vehicles/light_tracked.toml"));
+  return {
       badVehicle("VehicleMissing", nothing, {"vehicle.spec", "does not exist"}),
       badVehicle("VehicleCutShort", [spec](const fs::path& p) { put(p, spec.substr(0, spec.size() / 2)); },
                  {"car.toml"}),
@@ -241,7 +104,12 @@ std::vector<Mistake> mistakes() {
       badScene("VehicleCutTooCoarse", kGrains, replaced(kBench, "RADIUS", "0.9"),
                {"scene.toml:6: vehicle.sphere_radius", "above half of the longest side", "lower it"}),
       badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { put(p, spec); }, {".obj"}),
-      // Grains and planes where they cannot be.
+  };
+}
+
+/// Grains and surfaces where they cannot be, or as they cannot be.
+std::vector<Mistake> grainsAndSurfaces() {
+  return {
       badScene("GrainOfNoSize", "position = [0, 0, 0.5]\nradius = 0.01", "position = [0, 0, 0]\nradius = 2e-320",
                {"scene.toml:10", "grain.0.radius", "smaller than 1e-12 m"}),
       badScene("GrainsOverlap", "position = [0.1, 0, 0.5]", "position = [0.015, 0, 0.5]",
@@ -269,6 +137,12 @@ std::vector<Mistake> mistakes() {
                {"scene.toml:9", "grain.0.position", "is not finite"}),
       badScene("RadiiTooUnlike", "radius = 0.01", "radius = 5e-6",
                {"scene.toml:10: grain.0.radius", "less than a thousandth", "raise it"}),
+  };
+}
+
+/// What is too quick, too much or too large for the step, the memory or the range of places.
+std::vector<Mistake> stepsAndSizes() {
+  return {
       badScene("MoreBoundariesThanBits", "[[plane]]", manyPlanes(32) + "[[plane]]",
                {"scene.toml:70: plane.32", "at most 32", "[[mesh]]"}),
       badScene("FreeLidTooLightForTheStep", "[[plane]]",
@@ -323,7 +197,12 @@ std::vector<Mistake> mistakes() {
                "\"a\"\nmass = 1\nbox = [1, 1, 1]\n[[spring]]\nname = \"s\"\nbodies = [\"world\", "
                "\"a\"]\npoint_a = [0, 0, 3]\nstiffness = 1e9\n",
                {"scene.toml:4: run.time_step", "set by spring 's'", "take a shorter step"}),
-      // Sources that set grains where something is.
+  };
+}
+
+/// Sources that set grains where something is.
+std::vector<Mistake> sources() {
+  return {
       badScene("SourceAfterTheEnd", "[output]", source("[0.4, 0, 0.3]", "start = 2e-3"),
                {"scene.toml:23: source.0.start = 0.002 [s] is after the end of the run, run.duration = 0.001 s",
                 "raise run.duration"}),
@@ -350,7 +229,12 @@ std::vector<Mistake> mistakes() {
       badScene("SourceInTheBed", "[output]", source("[0.3, 0, 0.06]", "", "soil", "0.03"),
                {"scene.toml:15: source.0 would set a grain", "at step 0", "deep in grain", "elsewhere (low, high)"},
                kBed),
-      // Names that results bear.
+  };
+}
+
+/// Names that results bear.
+std::vector<Mistake> names() {
+  return {
       badScene("NameWithControlCharacter", "[[plane]]", "[[plane]]\nname = \"a\\u0001b\"",
                {"scene.toml:7: plane.0.name", "control character", "leave it out"}),
       badScene("NameWithSlash", "[[plane]]", "[[plane]]\nname = \"a/b\"", {"scene.toml:7: plane.0.name", "has a /"}),
@@ -359,7 +243,12 @@ std::vector<Mistake> mistakes() {
       badScene("BodyNameWithControlCharacter", kGrains,
                "version = 1\n[run]\nduration = 1\n[[body]]\nname = \"a\\u0000b\"\nmass = 1\nbox = [1, 1, 1]\n",
                {"scene.toml:5: body.0.name", "control character"}),
-      // Meshes.
+  };
+}
+
+/// Meshes.
+std::vector<Mistake> meshes() {
+  return {
       badMesh("MeshFlat", "", {"scene.toml:7: mesh.0.file", "flat and encloses nothing", "a thin box"},
               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
       badMesh("MeshTooSmall", "scale = 1e-7", {"scene.toml:9: mesh.0.scale", "correct it"}),
@@ -367,10 +256,20 @@ std::vector<Mistake> mistakes() {
       badMesh("MeshCutTooFine", "sphere_radius = 1e-5",
               {"scene.toml:9: mesh.0.sphere_radius", "lattice points", "raise it"}),
       badMesh("MeshCutTooCoarse", "sphere_radius = 5", {"scene.toml:9: mesh.0.sphere_radius", "lower it"}),
-      // Simulations that fail.
+  };
+}
+
+/// Simulations that fail.
+std::vector<Mistake> simulations() {
+  return {
       badScene("BedDoesNotSettle", "settle_time_limit = 0.0", "settle_time_limit = 0.02",
                {"has not settled", "raise terrain.settle_time_limit"}, kBed, 3),
-      // Where results go.
+  };
+}
+
+/// Where results go.
+std::vector<Mistake> folders() {
+  return {
       {"OutIsFile",
        [](const fs::path& f) { put(f / "scene.toml", kGrains), put(f / "a", "precious"); },
        "run scene.toml --out a",
@@ -396,7 +295,12 @@ std::vector<Mistake> mistakes() {
        {"s.csv", "is the disk full?"},
        3,
        "ulimit -f 1; "},
-      // Checkpoints.
+  };
+}
+
+/// Checkpoints.
+std::vector<Mistake> checkpoints() {
+  return {
       badCheckpoint("CheckpointMissing", [](const fs::path& c) { fs::remove(c); }, {"checkpoint.h5", "no such file"}),
       badCheckpoint("CheckpointCut", [](const fs::path& c) { fs::resize_file(c, fs::file_size(c) / 2); },
                     {"damaged", "start anew"}),
@@ -412,6 +316,14 @@ std::vector<Mistake> mistakes() {
       badCheckpoint("SinkageOfWhatHasNone", nothing, {"results.h5"}, "sinkage a/results.h5"),
       badCheckpoint("FramesThatAreNone", nothing, {"checkpoint.h5"}, "render a/checkpoint.h5 --out p"),
   };
+}
+
+std::vector<Mistake> mistakes() {
+  std::vector<Mistake> all;
+  for (const auto subject : {sceneFiles, pictures, vehicles, grainsAndSurfaces, stepsAndSizes, sources, names, meshes,
+                             simulations, folders, checkpoints})
+    for (Mistake& mistake : subject()) all.push_back(std::move(mistake));
+  return all;
 }
 
 class BadInput : public ProgramTest, public testing::WithParamInterface<Mistake> {

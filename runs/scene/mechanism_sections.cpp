@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields of a scene file: bodies, joints and what acts on them.
-#include "runs/scene/detail/scene_tables.hpp"
+// Keys and checks of [[body]], [[joint]], [[spring]], [[bushing]], [[drive]] and [[coupling]].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include <fmt/format.h>
 
 namespace grouser::scene::detail {
 
+namespace {
+
+using base::Section;
 using base::Table;
 
 Table<BodySection> bodyTable() {
@@ -35,8 +40,7 @@ Table<JointSection> jointTable() {
   t.add("name", &S::name, "", "what springs and drives call it").required();
   t.add("type", &S::type, "",
         "what stays free: one turn, all turns, two turns, a slide, turn and slide, nothing, or all "
-        "but a distance")
-      .oneOf({"revolute", "spherical", "universal", "prismatic", "cylindrical", "fixed", "distance"});
+        "but a distance");
   t.add("bodies", &S::bodies, "", "names of the two, e.g. [\"world\", \"rod\"]").required();
   t.add("point", &S::point, "m", "where it is at the start, in the world");
   t.add("axis", &S::axis, "-", "of turn or slide at the start, in the world; of a universal joint the first body's");
@@ -67,7 +71,7 @@ Table<SpringSection> springTable() {
   t.add("joint", &S::joint, "",
         "name of a revolute, prismatic or cylindrical joint on whose axis it acts; instead of "
         "bodies");
-  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint");
   t.add("stiffness", &S::stiffness, "N/m or N m/rad", "of the spring").atLeast(0);
   t.add("damping", &S::damping, "N s/m or N m s/rad", "of the damper; taken implicitly: any size is stable").atLeast(0);
   t.add("preload", &S::preload, "N or N m", "force at free_position, positive pushes apart");
@@ -100,9 +104,8 @@ Table<DriveSection> driveTable() {
                         "takes is in the results");
   t.add("name", &S::name, "", "in results and messages").required();
   t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
-  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint").oneOf({"angle", "slide"});
-  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)")
-      .oneOf({"speed", "position", "torque"});
+  t.add("acts_on", &S::actsOn, "", "which axis of a cylindrical joint");
+  t.add("imposes", &S::imposes, "", "speed or position of the axis, or the torque (of a slide the force)");
   t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "at all times");
   t.add("polynomial", &S::polynomial, "of value over s^i", "c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
   t.add("amplitude", &S::amplitude, "as value", "of a sine");
@@ -125,9 +128,33 @@ Table<CouplingSection> couplingTable() {
   t.add("joints", &S::joints, "", "names of the two").required();
   t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis over that of the first").required();
   t.add("offset", &S::offset, "rad or m", "as at the start where not given");
-  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]")
-      .oneOf({"angle", "slide"});
+  t.add("acts_on", &S::actsOn, "", "for cylindrical joints: which axis of each, e.g. [\"angle\", \"slide\"]");
   return t;
+}
+
+/// Free bodies touch nothing else of a scene.
+void checkBody(const Section& section, BodySection&, const Scene& scene) {
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain", "vehicle"})
+    if (scene.document->root().has(other))
+      section.fail("", fmt::format("stands beside {}, but free bodies touch neither ground nor grains nor a vehicle; "
+                                   "give the mechanism a scene of its own",
+                                   other));
+}
+
+/// One kind of part of a mechanism. A text or list that is empty was not given, and is not written.
+template <class Part> SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts,
+                                        base::Table<Part> table, CheckOf<Part> check = {}) {
+  const auto where = [parts](auto& scene) -> auto& { return scene.mechanism.*parts; };
+  return list<Part>(name, where, table.leaveOutEmpty(), check);
+}
+
+} // namespace
+
+SectionList mechanismSections() {
+  using M = MechanismSections;
+  return {part("body", &M::bodies, bodyTable(), checkBody), part("joint", &M::joints, jointTable()),
+          part("spring", &M::springs, springTable()),       part("bushing", &M::bushings, bushingTable()),
+          part("drive", &M::drives, driveTable()),          part("coupling", &M::couplings, couplingTable())};
 }
 
 } // namespace grouser::scene::detail

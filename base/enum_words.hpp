@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace grouser::base {
+
+/// How a file or a command line names one value of an enum.
+template <class E> struct EnumWord {
+  E value;
+  std::string_view word;
+};
+
+/// The words of an enum, in the order in which messages and help list them. To be specialised for each enum that users
+/// choose from; values without a word cannot be chosen:
+///
+///     template <> struct EnumWords<FloorShape> {
+///       static constexpr EnumWord<FloorShape> list[] = {{FloorShape::follow, "follow"}, {FloorShape::flat, "flat"}};
+///     };
+template <class E> struct EnumWords;
+
+template <class E>
+concept HasWords = std::is_enum_v<E> && requires {
+  EnumWords<E>::list;
+};
+
+/// The word for `value`; empty where it has none.
+template <HasWords E> constexpr std::string_view wordOf(E value) {
+  for (const EnumWord<E>& e : EnumWords<E>::list)
+    if (e.value == value) return e.word;
+  return {};
+}
+
+/// The value that `word` stands for; empty where it is none of the words.
+template <HasWords E> constexpr std::optional<E> valueOf(std::string_view word) {
+  for (const EnumWord<E>& e : EnumWords<E>::list)
+    if (e.word == word) return e.value;
+  return {};
+}
+
+template <HasWords E> std::vector<std::string> wordsOf() {
+  std::vector<std::string> words;
+  for (const EnumWord<E>& e : EnumWords<E>::list) words.emplace_back(e.word);
+  return words;
+}
+
+} // namespace grouser::base

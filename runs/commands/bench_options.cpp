@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/bench/bench.hpp"
+#include "runs/bench/contacts.hpp"
+#include "runs/bench/multibody.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <memory>
+
+namespace grouser::commands {
+
+namespace {
+
+/// Of the benches of a bed and of a scene's step.
+void addCommon(CLI::App& sub, bench::BenchCommand& c) {
+  sub.add_option("--device", c.device, "auto, cpu or cuda");
+  sub.add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
+  sub.add_option("--json", c.json, "write the figures to this file");
+}
+
+/// What the bed is made of.
+void addGrains(CLI::App& bed, bench::BedBench& b) {
+  bed.add_option("--grains", b.grains, "number of grains")
+      ->check(support::wholeNumber(1, 1'000'000'000))
+      ->capture_default_str();
+  bed.add_option("--radius", b.radius, "[m]")->check(support::positive("a length in metres"))->capture_default_str();
+  bed.add_option("--jitter", b.jitter, "of the lattice, as a share of its free gap [-]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  bed.add_option("--friction", b.friction, "Coulomb coefficient [-]")
+      ->check(support::notNegative("a number"))
+      ->capture_default_str();
+  bed.add_option("--restitution", b.restitution, "[-], above 0")->check(CLI::Range(1e-3, 1.0))->capture_default_str();
+  bed.add_option("--stiffness", b.stiffness, "[N/m]")
+      ->check(support::positive("a stiffness in N/m"))
+      ->capture_default_str();
+}
+
+void addBed(CLI::App& benches, const base::Ranks& ranks) {
+  const auto command = std::make_shared<bench::BenchCommand>();
+  command->ranks = &ranks;
+  bench::BedBench& b = command->bed;
+  CLI::App* bed =
+      benches.add_subcommand("bed", "Grains alone: five settled layers in a box, the bed that figures are compared on");
+  addGrains(*bed, b);
+  bed->add_option("--lanes", b.lanes, "contacts that a CPU works on side by side, at most: 16, 8, 4 or 1")
+      ->check(CLI::IsMember({16, 8, 4, 1}))
+      ->capture_default_str();
+  bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
+      ->check(CLI::Range(1e-3, 4.0))
+      ->capture_default_str();
+  bed->add_option("--time-step", b.timeStep, "[s]")
+      ->check(support::positive("a time in seconds"))
+      ->capture_default_str();
+  bed->add_option("--settle", b.settleTime, "simulated time before timing [s]")
+      ->check(support::notNegative("a time in seconds"))
+      ->capture_default_str();
+  bed->add_option("--steps", b.steps, "of one batch; default: about a second's")->check(support::wholeNumber(1));
+  bed->add_option("--batches", b.batches, "timed batches")->check(support::wholeNumber(1, 1000))->capture_default_str();
+  support::addChoice(
+      *bed, "--peer-memory", b.peerMemory,
+      "several ranks: GPUs of one machine read each other's memory where they can, never, or not without");
+  bed->add_flag("--ledger", b.ledger, "sum dissipation grain by grain, as runs do");
+  bed->add_flag("--hash", b.hash, "print the hash of the final state");
+  addCommon(*bed, *command);
+  bed->callback([command] { bench::benchBedCommand(*command); });
+}
+
+void addStep(CLI::App& benches, const base::Ranks& ranks) {
+  const auto command = std::make_shared<bench::BenchCommand>();
+  bench::BenchCommand& c = *command;
+  c.ranks = &ranks;
+  CLI::App* step = benches.add_subcommand("step", "Where each microsecond of a scene's step goes");
+  step->add_option("scene", c.scene, "scene file")->required();
+  step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
+  step->add_option("--steps", c.step.steps, "of one batch")->check(support::wholeNumber(1))->capture_default_str();
+  step->add_option("--batches", c.step.batches, "timed batches")
+      ->check(support::wholeNumber(1, 1000))
+      ->capture_default_str();
+  step->add_option("--after", c.step.after, "simulated time before timing [s]; default: until the drive is up to speed")
+      ->check(support::notNegative("a time in seconds"));
+  addCommon(*step, c);
+  step->callback([command] { bench::benchStepCommand(*command); });
+}
+
+void addContacts(CLI::App& benches, const base::Ranks& ranks) {
+  const auto command = std::make_shared<bench::ContactsBench>();
+  bench::ContactsBench& c = *command;
+  c.ranks = &ranks;
+  CLI::App* contacts = benches.add_subcommand(
+      "contacts", "Contact detection alone, over the number of contacts, beside sequential Bullet");
+  contacts
+      ->add_option("--contacts", c.contacts,
+                   "about so many, each pair once: a list such as 1e5,1e6,1e7; default: 3e4 to 1e7 on the CPU, 1e6 to "
+                   "6e9 on a GPU")
+      ->delimiter(',')
+      ->check(CLI::Range(1.0, 6.4e9));
+  contacts->add_flag("--count-only", c.countOnly, "count the pairs, do not store them");
+  contacts->add_option("--at-a-time", c.atATime, "spheres sorted at a time; default: all on the CPU, 2.5e8 on a GPU")
+      ->check(support::wholeNumber(1));
+  contacts->add_option("--repeats", c.repeats, "of each search; the median is reported")
+      ->check(support::wholeNumber(1, 1000))
+      ->capture_default_str();
+  contacts->add_option("--bullet", c.bulletSpheres, "compare with Bullet up to so many spheres; 0: not at all")
+      ->check(support::wholeNumber(0, 10'000'000))
+      ->capture_default_str();
+  contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
+  contacts->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
+  contacts->add_option("--json", c.json, "write the figures to this file");
+  contacts->add_option("--plot", c.plot, "draw them into this PNG file");
+  contacts->callback([command] { bench::benchContactsCommand(*command); });
+}
+
+void addMultibody(CLI::App& benches, const base::Comm& comm) {
+  const auto command = std::make_shared<bench::MultibodyBench>();
+  bench::MultibodyBench& c = *command;
+  c.comm = comm;
+  CLI::App* multibody = benches.add_subcommand(
+      "multibody", "The multibody solver alone, on one core: the vehicle's graph, and rings of 46, 92 and 184 shoes");
+  multibody->add_option("--vehicle", c.vehicle, "spec file; default: the light tracked vehicle");
+  multibody->add_option("--speed", c.speed, "of the sprockets [rad/s]")
+      ->check(CLI::Range(-20.0, 20.0))
+      ->capture_default_str();
+  multibody->add_option("--time-step", c.timeStep, "[s]")->check(CLI::Range(1e-6, 1e-4))->capture_default_str();
+  multibody->add_option("--steps", c.steps, "of one batch")->check(support::wholeNumber(1))->capture_default_str();
+  multibody->add_option("--batches", c.batches, "timed batches")
+      ->check(support::wholeNumber(1, 1000))
+      ->capture_default_str();
+  multibody->add_option("--json", c.json, "write the figures to this file");
+  multibody->callback([command] { bench::benchMultibodyCommand(*command); });
+}
+
+} // namespace
+
+void addBench(CLI::App& app, const Invocation& invocation) {
+  CLI::App* benches = app.add_subcommand("bench", "Figures of speed, with machine and commit");
+  benches->require_subcommand(1);
+  addBed(*benches, invocation.ranks);
+  addStep(*benches, invocation.ranks);
+  addContacts(*benches, invocation.ranks);
+  addMultibody(*benches, invocation.ranks.comm());
+}
+
+} // namespace grouser::commands

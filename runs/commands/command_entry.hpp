@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+/// The commands of the program: each adds itself, with its options, to the command line. A new command is a file
+/// x_options.cpp, and a line in allCommands().
+namespace grouser::commands {
+
+/// What the program was started with.
+struct Invocation {
+  const base::Ranks& ranks;
+  std::string words; ///< the whole command line
+};
+
+enum class RankUse {
+  shared,    ///< the ranks do it together
+  firstRank, ///< the first rank does it, the others end
+  refused    ///< several ranks would only hinder each other
+};
+
+struct CommandEntry {
+  std::string name; ///< the first word of the command line
+  /// Adds the subcommand; its callback does the work, and keeps alive what the options fill.
+  void (*add)(CLI::App& app, const Invocation& invocation);
+  RankUse ranks = RankUse::firstRank;
+  std::string insteadOfRanks = ""; ///< where they are refused: the rest of that message
+};
+
+/// In the order of `grouser --help`.
+std::vector<CommandEntry> allCommands();
+
+constexpr const char* kSetHelp = "override a key of the scene, e.g. driver.sprocket_speed=2; may be repeated";
+
+void addRun(CLI::App& app, const Invocation& invocation);
+void addSweep(CLI::App& app, const Invocation& invocation);
+void addPlan(CLI::App& app, const Invocation& invocation);
+void addBench(CLI::App& app, const Invocation& invocation);
+void addHash(CLI::App& app, const Invocation& invocation);
+void addStudy(CLI::App& app, const Invocation& invocation);
+void addRender(CLI::App& app, const Invocation& invocation);
+void addSinkage(CLI::App& app, const Invocation& invocation);
+void addSpheres(CLI::App& app, const Invocation& invocation);
+void addFields(CLI::App& app, const Invocation& invocation);
+
+} // namespace grouser::commands

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+namespace grouser::commands {
+
+std::vector<CommandEntry> allCommands() {
+  return {{"run", addRun, RankUse::shared},
+          {"sweep", addSweep, RankUse::refused, "; --jobs lets several runs go at the same time"},
+          {"bench", addBench, RankUse::shared},
+          {"hash", addHash},
+          {"study", addStudy, RankUse::refused},
+          {"render", addRender, RankUse::shared},
+          {"sinkage", addSinkage},
+          {"plan", addPlan},
+          {"spheres", addSpheres},
+          {"fields", addFields}};
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/commands/commands.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace grouser::commands {
+
+void addSpheres(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<SpheresCommand>();
+  SpheresCommand& d = *command;
+  CLI::App* spheres = app.add_subcommand("spheres", "Cut a closed mesh into spheres, and say how well they fit");
+  spheres->add_option("mesh", d.mesh, "OBJ, STL, PLY... in metres")->required();
+  CLI::Option* radius =
+      spheres->add_option("--radius", d.radius, "sphere radius [m]")->check(support::positive("a length in metres"));
+  CLI::Option* count = spheres->add_option("--count", d.count, "wanted number of spheres, instead of a radius")
+                           ->check(support::wholeNumber(1));
+  radius->excludes(count);
+  spheres->add_option("--csv", d.csv, "write the spheres to this file: x, y, z, radius [m]");
+  spheres->add_flag("--force", d.force, "overwrite that file");
+  spheres->callback([=] {
+    if (!*radius && !*count) throw CLI::RequiredError("spheres: one of --radius and --count");
+    spheresCommand(*command);
+  });
+}
+
+void addFields(CLI::App& app, const Invocation&) {
+  app.add_subcommand("fields", "All keys of a scene file with unit, default, range and meaning")->callback([] {
+    fmt::print("{}", scene::fieldHelp());
+  });
+}
+
+} // namespace grouser::commands

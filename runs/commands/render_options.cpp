@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/commands/render_command.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <memory>
+
+namespace grouser::commands {
+
+namespace {
+
+void addCamera(CLI::App& render, RenderCommand& c) {
+  render.add_option(
+      "--look-at", c.lookAt,
+      "vehicle (moves with it), all (whatever there is) or a place X,Y,Z [m]; default: vehicle, or all where "
+      "there is none");
+  render.add_option("--azimuth", c.azimuth, "of the camera about the vertical, 0 is +x [deg]")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  render
+      .add_option("--elevation", c.elevation,
+                  "of the camera above the horizon [deg]; default: 14, 30 for a bed, 60 for what lies flat")
+      ->check(CLI::Range(-90.0, 90.0));
+  render.add_option("--distance", c.distance, "of the camera from what it looks at [m]; default: it fills the picture")
+      ->check(support::positive("a length in metres"));
+}
+
+/// Which frames of the file.
+void addFrames(CLI::App& render, RenderCommand& c) {
+  CLI::Option* frame = render.add_option("--frame", c.frame, "only the frame of this number; may be repeated")
+                           ->check(support::wholeNumber(0))
+                           ->allow_extra_args(false);
+  CLI::Option* every = render.add_option("--every", c.every, "only each so-manieth frame")
+                           ->check(support::wholeNumber(1))
+                           ->capture_default_str();
+  CLI::Option* from = render.add_option("--from", c.from, "leave out the frames before this time [s]")
+                          ->check(support::notNegative("a time in seconds"));
+  CLI::Option* to = render.add_option("--to", c.to, "leave out the frames after this time [s]")
+                        ->check(support::notNegative("a time in seconds"));
+  frame->excludes(every)->excludes(from)->excludes(to);
+}
+
+} // namespace
+
+void addRender(CLI::App& app, const Invocation& invocation) {
+  const auto command = std::make_shared<RenderCommand>();
+  RenderCommand& c = *command;
+  c.comm = invocation.ranks.comm();
+  CLI::App* render = app.add_subcommand("render", "Pictures and a film of a run's frames, without a display");
+  render->add_option("frames", c.frames, "frames.h5 of a run")->required();
+  render->add_option("--out", c.folder, "folder of the pictures; default: pictures/ beside the file");
+  render->add_option("--film", c.film, "make the pictures into this film: .mp4, .mkv or .mov; needs ffmpeg");
+  render->add_option("--fps", c.framesPerSecond, "pictures a second of the film")
+      ->check(support::positive("a number"))
+      ->capture_default_str();
+  render->add_option("--color", c.color, "of the grains: depth, speed, subdomain, role or white")
+      ->capture_default_str();
+  render->add_option("--range", c.range, "values at the ends of the colours [m or m/s]; default: from the file")
+      ->expected(2)
+      ->type_name("LOW HIGH");
+  render->add_option("--borders", c.borders, "between subdomains [m], e.g. x=0.5 or y=-1,1; default: those in the file")
+      ->allow_extra_args(false);
+  addCamera(*render, c);
+  render->add_option("--size", c.size, "of a picture in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  addFrames(*render, c);
+  render->add_flag("!--no-labels", c.labels, "leave out time and colour scale");
+  render->add_option("--processes", c.processes, "that share the frames")
+      ->check(support::wholeNumber(1, 1024))
+      ->capture_default_str();
+  render->add_option("--threads", c.threads, "CPU threads of each process; default: all cores shared among them")
+      ->check(support::wholeNumber(0, 1024));
+  render->add_flag("--force", c.force, "overwrite pictures and film");
+  render->callback([command] { renderCommand(*command); });
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/commands/commands.hpp"
+
+#include <memory>
+
+namespace grouser::commands {
+
+void addHash(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<HashCommand>();
+  HashCommand& c = *command;
+  CLI::App* hash = app.add_subcommand("hash", "Hash of the state in a checkpoint, as run --hash prints it");
+  hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run")->required();
+  hash->callback([command] { hashCommand(*command); });
+}
+
+void addSinkage(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<SinkageCommand>();
+  SinkageCommand& s = *command;
+  CLI::App* sinkage = app.add_subcommand("sinkage", "Sinkage of every shoe over time [m], as CSV and as a plot");
+  sinkage->add_option("results", s.results, "results.h5 of a run")->required();
+  sinkage->add_option("--out", s.folder, "folder; default: beside the results");
+  sinkage->callback([command] { sinkageCommand(*command); });
+}
+
+} // namespace grouser::commands

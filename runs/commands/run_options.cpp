@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/commands/commands.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <memory>
+
+namespace grouser::commands {
+
+void addRun(CLI::App& app, const Invocation& invocation) {
+  const auto command = std::make_shared<RunCommand>();
+  RunCommand& c = *command;
+  c.ranks = &invocation.ranks, c.commandLine = invocation.words;
+  CLI::App* run = app.add_subcommand("run", "Settle the bed, lower the vehicle, drive, and write the results");
+  run->add_option("scene", c.scene, "scene file; `grouser fields` lists its keys")->required();
+  run->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
+  run->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
+  run->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
+      ->check(support::wholeNumber(0, 1024));
+  run->add_option("--out", c.folder, "folder of the results; default: out/NAME of the scene");
+  run->add_option("--steps", c.steps, "stop after so many steps of the drive")->check(support::wholeNumber(1));
+  run->add_flag("--force", c.force, "overwrite the results in that folder");
+  CLI::Option* resume =
+      run->add_option("--resume", c.checkpoint,
+                      "go on from this checkpoint as if the run had not been stopped; default: that of its folder")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
+  run->add_flag("!--no-cache", c.cache, "settle the bed anew, and do not keep it; as terrain.cache = false");
+  run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
+  run->callback([command, resume] {
+    command->resume = resume->count() > 0;
+    runCommand(*command);
+  });
+}
+
+void addSweep(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<SweepCommand>();
+  SweepCommand& c = *command;
+  CLI::App* sweep = app.add_subcommand("sweep", "Many runs of a scene over lists of values, with a summary");
+  sweep->add_option("scene", c.scene, "scene file")->required();
+  sweep
+      ->add_option(
+          "--set", c.sets,
+          "a key and its values, e.g. driver.sprocket_speed=0.5,1,2; may be repeated: all combinations are run")
+      ->allow_extra_args(false);
+  sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(support::wholeNumber(1, 1024));
+  sweep->add_option("--out", c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
+  sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
+  sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
+      ->check(support::wholeNumber(0, 1024));
+  sweep->add_flag("--force", c.force, "run again what has already been run");
+  sweep->callback([command] { sweepCommand(*command); });
+}
+
+void addPlan(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<PlanCommand>();
+  PlanCommand& p = *command;
+  CLI::App* plan =
+      app.add_subcommand("plan", "What a scene switches on, its size, time step, memory and cost; runs nothing");
+  plan->add_option("scene", p.scene, "scene file")->required();
+  plan->add_option("--set", p.overrides, kSetHelp)->allow_extra_args(false);
+  plan->add_option("--ranks", p.ranks, "also how so many ranks (mpirun -np) would share the grains")
+      ->check(support::wholeNumber(1, 100'000));
+  plan->callback([command] { planCommand(*command); });
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/studies/multibody.hpp"
+#include "runs/studies/options.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <memory>
+
+namespace grouser::commands {
+
+void addStudy(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<studies::StudyCommand>();
+  studies::StudyCommand& c = *command;
+  CLI::App* study = app.add_subcommand("study", "Error against run time, stable steps, precision: tables and plots");
+  study->require_subcommand(1);
+  CLI::App* multibody = study->add_subcommand(
+      "multibody", "Mechanisms whose motion is known: error, order, drift and CPU time of each integrator and step");
+  std::string names;
+  for (const studies::StudyCase& known : studies::studyCases()) names += (names.empty() ? "" : ", ") + known.name;
+  multibody->add_option("--cases", c.cases, "names, separated by commas, of " + names + "; default: all")
+      ->delimiter(',');
+  multibody->add_flag("--stability", c.stability, "instead: which steps are stable, against what theory says");
+  multibody->add_flag("--quick", c.quick, "three long steps only, and none of the cases that take minutes");
+  multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")
+      ->check(support::positive("a time in seconds"))
+      ->capture_default_str();
+  multibody->add_option("--out", c.folder, "folder of the tables and the plot; default: out/study_multibody");
+  multibody->add_flag("--force", c.force, "overwrite what is in that folder");
+  multibody->callback([command] { studies::studyMultibodyCommand(*command); });
+  const auto grains = std::make_shared<studies::GrainStudies>();
+  studies::addGrainStudies(*study, *grains);
+  study->callback([grains] {}); // keeps alive what those fill
+}
+
+} // namespace grouser::commands

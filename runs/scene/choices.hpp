@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/enum_words.hpp"
+#include "base/peer_memory.hpp"
+#include "multibody/solver.hpp"
+#include "runs/support/device_choice.hpp"
+#include "terrain/grain_model.hpp"
+#include "terrain/layers.hpp"
+
+/// What a scene file chooses from a list of words. An enum of the solvers serves here as it is; the words stand here
+/// alone.
+namespace grouser::scene {
+
+/// Of [material.NAME].
+enum class ContactLawKind {
+  linear, ///< linear springs and dashpots
+  hertz   ///< Hertz-Mindlin
+};
+
+/// Of [[grains]]: where the centres come from.
+enum class FillForm { lattice, random, file };
+
+/// Of [terrain].
+enum class TerrainKind { granular, rigid };
+
+/// Of [vehicle]: whether the chassis moves, or is held as on a bench.
+enum class ChassisMount { free, fixed };
+
+/// Of the world.
+enum class Axis { x, y, z };
+
+} // namespace grouser::scene
+
+namespace grouser::base {
+
+template <> struct EnumWords<scene::ContactLawKind> {
+  using E = scene::ContactLawKind;
+  static constexpr EnumWord<E> list[] = {{E::linear, "linear"}, {E::hertz, "hertz"}};
+};
+template <> struct EnumWords<scene::FillForm> {
+  using E = scene::FillForm;
+  static constexpr EnumWord<E> list[] = {{E::lattice, "lattice"}, {E::random, "random"}, {E::file, "file"}};
+};
+template <> struct EnumWords<scene::TerrainKind> {
+  using E = scene::TerrainKind;
+  static constexpr EnumWord<E> list[] = {{E::granular, "granular"}, {E::rigid, "rigid"}};
+};
+template <> struct EnumWords<scene::ChassisMount> {
+  using E = scene::ChassisMount;
+  static constexpr EnumWord<E> list[] = {{E::free, "free"}, {E::fixed, "fixed"}};
+};
+template <> struct EnumWords<scene::Axis> {
+  using E = scene::Axis;
+  static constexpr EnumWord<E> list[] = {{E::x, "x"}, {E::y, "y"}, {E::z, "z"}};
+};
+template <> struct EnumWords<terrain::Precision> {
+  using E = terrain::Precision;
+  static constexpr EnumWord<E> list[] = {{E::single, "single"}, {E::double_, "double"}};
+};
+template <> struct EnumWords<terrain::FloorShape> {
+  using E = terrain::FloorShape;
+  static constexpr EnumWord<E> list[] = {{E::follow, "follow"}, {E::flat, "flat"}};
+};
+template <> struct EnumWords<multibody::Integrator> {
+  using E = multibody::Integrator;
+  static constexpr EnumWord<E> list[] = {{E::kSymplecticEuler, "symplectic_euler"}, {E::kRattle, "rattle"}};
+};
+template <> struct EnumWords<multibody::Springs> {
+  using E = multibody::Springs;
+  static constexpr EnumWord<E> list[] = {{E::kExplicit, "explicit"}, {E::kImplicit, "implicit"}};
+};
+template <> struct EnumWords<multibody::JointType> {
+  using E = multibody::JointType;
+  static constexpr EnumWord<E> list[] = {{E::kRevolute, "revolute"},       {E::kSpherical, "spherical"},
+                                         {E::kUniversal, "universal"},     {E::kPrismatic, "prismatic"},
+                                         {E::kCylindrical, "cylindrical"}, {E::kFixed, "fixed"},
+                                         {E::kDistance, "distance"}};
+};
+/// kOnly has no word: it is what a section means that names no axis.
+template <> struct EnumWords<multibody::JointAxis> {
+  using E = multibody::JointAxis;
+  static constexpr EnumWord<E> list[] = {{E::kAngle, "angle"}, {E::kSlide, "slide"}};
+};
+template <> struct EnumWords<multibody::DriveKind> {
+  using E = multibody::DriveKind;
+  static constexpr EnumWord<E> list[] = {{E::kSpeed, "speed"}, {E::kPosition, "position"}, {E::kForce, "torque"}};
+};
+
+} // namespace grouser::base

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys and checks of [[grain]], [[grains]] and [[source]].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include "runs/scene/detail/section_checks.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::scene::detail {
+
+namespace {
+
+using base::Section;
+using base::Table;
+
+Table<Grain> grainTable() {
+  using S = Grain;
+  Table<S> t("[grain]", "A single grain, for small scenes");
+  t.add("position", &S::position, "m", "of the centre").required();
+  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "angular velocity at the start").atLeast(-1e6).atMost(1e6);
+  t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
+  t.add("material", &S::material, "", "name of its material").required();
+  return t;
+}
+
+Table<GrainFill> fillTable() {
+  using S = GrainFill;
+  Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of places and radii");
+  t.add("form", &S::form, "", "lattice and random fill a box, file reads lines of x, y, z, r [m]");
+  t.add("low", &S::low, "m", "corner of the box that holds the grains whole; not of a file");
+  t.add("high", &S::high, "m", "the opposite corner");
+  t.add("radius", &S::radius, "m", "of each, or of the smallest where radius_to is given; not of a file")
+      .above(0)
+      .atMost(1e3);
+  t.add("radius_to", &S::radiusTo, "m", "of the largest: radii are uniform between").above(0).atMost(1e3);
+  t.add("spacing", &S::spacing, "-", "of a lattice, in largest radii").atLeast(2).atMost(100);
+  t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a share of its free gap").atLeast(0).atMost(1);
+  t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
+  t.add("file", &S::file, "", "text with a grain a line, relative to the scene");
+  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "at the start").atLeast(-1e6).atMost(1e6);
+  t.add("material", &S::material, "", "name of their material").required();
+  return t;
+}
+
+Table<Source> sourceTable() {
+  using S = Source;
+  Table<S> t("[source]", "Grains that enter while the run goes, at random places in a box");
+  t.add("low", &S::low, "m", "corner of the box in which their centres start").required();
+  t.add("high", &S::high, "m", "the opposite corner").required();
+  t.add("velocity", &S::velocity, "m/s", "at which they enter").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "at which they enter").atLeast(-1e6).atMost(1e6);
+  t.add("radius", &S::radius, "m", "of each").above(0).atMost(10).required();
+  t.add("material", &S::material, "", "name of its material").required();
+  t.add("number", &S::number, "-", "of grains that enter together").atLeast(1).atMost(1e6);
+  t.add("every", &S::every, "s", "time between those").above(0).required();
+  t.add("start", &S::start, "s", "time of the first").atLeast(0);
+  t.add("total", &S::total, "-", "of grains in all").atLeast(1).atMost(1e8).required();
+  return t;
+}
+
+void checkFill(const Section& section, GrainFill& b, const Scene& scene) {
+  requireMaterial(scene, section, "material", b.material);
+  const bool file = b.form == FillForm::file;
+  for (const char* key : {"low", "high", "radius"})
+    if (file == section.has(key))
+      section.fail(key, file ? "has no meaning for form = \"file\"; remove it"
+                             : fmt::format("[m] is missing, which form = \"{}\" needs; add it", base::wordOf(b.form)));
+  if (file && b.radiusTo) section.fail("radius_to", "has no meaning for form = \"file\"; remove it");
+  if ((b.form == FillForm::random) != section.has("number"))
+    section.fail("number", b.form == FillForm::random ? "is missing, which form = \"random\" needs; add it"
+                                                      : "belongs to form = \"random\"; remove it");
+  if (file != section.has("file"))
+    section.fail("file",
+                 file ? "is missing, which form = \"file\" needs; add it" : "belongs to form = \"file\"; remove it");
+  if (b.radiusTo && *b.radiusTo < *b.radius) section.fail("radius_to", "[m] is below radius; raise it");
+  for (int a = 0; !file && a < 3; ++a)
+    if ((*b.high)[a] - (*b.low)[a] < 2 * b.largestRadius() * (1 - 1e-9))
+      section.fail("high",
+                   fmt::format("[m] leaves no room for a grain of radius {:g} m; enlarge the box", b.largestRadius()));
+  if (file) {
+    resolveFile(scene, section, "file", *b.file);
+    b.fromFile = readGrainFile(*b.file, b);
+  }
+}
+
+void checkGrain(const Section& section, Grain& g, const Scene& scene) {
+  requireMaterial(scene, section, "material", g.material);
+}
+
+void checkSource(const Section& section, Source& s, const Scene& scene) {
+  requireMaterial(scene, section, "material", s.material);
+  for (int a = 0; a < 3; ++a)
+    if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
+  if (s.start > scene.run.duration)
+    section.fail("start", fmt::format("[s] is after the end of the run, run.duration = {:g} s: no grain would ever "
+                                      "enter; lower it, raise run.duration, or remove the source",
+                                      scene.run.duration));
+}
+
+} // namespace
+
+SectionList grainSections() {
+  return {list("grain", &Scene::grains, grainTable(), checkGrain),
+          list("grains", &Scene::fills, fillTable(), checkFill),
+          list("source", &Scene::sources, sourceTable(), checkSource)};
+}
+
+} // namespace grouser::scene::detail

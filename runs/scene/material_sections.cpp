@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys and checks of [material.NAME] and [contact."a|b"].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include "runs/scene/detail/section_checks.hpp"
+#include "runs/support/result_names.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::scene::detail {
+
+namespace {
+
+using base::Section;
+using base::Table;
+
+/// A default as a person writes it: 0.25, 1e6.
+std::string brief(double x) {
+  std::string text = fmt::format("{:g}", x);
+  if (const std::size_t at = text.find("e+0"); at != std::string::npos) text.erase(at + 1, 2);
+  return text;
+}
+
+Table<Material> materialTable() {
+  using S = Material;
+  Table<S> t("material.NAME", "A material; NAME is what other sections call it");
+  t.add("density", &S::density, "kg/m3", "of the solid").atLeast(1e-3).atMost(1e5);
+  t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction");
+  t.add("stiffness", &S::stiffness, "N/m",
+        fmt::format("linear: normal stiffness k of a contact; {} where not given", brief(S::kStiffness)))
+      .atLeast(1e-3)
+      .atMost(1e12);
+  t.add("young", &S::young, "Pa", "hertz: Young's modulus of the solid; required").atLeast(1).atMost(1e13);
+  t.add("poisson", &S::poisson, "-",
+        fmt::format("hertz: Poisson's ratio of the solid; {} where not given", brief(S::kPoisson)))
+      .atLeast(0)
+      .atMost(0.5);
+  t.add("restitution", &S::restitution, "-",
+        fmt::format("rebound over impact speed; {} where damping is not given either", brief(S::kRestitution)))
+      .atLeast(1e-6)
+      .atMost(1);
+  t.add("damping", &S::damping, "1/s", "linear: gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
+      .atLeast(0)
+      .atMost(1e9);
+  t.add("attraction", &S::attraction, "", "whether the damping force may pull two parting surfaces together");
+  t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
+  t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
+        fmt::format("linear: tangential over normal stiffness; {}/{} where not given",
+                    S::kTangentialStiffnessRatio.numerator, S::kTangentialStiffnessRatio.denominator))
+      .above(0)
+      .atMost(1);
+  t.add("tangential_damping_ratio", &S::tangentialDampingRatio, "-",
+        fmt::format(
+            "linear: tangential over normal damping, {} where not given; hertz: over the damping 2 beta sqrt(k_t "
+            "m_eff), {} where not given",
+            brief(S::kLinearTangentialDampingRatio), brief(S::kHertzTangentialDampingRatio)))
+      .atLeast(0)
+      .atMost(2);
+  t.add("rolling_friction", &S::rollingFriction, "-",
+        "torque of rolling resistance over R F_n, with an elastic-plastic spring (type C); 0 leaves it out")
+      .atLeast(0)
+      .atMost(2);
+  t.add("rolling_damping_ratio", &S::rollingDampingRatio, "-", "of the rolling spring's critical damping")
+      .atLeast(0)
+      .atMost(1);
+  t.add("cohesion", &S::cohesion, "J/m2",
+        "energy of adhesion w: touching surfaces pull with 2 pi w R_eff (DMT); 0 leaves it out")
+      .atLeast(0)
+      .atMost(1e6);
+  return t;
+}
+
+Table<ContactPair> contactTable() {
+  using S = ContactPair;
+  Table<S> t("contact.\"a|b\"", "What materials a and b have against each other, otherwise than the mixing rule gives");
+  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
+  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(1e-6).atMost(1);
+  t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
+  t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
+  t.add("rolling_friction", &S::rollingFriction, "-", "of the pair").atLeast(0).atMost(2);
+  t.add("cohesion", &S::cohesion, "J/m2", "energy of adhesion of the pair").atLeast(0).atMost(1e6);
+  return t;
+}
+
+/// One of the two ways to say how lossy a contact is.
+template <class S> void checkOneLoss(const Section& section, const S& s) {
+  if (s.restitution && s.damping)
+    section.fail("damping", "stands beside restitution, which says the same; remove one of the two");
+}
+
+/// What belongs to the material's law gets its default; what belongs to the other must not stand there.
+void completeLaw(const Section& section, Material& m) {
+  const bool hertz = m.law == ContactLawKind::hertz;
+  for (const char* key : {"stiffness", "tangential_stiffness_ratio", "damping"})
+    if (hertz && section.has(key))
+      section.fail(key, "belongs to law = \"linear\"; remove it: young, poisson and restitution say it for hertz");
+  for (const char* key : {"young", "poisson"})
+    if (!hertz && section.has(key))
+      section.fail(key, "belongs to law = \"hertz\"; add that, or remove it: stiffness says it for linear");
+  if (hertz && !m.young)
+    section.fail("young", "[Pa] is missing, which law = \"hertz\" needs; add it, e.g. young = 7e7");
+  if (!m.restitution && !m.damping) m.restitution = Material::kRestitution;
+  if (!m.tangentialDampingRatio)
+    m.tangentialDampingRatio = hertz ? Material::kHertzTangentialDampingRatio : Material::kLinearTangentialDampingRatio;
+  if (hertz) {
+    m.poisson = m.poisson.value_or(Material::kPoisson);
+  } else {
+    m.stiffness = m.stiffness.value_or(Material::kStiffness);
+    m.tangentialStiffnessRatio = m.tangentialStiffnessRatio.value_or(Material::kTangentialStiffnessRatio.value());
+  }
+}
+
+/// A material with its name. Throws where that cannot be one.
+Material beginMaterial(const Section& section, const std::string& name) {
+  if (name.find('|') != std::string::npos)
+    section.fail("", "has a name with |, which separates the two of a pair; choose another name");
+  if (const std::string fault = support::nameFault(name); !fault.empty()) section.fail("", fault);
+  Material m;
+  m.name = name;
+  return m;
+}
+
+void checkMaterial(const Section& section, Material& m, const Scene&) {
+  checkOneLoss(section, m);
+  completeLaw(section, m);
+}
+
+/// What two materials have against each other, with their names. Throws where there are not two.
+ContactPair beginContact(const Section& section, const std::string& name) {
+  const std::size_t bar = name.find('|');
+  if (bar == std::string::npos || name.find('|', bar + 1) != std::string::npos)
+    section.fail("", "is not of the form [contact.\"a|b\"] with two materials; write the pair that way");
+  ContactPair pair;
+  pair.first = name.substr(0, bar), pair.second = name.substr(bar + 1);
+  return pair;
+}
+
+void checkContact(const Section& section, ContactPair& pair, const Scene& scene) {
+  requireMaterial(scene, section, "", pair.first);
+  requireMaterial(scene, section, "", pair.second);
+  checkOneLoss(section, pair);
+  for (const char* key : {"stiffness", "damping"})
+    if (section.has(key) && scene.material(pair.first).law == ContactLawKind::hertz)
+      section.fail(key, "belongs to law = \"linear\", but this pair is hertz; remove it");
+  if (scene.contact(pair.first, pair.second)) section.fail("", "is given twice, in both orders; remove one of the two");
+}
+
+} // namespace
+
+SectionList materialSections() {
+  return {named<Material>(
+              "material", &Scene::materials, materialTable(), beginMaterial, [](const Material& m) { return m.name; },
+              checkMaterial),
+          named<ContactPair>(
+              "contact", &Scene::contacts, contactTable(), beginContact,
+              [](const ContactPair& p) { return p.first + "|" + p.second; }, checkContact)};
+}
+
+} // namespace grouser::scene::detail

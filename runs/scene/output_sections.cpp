@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys and checks of [output] and [parallel].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::scene::detail {
+
+namespace {
+
+using base::Section;
+using base::Table;
+
+Table<Output> outputTable() {
+  using S = Output;
+  Table<S> t("output", "What a run leaves; intervals stand in [run]");
+  t.add("folder", &S::folder, "", "of the results, from where grouser is called; out/NAME where not given");
+  t.add("record", &S::record, "", "names of what of a mechanism goes into the time series; all where empty");
+  t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
+  t.add("grains_csv", &S::grainsCsv, "",
+        "grains.csv with every grain at every output time; \"auto\": up to 1000 grains and 1e6 lines")
+      .orWord("auto");
+  t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
+  t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);
+  t.add("plots", &S::plots, "", "plots of the time series, by Python and matplotlib");
+  return t;
+}
+
+Table<Parallel> parallelTable() {
+  using S = Parallel;
+  Table<S> t("parallel", "Runs on several ranks (mpirun -np N); the answer is the same for any number of them");
+  t.add("subdomains", &S::subdomains, "-",
+        "lattice of subdomains along x, y and z, whose product is the number of ranks; 0 leaves an axis free")
+      .atLeast(0)
+      .atMost(64)
+      .orWord("auto");
+  t.add("cuts_x", &S::cutsX, "m", "where the planes between subdomains stand at first, across x; chosen where empty");
+  t.add("cuts_y", &S::cutsY, "m", "the same across y");
+  t.add("cuts_z", &S::cutsZ, "m", "the same across z");
+  t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
+  t.add("peer_memory", &S::peerMemory, "",
+        "GPUs of one machine read each other's memory instead of sending messages: where they can, never, or not "
+        "without (then ranks on CPUs share memory too)");
+  return t;
+}
+
+/// A path that no file system takes would only turn out when results are written.
+void checkFolder(const Section& output, const std::string& folder) {
+  if (std::any_of(folder.begin(), folder.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+    output.fail("folder", "has a control character in it; leave it out");
+}
+
+/// What is to be recorded must be there.
+void checkRecord(const Section& section, const Output& output, const Scene& scene) {
+  std::vector<std::string> known;
+  forEachKind(scene.mechanism, [&](const char*, const auto& sections) {
+    for (const auto& part : sections) known.push_back(part.name);
+  });
+  for (const std::string& name : output.record)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      section.fail("record", known.empty() ? "names parts of a mechanism, but there is none; remove it"
+                                           : fmt::format("names nothing \"{}\" of the mechanism; did you mean \"{}\"?",
+                                                         name, base::nearestWord(name, known)));
+}
+
+void checkOutput(const Section& section, Output& output, const Scene& scene) {
+  checkFolder(section, output.folder);
+  if (!output.record.empty()) checkRecord(section, output, scene);
+}
+
+void checkParallel(const Section& section, Parallel& parallel, const Scene&) {
+  const std::vector<double>* cuts[] = {&parallel.cutsX, &parallel.cutsY, &parallel.cutsZ};
+  for (int a = 0; a < 3; ++a)
+    for (std::size_t k = 1; k < cuts[a]->size(); ++k)
+      if (!((*cuts[a])[k] > (*cuts[a])[k - 1]))
+        section.fail(std::string("cuts_") + "xyz"[a], "[m] does not increase; sort it, each plane once");
+  const auto& n = parallel.subdomains;
+  for (int a = 0; n && a < 3; ++a) {
+    if ((*n)[a] != std::floor((*n)[a])) section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
+    const auto slabs = static_cast<double>(cuts[a]->size() + 1);
+    if (slabs > 1 && (*n)[a] != 0 && (*n)[a] != slabs)
+      section.fail(std::string("cuts_") + "xyz"[a],
+                   fmt::format("[m] makes {} subdomains along {}, but subdomains says {}; make them agree", slabs,
+                               "xyz"[a], (*n)[a]));
+  }
+}
+
+} // namespace
+
+SectionList outputSections() {
+  return {single("output", &Scene::output, outputTable(), checkOutput),
+          single("parallel", &Scene::parallel, parallelTable(), checkParallel)};
+}
+
+} // namespace grouser::scene::detail

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys and checks of [run].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include "multibody/solver.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::scene::detail {
+
+namespace {
+
+using base::Section;
+using base::Table;
+
+Table<RunSettings> runTable() {
+  using S = RunSettings;
+  Table<S> t("run", "Time, gravity, and the machine to run on");
+  t.add("duration", &S::duration, "s", "simulated time, after the bed has settled")
+      .atLeast(1e-12)
+      .atMost(1e5)
+      .required();
+  t.add("time_step", &S::timeStep, "s", "\"auto\" is the largest step the stability rule allows")
+      .atLeast(1e-12)
+      .atMost(0.1)
+      .orWord("auto");
+  t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);
+  t.add("output_interval", &S::outputInterval, "s", "between rows of the time series").above(0);
+  t.add("frame_interval", &S::frameInterval, "s", "between frames for ParaView").above(0);
+  t.add("checkpoint_interval", &S::checkpointInterval, "s",
+        "between checkpoints for --resume, simulated; 0: only where the run ends or is stopped")
+      .atLeast(0)
+      .atMost(1e5);
+  t.add("seed", &S::seed, "-", "of every random number").atLeast(0);
+  t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one");
+  t.add("precision", &S::precision, "", "of the grains' forces; each gives the same bits everywhere");
+  t.add("impact_speed", &S::impactSpeed, "m/s",
+        "fastest impact that the time step of hertz materials is chosen and checked for")
+      .above(0)
+      .atMost(1e4);
+  t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
+      .atLeast(0)
+      .atMost(1024);
+  t.add("integrator", &S::integrator, "",
+        "of mechanisms: symplectic Euler (order 1, springs implicit) or RATTLE (order 2 and higher)");
+  t.add("integrator_order", &S::integratorOrder, "-", "of rattle: 2, or 4, 6, 8 by 5, 9, 17 stages a step")
+      .atLeast(1)
+      .atMost(8);
+  t.add("springs", &S::springs, "", "of rattle: explicit needs a step below 2 / omega, implicit takes any");
+  t.add("constraint_tolerance", &S::constraintTolerance, "m or rad",
+        fmt::format(
+            "to which joints of a mechanism are closed; \"auto\": {:g} for symplectic_euler, {:g} (round-off) for "
+            "rattle",
+            multibody::kEulerTolerance, multibody::kRattleTolerance))
+      .atLeast(multibody::kRattleTolerance)
+      .atMost(1e-3)
+      .orWord("auto");
+  t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);
+  t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
+      .above(0)
+      .atMost(1);
+  t.add("periodic", &S::periodic, "",
+        "whether boundaries along x, y are periodic: grains that leave through one enter through the opposite one");
+  t.add("domain_x", &S::domainX, "m",
+        "where periodic boundaries stand along x; without it at the borders of the terrain");
+  t.add("domain_y", &S::domainY, "m", "the same along y");
+  return t;
+}
+
+void checkIntervals(const Section& section, const RunSettings& run) {
+  if (!run.timeStep) return;
+  if (*run.timeStep > run.duration)
+    section.fail("time_step", fmt::format("[s] is above the duration of {} s; lower it", run.duration));
+  if (run.outputInterval < *run.timeStep)
+    section.fail("output_interval",
+                 fmt::format("[s] is below the time step of {} s; raise it to that at least", *run.timeStep));
+  if (run.frameInterval < *run.timeStep)
+    section.fail("frame_interval",
+                 fmt::format("[s] is below the time step of {} s; raise it to that at least", *run.timeStep));
+}
+
+void checkOrder(const Section& run, const RunSettings& settings) {
+  const int order = settings.integratorOrder;
+  if (settings.integrator == multibody::Integrator::kRattle && order != 2 && order != 4 && order != 6 && order != 8)
+    run.fail("integrator_order", "[-] is none of 2, 4, 6, 8; choose one of these");
+}
+
+void checkRun(const Section& section, RunSettings& run, const Scene&) {
+  checkIntervals(section, run);
+  checkOrder(section, run);
+}
+
+} // namespace
+
+SectionList runSections() { return {required("run", &Scene::run, runTable(), checkRun)}; }
+
+} // namespace grouser::scene::detail

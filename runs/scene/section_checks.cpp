@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/scene/detail/section_checks.hpp"
+
+#include "runs/support/locations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::scene::detail {
+
+using base::Section;
+
+void requireMaterial(const Scene& scene, const Section& section, const std::string& key, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(m.name);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const std::string known =
+      names.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, names));
+  section.fail(key, fmt::format("names no material of this scene{}; {}add a section [material.{}]",
+                                key.empty() ? fmt::format(" (\"{}\")", name) : "", known, name));
+}
+
+void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {
+  if (name.empty()) section.fail(key, "is empty; give the path of a file");
+  std::vector<std::filesystem::path> tried;
+  const std::filesystem::path found = support::findInput(name, scene.file, tried);
+  if (found.empty()) {
+    std::string places;
+    std::error_code error;
+    for (const auto& p : tried) {
+      if (std::filesystem::is_directory(p, error))
+        section.fail(key, fmt::format("is a folder, {}; give the path of a file", p.string()));
+      places += (places.empty() ? "" : ", ") + p.string();
+    }
+    section.fail(key, fmt::format("does not exist; correct the path (looked for {})", places));
+  }
+  name = found.string();
+}
+
+namespace {
+
+void checkMeshes(const Section& root, const Scene& scene) {
+  const std::vector<Section> sections = root.list("mesh");
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (scene.vehicle)
+      sections[k].fail("", "stands beside [vehicle]; a scene has the one or the other: use boxes and cylinders");
+    if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0)
+      sections[k].fail("", "stands in a bed that settles first, which meshes have no part in; use boxes and cylinders, "
+                           "or set terrain.settle_time_limit = 0");
+    if (scene.meshes[k].material != scene.meshes.front().material)
+      sections[k].fail("material", fmt::format("differs from that of the first mesh, \"{}\"; all meshes have one",
+                                               scene.meshes.front().material));
+  }
+}
+
+/// Where periodic boundaries stand must be known, and what stands between them must be able to do without sides.
+void checkPeriodic(const Section& section, const Scene& scene) {
+  const RunSettings& run = scene.run;
+  const std::optional<std::array<double, 2>>* domains[] = {&run.domainX, &run.domainY};
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto& domain = *domains[a];
+    const std::string key = std::string("domain_") + "xy"[a];
+    if (domain && !run.periodic[a])
+      section.fail(key, fmt::format("[m] has no meaning without periodic boundaries along {}; remove it, or set "
+                                    "run.periodic there",
+                                    "xy"[a]));
+    if (domain && scene.terrain)
+      section.fail(key, "[m] stands beside [terrain], whose borders are the periodic boundaries; remove it");
+    if (domain && !((*domain)[1] > (*domain)[0])) section.fail(key, "[m] does not increase; give the lower side first");
+    if (run.periodic[a] && !domain && !scene.terrain)
+      section.fail(
+          "periodic",
+          fmt::format("asks for boundaries along {} that stand nowhere; give run.{} = [from, to] [m]", "xy"[a], key));
+  }
+  if (!run.periodic[0] && !run.periodic[1]) return;
+  if (scene.vehicle) section.fail("periodic", "is not possible beside a [vehicle]; set it to [false, false]");
+  if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() &&
+      !(scene.terrain && scene.terrain->granular()))
+    section.fail("periodic", "is for grains, of which this scene has none; remove it");
+}
+
+/// What stands at one of two periodic boundaries must stand at the other, too.
+void checkPlanesAcross(const std::vector<Section>& sections, const Scene& scene) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k)
+    for (int a = 0; a < 2; ++a)
+      if (scene.run.periodic[static_cast<std::size_t>(a)] &&
+          std::fabs(scene.planes[k].normal[a]) > 1e-9 * norm(scene.planes[k].normal))
+        sections[k].fail("normal",
+                         fmt::format("[-] leans along {}, where boundaries are periodic and a plane must look "
+                                     "alike at both; set that entry to 0, or run.periodic to false there",
+                                     "xy"[a]));
+}
+
+void checkSettling(const Section& run, const Scene& scene) {
+  if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 && !(scene.run.gravity.z < 0))
+    run.fail("gravity", "[m/s2] does not bring the bed to rest on its floor; give z below 0, or set "
+                        "terrain.settle_time_limit = 0");
+}
+
+void checkSomethingMoves(const Scene& scene) {
+  if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
+      scene.mechanism.nothing())
+    throw base::InputError(fmt::format(
+        "{}: there is nothing to simulate; add [terrain], [vehicle], [[grain]], [[grains]], [[source]] or [[body]]",
+        scene.file.string()));
+}
+
+} // namespace
+
+void checkTogether(const Scene& scene) {
+  const Section root = scene.document->root(), run = root.section("run");
+  checkMeshes(root, scene);
+  checkPeriodic(run, scene);
+  checkPlanesAcross(root.list("plane"), scene);
+  checkSettling(run, scene);
+  checkSomethingMoves(scene);
+}
+
+} // namespace grouser::scene::detail

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys and checks of [vehicle], [driver] and [driver.table].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include "runs/scene/detail/section_checks.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::scene::detail {
+
+namespace {
+
+using base::Section;
+using base::Table;
+
+Table<Vehicle> vehicleTable() {
+  using S = Vehicle;
+  Table<S> t("vehicle", "A tracked vehicle");
+  t.add("spec", &S::spec, "", "vehicle file, relative to the scene or to the assets folder").required();
+  t.add("position", &S::position, "m",
+        "x and y of the point between the sprockets; \"auto\" is on the terrain's near end")
+      .atLeast(-1e6)
+      .atMost(1e6)
+      .orWord("auto");
+  t.add("heading", &S::heading, "deg", "from the x axis, counter-clockwise seen from above").atLeast(-360).atMost(360);
+  t.add("clearance", &S::clearance, "m", "between lowest grouser and highest ground below at the start")
+      .atLeast(0)
+      .atMost(10);
+  t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
+  t.add("material", &S::material, "", "of the parts against the ground; the contact data of the spec where not given");
+  t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
+  return t;
+}
+
+Table<Driver> driverTable() {
+  using S = Driver;
+  Table<S> t("driver", "Sprocket speeds and the order of the start: tension, weight, drive");
+  t.add("sprocket_speed", &S::sprocketSpeed, "rad/s", "of both sprockets; positive drives forward")
+      .atLeast(-100)
+      .atMost(100);
+  t.add("left", &S::left, "rad/s", "of the left sprocket, together with right").atLeast(-100).atMost(100);
+  t.add("right", &S::right, "rad/s", "of the right sprocket, together with left").atLeast(-100).atMost(100);
+  t.add("tension_ramp", &S::tensionRamp, "s", "over which the idlers' springs come on").atLeast(0).atMost(1e3);
+  t.add("weight_ramp", &S::weightRamp, "s", "over which gravity and the arms' preload come on, then")
+      .atLeast(0)
+      .atMost(1e3);
+  t.add("drive_start", &S::driveStart, "s", "\"auto\" is the end of the weight's ramp")
+      .atLeast(0)
+      .atMost(1e5)
+      .orWord("auto");
+  t.add("drive_ramp", &S::driveRamp, "s", "over which the sprockets come up to speed").atLeast(0).atMost(1e3);
+  return t;
+}
+
+Table<SpeedTable> speedTable() {
+  using S = SpeedTable;
+  Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
+  t.add("time", &S::time, "s", "from the start of the drive, increasing").atLeast(0).required();
+  t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
+  t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
+  return t;
+}
+
+void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
+  if (!v.material.empty()) requireMaterial(scene, section, "material", v.material);
+  resolveFile(scene, section, "spec", v.spec);
+  const bool hasGround = scene.terrain || !scene.planes.empty();
+  if (!hasGround && v.chassis != ChassisMount::fixed)
+    section.fail("chassis", "is \"free\" over no ground; add [terrain] or [[plane]], or set chassis = \"fixed\"");
+  if (v.position && scene.terrain) {
+    const auto [sizeX, sizeY] = scene.terrain->size;
+    const auto [x, y] = *v.position;
+    if (x < 0 || x > sizeX || y < -sizeY / 2 || y > sizeY / 2)
+      section.fail("position",
+                   fmt::format("[m] is outside the terrain, x in [0, {}], y in [{}, {}]; place the vehicle on it",
+                               sizeX, -sizeY / 2, sizeY / 2));
+  }
+}
+
+void checkDriver(const Section& section, Driver& d, const Scene& scene) {
+  if (!scene.vehicle) section.fail("", "has nothing to drive; add a section [vehicle], or remove this one");
+  if (d.left.has_value() != d.right.has_value())
+    section.fail(d.left ? "left" : "right", fmt::format("[rad/s] stands without {}; give both, or sprocket_speed alone",
+                                                        d.left ? "right" : "left"));
+  if ((d.sprocketSpeed ? 1 : 0) + (d.left ? 1 : 0) + (section.has("table") ? 1 : 0) > 1)
+    section.fail(d.sprocketSpeed ? "sprocket_speed" : "left",
+                 "[rad/s] is one of several speeds given; keep one of sprocket_speed, left with right, [driver.table]");
+}
+
+void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) {
+  const std::size_t n = table.time.size();
+  if (n == 0) section.fail("time", "[s] is empty; give at least one time");
+  if (table.left.size() != n || table.right.size() != n)
+    section.fail(table.left.size() != n ? "left" : "right",
+                 fmt::format("[rad/s] has another length than time, which has {}; make all three alike", n));
+  for (std::size_t i = 1; i < n; ++i)
+    if (!(table.time[i] > table.time[i - 1]))
+      section.fail("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+}
+
+bool hasVehicle(const Scene& scene) { return scene.vehicle.has_value(); }
+
+} // namespace
+
+SectionList vehicleSections() {
+  const auto table = [](auto& scene) -> auto& { return scene.driver.table; };
+  return {optional("vehicle", &Scene::vehicle, vehicleTable(), checkVehicle),
+          single("driver", &Scene::driver, driverTable(), checkDriver, {"table"}).writtenIf(hasVehicle),
+          optional("driver.table", table, speedTable(), checkSpeeds).writtenIf(hasVehicle)};
+}
+
+} // namespace grouser::scene::detail
