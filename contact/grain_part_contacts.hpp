@@ -6,6 +6,7 @@
 #include "contact/contact_law.hpp"
 #include "contact/exchange.hpp"
 #include "contact/grain_loads.hpp"
+#include "contact/grains_view.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/saved_contacts.hpp"
@@ -61,13 +62,6 @@ public:
                     const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
                     const base::Comm& comm = {}, const GrainPartMaterials& materials = {});
 
-  struct GrainsView {
-    const base::Position* position;
-    const base::Vec4f *velocity, *spin;
-    const std::uint32_t* id;
-    std::size_t count;
-    const std::uint32_t* ghost = nullptr; ///< not 0 for grains of other ranks; null where there are none
-  };
   /// Grains go to other ranks (see terrain::Grains::onMigrate): sends the history of their pairs after them. Refresh
   /// before the next compute. All ranks call it.
   void migrate(const std::uint32_t* destination);

@@ -24,7 +24,7 @@ template <unsigned kFeatures> struct GrainPartForces {
   GrainPartModel model;
   const BasicLaw<float>* laws;
   const double* massPerCube;
-  GrainPartContacts::GrainsView grains;
+  GrainsView grains;
   const PartMotion* motion;
   const GrainPart* parts;
   const SurfaceGridView* grids;

@@ -82,10 +82,11 @@ std::vector<double> heights(const std::vector<std::uint64_t>& words) {
 } // namespace
 
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach) {
-  const OfGrains source{grains.positions(), grains.scale(), grains.model().radius,
-                        grains.manyRadii() ? grains.velocities() : nullptr, grains.ghosts()};
-  std::vector<std::uint64_t> words = raise(exec, source, grains.slots(), grid, reach);
-  grains.comm().minimum(words.data(), words.size());
+  const contact::GrainsView view = grains.view();
+  const OfGrains source{view.position, grains.scale(), grains.model().radius,
+                        grains.system().constants.manyRadii() ? view.velocity : nullptr, view.ghost};
+  std::vector<std::uint64_t> words = raise(exec, source, view.count, grid, reach);
+  grains.system().comm.minimum(words.data(), words.size());
   return heights(words);
 }
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains on several ranks: migration of those that have crossed a border, ghosts of those near one.
-#include "terrain/grains.hpp"
+#include "terrain/grain_distribution.hpp"
 
-#include "base/algorithms.hpp"
-#include "base/gather.cuh"
+#include "base/error.hpp"
+#include "base/for_each.cuh"
+#include "terrain/whole_units.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace grouser::terrain {
 
+using base::Position;
 using contact::Exchange;
 using contact::ExchangeField;
-using contact::fieldOf;
+using contact::TravellingRows;
 
 namespace {
 
@@ -36,122 +38,153 @@ struct NoteMovedOrigins {
   GROUSER_HD void operator()(int k) const { origin[to[k]] = from[k] < former ? from[k] : contact::RowOrigins::kNone; }
 };
 
-/// Records of `width` elements go to places that nobody moves from.
-template <class T> struct Move {
-  const std::uint32_t *from, *to;
-  T* array;
-  std::uint32_t width;
-  GROUSER_HD void operator()(int k) const {
-    for (std::uint32_t w = 0; w < width; ++w)
-      array[std::int64_t{to[k]} * width + w] = array[std::int64_t{from[k]} * width + w];
-  }
-};
-
 constexpr double kImbalance = 1.15;         // the dearest rank over the mean, above which cuts are moved [-]
 constexpr std::int64_t kBalanceEvery = 200; // steps, at least
 
-} // namespace
-
-template <class Each> void Grains::forOwnArrays(const Each& each) {
-  each(position_[0], 1), each(velocity_[0], 1), each(spin_[0], 1);
-  each(remainders_, 1), each(id_, 1);
-  if (!dissipated_.empty() || model_.ledger) each(dissipated_, 1);
-  if (period_.any()) each(crossings_, 1);
-  if (boundaryCount_ > 0) each(boundaryContactMask_, 1);
-  if (boundaryCount_ > 0 && historyWidth_ > 0)
-    each(boundaryHistory_, static_cast<std::uint32_t>(boundaryCount_ * historyWidth_));
+/// The first cuts: as many grains in each slab of an axis as in the others.
+Partition startingPartition(const std::vector<Position>& position, const PartitionOptions& options,
+                            const base::PositionScale& scale) {
+  std::array<int, 3> wanted = options.subdomains;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int given = static_cast<int>(options.cuts[a].size()) + 1;
+    if (given == 1) continue;
+    if (wanted[a] != 0 && wanted[a] != given)
+      throw base::InputError(fmt::format("parallel.cuts_{} gives {} planes, which make {} subdomains, but "
+                                         "parallel.subdomains says {} along that axis; make them agree",
+                                         "xyz"[a], given - 1, given, wanted[a]));
+    wanted[a] = given;
+  }
+  base::Vec3l low{}, high{};
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const base::Vec3l u = base::toUnits(position[i]);
+    low = i == 0 ? u : base::min(low, u), high = i == 0 ? u : base::max(high, u);
+  }
+  std::array<std::vector<std::int64_t>, 3> weights;
+  std::array<double, 3> size{};
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    size[k] = static_cast<double>(high[a] - low[a]) + 1;
+    weights[k].resize(kPartitionBins);
+    const std::int64_t width = binWidth(low[a], high[a]);
+    for (const Position& p : position) ++weights[k][static_cast<std::size_t>((base::toUnits(p)[a] - low[a]) / width)];
+  }
+  const Partition chosen(latticeShape(options.comm.size(), size, wanted), low, high, weights);
+  std::array<std::vector<std::int64_t>, 3> cuts;
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    cuts[k] = chosen.cuts(a);
+    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) cuts[k][c] = wholeUnits(options.cuts[k][c], scale);
+  }
+  return Partition(cuts);
 }
 
-/// Every grain goes to the rank that its centre lies with, and ghosts are made of those near the borders. Afterwards
-/// the slots hold the grains that stayed, those that came, and the ghosts, in this order.
-void Grains::migrate() {
-  Subdomain& subdomain = *subdomain_;
-  finishGhostUpdate();
-  if (subdomain.rebalances()) rebalance();
-  subdomain.findLeaving(position_[0].data(), slots_);
-  if (onMigrate_) onMigrate_(subdomain.destination());
+} // namespace
 
-  // The rows of the neighbour list travel with their grains, as ids and springs.
-  Exchange& exchange = subdomain.migration();
-  const std::size_t kept = subdomain.kept(), owned = kept + exchange.importCount();
-  const auto moves = static_cast<std::int64_t>(subdomain.moves());
-  contact::TravellingRows rows{nullptr, 0, static_cast<std::uint32_t>(historyWidth_)};
-  rows.capacity = static_cast<std::uint32_t>(
-      subdomain.comm().maximumOf(neighbours_.mostTouching(exchange.exportSlots(), exchange.exportCount())));
-  base::Array<std::uint32_t> leavingRows(exec_, exchange.exportCount() * rows.words());
-  rows.data = leavingRows.data();
-  neighbours_.exportRows(exchange.exportSlots(), exchange.exportCount(), rows);
-  arrivedRows_.resize(exchange.importCount() * rows.words());
+GrainDistribution::GrainDistribution(const base::Exec& exec, const PartitionOptions& options, const GrainConstants& c,
+                                     const std::vector<Position>& start)
+    : exec_(exec), rebalances_(options.rebalance), historyWidth_(c.historyWidth),
+      subdomain_(exec, options, c.listRange(), c.period), arrivedRows_(exec) {
+  setPartition(startingPartition(start, options, c.scale));
+}
 
-  std::vector<ExchangeField> fields;
-  forOwnArrays([&](auto& array, std::uint32_t width) {
-    const ExchangeField one = fieldOf(array);
-    fields.push_back({one.data, one.words * width});
-  });
-  fields.push_back({leavingRows.data(), rows.words(), true});
-  exchange.start(fields);
-  fields.clear();
-  forOwnArrays([&]<class T>(base::Array<T>& array, std::uint32_t width) {
-    base::forEach(exec_, "close ranks", moves,
-                  Move<T>{subdomain.movesFrom(), subdomain.movesTo(), array.data(), width});
-    if (owned > slots_) array.resizeKeeping(owned * width);
-    const ExchangeField field = fieldOf(array);
-    fields.push_back({field.data, field.words * width});
-  });
-  fields.push_back({arrivedRows_.data(), rows.words(), true});
-  exchange.setImportSlots(kept);
-  exchange.finish(fields);
+void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step) {
+  finishGhostUpdate(exec_, arrays); // an exchange under way would fill slots that are about to change hands
+  if (rebalances_) rebalance(arrays, step);
+  subdomain_.findLeaving(arrays.fields().position.now.data(), arrays.slots());
+  if (onMigrate_) onMigrate_(subdomain_.destination());
+
+  base::Array<std::uint32_t> leavingRows(exec_);
+  TravellingRows rows = exportRows(neighbours, leavingRows);
+  arrivedRows_.resize(subdomain_.migration().importCount() * rows.words());
+  moveFields(arrays, rows);
   rows.data = arrivedRows_.data();
 
-  subdomain.findMasters(position_[0].data(), owned);
-  const std::uint32_t former = neighbours_.rows();
-  slots_ = owned + subdomain.ghosts();
-  forOwnArrays([&](auto& array, std::uint32_t width) { array.resizeKeeping(slots_ * width); });
-  position_[1].resizeInLeaps(slots_), velocity_[1].resizeInLeaps(slots_), spin_[1].resizeInLeaps(slots_);
-  const ExchangeField ghosts[] = {fieldOf(position_[0]), fieldOf(velocity_[0]), fieldOf(spin_[0]), fieldOf(id_)};
-  subdomain.haloExchange().run(ghosts);
-
-  origin_.resize(slots_);
-  base::forEach(
-      exec_, "note origins", static_cast<std::int64_t>(slots_),
-      NoteOrigins{static_cast<std::uint32_t>(kept), static_cast<std::uint32_t>(owned), former, origin_.data()});
-  base::forEach(exec_, "note origins of the moved", moves,
-                NoteMovedOrigins{subdomain.movesFrom(), subdomain.movesTo(), former, origin_.data()});
+  const std::size_t owned = subdomain_.staying().kept + subdomain_.migration().importCount();
+  subdomain_.findMasters(arrays.fields().position.now.data(), owned);
+  arrays.resizeKeeping(owned + subdomain_.ghosts());
+  subdomain_.haloExchange().run(arrays.exchanged(kGhosted));
+  noteOrigins(static_cast<std::uint32_t>(owned), neighbours.rows(), arrays);
   origins_ = {nullptr, nullptr, rows};
 }
 
-std::array<ExchangeField, 3> Grains::ghostFields(int buffer) {
-  return {fieldOf(position_[buffer]), fieldOf(velocity_[buffer]), fieldOf(spin_[buffer])};
+/// The rows of the neighbour list travel with their grains, as ids and springs.
+TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neighbours,
+                                             base::Array<std::uint32_t>& leaving) {
+  const Exchange& exchange = subdomain_.migration();
+  TravellingRows rows{nullptr, 0, static_cast<std::uint32_t>(historyWidth_)};
+  rows.capacity = static_cast<std::uint32_t>(
+      subdomain_.comm().maximumOf(neighbours.mostTouching(exchange.exportSlots(), exchange.exportCount())));
+  leaving.resize(exchange.exportCount() * rows.words());
+  rows.data = leaving.data();
+  neighbours.exportRows(exchange.exportSlots(), exchange.exportCount(), rows);
+  return rows;
 }
 
-/// The ghosts take what their masters sent, where they have not yet.
-void Grains::finishGhostUpdate(const base::Exec& exec) {
-  if (!subdomain_ || !subdomain_->haloExchange().underWay()) return;
-  subdomain_->haloExchange().arrive();
-  subdomain_->haloExchange().unpack(exec, ghostFields(0));
+/// Sends the grains that leave, closes the gaps, and puts those that come behind the rest.
+void GrainDistribution::moveFields(GrainArrays& arrays, const TravellingRows& leaving) {
+  Exchange& exchange = subdomain_.migration();
+  std::vector<ExchangeField> fields = arrays.exchanged(kMigrates);
+  fields.push_back({leaving.data, leaving.words(), true});
+  exchange.start(fields);
+  const Subdomain::Staying staying = subdomain_.staying();
+  arrays.move(staying.from, staying.to, staying.moves);
+  const std::size_t owned = staying.kept + exchange.importCount();
+  arrays.resizeKeeping(std::max(arrays.slots(), owned));
+  fields = arrays.exchanged(kMigrates);
+  fields.push_back({arrivedRows_.data(), leaving.words(), true});
+  exchange.setImportSlots(staying.kept);
+  exchange.finish(fields);
 }
 
-/// The ghosts are made what their masters are now.
-void Grains::updateGhosts() { subdomain_->haloExchange().run(ghostFields(0)); }
+void GrainDistribution::noteOrigins(std::uint32_t owned, std::uint32_t former, GrainArrays& arrays) {
+  const Subdomain::Staying staying = subdomain_.staying();
+  base::Array<std::uint32_t>& origin = arrays.fields().rowOrigin.now;
+  origin.resize(arrays.slots());
+  base::forEach(exec_, "note origins", static_cast<std::int64_t>(arrays.slots()),
+                NoteOrigins{static_cast<std::uint32_t>(staying.kept), owned, former, origin.data()});
+  base::forEach(exec_, "note origins of the moved", static_cast<std::int64_t>(staying.moves),
+                NoteMovedOrigins{staying.from, staying.to, former, origin.data()});
+}
+
+const contact::RowOrigins* GrainDistribution::sorted(const std::uint32_t* order, GrainArrays& arrays) {
+  subdomain_.sorted(order, arrays.slots());
+  origins_.origin = arrays.fields().rowOrigin.now.data(), origins_.ghost = subdomain_.ghostMarks();
+  return &origins_;
+}
+
+void GrainDistribution::packGhosts(const base::Exec& exec, GrainArrays& arrays) {
+  subdomain_.haloExchange().pack(exec, arrays.exchanged(kUpdated, true));
+}
+
+void GrainDistribution::sendGhosts() { subdomain_.haloExchange().send(); }
+
+void GrainDistribution::finishGhostUpdate(const base::Exec& exec, GrainArrays& arrays) {
+  if (!subdomain_.haloExchange().underWay()) return;
+  subdomain_.haloExchange().arrive();
+  subdomain_.haloExchange().unpack(exec, arrays.exchanged(kUpdated));
+}
+
+void GrainDistribution::updateGhosts(GrainArrays& arrays) { subdomain_.haloExchange().run(arrays.exchanged(kUpdated)); }
 
 /// Moves the cuts where one rank has had clearly more to do than the mean. Time is only measured, so no two runs cut
 /// alike; no bit of the answer depends on it.
-void Grains::rebalance() {
-  const base::Comm& comm = subdomain_->comm();
+void GrainDistribution::rebalance(const GrainArrays& arrays, std::int64_t step) {
+  const base::Comm& comm = subdomain_.comm();
   const Clock::time_point now = Clock::now();
-  if (steps_ < balancedAt_ + kBalanceEvery) return;
-  const double waited = subdomain_->waited();
+  if (step < balancedAt_ + kBalanceEvery) return;
+  const double waited = subdomain_.waited();
   const double busy =
       std::chrono::duration<double>(now - measuredFrom_).count() - (waited - waitedBefore_) - replicatedSeconds_;
   std::int64_t mine = std::max<std::int64_t>(1, static_cast<std::int64_t>(1e9 * busy));
   const auto most = static_cast<std::int64_t>(comm.maximumOf(static_cast<std::uint64_t>(mine)));
   const std::int64_t all = comm.sumOf(mine);
   if (static_cast<double>(most) * comm.size() > kImbalance * static_cast<double>(all)) {
-    const auto own = static_cast<double>(std::max<std::size_t>(1, slots_ - subdomain_->ghosts()));
-    subdomain_->setPartition(subdomain_->balanced(position_[0].data(), slots_, static_cast<double>(mine) / own));
+    const auto own = static_cast<double>(std::max<std::size_t>(1, arrays.slots() - subdomain_.ghosts()));
+    setPartition(
+        subdomain_.balanced(arrays.fields().position.now.data(), arrays.slots(), static_cast<double>(mine) / own));
     ++rebalancings_;
   }
-  balancedAt_ = steps_, measuredFrom_ = now, waitedBefore_ = subdomain_->waited(), replicatedSeconds_ = 0;
+  balancedAt_ = step, measuredFrom_ = now, waitedBefore_ = subdomain_.waited(), replicatedSeconds_ = 0;
 }
 
 } // namespace grouser::terrain

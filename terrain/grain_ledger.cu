@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Energies and counts of the grains, from state functions.
+#include "terrain/grain_ledger.hpp"
+
 #include "terrain/grain_kernel_data.cuh"
-#include "terrain/grains.hpp"
 
 #include <algorithm>
 
@@ -132,30 +133,27 @@ double strongest(const contact::ContactLaw& law, double radius) {
 
 } // namespace
 
-GrainLedger Grains::ledger() {
-  if (stale_) rebuild();
-  finishGhostUpdate();
-  double force = strongest(model_.law, model_.radius);
-  for (const contact::ContactLaw& law : model_.materials.grains) force = std::max(force, strongest(law, model_.radius));
-  const base::FixedPoint energy = base::fixedPointFor(force * model_.radius, 32);
-  const base::FixedPoint momentum = base::fixedPointFor(model_.mass * 10, 32);
-  base::Array<std::int64_t> sums(exec_, 10);
-  base::Array<std::uint64_t> extremes(exec_, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
+GrainLedger measureLedger(GrainSystem& system) {
+  const GrainModel& model = system.constants.model;
+  double force = strongest(model.law, model.radius);
+  for (const contact::ContactLaw& law : model.materials.grains) force = std::max(force, strongest(law, model.radius));
+  const base::FixedPoint energy = base::fixedPointFor(force * model.radius, 32);
+  const base::FixedPoint momentum = base::fixedPointFor(model.mass * 10, 32);
+  base::Array<std::int64_t> sums(system.exec, 10);
+  base::Array<std::uint64_t> extremes(system.exec, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
   const auto measure = [&]<class Real>(const ForceData<Real>& f) {
     base::forEach(
-        exec_, "measure grains", static_cast<std::int64_t>(slots_),
-        MeasureGrain<Real>{{kernelData(nullptr), f}, energy, momentum, sums.data(), extremes.data(), ghosts()});
+        system.exec, "measure grains", static_cast<std::int64_t>(system.arrays.slots()),
+        MeasureGrain<Real>{{system.kernelData(), f}, energy, momentum, sums.data(), extremes.data(), system.ghosts()});
   };
-  if (model_.precision == Precision::single)
-    measure(forceData(single_));
+  if (model.precision == Precision::single)
+    measure(system.forceData<float>());
   else
-    measure(forceData(double_));
+    measure(system.forceData<double>());
   std::vector<std::int64_t> q = sums.toHost();
   std::vector<std::uint64_t> most = extremes.toHost();
-  if (subdomain_) {
-    subdomain_->comm().sum(q.data(), q.size());
-    subdomain_->comm().minimum(most.data(), most.size());
-  }
+  system.comm.sum(q.data(), q.size());
+  system.comm.minimum(most.data(), most.size());
   GrainLedger ledger;
   ledger.kinetic = energy.checked(q[0], "kinetic energies of the grains");
   ledger.rotational = energy.checked(q[1], "energies of rotation of the grains");
@@ -165,7 +163,7 @@ GrainLedger Grains::ledger() {
   ledger.momentum = momentum.checked({q[5], q[6], q[7]}, "momenta of the grains");
   ledger.contacts = q[8] / 2;
   ledger.boundaryContacts = q[9];
-  ledger.deepestOverlap = static_cast<double>(~most[0]) * scale_.unit;
+  ledger.deepestOverlap = static_cast<double>(~most[0]) * system.constants.scale.unit;
   ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
   return ledger;
 }

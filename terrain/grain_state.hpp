@@ -54,6 +54,33 @@ struct GrainState {
   std::size_t rows() const { return position.size(); }
   /// For the hash: what the next step depends on, grain by grain.
   std::vector<std::uint32_t> words() const;
+  GrainState withoutRows() const;
+
+  /// The one list of the columns, in the order of a row's words in the state hash; see row_exchange.hpp for the
+  /// visitor.
+  template <class Self, class Visitor> static void visitRow(Self& s, Visitor& visitor) {
+    const GrainLayout& l = s.layout;
+    visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin), visitor.column(s.remainders);
+    visitor.contacts(s.contacts, &s.neighbour, l.friction ? &s.contactShear : nullptr,
+                     l.rolling ? &s.contactRolling : nullptr);
+    if (l.radii) visitor.column(s.radius);
+    if (l.materials) visitor.column(s.material);
+    if (l.boundaries)
+      visitor.boundaries(s.wallBits, static_cast<std::size_t>(l.boundaries), l.friction ? &s.wallShear : nullptr,
+                         l.rolling ? &s.wallRolling : nullptr);
+    visitor.unhashed(s.travelled);
+    if (l.ledger) visitor.unhashed(s.dissipated);
+    if (l.periodic) visitor.unhashed(s.crossings);
+  }
+};
+
+/// The grains of a scene on the host, by id, to look at: all of them, or on several ranks this rank's block of ids.
+struct GrainSnapshot {
+  std::uint64_t first{}, total{};    ///< id of the first; grains of the scene
+  std::vector<base::Vec3d> position; ///< [m]
+  std::vector<base::Vec3f> velocity; ///< [m/s]
+  std::vector<base::Vec3f> spin;     ///< [rad/s]
+  std::vector<float> radius;         ///< [m]; empty where all are the model's
 };
 
 /// Moves row k to rank `destination[k]`; what comes is in the order of ids. All ranks call it.

@@ -169,7 +169,7 @@ struct FindExtent {
 
 Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
                      const base::Period& period)
-    : exec_(exec), comm_(options.comm), rebalance_(options.rebalance), range_(range), period_(period),
+    : exec_(exec), comm_(options.comm), range_(range), period_(period),
       migration_(exec, options.comm, {.peers = options.peers}),
       haloExchange_(exec, options.comm, {.peers = options.peers}), reduction_(exec, options.comm, options.peers),
       role_(exec), ghostMark_(exec), destination_(exec), movesFrom_(exec), movesTo_(exec), uniques_(exec),

@@ -46,12 +46,13 @@ public:
   /// By slot, until the next migration: the rank that the grain of this slot now belongs to, or kNobody for a slave.
   static constexpr std::uint32_t kNobody = ~0u;
   const std::uint32_t* destination() const { return destination_.data(); }
-  /// The grains that stay fill the first `kept()` slots when those of them that are farther back have moved to where
-  /// leaving grains and ghosts were: from slot movesFrom()[k] to movesTo()[k], for k < moves().
-  std::size_t kept() const { return kept_; }
-  std::size_t moves() const { return movesFrom_.size(); }
-  const std::uint32_t* movesFrom() const { return movesFrom_.data(); }
-  const std::uint32_t* movesTo() const { return movesTo_.data(); }
+  /// The grains that stay fill the first `kept` slots when those of them that are farther back have moved to where
+  /// leaving grains and ghosts were: from slot from[k] to slot to[k] (device arrays), for k < moves.
+  struct Staying {
+    std::size_t kept, moves;
+    const std::uint32_t *from, *to;
+  };
+  Staying staying() const { return {kept_, movesFrom_.size(), movesFrom_.data(), movesTo_.data()}; }
   contact::Exchange& migration() { return migration_; }
 
   /// Masters among the first `owned` grains: fills the plan of the ghost updates; ghosts go to the slots from `owned`
@@ -76,7 +77,6 @@ public:
 
   /// Cuts that share out `costPerGrain` (of this rank, any unit) evenly.
   Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
-  bool rebalances() const { return rebalance_; }
   std::size_t bytes() const;
   /// Time that this rank or its GPU has spent waiting for others since the start [s]. Waits for the GPU's work.
   double waited() const { return comm_.waited() + reduction_.waited(); }
@@ -87,7 +87,6 @@ public:
 private:
   base::Exec exec_;
   base::Comm comm_;
-  bool rebalance_;
   std::int64_t range_;
   base::Period period_;
   Partition partition_;

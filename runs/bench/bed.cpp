@@ -129,13 +129,13 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   f.times.steps = b.steps > 0 ? b.steps : std::clamp<std::int64_t>(static_cast<std::int64_t>(1e6 / warm), 10, 20000);
   comm.wait();
   f.times.steps = static_cast<std::int64_t>(comm.maximumOf(static_cast<std::uint64_t>(f.times.steps)));
-  const std::int64_t before = grains.rebuilds();
-  const terrain::Subdomain* subdomain = grains.subdomain();
+  const std::int64_t before = grains.system().rebuilds;
+  const terrain::Subdomain* subdomain = grains.distribution() ? &grains.distribution()->subdomain() : nullptr;
   const std::int64_t sent = subdomain ? subdomain->bytesSent() : 0;
   const double waited = subdomain ? subdomain->waited() : 0;
   const Clock::time_point start = Clock::now();
   for (int k = 0; k < b.batches; ++k) f.times.microseconds.push_back(timed(exec, grains, f.times.steps));
-  const std::int64_t rebuilds = grains.rebuilds() - before, steps = f.times.steps * b.batches;
+  const std::int64_t rebuilds = grains.system().rebuilds - before, steps = f.times.steps * b.batches;
   f.stepsBetweenRebuilds = rebuilds > 0 ? static_cast<double>(steps) / static_cast<double>(rebuilds)
                                         : std::numeric_limits<double>::infinity();
   f.stepsTaken = grains.steps();
@@ -166,9 +166,9 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   const terrain::GrainLedger ledger = grains.ledger();
   f.contactsPerGrain = static_cast<double>(ledger.contacts + ledger.boundaryContacts) / n;
   f.kineticPerGrain = (ledger.kinetic + ledger.rotational) / n / (model.mass * kGravity * b.radius);
-  const std::vector<std::uint32_t> count = grains.neighbours().toHost().count;
+  const std::vector<std::uint32_t> count = grains.system().neighbours.toHost().count;
   f.listLength = static_cast<double>(comm.sumOf(std::accumulate(count.begin(), count.end(), std::int64_t{0}))) / n;
-  f.bytesPerGrain = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(grains.deviceBytes()))) / n;
+  f.bytesPerGrain = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(grains.system().deviceBytes()))) / n;
   return f;
 }
 

@@ -23,11 +23,11 @@ void StepBench::after(simulation::Stage stage) {
 
 void StepBench::step() {
   const terrain::Grains* grains = simulation_.ground().grains.get();
-  const std::int64_t before = grains ? grains->rebuilds() : 0;
+  const std::int64_t before = grains ? grains->system().rebuilds : 0;
   base::synchronize(exec_);
   last_ = now();
   simulation_.step(this);
-  if (grains) rebuilds_ += grains->rebuilds() - before;
+  if (grains) rebuilds_ += grains->system().rebuilds - before;
   ++steps_;
 }
 

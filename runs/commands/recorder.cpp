@@ -110,9 +110,9 @@ output::RunWriter::Options writerOptions(bool frames, const RunOptions& options,
 /// Where the cuts between subdomains cross the axes [m].
 std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
   std::array<std::vector<double>, 3> borders;
-  if (const terrain::Subdomain* subdomain = grains.subdomain())
+  if (const terrain::GrainDistribution* ranks = grains.distribution())
     for (int axis = 0; axis < 3; ++axis)
-      for (const std::int64_t cut : subdomain->partition().cuts(axis))
+      for (const std::int64_t cut : ranks->subdomain().partition().cuts(axis))
         borders[static_cast<std::size_t>(axis)].push_back(static_cast<double>(cut) * grains.scale().unit);
   return borders;
 }
@@ -179,7 +179,7 @@ void Recorder::row() {
     row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
     row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
     row_.set("terrain/max_speed", l.fastestGrain);
-    row_.set("terrain/rebuilds", static_cast<double>(grains->rebuilds()));
+    row_.set("terrain/rebuilds", static_cast<double>(grains->system().rebuilds));
   }
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) {

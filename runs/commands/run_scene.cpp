@@ -54,10 +54,10 @@ private:
 /// How the grains are shared out.
 void describeRanks(const simulation::Simulation& simulation) {
   const auto& grains = simulation.ground().grains;
-  if (!grains || !grains->subdomain()) return;
-  const terrain::Subdomain& mine = *grains->subdomain();
+  if (!grains || !grains->distribution()) return;
+  const terrain::Subdomain& mine = grains->distribution()->subdomain();
   const base::Comm& comm = simulation.comm();
-  const auto own = comm.gatherValue(static_cast<std::int64_t>(grains->slots() - mine.ghosts()));
+  const auto own = comm.gatherValue(static_cast<std::int64_t>(grains->view().count - mine.ghosts()));
   const auto ghosts = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(mine.ghosts())));
   const auto& shape = mine.partition().shape();
   fmt::print("ranks     {}: subdomains {} x {} x {}, {} to {} grains each, {:.1f} % ghosts\n", comm.size(), shape[0],
@@ -69,23 +69,23 @@ void describeRanks(const simulation::Simulation& simulation) {
 void describeSharing(const simulation::Simulation& simulation, double waiting, output::Summary& summary) {
   const auto& grains = simulation.ground().grains;
   const base::Comm& comm = simulation.comm();
-  if (!grains || !grains->subdomain()) return;
+  if (!grains || !grains->distribution()) return;
   const std::vector<double> waited = comm.gatherValue(waiting);
   const double least = *std::min_element(waited.begin(), waited.end()),
                most = *std::max_element(waited.begin(), waited.end());
   fmt::print("ranks     waited for others {:.1f} to {:.1f} % of the time; cuts moved {} times\n", 100 * least,
-             100 * most, grains->rebalancings());
+             100 * most, grains->distribution()->rebalancings());
   summary.figures["rank_waiting_least"] = least;
   summary.figures["rank_waiting_most"] = most;
-  summary.figures["rebalancings"] = static_cast<double>(grains->rebalancings());
+  summary.figures["rebalancings"] = static_cast<double>(grains->distribution()->rebalancings());
 }
 
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {} of radius {:g} m, {:.0f} bytes each\n", grains->count(), grains->model().radius,
-               static_cast<double>(grains->deviceBytes()) /
-                   static_cast<double>(std::max<std::size_t>(1, grains->slots())));
+               static_cast<double>(grains->system().deviceBytes()) /
+                   static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
   if (simulation.settled().steps > 0)
     fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",

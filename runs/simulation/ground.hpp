@@ -50,9 +50,4 @@ void keepSurface(Ground& ground, const std::vector<double>& heights);
 /// Height of the undisturbed bed, or of the rigid ground; null where there is neither.
 std::function<double(double x, double y)> surfaceHeight(const Ground& ground);
 
-/// What contacts with rigid parts see of the grains.
-inline contact::GrainPartContacts::GrainsView viewOf(const terrain::Grains& grains) {
-  return {grains.positions(), grains.velocities(), grains.spins(), grains.ids(), grains.slots(), grains.ghosts()};
-}
-
 } // namespace grouser::simulation

@@ -12,7 +12,7 @@ namespace grouser::simulation {
 using base::Vec3d;
 
 MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains)
-    : exec_(exec), comm_(grains.comm()), room_(0.5 * grains.smallestRadius()) {
+    : exec_(exec), comm_(grains.system().comm), room_(0.5 * grains.system().constants.smallestRadius) {
   std::vector<contact::GrainPart> parts;
   for (const setup::SurfaceSetup& surface : setup.surfaces) {
     if (!surface.mesh) continue;
@@ -27,7 +27,8 @@ MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& ex
   const contact::GrainPartModel model = grainPartModel(*setup.grains, grains, room_);
   force_ = model.force, torque_ = model.torque;
   contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, setup.grains->partLaws);
-  grains.onMigrate([this](const std::uint32_t* destination) { contacts_->migrate(destination); });
+  if (auto* ranks = grains.distribution())
+    ranks->onMigrate([this](const std::uint32_t* destination) { contacts_->migrate(destination); });
   motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
   sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size());
   loads_.resize(sets_.size());
@@ -55,10 +56,10 @@ void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vec
   motion_.upload();
   sums_.device().zero();
   if (slotsChanged || haveLeft(motions)) {
-    contacts_->refresh(viewOf(grains), motion_.device());
+    contacts_->refresh(grains.view(), motion_.device());
     listedAt_ = motions;
   }
-  contacts_->compute(viewOf(grains), motion_.device(), sums_.device().data());
+  contacts_->compute(grains.view(), motion_.device(), sums_.device().data());
   grainLoads_ = contacts_->grainLoads();
   sums_.download();
   base::synchronize(exec_);

@@ -12,17 +12,17 @@ namespace grouser::simulation {
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;
-  explicit ReplicatedWork(terrain::Grains* grains) : grains_(grains && !grains->comm().alone() ? grains : nullptr) {}
+  explicit ReplicatedWork(terrain::Grains* grains) : ranks_(grains ? grains->distribution() : nullptr) {}
 
   template <class Work> void run(const Work& work) const {
-    if (!grains_) return work();
+    if (!ranks_) return work();
     const auto start = std::chrono::steady_clock::now();
     work();
-    grains_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    ranks_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
 
 private:
-  terrain::Grains* grains_{nullptr};
+  terrain::GrainDistribution* ranks_{nullptr}; ///< null on one rank
 };
 
 } // namespace grouser::simulation

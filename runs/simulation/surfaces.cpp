@@ -75,7 +75,8 @@ void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadiu
 void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const terrain::SurfaceLoad& load = i < shapes_ ? grains.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
+    const terrain::SurfaceLoad& load =
+        i < shapes_ ? grains.system().boundaries.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
     const setup::SurfaceMotion::State law = surfaces_[i].motion.at(time);
     SurfaceState& s = states_.surfaces[i];
     double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
@@ -84,7 +85,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
       const double mass = free->mass, given = free->loadAt(time);
       s.speed += (dot(load.force + gravity_ * mass, freeAxis(i)) + given) / mass * timeStep_;
       s.offset += s.speed * timeStep_;
-      checkSpeed(i, step, grains.smallestRadius());
+      checkSpeed(i, step, grains.system().constants.smallestRadius);
       power += given * s.speed;
     }
     s.work += power * timeStep_;

@@ -14,7 +14,7 @@ TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::HeightField& sur
   Ground ground = buildGround(*tile.ground, exec);
   const setup::BedSetup& bed = *tile.ground->grains->bed;
   if (bed.settle.timeLimit > 0) settle(bed, *ground.grains, [](double, double) {});
-  tile_ = ground.grains->state(), scale_ = ground.grains->scale(), period_ = ground.grains->period();
+  tile_ = ground.grains->state(), scale_ = ground.grains->scale(), period_ = ground.grains->system().constants.period;
   // The tile lies in [0, size x] and [-size y / 2, size y / 2], as every terrain does.
   lift_ = base::toUnits(scale_.fromMetres(
       {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - ground.rigid->bounds().lowest}));

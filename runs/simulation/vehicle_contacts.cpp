@@ -22,7 +22,7 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
                                  const Ground& ground)
     : assembly_(assembly), parts_(parts), exec_(exec), side_(exec), graph_(exec), replicated_(ground.grains.get()),
       timeStep_(timeStep) {
-  if (ground.grains) comm_ = ground.grains->comm();
+  if (ground.grains) comm_ = ground.grains->system().comm;
   const std::size_t n = parts.contactParts();
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
   travelled_ = base::Mirrored<double>(exec_, 2);
@@ -57,7 +57,8 @@ void VehicleContacts::makeGround(const setup::GroundSetup& setup, const Ground& 
     for (const int set : parts_.setOfContactPart()) parts.push_back({set, {}, {}});
     bed_ =
         std::make_unique<contact::GrainPartContacts>(exec_, model, parts_.sets(), parts, comm_, setup.grains->partLaws);
-    ground.grains->onMigrate([this](const std::uint32_t* destination) { bed_->migrate(destination); });
+    if (auto* ranks = ground.grains->distribution())
+      ranks->onMigrate([this](const std::uint32_t* destination) { bed_->migrate(destination); });
   } else if (ground.rigid) {
     const vehicle::ContactSpec& spec = assembly_.spec.contact;
     const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
@@ -94,7 +95,7 @@ void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChan
   }
   if (!groundIsDue) return;
   if (bed_) {
-    bed_->refresh(viewOf(*grains), motion_.device());
+    bed_->refresh(grains->view(), motion_.device());
     grainLoads_ = bed_->grainLoads();
   }
   if (rigidGround_) rigidGround_->refresh(motion_.device());
@@ -104,7 +105,7 @@ void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChan
 void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* observer) {
   noteTravel();
   if (observer) return computeInParts(grains, *observer);
-  graph_.from(grains ? grains->positions() : nullptr).run([this, grains] {
+  graph_.from(grains ? grains->view().position : nullptr).run([this, grains] {
     uploadPoses();
     side_.fork();
     computeGround(grains, side_.exec());
@@ -144,7 +145,7 @@ void VehicleContacts::computeTrack() {
 /// All parts against the bed, or shoes against rigid ground.
 void VehicleContacts::computeGround(const terrain::Grains* grains, const base::Exec& exec) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + parts_.contactParts();
-  if (bed_) bed_->computeOn(exec, viewOf(*grains), motion_.device(), groundLoads);
+  if (bed_) bed_->computeOn(exec, grains->view(), motion_.device(), groundLoads);
   if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);
 }
 

@@ -46,7 +46,7 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_)) {
-  const base::Comm comm = ground.grains ? ground.grains->comm() : base::Comm{};
+  const base::Comm comm = ground.grains ? ground.grains->system().comm : base::Comm{};
   parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm);
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground);
 }

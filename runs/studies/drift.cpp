@@ -54,8 +54,8 @@ double collisionTimeOf(const StudyBox& box) {
 
 /// Positions by id: exact.
 std::vector<base::Position> placesById(const Grains& grains) {
-  std::vector<base::Position> place(grains.slots());
-  for (std::size_t slot = 0; slot < place.size(); ++slot) place[grains.ids()[slot]] = grains.positions()[slot];
+  std::vector<base::Position> place(grains.view().count);
+  for (std::size_t slot = 0; slot < place.size(); ++slot) place[grains.view().id[slot]] = grains.view().position[slot];
   return place;
 }
 
@@ -106,7 +106,7 @@ Macro macroOf(Grains& grains) {
   const terrain::GrainLedger ledger = grains.ledger();
   std::vector<double> height;
   double mean = 0;
-  const double n = static_cast<double>(grains.slots());
+  const double n = static_cast<double>(grains.view().count);
   for (const base::Position& p : placesById(grains)) {
     height.push_back(grains.scale().toMetres(p).z);
     mean += height.back() / n;

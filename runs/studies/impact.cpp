@@ -102,9 +102,9 @@ public:
     const std::size_t n = binary_ ? 2 * count_ : count_;
     height_.resize(n), velocity_.resize(n);
     for (std::size_t slot = 0; slot < n; ++slot) {
-      const std::size_t id = grains_->ids()[slot];
-      height_[id] = grains_->scale().toMetres(grains_->positions()[slot]).z;
-      velocity_[id] = static_cast<double>(grains_->velocities()[slot].z);
+      const std::size_t id = grains_->view().id[slot];
+      height_[id] = grains_->scale().toMetres(grains_->view().position[slot]).z;
+      velocity_[id] = static_cast<double>(grains_->view().velocity[slot].z);
     }
     for (std::size_t i = 0; i < count_; ++i) {
       gap[i] = binary_ ? height_[2 * i] - height_[2 * i + 1] - 2 * kRadius : height_[i] - kRadius;

@@ -63,7 +63,7 @@ Packing pourPacking(const SampleGrains& material, int grains, double width, std:
   double volume = 0, shared = 0, contacts = 0, overlaps = 0;
   std::size_t c = 0;
   std::vector<std::vector<std::size_t>> touching(state.rows());
-  const base::Period& period = sample.grains().period();
+  const base::Period& period = sample.grains().system().constants.period;
   for (std::size_t g = 0; g < state.rows(); ++g) {
     volume += volumeBelow(high, z[g], r) - volumeBelow(low, z[g], r);
     for (const std::size_t end = c + state.contacts[g]; c < end; ++c) {

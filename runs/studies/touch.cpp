@@ -121,10 +121,10 @@ void TouchCounts::add(const TouchCounts& more) {
 }
 
 TouchCounts judgePairs(const terrain::Grains& grains, std::int64_t diameterUnits) {
-  const contact::NeighbourList::HostCopy list = grains.neighbours().toHost();
-  const Position* position = grains.positions(); // on the CPU
+  const contact::NeighbourList::HostCopy list = grains.system().neighbours.toHost();
+  const Position* position = grains.view().position; // on the CPU
   TouchCounts counts;
-  for (std::size_t i = 0; i < grains.slots(); ++i)
+  for (std::size_t i = 0; i < grains.view().count; ++i)
     for (std::uint32_t k = 0; k < list.count[i]; ++k) {
       const std::size_t j = list.slot[static_cast<std::size_t>(list.at(i, k))];
       if (i < j) counts.add(position[i], position[j], grains.scale(), diameterUnits);

@@ -24,7 +24,7 @@ struct OneGrain {
   OneGrain(const base::Exec& exec, const base::Position& p, const base::Vec3f& v)
       : position(exec, std::vector{p}), velocity(exec, std::vector{base::Vec4f{v.x, v.y, v.z, 0}}), spin(exec, 1),
         id(exec, 1) {}
-  GrainPartContacts::GrainsView view() const { return {position.data(), velocity.data(), spin.data(), id.data(), 1}; }
+  GrainsView view() const { return {position.data(), velocity.data(), spin.data(), id.data(), 1}; }
 };
 
 /// One grain against one part, stepped by hand.
@@ -54,7 +54,7 @@ struct Bench {
   Result touch(const Vec3d& x, const Vec3d& v, const PartMotion& part, bool refresh = true) {
     const OneGrain grain(exec, model.scale.fromMetres(x), v.as<float>());
     motion = base::Array<PartMotion>(exec, std::vector<PartMotion>{part});
-    const GrainPartContacts::GrainsView grains = grain.view();
+    const GrainsView grains = grain.view();
     if (refresh) contacts->refresh(grains, motion);
     loads.zero();
     contacts->compute(grains, motion, loads.data());

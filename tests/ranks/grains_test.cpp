@@ -28,7 +28,7 @@ PartitionOptions shared(const std::array<int, 3>& shape = {0, 0, 0}, bool rebala
 /// All words, on every rank, in the order of ids.
 std::vector<std::uint32_t> allWords(const Grains& grains) {
   std::vector<std::uint32_t> words;
-  for (const auto& part : grains.comm().gatherAll(grains.stateWords()))
+  for (const auto& part : grains.system().comm.gatherAll(grains.state().words()))
     words.insert(words.end(), part.begin(), part.end());
   return words;
 }
@@ -40,7 +40,7 @@ const std::vector<std::uint32_t>& expected() {
     const GrainModel m = gravel();
     Grains alone(base::cpuExec(1), m, box(m), thrownBlock());
     advance(alone, kSteps);
-    return alone.stateWords();
+    return alone.state().words();
   }();
   return words;
 }
@@ -82,8 +82,8 @@ TEST(GrainsOnRanks, EqualBitsAcrossJoinedSides) {
       Grains resumed(base::cpuExec(1), m, boundaries, thrownBlock(), shared({n / x, x, 1}));
       resumed.restore(grains.state());
       advance(grains, 900), advance(resumed, 900);
-      EXPECT_EQ(allWords(grains), alone.stateWords()) << x << " x " << n / x << ", joined " << which;
-      EXPECT_EQ(allWords(resumed), alone.stateWords()) << "resumed, " << x << " x " << n / x << ", joined " << which;
+      EXPECT_EQ(allWords(grains), alone.state().words()) << x << " x " << n / x << ", joined " << which;
+      EXPECT_EQ(allWords(resumed), alone.state().words()) << "resumed, " << x << " x " << n / x << ", joined " << which;
       EXPECT_EQ(grains.ledger().potential, alone.ledger().potential);
     }
   }
@@ -112,24 +112,26 @@ TEST(GrainsOnRanks, EqualBitsForManyRadiiAndMaterialsThatRollAndStick) {
     constexpr int kFew = 1200;
     Grains alone(base::cpuExec(1), m, box(m), start), grains(base::cpuExec(1), m, box(m), start, shared({}, true));
     advance(alone, kFew), advance(grains, kFew);
-    EXPECT_EQ(allWords(grains), alone.stateWords());
+    EXPECT_EQ(allWords(grains), alone.state().words());
     Grains resumed(base::cpuExec(1), m, box(m), start, shared());
     resumed.restore(grains.state());
     advance(resumed, 200), advance(alone, 200);
-    EXPECT_EQ(allWords(resumed), alone.stateWords());
+    EXPECT_EQ(allWords(resumed), alone.state().words());
   }
 }
 
 TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
   const GrainModel m = gravel(0.6);
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({0, 0, 0}, true));
-  if (const Subdomain* s = grains.subdomain()) {
+  if (GrainDistribution* ranks = grains.distribution()) {
     // Every 300 steps all cuts jump: most grains change hands at once, some ranks are left with none.
     for (int k = 0; k < 10; ++k) {
       std::array<std::vector<std::int64_t>, 3> weights;
       for (auto& w : weights) w.assign(kPartitionBins, 1), w[static_cast<std::size_t>(400 * k)] = 100000;
       const auto u = [&](double metres) { return static_cast<std::int64_t>(metres * grains.scale().perMetre); };
-      grains.setPartition({s->partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});
+      ranks->setPartition(
+          {ranks->subdomain().partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});
+      grains.invalidateNeighbours();
       advance(grains, 300);
     }
   } else {
@@ -153,9 +155,9 @@ TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
   second.setSteps(1234);
   advance(second, kSteps - 1234);
   EXPECT_EQ(allWords(second), expected());
-  EXPECT_EQ(second.rebuilds(), [&] {
+  EXPECT_EQ(second.system().rebuilds, [&] {
     advance(first, kSteps - 1234);
-    return first.rebuilds();
+    return first.system().rebuilds;
   }());
 }
 
@@ -192,27 +194,27 @@ TEST(GrainsOnRanks, TopsOfTheBedAreThoseOfOneRankAfterAnyStep) {
 TEST(GrainsOnRanks, RolesAreAsDefined) {
   const GrainModel m = gravel();
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared());
-  if (!grains.subdomain()) GTEST_SKIP() << "one rank has no roles: see OneRank";
+  if (!grains.distribution()) GTEST_SKIP() << "one rank has no roles: see OneRank";
   grains.refreshNeighbours();
-  const Subdomain& s = *grains.subdomain();
-  EXPECT_EQ(s.uniques().size() + s.masters().size() + s.ghosts(), grains.slots());
+  const Subdomain& s = grains.distribution()->subdomain();
+  EXPECT_EQ(s.uniques().size() + s.masters().size() + s.ghosts(), grains.view().count);
   // Every grain has one owner, and every owned grain that another rank's grain may touch is a master.
-  EXPECT_EQ(grains.comm().sumOf(static_cast<std::int64_t>(s.uniques().size() + s.masters().size())), 360);
+  EXPECT_EQ(grains.system().comm.sumOf(static_cast<std::int64_t>(s.uniques().size() + s.masters().size())), 360);
   const double range = 2.3 * m.radius + 1e-6;
-  const auto positions = base::toHost(base::cpuExec(1), grains.positions(), grains.slots());
-  const std::vector<std::uint32_t> ids = base::toHost(base::cpuExec(1), grains.ids(), grains.slots());
+  const auto positions = base::toHost(base::cpuExec(1), grains.view().position, grains.view().count);
+  const std::vector<std::uint32_t> ids = base::toHost(base::cpuExec(1), grains.view().id, grains.view().count);
   const PartitionView lattice = s.partition().view();
   const auto start = thrownBlock();
-  for (std::size_t i = 0; i < grains.slots(); ++i) {
+  for (std::size_t i = 0; i < grains.view().count; ++i) {
     const base::Vec3l u = base::toUnits(positions[i]);
-    const bool slave = grains.ghosts()[i] != 0;
-    EXPECT_EQ(lattice.ownerOf(u) != grains.comm().rank(), slave);
+    const bool slave = grains.view().ghost[i] != 0;
+    EXPECT_EQ(lattice.ownerOf(u) != grains.system().comm.rank(), slave);
     if (slave) continue;
     bool needed = false; // some foreign grain within range
     for (const GrainSpec& other : start) {
       const int owner = lattice.ownerOf(base::toUnits(grains.scale().fromMetres(other.position)));
-      needed = needed ||
-               (owner != grains.comm().rank() && norm(other.position - grains.scale().toMetres(positions[i])) < range);
+      needed = needed || (owner != grains.system().comm.rank() &&
+                          norm(other.position - grains.scale().toMetres(positions[i])) < range);
     }
     const bool master = std::find(s.masters().data(), s.masters().data() + s.masters().size(),
                                   static_cast<std::uint32_t>(i)) != s.masters().data() + s.masters().size();
@@ -240,10 +242,10 @@ TEST(OneRank, HasNoGhostsNoRolesAndNoMessages) {
   const GrainModel m = gravel();
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock());
   advance(grains, 10);
-  EXPECT_EQ(grains.subdomain(), nullptr);
-  EXPECT_EQ(grains.ghosts(), nullptr);
-  EXPECT_EQ(grains.slots(), grains.count());
-  EXPECT_EQ(grains.comm().waited(), 0.0);
+  EXPECT_EQ(grains.distribution(), nullptr);
+  EXPECT_EQ(grains.view().ghost, nullptr);
+  EXPECT_EQ(grains.view().count, grains.count());
+  EXPECT_EQ(grains.system().comm.waited(), 0.0);
 }
 
 } // namespace

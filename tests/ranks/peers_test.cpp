@@ -186,27 +186,27 @@ TEST_F(Peers, StepsTogetherGiveTheBitsOfOneRankOnACpu) {
   PartitionOptions together;
   together.comm = comm, together.peers = PeerUse::always;
   Grains shared(exec, m, box, start, together);
-  ASSERT_TRUE(shared.subdomain()->stepsTogether());
+  ASSERT_TRUE(shared.distribution()->subdomain().stepsTogether());
   const auto advance = [](Grains& grains, std::int64_t steps) {
     for (std::int64_t i = 0; i < steps;) i += grains.advance(steps - i);
   };
   const auto words = [&](const Grains& grains) {
     std::vector<std::uint32_t> all;
-    for (const auto& part : comm.gatherAll(grains.stateWords())) all.insert(all.end(), part.begin(), part.end());
+    for (const auto& part : comm.gatherAll(grains.state().words())) all.insert(all.end(), part.begin(), part.end());
     return all;
   };
   for (const std::int64_t steps : {40, 17, 3, 64}) {
     advance(alone, steps), advance(shared, steps);
     EXPECT_EQ(shared.ledger().kinetic, alone.ledger().kinetic) << "after " << alone.steps();
-    EXPECT_EQ(words(shared), alone.stateWords()) << "after " << alone.steps();
+    EXPECT_EQ(words(shared), alone.state().words()) << "after " << alone.steps();
   }
   alone.add(more), shared.add(more);
   advance(alone, 50), advance(shared, 50);
-  EXPECT_EQ(words(shared), alone.stateWords()) << "with grains added";
+  EXPECT_EQ(words(shared), alone.state().words()) << "with grains added";
   shared.restore(shared.state());
   advance(alone, 150), advance(shared, 150);
-  EXPECT_EQ(words(shared), alone.stateWords()) << "after it was saved and loaded";
-  EXPECT_GT(shared.rebuilds(), 3);
+  EXPECT_EQ(words(shared), alone.state().words()) << "after it was saved and loaded";
+  EXPECT_GT(shared.system().rebuilds, 3);
 }
 
 } // namespace

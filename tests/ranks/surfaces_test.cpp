@@ -28,10 +28,10 @@ Outcome runMill(const PartitionOptions& partition, double skin = 0.3, std::int64
       grains->restore(saved);
     }
     advanceWith(*grains, motion, n, n + 1);
-    for (const SurfaceLoad& load : grains->surfaceLoads())
+    for (const SurfaceLoad& load : grains->system().boundaries.surfaceLoads())
       out.loads.push_back(load.force), out.loads.push_back(load.torque);
   }
-  for (const auto& part : grains->comm().gatherAll(grains->stateWords()))
+  for (const auto& part : grains->system().comm.gatherAll(grains->state().words()))
     out.words.insert(out.words.end(), part.begin(), part.end());
   return out;
 }

@@ -55,9 +55,9 @@ struct Pushes {
   std::int64_t received[3]{};
   contact::GrainLoadsView view(const Grains& grains, std::int64_t step) {
     const base::FixedPoint quantum = base::fixedPointFor(1e3);
-    range.assign(grains.slots(), 0), load.clear();
-    for (std::size_t i = 0; i < grains.slots(); ++i) {
-      const auto id = static_cast<int>(grains.ids()[i]);
+    range.assign(grains.view().count, 0), load.clear();
+    for (std::size_t i = 0; i < grains.view().count; ++i) {
+      const auto id = static_cast<int>(grains.view().id[i]);
       if ((id + step) % 5 != 0) continue;
       range[i] = static_cast<std::uint32_t>(load.size()) << 8 | 2u;
       for (int k = 0; k < 2; ++k)
@@ -84,8 +84,8 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
     const contact::GrainLoadsView loads = kind.loads ? pushes.view(grains, s) : contact::GrainLoadsView{};
     grains.step(kind.loads ? &loads : nullptr);
   }
-  EXPECT_TRUE(skin > 0.2 || grains.rebuilds() > 5) << "the list is rebuilt on the way";
-  return grains.stateWords();
+  EXPECT_TRUE(skin > 0.2 || grains.system().rebuilds > 5) << "the list is rebuilt on the way";
+  return grains.state().words();
 }
 
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
@@ -131,7 +131,7 @@ TEST(GrainSimd, TouchOfOneUnitIsFound) {
       Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, {{2 * m.radius + units * unit, 0, 0}, {}, {}}});
       advance(grains, 1);
       std::uint64_t touching = 0;
-      for (const std::uint64_t word : grains.neighbours().toHost().touching) touching += word != 0;
+      for (const std::uint64_t word : grains.system().neighbours.toHost().touching) touching += word != 0;
       EXPECT_EQ(touching, units < 0 ? 2u : 0u) << units << " units apart, " << lanes << " lanes";
     }
 }
@@ -168,7 +168,7 @@ TEST(GrainSimd, GrainsCrossTheEndsOfTheirLowWords) {
     for (int k = -3; k <= 3; ++k) start.push_back({{k * wrap + 1e-4, -k * wrap - 1e-4, 1e-5}, {-1, 1, -0.5}, {}});
     Grains grains(base::cpuExec(1), m, {}, start);
     advance(grains, 100);
-    return grains.stateWords();
+    return grains.state().words();
   };
   EXPECT_EQ(words(16), words(1));
   EXPECT_EQ(words(8), words(1));

@@ -73,7 +73,7 @@ Bed bedOf(const Kind& kind, int across = 5) {
 std::vector<std::uint32_t> wordsAfter(const Bed& bed, int steps, int threads = 1) {
   Grains grains(testExec(threads), bed.model, bed.boundaries, bed.start);
   advance(grains, steps);
-  return grains.stateWords();
+  return grains.state().words();
 }
 
 std::vector<Kind> allKinds() {
@@ -93,13 +93,13 @@ TEST(ManyKinds, EveryKernelGivesTheBitsOfTheGeneralOneOnAnyThreadsAndRebuilds) {
     const auto expected = wordsAfter(bed, 300);
     bed.model.specialised = false, bed.model.skin = 0.7;
     EXPECT_EQ(wordsAfter(bed, 300, 2), expected)
-        << featureText(Grains(testExec(1), bed.model, bed.boundaries, bed.start).features());
+        << featureText(Grains(testExec(1), bed.model, bed.boundaries, bed.start).system().constants.features);
   }
 }
 
 TEST(ManyKinds, RadiiOfOneSizeAreNotStored) {
   Grains one(testExec(1), bedOf({}).model, bedOf({}).boundaries, bedOf({}).start);
-  EXPECT_FALSE(one.manyRadii());
+  EXPECT_FALSE(one.system().constants.manyRadii());
   EXPECT_TRUE(one.state().radius.empty());
   EXPECT_TRUE(one.state().material.empty());
   EXPECT_TRUE(one.state().contactRolling.empty());
@@ -107,7 +107,7 @@ TEST(ManyKinds, RadiiOfOneSizeAreNotStored) {
   Grains smooth(testExec(1), bed.model, bed.boundaries, bed.start);
   advance(smooth, 200);
   EXPECT_TRUE(smooth.state().contactShear.empty());
-  EXPECT_TRUE(smooth.neighbours().toHost().history.empty()) << "frictionless: no history arrays";
+  EXPECT_TRUE(smooth.system().neighbours.toHost().history.empty()) << "frictionless: no history arrays";
 }
 
 TEST(ManyKinds, ResumedRunGivesTheSameBits) {
@@ -120,7 +120,7 @@ TEST(ManyKinds, ResumedRunGivesTheSameBits) {
   Grains second(testExec(1), bed.model, bed.boundaries, bed.start);
   second.restore(saved);
   advance(second, 600 - 377);
-  EXPECT_EQ(second.stateWords(), expected);
+  EXPECT_EQ(second.state().words(), expected);
 }
 
 /// Grains flying into each other without gravity or walls: momentum, angular momentum about the origin, energy.
@@ -205,7 +205,7 @@ TEST(ManyKinds, SmallGrainsInReachOfALargeOneAreAllListed) {
   Grains other(testExec(1), m, {}, start);
   other.restore(saved);
   advance(grains, 5), other.invalidateNeighbours(), advance(other, 5);
-  EXPECT_EQ(other.stateWords(), grains.stateWords());
+  EXPECT_EQ(other.state().words(), grains.state().words());
 }
 
 TEST(ManyKinds, RadiiTooUnlikeAreRefused) {
@@ -238,7 +238,7 @@ TEST(ManyKinds, OneGrainFeelsMoreNeighboursThanAWordHasBits) {
   Grains resumed(testExec(), m, {}, start);
   resumed.restore(state);
   advance(grains, 3), advance(resumed, 3);
-  EXPECT_EQ(grains.stateWords(), resumed.stateWords());
+  EXPECT_EQ(grains.state().words(), resumed.state().words());
 }
 
 } // namespace

@@ -14,7 +14,7 @@ std::vector<std::uint32_t> runHeap(int threads, double skin, base::Vec3d shift =
   Grains grains(testExec(threads), m, {{{{0, 0, 1}, offset, m.law}, {{1, 0, 0}, shift.x - 0.05, m.law}}, {}},
                 gravelBlock(7, 7, 6, {0.3, 0.1, -1}, {}, shift));
   advance(grains, 3000);
-  return grains.stateWords();
+  return grains.state().words();
 }
 
 TEST(Heap, SameBitsForThreadsAndRebuildIntervals) {

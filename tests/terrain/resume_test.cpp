@@ -29,7 +29,7 @@ struct End {
   std::int64_t rebuilds;
   double dissipated;
 };
-End endOf(Grains& grains) { return {grains.stateWords(), grains.rebuilds(), grains.ledger().dissipated}; }
+End endOf(Grains& grains) { return {grains.state().words(), grains.system().rebuilds, grains.ledger().dissipated}; }
 
 constexpr int kSteps = 4000;
 
@@ -45,7 +45,7 @@ End resumedAt(int step, const base::Exec& before, const base::Exec& after, doubl
   const GrainState saved = first.state();
   Grains second = heap(after, skin);
   second.restore(saved);
-  EXPECT_EQ(second.stateWords(), saved.words());
+  EXPECT_EQ(second.state().words(), saved.words());
   EXPECT_EQ(second.state().travelled == saved.travelled, skin == 0.3);
   advance(second, kSteps - step);
   return endOf(second);

@@ -78,10 +78,10 @@ TEST(BallOnBox, RestsOnFaceEdgeAndCornerAtItsStaticOverlap) {
     advance(grains, 5000);
     const Vec3d x = transposedTimes(stands.matrix(), grains.snapshot().position[0] - centre) - foot;
     EXPECT_LT(norm(x - n * (m.radius - overlap)), 2e-3 * overlap) << "a float's force; on edges it begins to roll off";
-    const Vec3d force = grains.surfaceLoads()[0].force;
+    const Vec3d force = grains.system().boundaries.surfaceLoads()[0].force;
     EXPECT_LT(norm(force - m.gravity * m.mass), 1e-3 * m.mass * g);
     const Vec3d torque = cross(rotate(stands, foot), m.gravity * m.mass);
-    EXPECT_LT(norm(grains.surfaceLoads()[0].torque - torque), 1e-3 * m.mass * g * norm(half));
+    EXPECT_LT(norm(grains.system().boundaries.surfaceLoads()[0].torque - torque), 1e-3 * m.mass * g * norm(half));
   }
 }
 
@@ -119,7 +119,8 @@ TEST(BallInDrum, ThatTurnsWithItFeelsNoRollingResistance) {
   advanceWith(grains, motion, 0, 20000);
   EXPECT_NEAR(static_cast<double>(grains.snapshot().spin[0].z), omega, 1e-3 * omega);
   EXPECT_LT(grains.ledger().dissipated, 1e-4 * grains.ledger().kinetic);
-  EXPECT_EQ(grains.surfaceListings(), grains.rebuilds()) << "a drum that turns about its axis asks for no lists";
+  EXPECT_EQ(grains.system().boundaries.listings(), grains.system().rebuilds)
+      << "a drum that turns about its axis asks for no lists";
 }
 
 TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
@@ -133,10 +134,12 @@ TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
   const double tRoll = 2 * v0 / (7 * mu * 9.81);
   advance(grains, static_cast<std::int64_t>(0.5 * tRoll / m.timeStep));
   EXPECT_NEAR(grains.snapshot().velocity[0].x, mu * 9.81 * 0.5 * tRoll, 1e-4) << "constant acceleration mu g";
-  EXPECT_NEAR(grains.surfaceLoads()[0].force.x, -mu * m.mass * 9.81, 1e-4 * m.mass * 9.81) << "what the belt must pull";
+  EXPECT_NEAR(grains.system().boundaries.surfaceLoads()[0].force.x, -mu * m.mass * 9.81, 1e-4 * m.mass * 9.81)
+      << "what the belt must pull";
   advance(grains, static_cast<std::int64_t>(0.6 * tRoll / m.timeStep));
   EXPECT_NEAR(grains.snapshot().velocity[0].x, 2 * v0 / 7, 1e-3);
-  EXPECT_EQ(grains.surfaceListings(), grains.rebuilds()) << "a belt that slides along itself asks for no lists";
+  EXPECT_EQ(grains.system().boundaries.listings(), grains.system().rebuilds)
+      << "a belt that slides along itself asks for no lists";
 }
 
 TEST(BallOnTurntable, RollsRoundWithTwoSeventhsOfItsSpin) {
@@ -154,7 +157,7 @@ TEST(BallOnTurntable, RollsRoundWithTwoSeventhsOfItsSpin) {
   advanceWith(grains, motion, 0, std::llround(quarter / m.timeStep));
   const Vec3d x = grains.snapshot().position[0];
   EXPECT_LT(norm(x - Vec3d{0, rho, m.radius - overlap}), 5e-3 * rho) << "springs that give way at the start";
-  EXPECT_GT(grains.surfaceListings(), grains.rebuilds()) << "the corners of the table go round";
+  EXPECT_GT(grains.system().boundaries.listings(), grains.system().rebuilds) << "the corners of the table go round";
 }
 
 TEST(BallOnTurntable, ThatSticksDoesNotCreepSinceItsSpringTurnsWithTheTable) {
@@ -189,7 +192,7 @@ TEST(Loads, AreTheMomentumThatGrainsHaveLost) {
   Vec3d impulse;
   for (std::int64_t n = 0; n < 3000; ++n) {
     advanceWith(grains, motion, n, n + 1);
-    for (const SurfaceLoad& load : grains.surfaceLoads()) impulse += load.force * m.timeStep;
+    for (const SurfaceLoad& load : grains.system().boundaries.surfaceLoads()) impulse += load.force * m.timeStep;
   }
   EXPECT_GT(norm(impulse), 1e-3) << "they have touched";
   const auto count = static_cast<double>(grains.count());
@@ -203,8 +206,8 @@ std::vector<std::uint32_t> runMill(int threads, double skin, bool special = true
   m.specialised = special, m.precision = precision;
   Grains grains(testExec(threads), m, {{{{0, 1, 0}, -0.1, m.law}}, {}, {}, mill(m.law)}, millGrains());
   advanceWith(grains, millMotion(m.timeStep), 0, 4000);
-  if (loads) *loads = grains.surfaceLoads();
-  return grains.stateWords();
+  if (loads) *loads = grains.system().boundaries.surfaceLoads();
+  return grains.state().words();
 }
 
 TEST(Mill, SameBitsForThreadsRebuildIntervalsAndKernels) {
@@ -230,10 +233,10 @@ TEST(Mill, ResumedRunGivesTheSameBitsAndLoads) {
     second.setSurfacePoses(motion(stop));
     second.restore(first.state());
     advanceWith(second, motion, stop, 4000);
-    EXPECT_EQ(second.stateWords(), expected) << "stopped at " << stop;
+    EXPECT_EQ(second.state().words(), expected) << "stopped at " << stop;
     for (std::size_t s = 0; s < loads.size(); ++s) {
-      EXPECT_EQ(second.surfaceLoads()[s].force, loads[s].force);
-      EXPECT_EQ(second.surfaceLoads()[s].torque, loads[s].torque);
+      EXPECT_EQ(second.system().boundaries.surfaceLoads()[s].force, loads[s].force);
+      EXPECT_EQ(second.system().boundaries.surfaceLoads()[s].torque, loads[s].torque);
     }
   }
 }
@@ -249,8 +252,8 @@ TEST(Mill, ListsLoseNoContact) {
     advanceWith(always, motion, n, n + 1);
     advanceWith(seldom, motion, n, n + 1);
   }
-  EXPECT_EQ(seldom.stateWords(), always.stateWords());
-  EXPECT_LT(seldom.surfaceListings(), 600) << "the plate shakes by 4 mm, the room is 2.5 mm";
+  EXPECT_EQ(seldom.state().words(), always.state().words());
+  EXPECT_LT(seldom.system().boundaries.listings(), 600) << "the plate shakes by 4 mm, the room is 2.5 mm";
 }
 
 TEST(Surfaces, ListsMadeBetweenRebuildsKeepWallsThatAGrainMayComeBackTo) {
@@ -269,9 +272,9 @@ TEST(Surfaces, ListsMadeBetweenRebuildsKeepWallsThatAGrainMayComeBackTo) {
       advanceWith(grains, motion, n, n + 1);
     }
     if (!always) {
-      EXPECT_GT(grains.surfaceListings(), grains.rebuilds() + 20);
+      EXPECT_GT(grains.system().boundaries.listings(), grains.system().rebuilds + 20);
     }
-    return grains.stateWords();
+    return grains.state().words();
   };
   EXPECT_EQ(after(false), after(true));
 }
@@ -291,12 +294,12 @@ TEST(Surfaces, ThatJumpAwayLeaveNoSpringBehind) {
 TEST(Surfaces, NoneCostNothing) {
   const GrainModel m = millModel();
   Grains without(testExec(1), m, {{floorPlane(m.law)}, {}}, millGrains());
-  EXPECT_EQ(without.features() & kSurfaces, 0u);
-  EXPECT_EQ(without.surfaceListings(), 0);
-  EXPECT_TRUE(without.surfaceLoads().empty());
+  EXPECT_EQ(without.system().constants.features & kSurfaces, 0u);
+  EXPECT_EQ(without.system().boundaries.listings(), 0);
+  EXPECT_TRUE(without.system().boundaries.surfaceLoads().empty());
   Grains with(testExec(1), m, {{}, {}, {}, {mill(m.law)[0]}}, millGrains());
-  EXPECT_EQ(with.features() & kSurfaces, kSurfaces);
-  EXPECT_TRUE(hasOwnKernel(with.features(), Precision::single));
+  EXPECT_EQ(with.system().constants.features & kSurfaces, kSurfaces);
+  EXPECT_TRUE(hasOwnKernel(with.system().constants.features, Precision::single));
 }
 
 } // namespace

@@ -151,7 +151,7 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
     const auto quiet = [](double, double) {};
     simulation::Simulation one(simulationSetup(s), base::cpuExec(1), quiet),
         two(simulationSetup(s), base::cpuExec(2), quiet);
-    EXPECT_EQ(one.ground().grains->features() & contact::kRollingFriction, contact::kRollingFriction);
+    EXPECT_EQ(one.ground().grains->system().constants.features & contact::kRollingFriction, contact::kRollingFriction);
     for (int i = 0; i < 300; ++i) one.step(), two.step();
     const simulation::SimulationState saved = one.save();
     EXPECT_EQ(one.stateHash(), two.stateHash());

@@ -52,13 +52,13 @@ TEST(LeaveOut, FrictionlessSceneHasNoHistory) {
   const scene::Scene rough = bed(), smooth = bed({"material.soil.friction=0"});
   const auto with = made(rough), without = made(smooth);
   const terrain::Grains &a = *with->ground().grains, &b = *without->ground().grains;
-  EXPECT_FALSE(a.neighbours().toHost().history.empty());
-  EXPECT_TRUE(b.neighbours().toHost().history.empty());
+  EXPECT_FALSE(a.system().neighbours.toHost().history.empty());
+  EXPECT_TRUE(b.system().neighbours.toHost().history.empty());
   EXPECT_TRUE(b.state().contactShear.empty());
   EXPECT_TRUE(b.state().wallShear.empty());
   // Three floats for each place of the list, and for each wall.
-  const std::size_t places = a.neighbours().toHost().slot.size();
-  EXPECT_GE(a.deviceBytes(), b.deviceBytes() + 12 * places);
+  const std::size_t places = a.system().neighbours.toHost().slot.size();
+  EXPECT_GE(a.system().deviceBytes(), b.system().deviceBytes() + 12 * places);
   EXPECT_TRUE(isOn(rough, "friction history"));
   EXPECT_TRUE(isOff(smooth, "friction history"));
 }
@@ -72,7 +72,7 @@ TEST(LeaveOut, SceneWithoutRollingResistanceHasNoRollingHistory) {
 TEST(LeaveOut, SceneOfOneRadiusHasNoRadii) {
   const auto simulation = made(bed());
   const terrain::GrainState state = simulation->ground().grains->state();
-  EXPECT_FALSE(simulation->ground().grains->manyRadii());
+  EXPECT_FALSE(simulation->ground().grains->system().constants.manyRadii());
   EXPECT_TRUE(state.radius.empty());
   EXPECT_TRUE(state.material.empty());
 }
@@ -103,9 +103,9 @@ TEST(LeaveOut, SceneWithoutVehicleHasNone) {
 
 TEST(LeaveOut, OneRankHasNoSubdomainAndNoGhosts) {
   const auto simulation = made(bed());
-  EXPECT_EQ(simulation->ground().grains->subdomain(), nullptr);
-  EXPECT_EQ(simulation->ground().grains->ghosts(), nullptr);
-  EXPECT_EQ(simulation->ground().grains->slots(), simulation->ground().grains->count());
+  EXPECT_EQ(simulation->ground().grains->distribution(), nullptr);
+  EXPECT_EQ(simulation->ground().grains->view().ghost, nullptr);
+  EXPECT_EQ(simulation->ground().grains->view().count, simulation->ground().grains->count());
 }
 
 TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
@@ -114,7 +114,7 @@ TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
     Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
     terrain::Grains& grains = *simulation.ground().grains;
     grains.refreshNeighbours();
-    const double taken = static_cast<double>(grains.deviceBytes()) / static_cast<double>(grains.count());
+    const double taken = static_cast<double>(grains.system().deviceBytes()) / static_cast<double>(grains.count());
     const std::string line = planLine(scene, "memory for grains");
     const double planned = std::stod(line.substr(line.find("MiB, ") + 5));
     // A settled bed is counted on; a thin one that has just been laid has fewer neighbours, and more grains near walls.

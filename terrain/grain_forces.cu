@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the forces on the grains are from balance.
-#include "base/fixed_point.hpp"
+#include "terrain/grain_forces.hpp"
+
 #include "base/for_each.cuh"
-#include "terrain/grains.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace grouser::terrain {
 
@@ -25,18 +23,20 @@ struct AddVelocityChange {
 
 } // namespace
 
-double Grains::forceRatio() const {
-  const double weightChange = norm(model_.gravity) * model_.timeStep;
+double forceRatio(const GrainSystem& system) {
+  const GrainModel& model = system.constants.model;
+  const double weightChange = norm(model.gravity) * model.timeStep;
   if (!(weightChange > 0)) return 0;
   // A grain that hits at many thousand g still fits, and a million million of them.
   const base::FixedPoint scale = base::fixedPointFor(weightChange, 24);
-  base::Array<std::int64_t> sum(exec_, std::vector<std::int64_t>{0});
-  base::forEach(exec_, "measure unrest", static_cast<std::int64_t>(slots_),
-                AddVelocityChange{velocity_[0].data(), velocity_[1].data(), ghosts(), scale, sum.data()});
+  base::Array<std::int64_t> sum(system.exec, std::vector<std::int64_t>{0});
+  const GrainField<Vec4f>& velocity = system.arrays.fields().velocity;
+  base::forEach(system.exec, "measure unrest", static_cast<std::int64_t>(system.arrays.slots()),
+                AddVelocityChange{velocity.now.data(), velocity.next.data(), system.ghosts(), scale, sum.data()});
   std::int64_t total = sum.toHost().front();
-  comm_.sum(&total, 1);
+  system.comm.sum(&total, 1);
   return scale.checked(total, "changes of velocity") / weightChange /
-         static_cast<double>(std::max<std::size_t>(1, count_));
+         static_cast<double>(std::max<std::size_t>(1, system.count));
 }
 
 } // namespace grouser::terrain

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/position.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace grouser::contact {
+
+/// Grains as those see them who compute loads on them: device arrays by slot.
+struct GrainsView {
+  const base::Position* position;
+  const base::Vec4f* velocity; ///< [m/s]; w: radius [m], where radii differ
+  const base::Vec4f* spin;     ///< [rad/s]; w: material, where there are several
+  const std::uint32_t* id;
+  std::size_t count;                    ///< slots
+  const std::uint32_t* ghost = nullptr; ///< not 0 for grains of other ranks, whose loads are theirs to compute; null
+                                        ///< where there are none
+};
+
+} // namespace grouser::contact

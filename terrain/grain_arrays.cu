@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_arrays.hpp"
+
+#include "base/gather.cuh"
+#include "terrain/grain_kernel_data.cuh"
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+namespace grouser::terrain {
+
+namespace {
+
+struct KeepReference {
+  const base::Position* position;
+  base::Vec3<std::uint32_t>* reference;
+  GROUSER_HD void operator()(int i) const { reference[i] = {position[i].x, position[i].y, position[i].z}; }
+};
+
+/// Records of `width` elements go to places that nobody moves from.
+template <class T> struct Move {
+  const std::uint32_t *from, *to;
+  T* array;
+  std::uint32_t width;
+  GROUSER_HD void operator()(int k) const {
+    for (std::uint32_t w = 0; w < width; ++w)
+      array[std::int64_t{to[k]} * width + w] = array[std::int64_t{from[k]} * width + w];
+  }
+};
+
+/// A member that is missing in all() is missing in growth, migration and all else.
+template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&...>*) {
+  return (sizeof(Fields) + ...);
+}
+using AllFields = decltype(GrainFields::all(std::declval<GrainFields&>()));
+static_assert(sizeof(GrainFields) == sizeOf(static_cast<AllFields*>(nullptr)),
+              "every field of the grains stands in GrainFields::all()");
+
+} // namespace
+
+GrainArrays::GrainArrays(const base::Exec& exec, const GrainConstants& c)
+    : exec_(exec), gravityStep_(c.model.gravity * c.model.timeStep) {
+  const auto boundaries = static_cast<std::size_t>(c.boundaryCount);
+  fields_.boundaryHistory.width = boundaries * static_cast<std::size_t>(c.historyWidth);
+  fields_.boundaryContactMask.width = fields_.boundaryOf.width = boundaries > 0;
+  fields_.dissipated.width = c.has(kLedger);
+  fields_.crossings.width = c.period.any();
+  fields_.formerVelocity.width = 0;
+  forEach([&]<class T>(GrainField<T>& field) { field.now = base::Array<T>(exec), field.next = base::Array<T>(exec); });
+}
+
+void GrainArrays::append(const EnteringGrains& grains) {
+  const std::size_t before = slots_, fresh = grains.id.size();
+  slots_ += fresh;
+  forEach([&]<class T>(GrainField<T>& field) {
+    if (!field.has(kMigrates)) return; // made with the next list
+    // The first take no more memory than they need; those that enter later do so by and by.
+    const auto grow = [&](base::Array<T>& array) {
+      before == 0 ? array.resize(slots_ * field.width) : array.resizeKeeping(slots_ * field.width);
+      base::setZero(exec_, array.data() + before * field.width, fresh * field.width * sizeof(T));
+    };
+    grow(field.now);
+    if (field.has(kBuffered)) grow(field.next);
+  });
+  const auto set = [&]<class T>(base::Array<T>& array, const std::vector<T>& values) {
+    base::copyToDevice(exec_, array.data() + before, values.data(), fresh * sizeof(T));
+  };
+  set(fields_.position.now, grains.position), set(fields_.velocity.now, grains.velocity);
+  set(fields_.spin.now, grains.spin), set(fields_.id.now, grains.id);
+  std::vector<Vec4f> former = grains.velocity;
+  const base::Vec3f fallen = gravityStep_.as<float>();
+  for (Vec4f& v : former) v = {v.x - fallen.x, v.y - fallen.y, v.z - fallen.z, v.w};
+  set(fields_.velocity.next, former);
+}
+
+void GrainArrays::setSlots(std::size_t slots) {
+  slots_ = slots;
+  hasFormer_ = false;
+  forEach([&](auto& field) {
+    if (field.has(kBuffered)) field.next.resize(slots * field.width);
+  });
+}
+
+template <class T> void GrainArrays::gather(const std::uint32_t* order, const GrainField<T>& field, T* to) const {
+  base::forEach(exec_, "permute grains", static_cast<std::int64_t>(slots_),
+                base::Gather<T>{order, field.now.data(), to, static_cast<int>(field.width)});
+}
+
+void GrainArrays::permute(const std::uint32_t* order) {
+  hasFormer_ = false;
+  std::size_t most = 0; // bytes of a field without a buffer
+  forEach([&]<class T>(GrainField<T>& field) {
+    if (!field.has(kSorted) || field.now.empty()) return;
+    if (!field.has(kBuffered)) {
+      most = std::max(most, field.now.size() * sizeof(T));
+      return;
+    }
+    field.next.resizeInLeaps(field.now.size());
+    gather(order, field, field.next.data());
+    field.now.swap(field.next);
+  });
+  // By way of one place for all, and back: an array that changed its memory at each rebuild would ask for more of it.
+  base::Array<std::byte> place = base::Array<std::byte>::unset(exec_, most);
+  forEach([&]<class T>(GrainField<T>& field) {
+    if (!field.has(kSorted) || field.has(kBuffered) || field.now.empty()) return;
+    T* const to = reinterpret_cast<T*>(place.data());
+    gather(order, field, to);
+    base::copyOnDevice(exec_, field.now.data(), to, field.now.size() * sizeof(T));
+  });
+}
+
+void GrainArrays::setReference() {
+  fields_.reference.now.resize(slots_);
+  base::forEach(exec_, "keep reference", static_cast<std::int64_t>(slots_),
+                KeepReference{fields_.position.now.data(), fields_.reference.now.data()});
+}
+
+void GrainArrays::swapBuffers() {
+  forEach([](auto& field) {
+    if (field.has(kBuffered)) field.now.swap(field.next);
+  });
+  hasFormer_ = true;
+}
+
+std::vector<contact::ExchangeField> GrainArrays::exchanged(FieldUse use, bool written) {
+  std::vector<contact::ExchangeField> fields;
+  forEach([&](auto& field) {
+    if (field.has(use)) fields.push_back(field.exchanged(written));
+  });
+  return fields;
+}
+
+void GrainArrays::move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count) {
+  forEach([&]<class T>(GrainField<T>& field) {
+    if (!field.has(kMigrates)) return;
+    base::forEach(exec_, "close ranks", static_cast<std::int64_t>(count),
+                  Move<T>{from, to, field.now.data(), static_cast<std::uint32_t>(field.width)});
+  });
+}
+
+void GrainArrays::resizeKeeping(std::size_t slots) {
+  slots_ = slots;
+  forEach([&](auto& field) {
+    if (field.has(kMigrates)) field.now.resizeKeeping(slots * field.width);
+    if (field.has(kBuffered)) field.next.resizeInLeaps(slots * field.width);
+  });
+}
+
+void GrainArrays::holdFormer() {
+  if (!hasFormer_) return;
+  fields_.formerVelocity.width = 1;
+  fields_.formerVelocity.now.swap(fields_.velocity.next);
+}
+
+void GrainArrays::releaseFormer() {
+  if (fields_.formerVelocity.width == 0) return;
+  fields_.formerVelocity.width = 0;
+  fields_.formerVelocity.now.swap(fields_.velocity.next);
+  fields_.formerVelocity.now = base::Array<Vec4f>(exec_);
+  hasFormer_ = true;
+}
+
+void GrainArrays::stop() {
+  for (base::Array<Vec4f>* array : {&fields_.velocity.now, &fields_.spin.now}) {
+    std::vector<Vec4f> values = array->toHost();
+    for (Vec4f& v : values) v = {0, 0, 0, v.w};
+    array->assign(values);
+  }
+  fields_.remainders.now.zero();
+  hasFormer_ = false;
+}
+
+void GrainArrays::describe(GrainKernelData& d) {
+  GrainFields& f = fields_;
+  d.count = static_cast<std::int64_t>(slots_);
+  d.position = f.position.now.data(), d.nextPosition = f.position.next.data();
+  d.velocity = f.velocity.now.data(), d.nextVelocity = f.velocity.next.data();
+  d.spin = f.spin.now.data(), d.nextSpin = f.spin.next.data();
+  d.remainders = f.remainders.now.data();
+  d.id = f.id.now.data();
+  d.reference = f.reference.now.data();
+  d.crossings = f.crossings.now.data();
+  d.boundaryOf = f.boundaryOf.now.data();
+  d.boundaryHistory = f.boundaryHistory.now.data(), d.boundaryContactMask = f.boundaryContactMask.now.data();
+  d.dissipated = f.dissipated.now.data();
+}
+
+std::size_t GrainArrays::bytes() const {
+  std::size_t total = 0;
+  forEach([&](const auto& field) { total += field.now.bytes() + field.next.bytes(); });
+  return total;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_constants.hpp"
+#include "terrain/grain_field.hpp"
+
+#include <tuple>
+
+namespace grouser::terrain {
+
+struct GrainKernelData;
+
+/// The fields of the grains. Each is declared once, here, with what becomes of it; growth, sorting, migration, ghosts,
+/// checkpoints and the count of memory walk all of them.
+struct GrainFields {
+  GrainField<base::Position> position{kBuffered | kSorted | kMigrates | kGhosted | kUpdated, &GrainState::position};
+  /// [m/s]; w: radius [m], where radii differ
+  GrainField<Vec4f> velocity{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
+  /// [rad/s]; w: material, where there are several
+  GrainField<Vec4f> spin{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
+  GrainField<Remainders> remainders{kSorted | kMigrates, &GrainState::remainders};
+  GrainField<std::uint32_t> id{kSorted | kMigrates | kGhosted, &GrainState::id};
+  /// [slot][wall, floor or surface][numbers of history]
+  GrainField<float> boundaryHistory{kSorted | kMigrates};
+  /// A bit for each wall, floor or surface in touch.
+  GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
+  GrainField<double> dissipated{kSorted | kMigrates, &GrainState::dissipated}; ///< since the start [J]
+  GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
+  /// Velocities before the last step while the grains are sorted between steps; else these are velocity.next.
+  GrainField<Vec4f> formerVelocity{kSorted | kMigrates};
+  /// Low words of the positions when the neighbours were listed.
+  GrainField<base::Vec3<std::uint32_t>> reference{0};
+  /// 1 + place in the list of grains near boundaries; 0 for all others.
+  GrainField<std::uint32_t> boundaryOf{0};
+  /// On several ranks, from migration to list: see contact::RowOrigins.
+  GrainField<std::uint32_t> rowOrigin{kSorted};
+
+  template <class Self> static auto all(Self& f) {
+    return std::tie(f.position, f.velocity, f.spin, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask,
+                    f.dissipated, f.crossings, f.formerVelocity, f.reference, f.boundaryOf, f.rowOrigin);
+  }
+};
+
+/// Grains that enter on this rank, one an element.
+struct EnteringGrains {
+  std::vector<base::Position> position;
+  std::vector<Vec4f> velocity, spin; ///< as the fields of these names
+  std::vector<std::uint32_t> id;
+};
+
+/// The state of this rank's grains on its device, by slot; those of other ranks that it needs (ghosts) lie among them.
+class GrainArrays {
+public:
+  GrainArrays(const base::Exec& exec, const GrainConstants& constants);
+
+  std::size_t slots() const { return slots_; }
+  GrainFields& fields() { return fields_; }
+  const GrainFields& fields() const { return fields_; }
+  /// Calls visit(field) for all fields.
+  template <class Visit> void forEach(const Visit& visit) {
+    std::apply([&](auto&... field) { (visit(field), ...); }, GrainFields::all(fields_));
+  }
+  template <class Visit> void forEach(const Visit& visit) const {
+    std::apply([&](const auto&... field) { (visit(field), ...); }, GrainFields::all(fields_));
+  }
+
+  /// Fills slots behind the others; what is not given is zero. Grains that enter count as having fallen freely until
+  /// now.
+  void append(const EnteringGrains& grains);
+  /// For a state that is loaded: its fields are the caller's to set.
+  void setSlots(std::size_t slots);
+  /// Slot i takes what slot order[i] (device array) held.
+  void permute(const std::uint32_t* order);
+  /// The neighbours are listed where the grains are now.
+  void setReference();
+  /// What a step wrote is the state from now on.
+  void swapBuffers();
+
+  /// The fields that some use is made of, for exchanges between ranks. `written`: what a step has written, before the
+  /// buffers are swapped.
+  std::vector<contact::ExchangeField> exchanged(FieldUse use, bool written = false);
+  /// Slot to[k] takes what slot from[k] held, for k < count (device arrays); nothing moves from any of `to`.
+  void move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count);
+  /// Keeps what fits; further slots are undefined.
+  void resizeKeeping(std::size_t slots);
+
+  /// Velocities before the last step, on the device, by slot; null where something else than a step came last.
+  const Vec4f* formerVelocities() const { return hasFormer_ ? fields_.velocity.next.data() : nullptr; }
+  /// Between these two calls the grains may be sorted and migrate without the loss of formerVelocities().
+  void holdFormer();
+  void releaseFormer();
+  /// Forgets velocities and spins.
+  void stop();
+
+  void describe(GrainKernelData& d);
+  std::size_t bytes() const;
+
+private:
+  template <class T> void gather(const std::uint32_t* order, const GrainField<T>& field, T* to) const;
+
+  base::Exec exec_;
+  base::Vec3d gravityStep_; ///< g dt [m/s]
+  GrainFields fields_;
+  std::size_t slots_{0};
+  bool hasFormer_{false};
+};
+
+} // namespace grouser::terrain

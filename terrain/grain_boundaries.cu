@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_boundaries.hpp"
+
+#include "base/algorithms.hpp"
+#include "terrain/grain_kernel_data.cuh"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace grouser::terrain {
+
+using base::Vec3d;
+
+namespace {
+
+/// Marks the grains that may touch a wall, the floor or a surface before any grain has moved half the skin and any
+/// surface has left its room.
+struct MarkNearBoundary {
+  GrainKernelData d;
+  double reach; ///< what grains may move, and the radius where all have one [m]
+  bool manyRadii;
+  double way;                 ///< that surfaces may move before the next list [m]
+  const std::uint32_t* ghost; ///< null where there are none
+  std::uint32_t* mark;
+  GROUSER_HD void operator()(int i) const {
+    if (ghost && ghost[i]) {
+      mark[i] = 0;
+      return;
+    }
+    const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
+    const double within = reach + (manyRadii ? static_cast<double>(d.velocity[i].w) : 0.0);
+    bool near = (d.features & kFloor) && !d.floor.clearOf(x, within);
+    for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
+    for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
+    mark[i] = near ? 1u : 0u;
+    // A surface that jumps away leaves nothing to go on with.
+    if (d.surfaceCount > 0 && !near) d.boundaryContactMask[i] = 0;
+  }
+
+private:
+  GROUSER_HD bool nearSurface(int s, const Vec3d& x, double within) const {
+    const contact::PartMotion& motion = d.placements[s].motion;
+    const SurfaceTravel room = roomOf(d.surfaces[s], way);
+    return gapTo(d.surfaces[s], motion.toPart(x)).distance < within + room.way + room.turn * norm(x - motion.centre);
+  }
+};
+
+/// From the counts before each slot to places: the list, and the place of each slot in it.
+struct ListNearBoundary {
+  const std::uint32_t* before;
+  std::int64_t count;
+  std::uint32_t total;
+  std::uint32_t *list, *placeOf;
+  GROUSER_HD void operator()(int i) const {
+    const std::uint32_t next = i + 1 < count ? before[i + 1] : total;
+    placeOf[i] = next > before[i] ? next : 0u;
+    if (next > before[i]) list[before[i]] = static_cast<std::uint32_t>(i);
+  }
+};
+
+} // namespace
+
+GrainBoundaries::GrainBoundaries(const base::Exec& exec, const GrainConstants& c, const Boundaries& boundaries)
+    : exec_(exec), count_(c.boundaryCount), room_(0.5 * c.smallestRadius), walls_(exec, boundaries.walls), near_(exec),
+      fromSurfaces_(exec), singleLoads_(exec), doubleLoads_(exec) {
+  if (boundaries.floor) makeFloor(*boundaries.floor);
+  makeSurfaces(c.model, boundaries.surfaces);
+}
+
+void GrainBoundaries::makeFloor(const HeightField& floor) {
+  hasFloor_ = true;
+  floorHeights_ = base::Array<double>(exec_, floor.heights());
+  floorView_ = floor.view();
+  floorView_.heights = floorHeights_.data();
+}
+
+void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces) {
+  std::vector<SurfacePose> start;
+  // A contact as stiff as it gets takes 2^40 quanta: room for eight million of them on one surface.
+  double pressed = 0;
+  const auto consider = [&](const contact::ContactLaw& law) {
+    pressed = std::max(pressed, law.stiffness * model.radius * (law.hertz ? 0.1 * model.radius : 1.0));
+  };
+  for (const RigidSurface& surface : surfaces) {
+    geometries_.push_back(surface.geometry), start.push_back(surface.start);
+    consider(surface.law);
+  }
+  for (const contact::ContactLaw& law : model.materials.boundaries) consider(law);
+  surfaces_ = base::Array<SurfaceGeometry>(exec_, geometries_);
+  if (start.empty()) return;
+  poses_ = base::Mirrored<SurfacePose>(exec_, start.size());
+  surfaceSums_ = base::Mirrored<contact::PartLoad>(exec_, start.size());
+  surfaceLoads_.resize(start.size());
+  surfaceForce_ = surfaceTorque_ = base::fixedPointFor(pressed, 40);
+  setSurfacePoses(start);
+}
+
+void GrainBoundaries::setSurfacePoses(const std::vector<SurfacePose>& poses) {
+  if (poses.size() != geometries_.size()) throw std::logic_error("as many poses as surfaces");
+  std::copy(poses.begin(), poses.end(), poses_.host());
+  poses_.upload();
+}
+
+bool GrainBoundaries::surfacesHaveLeft() const {
+  for (std::size_t s = 0; s < geometries_.size(); ++s) {
+    const SurfaceTravel room = roomOf(geometries_[s], room_);
+    const SurfaceTravel gone = travelBetween(geometries_[s], listedAt_[s], poses_.host()[s]);
+    if (!(gone.way <= room.way && gone.turn <= room.turn)) return true;
+  }
+  return false;
+}
+
+void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, GrainArrays& arrays,
+                           const std::uint32_t* ghosts) {
+  const std::size_t slots = arrays.slots();
+  const auto n = static_cast<std::int64_t>(slots);
+  base::Array<std::uint32_t> mark(exec_, slots), before(exec_, slots);
+  base::Array<std::uint32_t>& boundaryOf = arrays.fields().boundaryOf.now;
+  boundaryOf.resize(slots);
+  // Between rebuilds, when surfaces ask for a list, a grain may have moved half the skin already and come back.
+  const double skin = (hasSurfaces() ? 1.0 : 0.5) * c.model.skin * c.smallestRadius;
+  const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + d.unitLength;
+  base::forEach(exec_, "mark grains near boundaries", n,
+                MarkNearBoundary{d, reach, c.manyRadii(), room_, ghosts, mark.data()});
+  const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), slots);
+  near_.resize(total);
+  c.model.precision == Precision::single ? singleLoads_.resize(total) : doubleLoads_.resize(total);
+  if (hasSurfaces()) {
+    fromSurfaces_.resize(total);
+    listedAt_.assign(poses_.host(), poses_.host() + poses_.size());
+    ++listings_;
+  }
+  base::forEach(exec_, "list grains near boundaries", n,
+                ListNearBoundary{before.data(), n, total, near_.data(), boundaryOf.data()});
+}
+
+void GrainBoundaries::clearSurfaceLoads() {
+  if (hasSurfaces()) surfaceSums_.device().zero();
+}
+
+void GrainBoundaries::downloadSurfaceLoads() {
+  if (hasSurfaces()) surfaceSums_.download();
+}
+
+void GrainBoundaries::collectSurfaceLoads(const base::Comm& comm) {
+  if (!hasSurfaces()) return;
+  contact::PartLoad* sums = surfaceSums_.host();
+  static_assert(sizeof(contact::PartLoad) == 6 * sizeof(std::int64_t));
+  comm.sum(&sums->force.x, 6 * surfaceSums_.size());
+  for (std::size_t s = 0; s < surfaceLoads_.size(); ++s)
+    surfaceLoads_[s] = {surfaceForce_.checked(sums[s].force, "forces on a surface"),
+                        surfaceTorque_.checked(sums[s].torque, "torques on a surface")};
+}
+
+std::optional<GrainBoundaries::Overlap> GrainBoundaries::overlapOf(const Vec3d& centre, double radius,
+                                                                   double allowed) const {
+  for (std::size_t s = 0; s < geometries_.size(); ++s) {
+    const double depth = radius - gapTo(geometries_[s], poses_.host()[s].motion.toPart(centre)).distance;
+    if (depth > allowed) return Overlap{s, depth};
+  }
+  return {};
+}
+
+void GrainBoundaries::describe(GrainKernelData& d) {
+  d.features |= hasFloor_ ? kFloor : 0u;
+  d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = count_;
+  d.floor = floorView_;
+  d.surfaces = surfaces_.data(), d.surfaceCount = static_cast<int>(geometries_.size());
+  d.placements = poses_.device().data(), d.surfaceLoads = surfaceSums_.device().data();
+  d.surfaceForce = surfaceForce_, d.surfaceTorque = surfaceTorque_, d.fromSurfaces = fromSurfaces_.data();
+  d.nearBoundary = near_.data();
+}
+
+std::size_t GrainBoundaries::bytes() const {
+  return near_.bytes() + fromSurfaces_.bytes() + singleLoads_.bytes() + doubleLoads_.bytes();
+}
+
+} // namespace grouser::terrain

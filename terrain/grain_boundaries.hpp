@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "base/comm.hpp"
+#include "base/fixed_point.hpp"
+#include "terrain/grain_arrays.hpp"
+
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+namespace grouser::terrain {
+
+/// Walls, floor and surfaces on the device, the list of the grains near them, and what they and the grains do to each
+/// other in a step.
+class GrainBoundaries {
+public:
+  GrainBoundaries(const base::Exec& exec, const GrainConstants& constants, const Boundaries& boundaries);
+
+  bool any() const { return count_ > 0; }
+  bool hasSurfaces() const { return !geometries_.empty(); }
+
+  /// Where the surfaces are in the next step, one a surface; on all ranks the same.
+  void setSurfacePoses(const std::vector<SurfacePose>& poses);
+  /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
+  const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
+
+  /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so alike on all ranks.
+  bool surfacesHaveLeft() const;
+  /// Lists the grains that may touch a boundary before the next list. `d`: of the grains in their present slots;
+  /// `ghosts`: not 0 for those that need no list, null where there are none.
+  void list(const GrainConstants& constants, const GrainKernelData& d, GrainArrays& arrays,
+            const std::uint32_t* ghosts);
+  std::size_t grainsListed() const { return near_.size(); }
+  std::int64_t listings() const { return listings_; } ///< on account of surfaces, made so far
+
+  // The loads of a step.
+  void clearSurfaceLoads();                         ///< before the step, on the device
+  void downloadSurfaceLoads();                      ///< after it, without waiting
+  void collectSurfaceLoads(const base::Comm& comm); ///< on the host, once the device has ended; on all ranks
+  /// By place in the list: what walls, floor and surfaces do to a grain.
+  template <class Real> BoundaryLoad<Real>* loads() {
+    if constexpr (std::is_same_v<Real, float>)
+      return singleLoads_.data();
+    else
+      return doubleLoads_.data();
+  }
+
+  /// The surface that a sphere [m] lies in deeper than `allowed` [m], and how deep; none where there is no such.
+  struct Overlap {
+    std::size_t surface;
+    double depth; ///< [m]
+  };
+  std::optional<Overlap> overlapOf(const base::Vec3d& centre, double radius, double allowed) const;
+
+  void describe(GrainKernelData& d);
+  std::size_t bytes() const;
+
+private:
+  void makeFloor(const HeightField& floor);
+  void makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces);
+
+  base::Exec exec_;
+  int count_;   ///< walls, floor and surfaces
+  double room_; ///< that surfaces may move between two lists [m]
+
+  base::Array<Wall> walls_;
+  base::Array<double> floorHeights_;
+  HeightFieldView floorView_{};
+  bool hasFloor_{false};
+
+  std::vector<SurfaceGeometry> geometries_;
+  base::Array<SurfaceGeometry> surfaces_;
+  base::Mirrored<SurfacePose> poses_;
+  std::vector<SurfacePose> listedAt_; ///< the surfaces when the grains near them were listed
+  base::Mirrored<contact::PartLoad> surfaceSums_;
+  base::FixedPoint surfaceForce_, surfaceTorque_;
+  std::vector<SurfaceLoad> surfaceLoads_;
+  std::int64_t listings_{0};
+
+  base::Array<std::uint32_t> near_; ///< slots
+  base::Array<base::Vec3d> fromSurfaces_;
+  base::Array<BoundaryLoad<float>> singleLoads_;
+  base::Array<BoundaryLoad<double>> doubleLoads_;
+};
+
+} // namespace grouser::terrain

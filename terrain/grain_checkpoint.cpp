@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_checkpoint.hpp"
+
+#include "base/error.hpp"
+#include "terrain/row_exchange.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace grouser::terrain {
+
+using base::Position;
+using base::Vec3f;
+using base::Vec3i;
+using Words3 = base::Vec3<std::uint32_t>;
+
+namespace {
+
+Vec3f vectorAt(const std::vector<float>& numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+/// History of contacts as it lies on the device: spring and rolling angle of each, one after the other.
+std::vector<float> historyOf(const std::vector<Vec3f>& shear, const std::vector<Vec3f>& rolling) {
+  std::vector<float> history;
+  for (std::size_t c = 0; c < shear.size(); ++c) {
+    history.insert(history.end(), {shear[c].x, shear[c].y, shear[c].z});
+    if (!rolling.empty()) history.insert(history.end(), {rolling[c].x, rolling[c].y, rolling[c].z});
+  }
+  return history;
+}
+
+Vec3i signedUnits(const Words3& travelled) {
+  return {static_cast<std::int32_t>(travelled.x), static_cast<std::int32_t>(travelled.y),
+          static_cast<std::int32_t>(travelled.z)};
+}
+
+GrainLayout layoutOf(const GrainConstants& c) {
+  return {c.model.ledger,     c.boundaryCount,       c.historyWidth > 0,
+          c.historyWidth > 3, c.manyRadii() ? 1 : 0, static_cast<std::int64_t>(c.model.materials.count()),
+          c.period.any()};
+}
+
+/// Slots of the grains that this rank integrates, in the order of their ids.
+std::vector<std::uint32_t> ownSlots(const GrainSystem& system) {
+  const std::vector<std::uint32_t> id = system.arrays.fields().id.now.toHost(), ghost = system.ghostsOnHost();
+  std::vector<std::uint32_t> slots;
+  for (std::size_t i = 0; i < id.size(); ++i)
+    if (!ghost[i]) slots.push_back(static_cast<std::uint32_t>(i));
+  std::sort(slots.begin(), slots.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
+  return slots;
+}
+
+std::vector<int> blocksOf(const base::Comm& comm, std::size_t total, const std::vector<std::uint32_t>& ids) {
+  std::vector<int> block;
+  for (const std::uint32_t id : ids) block.push_back(blockOf(comm, static_cast<std::int64_t>(total), id));
+  return block;
+}
+
+/// Calls visit(value) for these slots of a field.
+template <class T, class Visit>
+void forSlots(const GrainField<T>& field, const std::vector<std::uint32_t>& slots, const Visit& visit) {
+  const std::vector<T> values = field.now.toHost();
+  for (const std::uint32_t i : slots) visit(values[i]);
+}
+
+/// The fields that are saved as they are.
+void saveFields(const GrainArrays& arrays, const std::vector<std::uint32_t>& slots, GrainState& s) {
+  arrays.forEach([&]<class T>(const GrainField<T>& field) {
+    if (!field.savedAs || field.width == 0) return;
+    forSlots(field, slots, [&](const T& value) { (s.*field.savedAs).push_back(value); });
+  });
+}
+
+void saveMotion(const GrainFields& f, const std::vector<std::uint32_t>& slots, GrainState& s) {
+  forSlots(f.velocity, slots, [&](const Vec4f& v) {
+    s.velocity.push_back(v.xyz());
+    if (s.layout.radii) s.radius.push_back(v.w);
+  });
+  forSlots(f.spin, slots, [&](const Vec4f& w) {
+    s.spin.push_back(w.xyz());
+    if (s.layout.materials) s.material.push_back(static_cast<std::uint32_t>(w.w));
+  });
+}
+
+/// How far the grains are from where they were listed; `s` has their positions.
+void saveTravelled(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
+  s.travelled.resize(s.rows());
+  if (system.rebuilds == 0) return;
+  std::size_t k = 0;
+  forSlots(system.arrays.fields().reference, slots, [&](const Words3& from) {
+    const Position& p = s.position[k];
+    s.travelled[k++] = {p.x - from.x, p.y - from.y, p.z - from.z};
+  });
+}
+
+/// Springs of boundaries out of touch are never read again.
+void saveBoundarySprings(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
+  const std::size_t width = static_cast<std::size_t>(system.constants.historyWidth),
+                    boundaries = static_cast<std::size_t>(system.constants.boundaryCount);
+  if (width == 0) return;
+  const std::vector<float> history = system.arrays.fields().boundaryHistory.now.toHost();
+  for (std::size_t k = 0; k < slots.size(); ++k)
+    for (std::size_t b = 0; b < boundaries; ++b) {
+      const bool held = s.wallBits[k] >> b & 1;
+      const std::size_t at = (slots[k] * boundaries + b) * width;
+      s.wallShear.push_back(held ? vectorAt(history, at) : Vec3f{});
+      if (width > 3) s.wallRolling.push_back(held ? vectorAt(history, at + 3) : Vec3f{});
+    }
+}
+
+void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
+  s.contacts.resize(s.rows());
+  if (system.rebuilds == 0) return;
+  const auto width = static_cast<std::size_t>(system.constants.historyWidth);
+  const std::vector<std::uint32_t> id = system.arrays.fields().id.now.toHost();
+  const contact::NeighbourList::HostCopy lists = system.neighbours.toHost();
+  for (std::size_t row = 0; row < slots.size(); ++row) {
+    const std::uint32_t i = slots[row];
+    for (std::uint32_t k = 0; k < lists.count[i]; ++k) {
+      if (!lists.touched(i, k)) continue;
+      const auto at = static_cast<std::size_t>(lists.at(i, k));
+      s.neighbour.push_back(id[lists.slot[at]]);
+      if (width > 0) s.contactShear.push_back(vectorAt(lists.history, at * width));
+      if (width > 3) s.contactRolling.push_back(vectorAt(lists.history, at * width + 3));
+      ++s.contacts[row];
+    }
+  }
+}
+
+/// What a snapshot shows of a grain, on its way to the rank whose block of ids it is in.
+struct SnapshotRows {
+  bool manyRadii{};
+  std::vector<std::uint32_t> id;
+  std::vector<Position> position;
+  std::vector<Vec3f> velocity, spin;
+  std::vector<float> radius;
+
+  SnapshotRows withoutRows() const {
+    SnapshotRows out;
+    out.manyRadii = manyRadii;
+    return out;
+  }
+  template <class Self, class Visitor> static void visitRow(Self& s, Visitor& visitor) {
+    visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin);
+    if (s.manyRadii) visitor.column(s.radius);
+  }
+};
+
+} // namespace
+
+GrainState GrainCheckpoint::state(const GrainSystem& system) {
+  const std::vector<std::uint32_t> slots = ownSlots(system);
+  GrainState s;
+  s.layout = layoutOf(system.constants);
+  s.total = static_cast<std::int64_t>(system.count);
+  s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
+  saveFields(system.arrays, slots, s);
+  saveMotion(system.arrays.fields(), slots, s);
+  saveTravelled(system, slots, s);
+  saveBoundarySprings(system, slots, s);
+  saveContacts(system, slots, s);
+  return system.comm.alone() ? s : redistribute(system.comm, s, blocksOf(system.comm, system.count, s.id));
+}
+
+GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system) {
+  const GrainFields& f = system.arrays.fields();
+  const std::vector<std::uint32_t> slots = ownSlots(system);
+  SnapshotRows rows;
+  rows.manyRadii = system.constants.manyRadii();
+  forSlots(f.id, slots, [&](std::uint32_t id) { rows.id.push_back(id); });
+  forSlots(f.position, slots, [&](const Position& p) { rows.position.push_back(p); });
+  forSlots(f.velocity, slots, [&](const Vec4f& v) {
+    rows.velocity.push_back(v.xyz());
+    if (rows.manyRadii) rows.radius.push_back(v.w);
+  });
+  forSlots(f.spin, slots, [&](const Vec4f& w) { rows.spin.push_back(w.xyz()); });
+  const base::Comm& comm = system.comm;
+  if (!comm.alone()) rows = redistributeRows(comm, rows, blocksOf(comm, system.count, rows.id));
+  GrainSnapshot out;
+  out.first = blockStart(comm, static_cast<std::int64_t>(system.count), comm.rank()), out.total = system.count;
+  for (const Position& p : rows.position) out.position.push_back(system.constants.scale.toMetres(p));
+  out.velocity = rows.velocity, out.spin = rows.spin, out.radius = rows.radius;
+  return out;
+}
+
+GrainCheckpoint::GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows)
+    : asThen_(saved.rebuilds > 0 && saved.skin == system.constants.model.skin) {
+  const auto count = static_cast<std::int64_t>(system.count);
+  if (saved.total < count || (saved.total > count && !grows) || saved.layout != layoutOf(system.constants))
+    throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
+                                       "resume with the scene that was run",
+                                       saved.total, count));
+  std::vector<int> owner;
+  for (std::size_t k = 0; k < saved.rows(); ++k) owner.push_back(system.ownerOf(placeAtList(saved, k)));
+  own_ = redistribute(system.comm, saved, owner);
+}
+
+Position GrainCheckpoint::placeAtList(const GrainState& s, std::size_t k) const {
+  return asThen_ ? base::fromUnits(base::toUnits(s.position[k]) - signedUnits(s.travelled[k]).as<std::int64_t>())
+                 : s.position[k];
+}
+
+void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
+  system.finishGhostUpdate(); // what is under way is of the grains that go
+  system.count = static_cast<std::size_t>(own_.total);
+  system.arrays.setSlots(own_.rows());
+  GrainFields& f = system.arrays.fields();
+  system.arrays.forEach([&]<class T>(GrainField<T>& field) {
+    if (field.savedAs && field.width > 0) field.now.assign(own_.*field.savedAs);
+  });
+  std::vector<Position> position(own_.rows());
+  std::vector<Vec4f> velocity(own_.rows()), spin(own_.rows());
+  for (std::size_t k = 0; k < own_.rows(); ++k) {
+    position[k] = placeAtList(own_, k);
+    const Vec3f &v = own_.velocity[k], &w = own_.spin[k];
+    velocity[k] = {v.x, v.y, v.z, own_.radius.empty() ? 0.0f : own_.radius[k]};
+    spin[k] = {w.x, w.y, w.z, own_.material.empty() ? 0.0f : static_cast<float>(own_.material[k])};
+  }
+  f.position.now.assign(position), f.velocity.now.assign(velocity), f.spin.now.assign(spin);
+  f.boundaryHistory.now.assign(historyOf(own_.wallShear, own_.wallRolling));
+  if (system.distribution) system.distribution->subdomain().forgetRoles();
+  system.neighbours.forget();
+}
+
+bool GrainCheckpoint::loadAsSaved(GrainSystem& system) const {
+  const std::vector<std::uint32_t> id = system.arrays.fields().id.now.toHost();
+  const bool beyond = loadPlaces(system, id);
+  if (system.distribution) system.distribution->updateGhosts(system.arrays);
+  const bool listHasEnded = asThen_ && system.comm.maximumOf(beyond ? 1 : 0) > 0;
+  loadContacts(system, id);
+  system.rebuilds = own_.rebuilds;
+  return !listHasEnded && own_.rebuilds > 0; // at 0 the first list of the run is still to come
+}
+
+/// The row of a grain; rows() for a ghost.
+std::size_t GrainCheckpoint::rowOf(std::uint32_t id) const {
+  const auto row = std::lower_bound(own_.id.begin(), own_.id.end(), id);
+  return row != own_.id.end() && *row == id ? static_cast<std::size_t>(row - own_.id.begin()) : own_.rows();
+}
+
+/// Returns whether a grain has moved more than half the skin since it was listed.
+bool GrainCheckpoint::loadPlaces(GrainSystem& system, const std::vector<std::uint32_t>& id) const {
+  base::Array<Position>& array = system.arrays.fields().position.now;
+  std::vector<Position> position = array.toHost();
+  bool beyond = false;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    const std::size_t k = rowOf(id[i]);
+    if (k == own_.rows()) continue;
+    position[i] = own_.position[k];
+    beyond = beyond || base::squaredNorm(signedUnits(own_.travelled[k])) > system.constants.halfSkinUnits2();
+  }
+  array.assign(position);
+  return beyond;
+}
+
+void GrainCheckpoint::loadContacts(GrainSystem& system, const std::vector<std::uint32_t>& id) const {
+  std::vector<std::size_t> first(own_.rows() + 1);
+  for (std::size_t g = 0; g < own_.rows(); ++g) first[g + 1] = first[g] + own_.contacts[g];
+  contact::NeighbourList::HostCopy lists = system.neighbours.toHost();
+  const std::vector<float> history = historyOf(own_.contactShear, own_.contactRolling);
+  const auto width = static_cast<std::size_t>(system.constants.historyWidth),
+             words = static_cast<std::size_t>(lists.maskWords);
+  std::fill(lists.touching.begin(), lists.touching.end(), 0);
+  const std::vector<std::uint32_t> ghost = system.ghostsOnHost();
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (ghost[i]) continue;
+    // Both ascend in the neighbours' ids.
+    const std::size_t row = rowOf(id[i]), end = first[row + 1];
+    std::size_t c = first[row];
+    for (std::uint32_t k = 0; k < lists.count[i] && c < end; ++k) {
+      const auto at = static_cast<std::size_t>(lists.at(i, k));
+      if (id[lists.slot[at]] != own_.neighbour[c]) continue;
+      lists.touching[i * words + k / 64] |= std::uint64_t{1} << (k & 63u);
+      std::copy_n(history.begin() + static_cast<std::ptrdiff_t>(c * width), width,
+                  lists.history.begin() + static_cast<std::ptrdiff_t>(at * width));
+      ++c;
+    }
+    if (c < end)
+      throw base::InputError(fmt::format("run.skin = {:g} is too small to take over the contacts of the checkpoint, "
+                                         "made with {:g}; raise it",
+                                         system.constants.model.skin, own_.skin));
+  }
+  system.neighbours.setHistory(lists);
+}
+
+} // namespace grouser::terrain

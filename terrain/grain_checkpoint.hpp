@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_system.hpp"
+
+namespace grouser::terrain {
+
+/// The state of the grains on the host, free of slots, devices and lists: taken from them, and given back. On several
+/// ranks all of them call everything here.
+class GrainCheckpoint {
+public:
+  /// On several ranks this rank's block of ids.
+  static GrainState state(const GrainSystem& system);
+  static GrainSnapshot snapshot(const GrainSystem& system);
+
+  /// Gives the rows to the ranks that their grains belong to. Throws InputError when they are of other grains.
+  /// `grows`: there may be more than the scene has.
+  GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows);
+
+  // A list is built where the saved run built it, so that it stays valid for as long. So the state is loaded in two
+  // parts, and the neighbours are listed in between.
+  void loadAsListed(GrainSystem& system) const;
+  /// Returns whether the list is valid for the next step. Throws InputError where it lacks contacts that were saved.
+  bool loadAsSaved(GrainSystem& system) const;
+
+private:
+  base::Position placeAtList(const GrainState& rows, std::size_t k) const;
+  bool loadPlaces(GrainSystem& system, const std::vector<std::uint32_t>& id) const;
+  void loadContacts(GrainSystem& system, const std::vector<std::uint32_t>& id) const;
+  std::size_t rowOf(std::uint32_t id) const;
+
+  bool asThen_;    ///< the list can be built where it was; with another skin that would say nothing
+  GrainState own_; ///< rows of this rank's grains, in the order of their ids
+};
+
+} // namespace grouser::terrain

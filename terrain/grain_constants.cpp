@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_constants.hpp"
+
+#include "base/error.hpp"
+#include "terrain/whole_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::terrain {
+
+std::vector<contact::ContactLaw> boundaryLaws(const GrainModel& model, const Boundaries& boundaries) {
+  if (model.materials.count() > 0) return model.materials.boundaries;
+  std::vector<contact::ContactLaw> laws;
+  for (const Wall& wall : boundaries.walls) laws.push_back(wall.law);
+  if (boundaries.floor) laws.push_back(model.floorLaw);
+  for (const RigidSurface& surface : boundaries.surfaces) laws.push_back(surface.law);
+  return laws;
+}
+
+namespace {
+
+unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool manyRadii) {
+  std::vector<contact::ContactLaw> laws = boundaryLaws(model, boundaries);
+  if (model.materials.count() > 0)
+    laws.insert(laws.end(), model.materials.grains.begin(), model.materials.grains.end());
+  else
+    laws.push_back(model.law);
+  unsigned features = 0;
+  bool linear = false;
+  for (const contact::ContactLaw& law : laws) features |= law.features(), linear = linear || !law.hertz;
+  if (linear && features & contact::kHertz) features |= contact::kGeneral; // each contact decides
+  if (manyRadii) features |= kManyRadii;
+  if (model.materials.count() > 0) features |= kManyMaterials;
+  if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
+  if (boundaries.joined[0] || boundaries.joined[1]) features |= kPeriodic;
+  if (!boundaries.surfaces.empty()) features |= kBoundaries | kSurfaces;
+  if (model.ledger) features |= kLedger;
+  return features;
+}
+
+int historyWidthOf(unsigned features) {
+  return features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
+}
+
+double smallestOf(const GrainModel& model, const std::vector<GrainSpec>& start) {
+  double least = model.smallestRadius > 0 ? model.smallestRadius : model.radius;
+  for (const GrainSpec& g : start) least = g.radius > 0 ? std::min(least, g.radius) : least;
+  return least;
+}
+
+/// The nearest radius [m] that is both a float and a whole number of units.
+float nearestStored(double radius, const base::PositionScale& scale) {
+  const auto nearest = static_cast<float>(radius);
+  return static_cast<float>(std::floor(static_cast<double>(nearest) * scale.perMetre + 0.5) * scale.unit);
+}
+
+/// Joined sides in whole units. A grain must not touch two images of another: three cells of the search fit in between.
+base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& scale, std::int64_t reach) {
+  base::Period period;
+  for (int a = 0; a < 2; ++a) {
+    const auto& sides = boundaries.joined[static_cast<std::size_t>(a)];
+    if (!sides) continue;
+    const auto [from, to] = *sides;
+    if (!(std::fabs(from) < scale.limit() && std::fabs(to) < scale.limit()))
+      throw base::InputError(
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a],
+                      from, to, scale.limit()));
+    period.low[a] = wholeUnits(from, scale), period.length[a] = wholeUnits(to, scale) - period.low[a];
+    if (period.length[a] < 3 * reach)
+      throw base::InputError(
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are too near: a grain could touch another "
+                      "from both sides; they must be at least {:.6g} m apart, three diameters and "
+                      "skins",
+                      "xy"[a], from, to, static_cast<double>(3 * reach) * scale.unit));
+  }
+  return period;
+}
+
+} // namespace
+
+GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& boundaries,
+                               const std::vector<GrainSpec>& start)
+    : model(grainModel), scale(base::positionScale(2 * model.radius)), smallestRadius(smallestOf(model, start)),
+      diameterUnits(wholeUnits(2 * model.radius, scale)), skinUnits(wholeUnits(model.skin * smallestRadius, scale)),
+      features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
+      historyWidth(historyWidthOf(features)), boundaryCount(boundaries.count()),
+      period(periodOf(boundaries, scale, listRange())) {
+  // Overlaps are whole units: a grain a thousand times smaller would see its own in steps of 1e-5 of its size.
+  if (smallestRadius < 1e-3 * model.radius)
+    throw base::InputError(fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be 1000 times the "
+                                       "smallest",
+                                       smallestRadius, model.radius));
+  if (boundaryCount > 32)
+    throw base::InputError(
+        fmt::format("{} planes and other surfaces, the floor among them; at most 32 are possible", boundaryCount));
+}
+
+float GrainConstants::storedRadius(const GrainSpec& grain) const {
+  return manyRadii() ? nearestStored(grain.radius > 0 ? grain.radius : model.radius, scale) : 0.0f;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/period.hpp"
+#include "terrain/grain_setup.hpp"
+
+namespace grouser::terrain {
+
+/// What of the grains of a scene never changes once they are made; alike on all ranks.
+struct GrainConstants {
+  /// Throws InputError where radii are too unlike for their positions' scale, there are more than 32 boundaries, or
+  /// periodic boundaries are too near each other or too far away.
+  GrainConstants(const GrainModel& model, const Boundaries& boundaries, const std::vector<GrainSpec>& start);
+
+  GrainModel model;
+  base::PositionScale scale;
+  double smallestRadius;      ///< of the scene [m]
+  std::int64_t diameterUnits; ///< of the largest grain [units]
+  std::int64_t skinUnits;     ///< of the neighbour list [units]
+  unsigned features;          ///< sum of features of laws and grains, without loads of rigid parts
+  int historyWidth;           ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
+  int boundaryCount;          ///< planes, floor and surfaces together
+  base::Period period;        ///< of periodic boundaries
+
+  bool has(unsigned feature) const { return (features & feature) != 0; }
+  bool manyRadii() const { return has(kManyRadii); }
+  /// Two grains farther apart than this never touch before the neighbour list is built anew [units].
+  std::int64_t listRange() const { return diameterUnits + skinUnits; }
+  /// How far a grain may move from where it was listed, squared [units^2]: half the skin.
+  std::int64_t halfSkinUnits2() const { return (skinUnits / 2) * (skinUnits / 2); }
+  /// The grain's radius [m] as the state holds it, in velocity.w; 0 where all grains are of one.
+  float storedRadius(const GrainSpec& grain) const;
+};
+
+} // namespace grouser::terrain

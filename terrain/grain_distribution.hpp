@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/neighbour_list.hpp"
+#include "terrain/grain_arrays.hpp"
+#include "terrain/subdomain.hpp"
+
+#include <chrono>
+#include <functional>
+
+namespace grouser::terrain {
+
+/// The grains on several ranks: migration of those that have crossed a border, ghosts of those near one, and cuts that
+/// follow the work. One rank has none of it. All ranks call everything here that is not marked `local`, in one order.
+class GrainDistribution {
+public:
+  /// `start`: where the grains of the scene are; the first cuts share them out evenly. Throws InputError where cuts and
+  /// subdomains that are wanted disagree.
+  GrainDistribution(const base::Exec& exec, const PartitionOptions& options, const GrainConstants& constants,
+                    const std::vector<base::Position>& start);
+
+  const Subdomain& subdomain() const { return subdomain_; }
+  Subdomain& subdomain() { return subdomain_; }
+  /// Cuts that the next migration takes up; local, but for all ranks the same.
+  void setPartition(const Partition& partition) { subdomain_.setPartition(partition); }
+  /// Called when grains go to other ranks, before they do: with the rank that the grain of each slot now belongs to
+  /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after.
+  using OnMigrate = std::function<void(const std::uint32_t* destination)>;
+  void onMigrate(OnMigrate onMigrate) { onMigrate_ = std::move(onMigrate); }
+  /// Time that this rank spent on work that all ranks do alike [s]: no cut can shift it. Local.
+  void noteReplicated(double seconds) { replicatedSeconds_ += seconds; }
+  std::int64_t rebalancings() const { return rebalancings_; }
+
+  /// Every grain goes to the rank that its centre lies with, and ghosts are made of those near the borders. Afterwards
+  /// the slots hold the grains that stayed, those that came, and the ghosts, in this order, and wait to be sorted.
+  void migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step);
+  /// After migrate(), once the arrays are sorted by `order`: where the rows of the next neighbour list come from.
+  const contact::RowOrigins* sorted(const std::uint32_t* order, GrainArrays& arrays);
+
+  // Ghosts follow their masters. What masters send after a step arrives while the next one computes the uniques; until
+  // then a ghost is a step behind.
+  void packGhosts(const base::Exec& exec, GrainArrays& arrays); ///< what a step has written, without waiting
+  void sendGhosts();                                            ///< what was packed: that work has ended
+  /// Where something is under way: waits for it and gives it to the ghosts, without waiting for the device.
+  void finishGhostUpdate(const base::Exec& exec, GrainArrays& arrays);
+  /// The ghosts are made what their masters are now.
+  void updateGhosts(GrainArrays& arrays);
+
+  std::size_t bytes() const { return subdomain_.bytes() + arrivedRows_.bytes(); }
+
+private:
+  void rebalance(const GrainArrays& arrays, std::int64_t step);
+  contact::TravellingRows exportRows(const contact::NeighbourList& neighbours, base::Array<std::uint32_t>& leaving);
+  void moveFields(GrainArrays& arrays, const contact::TravellingRows& leaving);
+  void noteOrigins(std::uint32_t owned, std::uint32_t former, GrainArrays& arrays);
+
+  using Clock = std::chrono::steady_clock;
+
+  base::Exec exec_;
+  bool rebalances_;
+  int historyWidth_;
+  Subdomain subdomain_;
+  OnMigrate onMigrate_;
+  base::Array<std::uint32_t> arrivedRows_; ///< of the neighbour list, with the grains that came
+  contact::RowOrigins origins_{};
+  Clock::time_point measuredFrom_{Clock::now()};
+  double waitedBefore_{0}, replicatedSeconds_{0};
+  std::int64_t balancedAt_{0}, rebalancings_{0};
+};
+
+} // namespace grouser::terrain

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_arrays.hpp"
+
+#include <optional>
+#include <vector>
+
+/// Grains that are about to enter: whether they may, and how the state holds them.
+namespace grouser::terrain {
+
+struct GrainSystem;
+
+/// Where the grains lie; the first of them has the id `first`. Throws InputError where one lies outside the range of
+/// the integer positions or beyond periodic boundaries.
+std::vector<base::Position> placesOf(const std::vector<GrainSpec>& grains, std::size_t first, const GrainConstants& c);
+
+/// Those of the grains that belong to this rank; their ids follow the system's. Throws InputError when two have the
+/// same place: no direction would push them apart. (Two at one place have one owner.)
+EnteringGrains enteringHere(const GrainSystem& system, const std::vector<GrainSpec>& grains,
+                            const std::vector<base::Position>& places);
+
+/// What keeps a grain from entering: it would lie in another grain or in a surface, deeper than the model allows.
+struct InsertionOverlap {
+  std::size_t entering{};             ///< its place in the list of those that enter
+  double overlap{};                   ///< [m]
+  std::optional<std::uint32_t> grain; ///< id of the other one; none: it is a surface
+  base::Vec3d position;               ///< of that grain [m]
+  std::size_t surface{};              ///< or the place of that surface among those of the boundaries
+};
+
+/// The first overlap with a surface, or the deepest with a grain. All ranks call it.
+std::optional<InsertionOverlap> insertionOverlapOf(const std::vector<GrainSpec>& entering, const GrainSystem& system);
+
+} // namespace grouser::terrain

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_faults.hpp"
+
+#include "base/error.hpp"
+#include "terrain/grain_system.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::terrain {
+
+using base::SimulationError;
+
+void stopFor(std::uint64_t key, const GrainSystem& system) {
+  const auto fault = static_cast<Fault>(key >> 56);
+  const auto id = static_cast<std::uint32_t>(key & 0xFFFFFFFFFFFFFFull);
+  const GrainConstants& c = system.constants;
+  const GrainFields& f = system.arrays.fields();
+  // Only the rank that integrates the grain knows where it is.
+  const std::vector<std::uint32_t> ids = f.id.now.toHost(), ghost = system.ghostsOnHost();
+  double found[4] = {-1e300, -1e300, -1e300, -1e300}; // place and speed
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] != id || ghost[i]) continue;
+    const base::Vec3d x = c.scale.toMetres(f.position.now.at(i));
+    found[0] = x.x, found[1] = x.y, found[2] = x.z, found[3] = norm(f.velocity.now.at(i).xyz().as<double>());
+  }
+  system.comm.maximum(found, 4);
+  const std::string where =
+      fmt::format("step {}, time {:.6g} s: grain {} at ({:.6g}, {:.6g}, {:.6g}) m", system.steps,
+                  static_cast<double>(system.steps) * c.model.timeStep, id, found[0], found[1], found[2]);
+  switch (fault) {
+  case Fault::overlap:
+    throw SimulationError(fmt::format("{} overlaps by more than {:.3g} of its radius; use stiffer contacts (material "
+                                      "stiffness) or a smaller time_step",
+                                      where, c.model.maxOverlap));
+  case Fault::range:
+    throw SimulationError(fmt::format("{} leaves the range of positions, {:.6g} m from the origin; give the scene a "
+                                      "floor or walls that hold it",
+                                      where, c.scale.limit()));
+  case Fault::speed:
+    throw SimulationError(fmt::format("{} moves at {:.4g} m/s, more than half the neighbour list's skin in one step; "
+                                      "use a smaller time_step or a larger skin",
+                                      where, found[3]));
+  default:
+    throw SimulationError(where + " has a velocity that is no number; use a smaller time_step");
+  }
+}
+
+} // namespace grouser::terrain

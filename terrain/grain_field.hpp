@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "contact/exchange.hpp"
+#include "terrain/grain_state.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::terrain {
+
+/// What becomes of a field of the grains, beyond growing with them. A field without any is made anew with each list of
+/// neighbours or boundaries.
+enum FieldUse : unsigned {
+  kSorted = 1u << 0,   ///< goes along when the grains are sorted in space
+  kMigrates = 1u << 1, ///< goes along when a grain goes to another rank
+  kGhosted = 1u << 2,  ///< a ghost gets it from its master when it is made
+  kUpdated = 1u << 3,  ///< ... and again after every step
+  kBuffered = 1u << 4, ///< a step reads `now` and writes `next`, for neighbours still read `now`
+};
+
+/// One field of the grains: `width` values of T by slot, on the device.
+template <class T> struct GrainField {
+  /// `as`: checkpoints and the state hash take the values as they are, into this member; null where GrainCheckpoint
+  /// gives them another form, or where they can be made anew.
+  explicit GrainField(unsigned uses, std::vector<T> GrainState::*as = nullptr) : use(uses), savedAs(as) {}
+
+  unsigned use; ///< sum of FieldUse
+  std::vector<T> GrainState::*savedAs;
+  std::size_t width{1}; ///< 0: this scene has no such field
+  base::Array<T> now;
+  base::Array<T> next; ///< of kBuffered: what the step writes; between steps, the state before the last step
+
+  bool has(FieldUse which) const { return width > 0 && (use & which) != 0; }
+  /// As an exchange between ranks takes it; without waiting, for it is `next` that a step has just written.
+  contact::ExchangeField exchanged(bool written = false) {
+    contact::ExchangeField field = contact::fieldOf(written ? next : now);
+    field.words *= static_cast<std::uint32_t>(width);
+    return field;
+  }
+};
+
+} // namespace grouser::terrain

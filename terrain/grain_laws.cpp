@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_laws.hpp"
+
+#include "base/math.hpp"
+#include "terrain/grain_kernel_data.cuh"
+
+namespace grouser::terrain {
+
+namespace {
+
+template <class Real>
+base::Array<contact::BasicLaw<Real>> onDevice(const base::Exec& exec, const std::vector<contact::ContactLaw>& laws) {
+  std::vector<contact::BasicLaw<Real>> out;
+  for (const contact::ContactLaw& law : laws) out.push_back(law.template as<Real>());
+  return {exec, out};
+}
+
+} // namespace
+
+GrainLaws::GrainLaws(const base::Exec& exec, const GrainConstants& c,
+                     const std::vector<contact::ContactLaw>& boundaries) {
+  const GrainModel& model = c.model;
+  if (model.precision == Precision::single)
+    single_ = {onDevice<float>(exec, model.materials.grains), onDevice<float>(exec, boundaries)};
+  else
+    double_ = {onDevice<double>(exec, model.materials.grains), onDevice<double>(exec, boundaries)};
+  std::vector<double> massPerCube;
+  for (const double density : model.materials.density) massPerCube.push_back(density * (4.0 / 3 * base::kPi));
+  if (massPerCube.empty()) massPerCube.push_back(model.mass / (model.radius * model.radius * model.radius));
+  massPerCube_ = base::Array<double>(exec, massPerCube);
+}
+
+template <class Real> ForceData<Real> GrainLaws::forceData(const GrainConstants& c) const {
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  const GrainModel& m = c.model;
+  const Laws<Real>& l = laws<Real>();
+  return {real(m.radius),      real(c.scale.unit),
+          real(m.timeStep),    real(0.5 * m.mass),
+          real(m.mass),        real(static_cast<double>(c.diameterUnits)),
+          m.law.as<Real>(),    l.pairs.data(),
+          l.boundaries.data(), nullptr};
+}
+template ForceData<float> GrainLaws::forceData(const GrainConstants&) const;
+template ForceData<double> GrainLaws::forceData(const GrainConstants&) const;
+
+void GrainLaws::describe(GrainKernelData& d) const {
+  d.materials = static_cast<int>(massPerCube_.size()), d.massPerCube = massPerCube_.data();
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "terrain/grain_constants.hpp"
+
+#include <type_traits>
+
+namespace grouser::terrain {
+
+struct GrainKernelData;
+template <class Real> struct ForceData;
+template <class Real> struct BoundaryLoad;
+
+/// The laws of grains and their boundaries on the device, in the precision of the forces.
+class GrainLaws {
+public:
+  /// `boundaries`: as boundaryLaws() gives them.
+  GrainLaws(const base::Exec& exec, const GrainConstants& constants,
+            const std::vector<contact::ContactLaw>& boundaries);
+
+  /// What kernels take, but for the loads of boundaries. `Real` is that of the precision.
+  template <class Real> ForceData<Real> forceData(const GrainConstants& constants) const;
+  void describe(GrainKernelData& d) const;
+
+private:
+  template <class Real> struct Laws { base::Array<contact::BasicLaw<Real>> pairs, boundaries; };
+  template <class Real> const Laws<Real>& laws() const {
+    if constexpr (std::is_same_v<Real, float>)
+      return single_;
+    else
+      return double_;
+  }
+
+  Laws<float> single_; ///< one of the two is empty
+  Laws<double> double_;
+  base::Array<double> massPerCube_; ///< [materials] mass over radius^3 [kg/m3]
+};
+
+} // namespace grouser::terrain

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_model.hpp"
+#include "terrain/rigid_surface.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+/// What the grains of a scene are made from, beside their GrainModel.
+namespace grouser::terrain {
+
+/// One grain as the user sets it; its id is its place in the list.
+struct GrainSpec {
+  base::Vec3d position; ///< [m]
+  base::Vec3d velocity; ///< [m/s]
+  base::Vec3d spin;     ///< [rad/s]
+  double radius{0};     ///< [m], at most the model's; 0: the model's
+  int material{0};      ///< among the model's
+};
+
+/// Along x and y: the places [m] of two sides that are joined, where they are. What leaves through one enters through
+/// the other, and grains touch across them.
+using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
+
+/// Rigid surroundings of the grains: plane walls, a height-field floor, and surfaces that may move; at most 32
+/// together.
+struct Boundaries {
+  std::vector<Wall> walls;
+  std::optional<HeightField> floor;
+  PeriodicBoundaries joined{}; ///< walls, floor and surfaces do not know of it: they must look alike at both sides
+  std::vector<RigidSurface> surfaces{};
+
+  int count() const { return static_cast<int>(walls.size() + surfaces.size()) + (floor ? 1 : 0); }
+};
+
+/// Laws against walls, floor and surfaces, [walls, floor, surfaces][materials].
+std::vector<contact::ContactLaw> boundaryLaws(const GrainModel& model, const Boundaries& boundaries);
+
+} // namespace grouser::terrain

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_stepper.hpp"
+
+#include "terrain/grain_kernels.cuh"
+
+#include <algorithm>
+#include <utility>
+
+namespace grouser::terrain {
+
+GrainStepper::GrainStepper(const base::Exec& exec)
+    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true) {
+  std::fill_n(flags_.host(), flags_.size(), kNoFlags);
+  flags_.upload();
+}
+
+GrainKernelData GrainStepper::kernelData(const Launch& step) {
+  GrainKernelData d = step.system.kernelData();
+  if (step.loads) d.features |= kLoads, d.loads = *step.loads;
+  d.flags = flags_.device().data() + step.place;
+  d.former = step.place > 0 ? d.flags - 1 : nullptr;
+  return d;
+}
+
+template <class Real>
+void GrainStepper::advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active) {
+  GrainKernelData d = kernelData(step);
+  const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
+  if (active) d.active = active->data();
+  runGrainStep(exec, d, step.system.forceData<Real>(), count, step.system.constants.model.specialised);
+}
+
+/// On a CPU by their list, in lanes. A GPU's threads would wait for the list before they could ask for anything.
+template <class Real> void GrainStepper::advanceUniques(const Launch& step) {
+  const Subdomain& subdomain = step.system.distribution->subdomain();
+  if (exec_.onCpu()) return advanceGrains<Real>(exec_, step, &subdomain.uniques());
+  GrainKernelData d = kernelData(step);
+  d.role = subdomain.roles();
+  runGrainStep(exec_, d, step.system.forceData<Real>(), d.count, step.system.constants.model.specialised);
+}
+
+void GrainStepper::computeBoundaryContacts(const base::Exec& exec, const Launch& step) {
+  GrainSystem& s = step.system;
+  s.boundaries.clearSurfaceLoads();
+  if (!s.boundaries.any()) return;
+  const auto near = static_cast<std::int64_t>(s.boundaries.grainsListed());
+  const GrainModel& model = s.constants.model;
+  if (model.precision == Precision::single)
+    runBoundaryContacts(exec, kernelData(step), s.forceData<float>(), near, model.specialised);
+  else
+    runBoundaryContacts(exec, kernelData(step), s.forceData<double>(), near, model.specialised);
+}
+
+void GrainStepper::beginBoundaries(GrainSystem& system) {
+  if (system.boundaries.hasSurfaces()) return;
+  side_.fork();
+  computeBoundaryContacts(side_.exec(), {system, nullptr, 0});
+  boundariesBegun_ = true;
+}
+
+template <class Real> void GrainStepper::launchIn(const Launch& step) {
+  GrainSystem& s = step.system;
+  if (std::exchange(boundariesBegun_, false))
+    side_.join();
+  else
+    computeBoundaryContacts(exec_, step);
+  if (!s.distribution) return advanceGrains<Real>(exec_, step, nullptr);
+  // Uniques need no ghost, and go while the ghosts' new states are on their way. Beside them, and first where both
+  // could go, the masters, whose own new states others will need.
+  side_.fork();
+  advanceUniques<Real>(step);
+  s.distribution->finishGhostUpdate(side_.exec(), s.arrays);
+  advanceGrains<Real>(side_.exec(), step, &s.distribution->subdomain().masters());
+  s.distribution->packGhosts(side_.exec(), s.arrays);
+  side_.join();
+}
+
+void GrainStepper::launch(const Launch& step) {
+  if (step.system.constants.model.precision == Precision::single)
+    launchIn<float>(step);
+  else
+    launchIn<double>(step);
+  step.system.arrays.swapBuffers();
+}
+
+void GrainStepper::begin(GrainSystem& system, const contact::GrainLoadsView* loads) {
+  launch({system, loads, 0});
+  flags_.download();
+  system.boundaries.downloadSurfaceLoads();
+}
+
+StepOutcome GrainStepper::end(GrainSystem& system) {
+  StepOutcome outcome = readFlags(1);
+  if (!system.distribution) return outcome;
+  std::uint64_t all[] = {outcome.fault, outcome.listEnded ? 0u : 1u};
+  system.comm.minimum(all, 2);
+  outcome.fault = all[0], outcome.listEnded = all[1] == 0;
+  return outcome;
+}
+
+/// A CPU gains nothing by it, and its lanes do not ask whether an earlier step was the last; without them it can, for
+/// tests. Surfaces need their poses from the host. The first step after a rebuild has no ghosts under way.
+bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
+  const bool lanes = exec_.onCpu() && s.constants.model.mostSimdLanes > 1;
+  if (lanes || s.boundaries.hasSurfaces()) return false;
+  return !s.distribution ||
+         (s.distribution->subdomain().stepsTogether() && s.distribution->subdomain().haloExchange().underWay());
+}
+
+/// It is the GPUs that agree after each step whether that was the last.
+StepOutcome GrainStepper::runBatch(GrainSystem& system) {
+  Subdomain* const subdomain = system.distribution ? &system.distribution->subdomain() : nullptr;
+  if (subdomain) subdomain->haloExchange().arrive();
+  const unsigned halo = subdomain ? subdomain->haloExchange().bufferIndex() : 0;
+  stepGraph_.from(system.arrays.fields().position.now.data(), halo).run([&] {
+    for (int place = 0; place < kStepsPerGraph; ++place) {
+      launch({system, nullptr, place});
+      if (!subdomain) continue;
+      subdomain->agreement().run(exec_, reinterpret_cast<std::uint64_t*>(flags_.device().data() + place));
+      subdomain->haloExchange().publish();
+    }
+    flags_.download();
+  });
+  const StepOutcome outcome = readFlags(kStepsPerGraph);
+  // The buffers were swapped for all of the steps; those that were not taken have written nothing.
+  if ((kStepsPerGraph - outcome.taken) % 2 != 0) system.arrays.swapBuffers();
+  if (subdomain) {
+    subdomain->haloExchange().countRuns(outcome.taken - (outcome.listEnded ? 1 : 0));
+    if (outcome.listEnded) subdomain->haloExchange().discard();
+  }
+  return outcome;
+}
+
+/// Waits for the steps given to the device. A list that is no longer valid, or a fault, ends them early.
+StepOutcome GrainStepper::readFlags(int steps) {
+  base::synchronize(exec_);
+  const StepFlags* const flag = flags_.host();
+  int taken = 1;
+  while (taken < steps && !flag[taken - 1].raised()) ++taken;
+  const StepFlags last = flag[taken - 1];
+  if (last.raised()) {
+    std::fill_n(flags_.host(), flags_.size(), kNoFlags);
+    flags_.upload();
+  }
+  return {taken, last.stale != 0, last.fault};
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/device_graph.hpp"
+#include "contact/grain_loads.hpp"
+#include "terrain/grain_system.hpp"
+
+namespace grouser::terrain {
+
+/// What came of steps given to the device, alike on all ranks.
+struct StepOutcome {
+  int taken{};           ///< steps, at least one
+  bool listEnded{};      ///< a grain has used up its half of the skin: the next step needs a new list
+  std::uint64_t fault{}; ///< as StepFlags has it; kNoFault where there is none
+};
+
+/// Takes steps: launches the kernels in an order that lets communication and boundaries go beside the grains, and reads
+/// what the kernels have raised.
+class GrainStepper {
+public:
+  explicit GrainStepper(const base::Exec& exec);
+
+  static constexpr int kStepsPerGraph = 16;
+
+  /// Walls and floor, on a side stream; begin() waits for it there. Not with surfaces, whose poses for this step may
+  /// not be known yet: then begin() does it.
+  void beginBoundaries(GrainSystem& system);
+  bool boundariesBegun() const { return boundariesBegun_; }
+  /// Gives one step to the device, without waiting. `loads`: of rigid parts; null without them.
+  void begin(GrainSystem& system, const contact::GrainLoadsView* loads);
+  /// Waits for it.
+  StepOutcome end(GrainSystem& system);
+
+  /// Whether kStepsPerGraph steps can go as one, without the host in between.
+  bool canBatchSteps(const GrainSystem& system) const;
+  /// Takes so many steps as one graph; fewer where a list ends or a fault is raised.
+  StepOutcome runBatch(GrainSystem& system);
+  /// Pointers or counts have changed: the next batch is recorded anew.
+  void forgetGraph() { stepGraph_.forget(); }
+
+private:
+  /// One step among those that go as one. Kernels of `place` > 0 do nothing where an earlier one has raised a flag.
+  struct Launch {
+    GrainSystem& system;
+    const contact::GrainLoadsView* loads;
+    int place;
+  };
+
+  GrainKernelData kernelData(const Launch& step);
+  void launch(const Launch& step);
+  template <class Real> void launchIn(const Launch& step);
+  void computeBoundaryContacts(const base::Exec& exec, const Launch& step);
+  template <class Real>
+  void advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active);
+  template <class Real> void advanceUniques(const Launch& step);
+  StepOutcome readFlags(int steps);
+
+  static_assert(kStepsPerGraph % 2 == 0, "so that the buffers of the state and of the ghosts' exchange end where they "
+                                         "began, and a recorded batch can follow itself");
+
+  base::Exec exec_;
+  base::Mirrored<StepFlags> flags_; ///< of each step of a batch
+  base::DoubleBufferedGraph stepGraph_;
+  base::SideStream side_;
+  bool boundariesBegun_{false};
+};
+
+} // namespace grouser::terrain

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/grain_system.hpp"
+
+#include "terrain/grain_entry.hpp"
+#include "terrain/grain_kernel_data.cuh"
+
+namespace grouser::terrain {
+
+GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, const Boundaries& around,
+                         const std::vector<GrainSpec>& start, const PartitionOptions& partition)
+    : exec(device), comm(partition.comm), constants(model, around, start),
+      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), boundaries(exec, constants, around),
+      neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period),
+      count(0) {
+  const std::vector<base::Position> places = placesOf(start, 0, constants);
+  if (!comm.alone()) distribution = std::make_unique<GrainDistribution>(exec, partition, constants, places);
+  arrays.append(enteringHere(*this, start, places));
+  count = start.size();
+}
+
+std::vector<std::uint32_t> GrainSystem::ghostsOnHost() const {
+  return ghosts() ? base::toHost(exec, ghosts(), arrays.slots()) : std::vector<std::uint32_t>(arrays.slots());
+}
+
+contact::RadiiInW GrainSystem::radii() const {
+  if (!constants.manyRadii()) return {};
+  return {arrays.fields().velocity.now.data(), static_cast<float>(constants.scale.perMetre)};
+}
+
+GrainKernelData GrainSystem::kernelData() {
+  GrainKernelData d{};
+  const GrainModel& model = constants.model;
+  const double dt = model.timeStep, r = model.radius;
+  d.features = constants.features;
+  d.mostSimdLanes = model.mostSimdLanes;
+  d.timeStep = dt;
+  d.diameter = static_cast<float>(2 * r);
+  d.unitLength = constants.scale.unit, d.unitsPerLength = static_cast<float>(constants.scale.perMetre);
+  d.diameterUnits = constants.diameterUnits, d.diameterUnits2 = d.diameterUnits * d.diameterUnits;
+  d.halfSkinUnits2 = constants.halfSkinUnits2();
+  d.stepPerMass = dt / model.mass;
+  d.stepPerInertia = dt / (0.4 * model.mass * r * r);
+  d.unitsPerSpeed = dt * constants.scale.perMetre;
+  d.maxOverlap = static_cast<float>(model.maxOverlap * r);
+  d.maxOverlapShare = static_cast<float>(model.maxOverlap);
+  const double maxSpeed = 0.5 * model.skin * constants.smallestRadius / dt;
+  d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
+  d.gravityStep = model.gravity * dt;
+  d.period = constants.period;
+  laws.describe(d);
+  arrays.describe(d);
+  boundaries.describe(d);
+  d.neighbours = neighbours.view();
+  return d;
+}
+
+template <class Real> ForceData<Real> GrainSystem::forceData() {
+  ForceData<Real> f = laws.forceData<Real>(constants);
+  f.boundaryLoads = boundaries.loads<Real>();
+  return f;
+}
+template ForceData<float> GrainSystem::forceData();
+template ForceData<double> GrainSystem::forceData();
+
+std::size_t GrainSystem::deviceBytes() const {
+  return neighbours.bytes() + arrays.bytes() + boundaries.bytes() + (distribution ? distribution->bytes() : 0);
+}
+
+} // namespace grouser::terrain

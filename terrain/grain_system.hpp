@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grain_boundaries.hpp"
+#include "terrain/grain_distribution.hpp"
+#include "terrain/grain_laws.hpp"
+
+#include <memory>
+
+namespace grouser::terrain {
+
+/// What the grains of a scene consist of on this rank. It acts on nothing itself: GrainStepper, GrainCheckpoint and the
+/// like do, and Grains says in what order.
+struct GrainSystem {
+  /// `start`: all grains of the scene, on every rank. Throws InputError as Grains does.
+  GrainSystem(const base::Exec& exec, const GrainModel& model, const Boundaries& boundaries,
+              const std::vector<GrainSpec>& start, const PartitionOptions& partition);
+
+  base::Exec exec;
+  base::Comm comm;
+  GrainConstants constants;
+  GrainLaws laws;
+  GrainArrays arrays;
+  GrainBoundaries boundaries;
+  contact::NeighbourList neighbours;
+  std::unique_ptr<GrainDistribution> distribution; ///< null on one rank
+  std::size_t count;                               ///< grains of the scene
+  std::int64_t steps{0}, rebuilds{0};              ///< steps taken; neighbour lists made
+
+  /// By slot: not 0 for ghosts; null where there are none.
+  const std::uint32_t* ghosts() const { return distribution ? distribution->subdomain().ghostMarks() : nullptr; }
+  /// The same on the host, zeros where there are none.
+  std::vector<std::uint32_t> ghostsOnHost() const;
+  /// The rank whose subdomain holds this place; at most a period outside.
+  int ownerOf(const base::Position& place) const {
+    return distribution
+               ? distribution->subdomain().partition().view().ownerOf(constants.period.wrapped(base::toUnits(place)))
+               : 0;
+  }
+  void finishGhostUpdate() {
+    if (distribution) distribution->finishGhostUpdate(exec, arrays);
+  }
+
+  /// Of grains that are not all alike, as the neighbour list takes them.
+  contact::RadiiInW radii() const;
+  /// All but loads of rigid parts, and flags.
+  GrainKernelData kernelData();
+  template <class Real> ForceData<Real> forceData();
+  std::size_t deviceBytes() const;
+};
+
+} // namespace grouser::terrain
