@@ -40,49 +40,67 @@ template <unsigned kFeatures> struct GrainPartForces {
     const int i = static_cast<int>(slot[e]);
     const int p = static_cast<int>(key[e] & 0xFFFFu);
     const PartMotion part = motion[p];
-    const base::Vec3d x = model.scale.toMetres(grains.position[i]);
-    const base::Vec3d c = part.toPart(x);
     const Ball ball = ballOf(i);
     TouchedPatch patches[kPatches];
-    const int found = findPatches(grids[parts[p].surface], c, ball.radius, group, patches);
+    const int found = findPatches(grids[parts[p].surface], part.toPart(ball.x), ball.radius, group, patches);
     if (group.rank != 0) return; // the rest is for one thread
-    GrainLoad result{};
+    PairLoad sum;
     PatchMemory fresh[kPatches] = {};
     base::Vec3f freshAngle[kPatches] = {};
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
     base::Vec3f* heldAngle = angle ? angle + static_cast<std::int64_t>(e) * kPatches : nullptr;
     unsigned used = 0;
-    base::Vec3l torqueOnPart{};
-    double elastic = 0;
     for (int k = 0; k < found; ++k) {
       const int former = recall(held, patches[k].normal, used);
       fresh[k] = {patches[k].normal, former < 0 ? base::Vec3f{} : held[former].shear};
       if (angle && former >= 0) freshAngle[k] = heldAngle[former];
-      apply(part, i, ball, x, patches[k], fresh[k].shear, freshAngle[k], result, torqueOnPart, elastic);
+      apply(part, ball, patches[k], {fresh[k].shear, freshAngle[k]}, sum);
     }
     for (int k = 0; k < kPatches; ++k) {
       held[k] = fresh[k];
       if (angle) heldAngle[k] = freshAngle[k];
     }
-    load[e] = result;
+    load[e] = sum.onGrain;
     if (found == 0) return;
-    addTo(partLoad[p].force, -result.force);
-    addTo(partLoad[p].torque, torqueOnPart);
+    addTo(partLoad[p].force, -sum.onGrain.force);
+    addTo(partLoad[p].torque, sum.torqueOnPart);
     base::atomicAdd64(sums + 0, found);
-    base::atomicAdd64(sums + 1, model.energy.quantise(elastic));
-    base::atomicAdd64(sums + 2, model.energy.quantise(static_cast<double>(result.dissipated)));
+    base::atomicAdd64(sums + 1, model.energy.quantise(sum.elastic));
+    base::atomicAdd64(sums + 2, model.energy.quantise(static_cast<double>(sum.onGrain.dissipated)));
   }
 
 private:
+  /// The grain of a pair.
   struct Ball {
+    base::Vec3d x, v, w;
     double radius, mass;
     int material;
   };
+  /// The history of a patch, which its force moves on.
+  struct Springs {
+    base::Vec3f& shear;
+    base::Vec3f& rolled; ///< rolling angle [rad]
+  };
+  /// Sums over the patches of a pair.
+  struct PairLoad {
+    GrainLoad onGrain{};
+    base::Vec3l torqueOnPart{};
+    double elastic = 0; ///< held in springs [J]
+  };
+
   GROUSER_HD Ball ballOf(int i) const {
-    if (!model.manyRadii) return {model.radius, model.mass, 0};
-    const int m = static_cast<int>(grains.spin[i].w);
-    const double r = static_cast<double>(grains.velocity[i].w);
-    return {r, massPerCube[m] * r * r * r, m};
+    const base::Vec4f velocity = grains.velocity[i], spin = grains.spin[i];
+    Ball ball{model.scale.toMetres(grains.position[i]),
+              velocity.xyz().template as<double>(),
+              spin.xyz().template as<double>(),
+              model.radius,
+              model.mass,
+              0};
+    if (!model.manyRadii) return ball;
+    ball.material = static_cast<int>(spin.w);
+    const double r = static_cast<double>(velocity.w);
+    ball.radius = r, ball.mass = massPerCube[ball.material] * r * r * r;
+    return ball;
   }
 
   GROUSER_HD static void addTo(base::Vec3l& target, const base::Vec3l& value) {
@@ -136,40 +154,37 @@ private:
   }
 
   /// Force of one patch, in the part's frame as the history is, then quantised in the world.
-  GROUSER_HD void apply(const PartMotion& part, int i, const Ball& ball, const base::Vec3d& x,
-                        const TouchedPatch& patch, base::Vec3f& shear, base::Vec3f& rolled, GrainLoad& result,
-                        base::Vec3l& torqueOnPart, double& elastic) const {
+  GROUSER_HD void apply(const PartMotion& part, const Ball& ball, const TouchedPatch& patch, const Springs& springs,
+                        PairLoad& sum) const {
     const BasicLaw<float>& law = laws[ball.material];
     const base::Vec3d outward = part.rotation * patch.normal.template as<double>();
     const base::Vec3d arm = outward * -(ball.radius - static_cast<double>(patch.overlap));
-    const base::Vec3d point = x + arm;
-    const base::Vec3d spin = grains.spin[i].xyz().template as<double>();
-    const base::Vec3d relative =
-        grains.velocity[i].xyz().template as<double>() + cross(spin, arm) - part.velocityAt(point);
+    const base::Vec3d point = ball.x + arm;
+    const base::Vec3d relative = ball.v + cross(ball.w, arm) - part.velocityAt(point);
     const float mass = static_cast<float>(ball.mass), radius = static_cast<float>(ball.radius);
     const float dt = static_cast<float>(model.timeStep);
     const ContactGeometry touch{-patch.normal, patch.overlap,
                                 transposedTimes(part.rotation, relative).template as<float>(), mass, radius};
-    const Reaction reaction = contactForce<kFeatures>(law, touch, dt, shear);
+    const Reaction reaction = contactForce<kFeatures>(law, touch, dt, springs.shear);
     const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.template as<double>());
     const base::Vec3d force = model.force.value(quanta);
-    result.force += quanta;
-    result.torque += cross(arm, force).template as<float>();
-    result.dissipated += reaction.dissipated;
-    elastic += storedEnergy(law, static_cast<double>(patch.overlap), ball.radius, shear);
-    if (patch.overlap > result.deepest) result.deepest = patch.overlap;
-    torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
+    sum.onGrain.force += quanta;
+    sum.onGrain.torque += cross(arm, force).template as<float>();
+    sum.onGrain.dissipated += reaction.dissipated;
+    sum.elastic += storedEnergy(law, static_cast<double>(patch.overlap), ball.radius, springs.shear);
+    if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
+    sum.torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
     if ((kFeatures & kGeneral) && law.rollingFriction > 0) {
-      const base::Vec3f rolling = transposedTimes(part.rotation, spin - part.spin).template as<float>();
+      const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
       const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
-      const base::Vec3f torque =
-          rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt, rolled, result.dissipated);
+      const base::Vec3f torque = rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt,
+                                               springs.rolled, sum.onGrain.dissipated);
       const float k = rollingStiffness(law, reaction.normalStiffness, radius);
-      elastic += 0.5 * static_cast<double>(k * dot(rolled, rolled));
+      sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
       // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.
       const base::Vec3l turned = model.torque.quantise(part.rotation * torque.template as<double>());
-      result.torque += model.torque.value(turned).template as<float>();
-      torqueOnPart -= turned;
+      sum.onGrain.torque += model.torque.value(turned).template as<float>();
+      sum.torqueOnPart -= turned;
     }
   }
 };

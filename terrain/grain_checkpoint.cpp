@@ -2,6 +2,7 @@
 #include "terrain/grain_checkpoint.hpp"
 
 #include "base/error.hpp"
+#include "terrain/grain_forces.hpp"
 #include "terrain/row_exchange.hpp"
 
 #include <algorithm>
@@ -130,20 +131,22 @@ void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& s
 
 /// What a snapshot shows of a grain, on its way to the rank whose block of ids it is in.
 struct SnapshotRows {
-  bool manyRadii{};
+  bool manyRadii{}, contactForces{};
   std::vector<std::uint32_t> id;
   std::vector<Position> position;
   std::vector<Vec3f> velocity, spin;
   std::vector<float> radius;
+  std::vector<Vec3f> contactForce;
 
   SnapshotRows withoutRows() const {
     SnapshotRows out;
-    out.manyRadii = manyRadii;
+    out.manyRadii = manyRadii, out.contactForces = contactForces;
     return out;
   }
   template <class Self, class Visitor> static void visitRow(Self& s, Visitor& visitor) {
     visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin);
     if (s.manyRadii) visitor.column(s.radius);
+    if (s.contactForces) visitor.column(s.contactForce);
   }
 };
 
@@ -163,11 +166,11 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   return system.comm.alone() ? s : redistribute(system.comm, s, blocksOf(system.comm, system.count, s.id));
 }
 
-GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system) {
+GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const SnapshotOptions& options) {
   const GrainFields& f = system.arrays.fields();
   const std::vector<std::uint32_t> slots = ownSlots(system);
   SnapshotRows rows;
-  rows.manyRadii = system.constants.manyRadii();
+  rows.manyRadii = system.constants.manyRadii(), rows.contactForces = options.contactForces;
   forSlots(f.id, slots, [&](std::uint32_t id) { rows.id.push_back(id); });
   forSlots(f.position, slots, [&](const Position& p) { rows.position.push_back(p); });
   forSlots(f.velocity, slots, [&](const Vec4f& v) {
@@ -175,12 +178,17 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system) {
     if (rows.manyRadii) rows.radius.push_back(v.w);
   });
   forSlots(f.spin, slots, [&](const Vec4f& w) { rows.spin.push_back(w.xyz()); });
+  if (options.contactForces) {
+    const std::vector<Vec3f> force = contactForces(system);
+    for (const std::uint32_t i : slots) rows.contactForce.push_back(force[i]);
+  }
   const base::Comm& comm = system.comm;
   if (!comm.alone()) rows = redistributeRows(comm, rows, blocksOf(comm, system.count, rows.id));
   GrainSnapshot out;
   out.first = blockStart(comm, static_cast<std::int64_t>(system.count), comm.rank()), out.total = system.count;
   for (const Position& p : rows.position) out.position.push_back(system.constants.scale.toMetres(p));
   out.velocity = rows.velocity, out.spin = rows.spin, out.radius = rows.radius;
+  out.contactForce = rows.contactForce;
   return out;
 }
 

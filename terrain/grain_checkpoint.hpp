@@ -11,7 +11,7 @@ class GrainCheckpoint {
 public:
   /// On several ranks this rank's block of ids.
   static GrainState state(const GrainSystem& system);
-  static GrainSnapshot snapshot(const GrainSystem& system);
+  static GrainSnapshot snapshot(const GrainSystem& system, const SnapshotOptions& options);
 
   /// Gives the rows to the ranks that their grains belong to. Throws InputError when they are of other grains.
   /// `grows`: there may be more than the scene has.

@@ -4,6 +4,7 @@
 #include "base/for_each.cuh"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace grouser::terrain {
 
@@ -18,6 +19,27 @@ struct AddVelocityChange {
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) return;
     base::atomicAdd64(sum, scale.quantise(norm(now[i].xyz().as<double>() - before[i].xyz().as<double>())));
+  }
+};
+
+struct MeasureContactForce {
+  const Vec4f *now, *before, *spin;
+  const Remainders* remainders; ///< of `now`
+  base::Vec3d gravityStep;      ///< g dt [m/s]
+  double timeStep;
+  double mass;               ///< of every grain [kg], or 0
+  const double* massPerCube; ///< else [materials] mass over radius^3
+  base::Vec3f* force;
+  GROUSER_HD void operator()(int i) const {
+    const base::Vec3f v = now[i].xyz(), was = before[i].xyz();
+    base::Vec3d change;
+    for (int a = 0; a < 3; ++a) {
+      const double remainder = lowRemainder(remainders[i].axis[a]) * remainderQuantum(v[a]);
+      change[a] = static_cast<double>(v[a]) + remainder - static_cast<double>(was[a]);
+    }
+    const double r = static_cast<double>(now[i].w);
+    const double m = mass > 0 ? mass : massPerCube[static_cast<int>(spin[i].w)] * r * r * r;
+    force[i] = ((change - gravityStep) * (m / timeStep)).as<float>();
   }
 };
 
@@ -37,6 +59,19 @@ double forceRatio(const GrainSystem& system) {
   system.comm.sum(&total, 1);
   return scale.checked(total, "changes of velocity") / weightChange /
          static_cast<double>(std::max<std::size_t>(1, system.count));
+}
+
+std::vector<base::Vec3f> contactForces(const GrainSystem& system) {
+  if (!system.arrays.formerVelocities())
+    throw std::logic_error("contact forces are asked for when something else than a step came last");
+  const GrainConstants& c = system.constants;
+  const GrainFields& f = system.arrays.fields();
+  base::Array<base::Vec3f> force(system.exec, system.arrays.slots());
+  base::forEach(system.exec, "measure contact forces", static_cast<std::int64_t>(system.arrays.slots()),
+                MeasureContactForce{f.velocity.now.data(), system.arrays.formerVelocities(), f.spin.now.data(),
+                                    f.remainders.now.data(), c.model.gravity * c.model.timeStep, c.model.timeStep,
+                                    c.manyRadii() ? 0 : c.model.mass, system.laws.massPerCube(), force.data()});
+  return force.toHost();
 }
 
 } // namespace grouser::terrain

@@ -22,6 +22,8 @@ public:
   /// What kernels take, but for the loads of boundaries. `Real` is that of the precision.
   template <class Real> ForceData<Real> forceData(const GrainConstants& constants) const;
   void describe(GrainKernelData& d) const;
+  /// [materials] mass over radius^3 [kg/m3], on the device.
+  const double* massPerCube() const { return massPerCube_.data(); }
 
 private:
   template <class Real> struct Laws { base::Array<contact::BasicLaw<Real>> pairs, boundaries; };

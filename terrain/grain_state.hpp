@@ -81,6 +81,13 @@ struct GrainSnapshot {
   std::vector<base::Vec3f> velocity; ///< [m/s]
   std::vector<base::Vec3f> spin;     ///< [rad/s]
   std::vector<float> radius;         ///< [m]; empty where all are the model's
+  /// Resultant of all contact forces in the last step [N], those of rigid parts among them; empty unless asked for.
+  std::vector<base::Vec3f> contactForce;
+};
+
+/// What a snapshot may have beyond what costs nothing.
+struct SnapshotOptions {
+  bool contactForces = false; ///< only after a step, and before restore() or stop()
 };
 
 /// Moves row k to rank `destination[k]`; what comes is in the order of ids. All ranks call it.

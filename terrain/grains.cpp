@@ -91,7 +91,9 @@ std::int64_t Grains::advance(std::int64_t most) {
   return outcome.taken;
 }
 
-GrainSnapshot Grains::snapshot() const { return GrainCheckpoint::snapshot(system_); }
+GrainSnapshot Grains::snapshot(const SnapshotOptions& options) const {
+  return GrainCheckpoint::snapshot(system_, options);
+}
 
 GrainState Grains::state() const { return GrainCheckpoint::state(system_); }
 

@@ -65,8 +65,9 @@ public:
   /// Forgets velocities and spins: grains brought to rest where they are.
   void stop() { system_.arrays.stop(); }
 
-  /// On several ranks this rank's block of ids.
-  GrainSnapshot snapshot() const;
+  /// On several ranks this rank's block of ids. Throws std::logic_error where contact forces are asked for when
+  /// something else than a step came last; rows of results (ledger) and grains that enter do no harm.
+  GrainSnapshot snapshot(const SnapshotOptions& options = {}) const;
   /// For checkpoints and the state hash; on several ranks this rank's block of ids. A run that goes on from
   /// `restore(state())` gives the same bits as one that was not stopped, on any device, any number of ranks and with
   /// any skin.

@@ -89,6 +89,26 @@ TEST(GrainsOnRanks, EqualBitsAcrossJoinedSides) {
   }
 }
 
+TEST(GrainsOnRanks, ContactForcesAreTheSameAndGoWithGrainsThatMigrate) {
+  const GrainModel m = gravel();
+  Grains alone(base::cpuExec(1), m, box(m), thrownBlock()),
+      grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({}, true));
+  const auto forces = [](const Grains& g) {
+    std::vector<base::Vec3f> all;
+    for (const auto& part : g.system().comm.gatherAll(g.snapshot({.contactForces = true}).contactForce))
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  };
+  for (int k = 0; k < 5; ++k) {
+    advance(alone, 300), advance(grains, 300);
+    ASSERT_EQ(forces(grains), forces(alone)) << "after " << alone.steps();
+    const std::vector<base::Vec3f> before = forces(alone);
+    grains.invalidateNeighbours();
+    grains.ledger(); // migrates
+    ASSERT_EQ(forces(grains), before);
+  }
+}
+
 TEST(GrainsOnRanks, EqualBitsForManyRadiiAndMaterialsThatRollAndStick) {
   for (const Precision precision : {Precision::single, Precision::double_}) {
     GrainModel m = gravel();
