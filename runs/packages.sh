@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs with apt-get what grouser needs and the machine lacks. Sourced by runs/quickstart and tests/run.
+# Installs with apt-get what grouser needs and the machine lacks. Sourced by runs/quickstart, tests/run and tests/lint.
 
 GROUSER_PACKAGES=(
   g++ cmake ninja-build pkg-config git ca-certificates
