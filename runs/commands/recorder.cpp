@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace grouser::commands {
 
@@ -131,7 +133,7 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
       values.insert(values.end(), more.begin(), more.end());
     }
   };
-  collect(whole.positions), collect(whole.radii), collect(whole.speeds), collect(whole.ids);
+  collect(whole.positions), collect(whole.radii), collect(whole.velocities), collect(whole.ids);
   return whole;
 }
 
@@ -139,7 +141,7 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 Recorder::Recorder(simulation::Simulation& simulation, const RunOptions& options, const base::Exec& exec,
                    const simulation::Checkpoint* former)
-    : simulation_(simulation), channels_(channelsOf(simulation)), row_(channels_),
+    : simulation_(simulation), begunAt_(simulation.steps()), channels_(channelsOf(simulation)), row_(channels_),
       writer_(options.folder, simulation.setup().provenance, channels_,
               writerOptions(simulation.setup().output.frames, options, exec, channels_, former)) {
   try {
@@ -210,12 +212,17 @@ output::Frame Recorder::currentFrame() const {
   output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
   if (const auto& grains = simulation_.ground().grains) {
-    const terrain::GrainSnapshot s = grains->snapshot();
+    // Forces are those of the last step: before the first there are none.
+    frame.withContactForces = simulation_.setup().output.contactForces;
+    const bool known = simulation_.steps() > begunAt_;
+    terrain::GrainSnapshot s = grains->snapshot({.contactForces = frame.withContactForces && known});
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    if (frame.withContactForces && !known) s.contactForce.assign(s.position.size(), {kNone, kNone, kNone});
     for (std::size_t i = 0; i < s.position.size(); ++i) {
       frame.positions.push_back(s.position[i].as<float>());
-      frame.speeds.push_back(norm(s.velocity[i]));
       frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
     }
+    frame.velocities = std::move(s.velocity), frame.contactForces = std::move(s.contactForce);
     frame.borders = bordersOf(*grains);
     frame.radii = s.radius;
     if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));

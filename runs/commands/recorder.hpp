@@ -33,6 +33,7 @@ private:
   output::Frame currentFrame() const;
 
   simulation::Simulation& simulation_;
+  const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from
   std::vector<output::Channel> channels_;
   output::RowBuilder row_;
   std::vector<output::FramePart> parts_;

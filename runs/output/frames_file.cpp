@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 namespace grouser::output {
 
@@ -28,10 +29,12 @@ std::string geometry(std::size_t vertices, const std::string& dataset) {
                      item(fmt::format("{} 3", vertices), "Float", 4, dataset));
 }
 
-std::string attribute(const char* name, const char* centre, std::size_t count, const char* type,
+/// `width`: 1 of a scalar, 3 of a vector.
+std::string attribute(const char* name, const char* centre, std::size_t count, std::uint64_t width, const char* type,
                       const std::string& dataset) {
-  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">{}</Attribute>\n", name,
-                     centre, item(fmt::format("{}", count), type, 4, dataset));
+  const std::string shape = width == 1 ? fmt::format("{}", count) : fmt::format("{} {}", count, width);
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", name,
+                     width == 1 ? "Scalar" : "Vector", centre, item(shape, type, 4, dataset));
 }
 
 std::string triangles(std::size_t count, const std::string& dataset) {
@@ -51,6 +54,44 @@ std::vector<float> flat(const std::vector<base::Vec3d>& points) {
   for (const base::Vec3d& p : points)
     for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
   return out;
+}
+
+std::vector<float> flat(const std::vector<base::Vec3f>& vectors) {
+  std::vector<float> out;
+  out.reserve(3 * vectors.size());
+  for (const base::Vec3f& v : vectors) out.insert(out.end(), {v.x, v.y, v.z});
+  return out;
+}
+
+std::vector<float> speedsOf(const Frame& frame) {
+  std::vector<float> speeds;
+  speeds.reserve(frame.velocities.size());
+  for (const base::Vec3f& v : frame.velocities) speeds.push_back(norm(v));
+  return speeds;
+}
+
+/// What frames.h5 holds of each grain beside its id: the one list, which a new quantity is added to.
+struct GrainDataset {
+  const char* name;                           ///< in the file and in ParaView
+  std::uint64_t width;                        ///< numbers a grain
+  std::vector<float> (*values)(const Frame&); ///< all grains of this rank; none where the frame does not have it
+};
+constexpr const char* kPosition = "position"; // the points themselves, in ParaView
+const GrainDataset kGrainDatasets[] = {
+    {kPosition, 3, [](const Frame& f) { return flat(f.positions); }},           // [m]
+    {"radius", 1, [](const Frame& f) { return f.radii; }},                      // [m]
+    {"speed", 1, speedsOf},                                                     // [m/s]
+    {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }},         // [m/s]
+    {"contact_force", 3, [](const Frame& f) { return flat(f.contactForces); }}, // [N]
+};
+
+/// Whether frames like this one have it, on all ranks: some may have no grains.
+bool hasDataset(std::string_view name, const Frame& frame) {
+  return name != "contact_force" || frame.withContactForces;
+}
+
+std::vector<std::uint64_t> shapeOf(std::uint64_t grains, std::uint64_t width) {
+  return width == 1 ? std::vector{grains} : std::vector{grains, width};
 }
 
 std::string groupOf(std::int64_t frame) { return fmt::format("/{:06}", frame); }
@@ -133,8 +174,8 @@ std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::in
 
 void FramesFile::add(const Frame& frame) {
   const std::size_t grains = frame.positions.size();
-  if (frame.radii.size() != grains || frame.speeds.size() != grains || frame.ids.size() != grains ||
-      frame.partPoses.size() != parts_.size())
+  if (frame.radii.size() != grains || frame.velocities.size() != grains || frame.ids.size() != grains ||
+      frame.contactForces.size() != (frame.withContactForces ? grains : 0) || frame.partPoses.size() != parts_.size())
     throw std::logic_error("a frame's arrays differ in length");
   const std::string group = groupOf(count_);
   const auto total = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(grains)));
@@ -164,9 +205,8 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
   file_->attribute(group, "step", static_cast<double>(frame.step));
   if (grains > 0) {
     const std::string at = group + "/grains";
-    file_->reserve<float>(at + "/position", {grains, 3});
-    file_->reserve<float>(at + "/radius", {grains});
-    file_->reserve<float>(at + "/speed", {grains});
+    for (const GrainDataset& d : kGrainDatasets)
+      if (hasDataset(d.name, frame)) file_->reserve<float>(at + "/" + d.name, shapeOf(grains, d.width));
     file_->reserve<std::uint32_t>(at + "/id", {grains});
   }
   if (partTriangles_) {
@@ -185,13 +225,9 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
 void FramesFile::writeGrains(support::Hdf5File& file, const Frame& frame, const std::string& group) const {
   const std::size_t grains = frame.positions.size();
   const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(grains)));
-  std::vector<float> positions(3 * grains);
-  for (std::size_t i = 0; i < grains; ++i)
-    for (int k = 0; k < 3; ++k) positions[3 * i + static_cast<std::size_t>(k)] = frame.positions[i][k];
   const std::string at = group + "/grains";
-  file.writeRows(at + "/position", first, positions);
-  file.writeRows(at + "/radius", first, frame.radii);
-  file.writeRows(at + "/speed", first, frame.speeds);
+  for (const GrainDataset& d : kGrainDatasets)
+    if (hasDataset(d.name, frame)) file.writeRows(at + "/" + d.name, first, d.values(frame));
   file.writeRows(at + "/id", first, frame.ids);
 }
 
@@ -218,16 +254,18 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
     const std::string vertices = fmt::format(
         "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
         grains, item(fmt::format("{} 1", grains), "UInt", 4, listVertices(grains)));
-    grids += grid("grains", vertices + geometry(grains, at + "/position") +
-                                attribute("radius", "Node", grains, "Float", at + "/radius") +
-                                attribute("speed", "Node", grains, "Float", at + "/speed") +
-                                attribute("id", "Node", grains, "UInt", at + "/id"));
+    std::string attributes;
+    for (const GrainDataset& d : kGrainDatasets)
+      if (d.name != kPosition && file_->has(at + "/" + d.name))
+        attributes += attribute(d.name, "Node", grains, d.width, "Float", at + "/" + d.name);
+    grids += grid("grains", vertices + geometry(grains, at + "/" + kPosition) + attributes +
+                                attribute("id", "Node", grains, 1, "UInt", at + "/id"));
   }
   if (partTriangles_)
     grids += grid("parts", triangles(partTriangles_, "/parts/triangles") +
                                geometry(partVertices_, group + "/parts/position") +
-                               attribute("part", "Cell", partTriangles_, "UInt", "/parts/part") +
-                               attribute("kind", "Cell", partTriangles_, "UInt", "/parts/kind"));
+                               attribute("part", "Cell", partTriangles_, 1, "UInt", "/parts/part") +
+                               attribute("kind", "Cell", partTriangles_, 1, "UInt", "/parts/kind"));
   if (groundTriangles_)
     grids += grid("ground",
                   triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));

@@ -50,10 +50,14 @@ struct FramePart {
 /// same length.
 struct Frame {
   std::int64_t step{};
-  double time{};                      ///< [s]
-  std::vector<base::Vec3f> positions; ///< [m]
-  std::vector<float> radii;           ///< [m]
-  std::vector<float> speeds;          ///< [m/s]
+  double time{};                       ///< [s]
+  std::vector<base::Vec3f> positions;  ///< [m]
+  std::vector<float> radii;            ///< [m]
+  std::vector<base::Vec3f> velocities; ///< [m/s]
+  /// Resultant of all contact forces on each grain in the last step [N], NaN before the first; empty where frames do
+  /// not have them.
+  std::vector<base::Vec3f> contactForces;
+  bool withContactForces{false}; ///< the same on all ranks, some of which may have no grains
   std::vector<std::uint32_t> ids;
   std::vector<base::Pose> partPoses; ///< one a part
   /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.

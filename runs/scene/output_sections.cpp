@@ -20,6 +20,7 @@ Table<Output> outputTable() {
   t.add("folder", &S::folder, "", "of the results, from where grouser is called; out/NAME where not given");
   t.add("record", &S::record, "", "names of what of a mechanism goes into the time series; all where empty");
   t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
+  t.add("contact_forces", &S::contactForces, "", "resultant of the contact forces on each grain, in those frames");
   t.add("grains_csv", &S::grainsCsv, "",
         "grains.csv with every grain at every output time; \"auto\": up to 1000 grains and 1e6 lines")
       .orWord("auto");

@@ -14,7 +14,7 @@ SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
   if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);
   setup.run = {scene.run.duration, scene.run.outputInterval, scene.run.frameInterval, scene.run.checkpointInterval};
   const scene::Output& o = scene.output;
-  setup.output = {o.record, o.frames, o.grainsCsv, o.picture, o.pictureWidth};
+  setup.output = {o.record, o.frames, o.contactForces, o.grainsCsv, o.picture, o.pictureWidth};
   setup.planes = drawnPlanes(scene);
   setup.provenance = provenanceOf(scene);
   return setup;

@@ -55,7 +55,8 @@ protected:
     f.step = static_cast<std::int64_t>(k), f.time = 0.1 * static_cast<double>(k);
     for (int i = 0; i < 20; ++i) {
       f.positions.push_back({0.3f * float(i), 0, -1.0f - 0.01f * float(k)});
-      f.radii.push_back(0.15f), f.speeds.push_back(0.1f * float(k)), f.ids.push_back(static_cast<std::uint32_t>(i));
+      f.radii.push_back(0.15f), f.velocities.push_back({0.1f * float(k), 0, 0}),
+          f.ids.push_back(static_cast<std::uint32_t>(i));
     }
     f.partPoses.push_back({{static_cast<double>(k), 0, 0}, {}});
     if (k > 0) f.borders[0] = {1.5};
@@ -84,7 +85,7 @@ TEST_F(RenderFrames, ReaderGivesBackWhatTheFileWasGiven) {
   EXPECT_EQ(reader.time(3), frame(3).time);
   const output::StoredFrame f = reader.read(3);
   EXPECT_EQ(f.positions, frame(3).positions);
-  EXPECT_EQ(f.speeds, frame(3).speeds);
+  for (std::size_t i = 0; i < f.speeds.size(); ++i) EXPECT_EQ(f.speeds[i], frame(3).velocities[i].x);
   EXPECT_EQ(f.borders[0], frame(3).borders[0]);
   EXPECT_TRUE(reader.read(0).borders[0].empty());
   ASSERT_EQ(reader.parts().size(), 1u);

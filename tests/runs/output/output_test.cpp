@@ -71,9 +71,12 @@ protected:
     out.step = 10 * f, out.time = 0.25 * f;
     for (int i = 0; i < grains; ++i) {
       out.positions.push_back({0.1f * static_cast<float>(i), 0, static_cast<float>(f)});
-      out.radii.push_back(0.05f), out.speeds.push_back(1), out.ids.push_back(static_cast<std::uint32_t>(i));
+      out.radii.push_back(0.05f), out.velocities.push_back({0, 0.6f, -0.8f}),
+          out.ids.push_back(static_cast<std::uint32_t>(i));
     }
     out.partPoses = {{{0, 0, 1.0 * f}, {}}, {{5, 0, 0}, {}}};
+    out.withContactForces = true;
+    for (int i = 0; i < grains; ++i) out.contactForces.push_back({0, static_cast<float>(i), static_cast<float>(f)});
     return out;
   }
 };
@@ -104,6 +107,41 @@ TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
   }
   // What a row does not set is NaN, never a stale number.
   EXPECT_TRUE(std::isnan(file.numbers("/vehicle/right/sinkage/value")[0]));
+}
+
+TEST_F(Output, FramesHoldVelocitiesAndContactForcesAsVectors) {
+  {
+    RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
+    writer.setParts({{"hull", "chassis", triangle()}, {"shoe", "shoe", triangle()}}, {});
+    for (int f = 0; f < 2; ++f) writer.frame(frame(f, 3));
+    Frame without = frame(2, 3);
+    without.withContactForces = false, without.contactForces.clear();
+    writer.frame(without);
+    writer.finish({});
+  }
+  const support::Hdf5File file = support::Hdf5File::open(folder_ / "frames.h5");
+  EXPECT_EQ(file.shape("/000001/grains/velocity"), (std::vector<std::uint64_t>{3, 3}));
+  const std::vector<double> velocity = file.numbers("/000001/grains/velocity"),
+                            force = file.numbers("/000001/grains/contact_force"),
+                            speed = file.numbers("/000001/grains/speed");
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(static_cast<float>(velocity[3 * i + 1]), 0.6f);
+    EXPECT_EQ(static_cast<float>(velocity[3 * i + 2]), -0.8f);
+    EXPECT_NEAR(speed[i], 1, 1e-7); // of the two rounded to float
+    EXPECT_EQ(force[3 * i + 1], static_cast<double>(i));
+    EXPECT_EQ(force[3 * i + 2], 1);
+  }
+  EXPECT_FALSE(file.has("/000002/grains/contact_force"));
+  std::ifstream text(folder_ / "frames.xdmf");
+  const std::string xdmf{std::istreambuf_iterator<char>(text), {}};
+  const auto count = [&](const std::string& word) {
+    std::size_t n = 0;
+    for (std::size_t at = xdmf.find(word); at != std::string::npos; at = xdmf.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("Attribute Name=\"velocity\" AttributeType=\"Vector\""), 3u);
+  EXPECT_EQ(count("frames.h5:/000001/grains/contact_force"), 1u);
+  EXPECT_EQ(count("/grains/contact_force"), 2u);
 }
 
 TEST_F(Output, ResultsHoldSceneCommitAndMachine) {
