@@ -6,8 +6,11 @@
 #include "multibody/detail/geometric_stiffness.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rattle_step.hpp"
-#include "multibody/detail/rotation.hpp"
-#include "multibody/detail/start.hpp"
+#include "multibody/detail/redundancy.hpp"
+#include "multibody/detail/stability.hpp"
+#include "multibody/detail/start_checks.hpp"
+#include "multibody/detail/velocity_projection.hpp"
+#include "multibody/readings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -267,16 +270,11 @@ double Solver::velocityError(const State& state) const {
   double largest = 0;
   for (std::size_t k = 0; k < s.system.constraints().size(); ++k) {
     const Constraint& c = s.system.constraints()[k];
-    const Frame &A = frames[at(c.bodyA)], &B = frames[at(c.bodyB)];
-    const JointFrames f = framesOf(c, A, B);
+    const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
     const RowDirections rows = rowDirections(c, f);
-    const auto rate = [&](const Vec3d& e, const Vec3d& t, int node, int body, const Frame& F) {
-      return node < 0 ? 0.0 : dot(e, state.twist[at(body)].v) + dot(cross(f.p_B - F.p, e) + t, state.twist[at(body)].w);
-    };
     for (int r = 0; r < 6; ++r)
       if (hardRows(c.kind) >> r & 1u)
-        largest = std::max(largest, std::fabs(rate(rows.force[at(r)], rows.torque[at(r)], c.nodeB, c.bodyB, B) -
-                                              rate(rows.force[at(r)], rows.torque[at(r)], c.nodeA, c.bodyA, A)));
+        largest = std::max(largest, std::fabs(rowRate(c, f, rows, r, frames, state.twist)));
   }
   return largest;
 }

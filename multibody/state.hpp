@@ -2,21 +2,11 @@
 #pragma once
 
 #include "multibody/model.hpp"
+#include "multibody/spatial.hpp"
 
 #include <vector>
 
 namespace grouser::multibody {
-
-struct Twist {
-  Vec3d v; ///< of the centre of mass, world components [m/s]
-  Vec3d w; ///< world components [rad/s]
-};
-
-/// Force and torque about the centre of mass, world components.
-struct Wrench {
-  Vec3d force;  ///< [N]
-  Vec3d torque; ///< [N m]
-};
 
 /// What a joint did in the last step. Forces: kSymplecticEuler gives the mean over the step, kRattle the values at its
 /// end.
@@ -120,24 +110,5 @@ State makeState(const Model& model);
 Loads makeLoads(const Model& model);
 /// Sets a body's velocity (the spin momentum follows it).
 void setTwist(const Model& model, State& state, int body, const Twist& twist);
-/// Puts a body elsewhere, keeping its twist. Axis positions follow at the next step.
-void setPose(const Model& model, State& state, int body, const Pose& pose);
-
-/// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly where there is one axis.
-AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
-/// Force a drive exerted on B along its axis in the last step [N m] or [N], and its power [W], positive when it puts
-/// energy into the mechanism.
-double driveForce(const Model& model, const State& state, int drive);
-double drivePower(const Model& model, const State& state, int drive);
-
-/// Energies [J] and momenta of a state.
-struct Totals {
-  double kinetic = 0;
-  double gravity = 0; ///< -sum m g.p
-  double elastic = 0; ///< springs, preloads (as constant forces from freePosition or restLength on) and stops
-  Vec3d linearMomentum;
-  Vec3d angularMomentum; ///< about the world's origin
-};
-Totals totals(const Model& model, const State& state, const Loads& loads);
 
 } // namespace grouser::multibody

@@ -58,6 +58,14 @@ double drivenRate(const Drive& drive, double t) {
   return drive.kind == DriveKind::kPosition ? drive.law.rate(t) : drive.law.value(t);
 }
 
+std::vector<double> driveStart(const ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = system.framesOfModel();
+  std::vector<double> start;
+  for (const Drive& drive : model.drives())
+    start.push_back(system.positionOfAxis(system.axisOf(drive.joint, drive.axis), frames));
+  return start;
+}
+
 void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
                         const std::vector<Frame>& frames, const std::vector<double>& start,
                         std::vector<AxisLaw>& laws) const {

@@ -4,12 +4,11 @@
 #include "multibody/detail/constraint.hpp"
 #include "multibody/detail/elimination.hpp"
 #include "multibody/detail/link_simd.hpp"
-#include "multibody/state.hpp"
+#include "multibody/spatial.hpp"
 
 #include <array>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace grouser::multibody::detail {
@@ -185,17 +184,5 @@ private:
   mutable std::vector<double> couplingWork_;
   bool couplingsOn_ = true;
 };
-
-/// A redundant row and what implies it, found at set-up.
-struct Redundancy {
-  std::vector<std::pair<int, int>> rows; ///< constraint, row: dropped
-  std::vector<int> couplings;            ///< implied by others
-  int singularAtStart = 0;               ///< rows without pivot only at the starting poses: a singular position
-};
-
-/// Finds the hard rows that others imply wherever the mechanism goes: moves it a little along motions its
-/// constraints allow (the starting velocities, then generic ones), closes the constraints again by Newton's method, and
-/// takes the rows without pivot there. A row that is dependent only at the starting poses (a folded four-bar) is kept.
-Redundancy findRedundantRows(ConstraintSystem& system, const Model& model);
 
 } // namespace grouser::multibody::detail

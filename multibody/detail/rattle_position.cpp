@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/rattle_step.hpp"
+
 #include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/index.hpp"
-#include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "multibody/readings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/redundancy.hpp"
+
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
