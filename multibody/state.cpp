@@ -2,7 +2,7 @@
 #include "multibody/state.hpp"
 
 #include "base/error.hpp"
-#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/constraint_graph.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
@@ -38,11 +38,11 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
 }
 
 /// Fills axis positions and rates, lengths and bushings' readings from poses and twists; angles within half a turn.
-void findAxes(const ConstraintSystem& system, State& state) {
+void findAxes(const ConstraintGraph& graph, State& state) {
   std::vector<Frame> frames;
-  system.place(state.pose, frames);
-  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
-    const Constraint& c = system.constraints()[k];
+  graph.place(state.pose, frames);
+  for (std::size_t k = 0; k < graph.constraints().size(); ++k) {
+    const Constraint& c = graph.constraints()[k];
     const std::size_t source = at(c.source);
     const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
     const RowDirections rows = rowDirections(c, f);
@@ -96,7 +96,7 @@ State makeState(const Model& model) {
     if (joint.type == JointType::kCylindrical) s.slide.resize(model.joints().size());
   for (std::size_t b = 0; b < s.pose.size(); ++b)
     setTwist(model, s, static_cast<int>(b), {model.bodies()[b].v_WB, model.bodies()[b].w_WB});
-  findAxes(ConstraintSystem(model), s);
+  findAxes(ConstraintGraph(model), s);
   return s;
 }
 

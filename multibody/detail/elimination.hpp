@@ -131,8 +131,12 @@ private:
   };
 
   void makeBatches(const std::vector<ConstraintEdge>& edges);
+  void addBatch(const std::vector<int>& bodies, const std::vector<ConstraintEdge>& edges);
   void makeColumns();
   void makeClosings(const std::vector<ConstraintEdge>& edges);
+  bool parentsAligned(const Links& links) const;
+  void linkColumns(Links& links);
+  double* productOf(int body, int column, int other);
   void makeProgram();
   Onward columnAt(int body, int closing, int row);
   int slotOf(int later, int earlier) const;

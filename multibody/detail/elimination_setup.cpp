@@ -59,45 +59,11 @@ void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
     };
     std::sort(bodies.begin(), bodies.end(), [&](int a, int b) { return key(a) < key(b); });
     for (std::size_t first = 0; first < bodies.size();) {
-      Links links;
-      const int batch = static_cast<int>(links_.size());
-      while (links.count < kLanes && first < bodies.size() &&
-             (links.count == 0 || alike(links.body[0], bodies[first]))) {
-        const int b = bodies[first++];
-        const Articulation::Link& link = tree_.links[at(b)];
-        const auto lane = at(links.count);
-        links.body[lane] = b;
-        links.joint[lane] = link.joint;
-        links.parentNode[lane] = link.parent;
-        const Place parent = link.parent >= 0 ? placeOfBody_[at(link.parent)] : Place{};
-        links.parentBatch[lane] = parent.batch, links.parentLane[lane] = parent.lane;
-        placeOfBody_[at(b)] = {batch, links.count};
-        if (link.joint >= 0) {
-          placeOfJoint_[at(link.joint)] = {batch, links.count};
-          sideOf_[at(link.joint)] = edges[at(link.joint)].bodies[1] == b ? 1 : -1;
-        }
-        ++links.count;
-      }
-      // Idle lanes repeat the first; nothing is taken from them.
-      for (int lane = links.count; lane < kLanes; ++lane) {
-        links.body[at(lane)] = links.body[0], links.joint[at(lane)] = links.joint[0];
-        links.parentNode[at(lane)] = links.parentNode[0];
-        links.parentBatch[at(lane)] = links.parentLane[at(lane)] = -1;
-      }
-      links.columns = static_cast<int>(columnsOf_[at(links.body[0])].size());
-      if (links.joint[0] >= 0) {
-        const ConstraintEdge& edge = edges[at(links.joint[0])];
-        const std::vector<int> forces = bitsOf(edge.forceRows), torques = bitsOf(0x3fu & ~edge.forceRows);
-        std::copy(forces.begin(), forces.end(), links.forceRow.begin());
-        std::copy(torques.begin(), torques.end(), links.torqueRow.begin());
-        const std::vector<int> freeRows = bitsOf(0x3fu & ~edge.hard);
-        std::copy(freeRows.begin(), freeRows.end(), links.freeRow.begin());
-        links.freedoms = static_cast<int>(freeRows.size());
-      } else {
-        links.freedoms = 6;
-        for (int i = 0; i < 6; ++i) links.freeRow[at(i)] = i;
-      }
-      links_.push_back(links);
+      std::size_t end = first + 1;
+      while (end < bodies.size() && end - first < kLanes && alike(bodies[first], bodies[end])) ++end;
+      addBatch({bodies.begin() + static_cast<std::ptrdiff_t>(first), bodies.begin() + static_cast<std::ptrdiff_t>(end)},
+               edges);
+      first = end;
     }
   }
   // A body without a joint moves along and about the world's axes.
@@ -106,6 +72,45 @@ void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
       links.free[i] = all(1), links.softness[i] = all(0);
       for (int j = 0; j < 6; ++j) links.s[i][j] = all(links.joint[0] < 0 && i == j ? 1 : 0);
     }
+}
+
+/// Up to four bodies that are alike.
+void Elimination::addBatch(const std::vector<int>& bodies, const std::vector<ConstraintEdge>& edges) {
+  Links links;
+  const int batch = static_cast<int>(links_.size());
+  for (const int b : bodies) {
+    const Articulation::Link& link = tree_.links[at(b)];
+    const auto lane = at(links.count);
+    links.body[lane] = b;
+    links.joint[lane] = link.joint;
+    links.parentNode[lane] = link.parent;
+    const Place parent = link.parent >= 0 ? placeOfBody_[at(link.parent)] : Place{};
+    links.parentBatch[lane] = parent.batch, links.parentLane[lane] = parent.lane;
+    placeOfBody_[at(b)] = {batch, links.count};
+    if (link.joint >= 0) {
+      placeOfJoint_[at(link.joint)] = {batch, links.count};
+      sideOf_[at(link.joint)] = edges[at(link.joint)].bodies[1] == b ? 1 : -1;
+    }
+    ++links.count;
+  }
+  // Idle lanes repeat the first; nothing is taken from them.
+  for (int lane = links.count; lane < kLanes; ++lane) {
+    links.body[at(lane)] = links.body[0], links.joint[at(lane)] = links.joint[0];
+    links.parentNode[at(lane)] = links.parentNode[0];
+    links.parentBatch[at(lane)] = links.parentLane[at(lane)] = -1;
+  }
+  links.columns = static_cast<int>(columnsOf_[at(links.body[0])].size());
+  std::vector<int> freeRows{0, 1, 2, 3, 4, 5};
+  if (links.joint[0] >= 0) {
+    const ConstraintEdge& edge = edges[at(links.joint[0])];
+    const std::vector<int> forces = bitsOf(edge.forceRows), torques = bitsOf(0x3fu & ~edge.forceRows);
+    std::copy(forces.begin(), forces.end(), links.forceRow.begin());
+    std::copy(torques.begin(), torques.end(), links.torqueRow.begin());
+    freeRows = bitsOf(0x3fu & ~edge.hard);
+  }
+  std::copy(freeRows.begin(), freeRows.end(), links.freeRow.begin());
+  links.freedoms = static_cast<int>(freeRows.size());
+  links_.push_back(links);
 }
 
 void Elimination::makeColumns() {
@@ -169,38 +174,48 @@ void Elimination::makeClosings(const std::vector<ConstraintEdge>& edges) {
         z.onto.back()[at(r)] = columnAt(z.top, later, r);
     }
   }
-  const auto entry = [](Block& block, int row, int column) { return &block[at(kStride * column + row)]; };
   for (Links& links : links_) {
-    links.firstPair = pairs_.size();
-    Column* const columns = columns_.data() + links.firstColumn;
-    bool aligned = links.parentBatch[0] >= 0;
-    for (int lane = 0; lane < links.count; ++lane)
-      aligned = aligned && links.parentBatch[at(lane)] == links.parentBatch[0] && links.parentLane[at(lane)] == lane;
-    aligned = aligned && (links.count == kLanes || links.count == links_[at(links.parentBatch[0])].count);
-    for (int c = 0; c < links.columns; ++c) {
-      for (int lane = 0; lane < links.count; ++lane) {
-        const auto [z, r] = columnsOf_[at(links.body[at(lane)])][at(c)];
-        columns[c].onward[at(lane)] = columnAt(links.parentNode[at(lane)], z, r);
-        if (!aligned) continue;
-        const Links& parent = links_[at(links.parentBatch[0])];
-        aligned = c < parent.columns && columns[c].onward[at(lane)].entry ==
-                                            reinterpret_cast<double*>(columns_[parent.firstColumn + at(c)].l) + lane;
-      }
-      for (int other = 0; other <= c; ++other)
-        for (int lane = 0; lane < kLanes; ++lane) {
-          double* target = nullptr;
-          if (lane < links.count) {
-            auto [z1, r1] = columnsOf_[at(links.body[at(lane)])][at(c)];
-            auto [z2, r2] = columnsOf_[at(links.body[at(lane)])][at(other)];
-            if (z1 < z2) std::swap(z1, z2), std::swap(r1, r2);
-            target = z1 == z2 ? entry(diagonal_[at(z1)], std::max(r1, r2), std::min(r1, r2))
-                              : entry(w_[at(slotOf(z1, z2))], r1, r2);
-          }
-          pairs_.push_back(target);
-        }
-    }
-    links.aligned = aligned;
+    links.aligned = parentsAligned(links);
+    linkColumns(links);
   }
+}
+
+/// Whether the parents of a batch are the lanes of one batch, in order.
+bool Elimination::parentsAligned(const Links& links) const {
+  bool aligned = links.parentBatch[0] >= 0;
+  for (int lane = 0; lane < links.count; ++lane)
+    aligned = aligned && links.parentBatch[at(lane)] == links.parentBatch[0] && links.parentLane[at(lane)] == lane;
+  return aligned && (links.count == kLanes || links.count == links_[at(links.parentBatch[0])].count);
+}
+
+/// Where the columns of a batch go on to, and the products of two of them.
+void Elimination::linkColumns(Links& links) {
+  links.firstPair = pairs_.size();
+  Column* const columns = columns_.data() + links.firstColumn;
+  for (int c = 0; c < links.columns; ++c) {
+    for (int lane = 0; lane < links.count; ++lane) {
+      const auto [z, r] = columnsOf_[at(links.body[at(lane)])][at(c)];
+      columns[c].onward[at(lane)] = columnAt(links.parentNode[at(lane)], z, r);
+      if (!links.aligned) continue;
+      const Links& parent = links_[at(links.parentBatch[0])];
+      links.aligned =
+          c < parent.columns &&
+          columns[c].onward[at(lane)].entry == reinterpret_cast<double*>(columns_[parent.firstColumn + at(c)].l) + lane;
+    }
+    for (int other = 0; other <= c; ++other)
+      for (int lane = 0; lane < kLanes; ++lane)
+        pairs_.push_back(lane < links.count ? productOf(links.body[at(lane)], c, other) : nullptr);
+  }
+}
+
+/// Entry of the loops' matrix that the product of two columns of a body belongs to.
+double* Elimination::productOf(int body, int column, int other) {
+  const auto entry = [](Block& block, int row, int col) { return &block[at(kStride * col + row)]; };
+  auto [z1, r1] = columnsOf_[at(body)][at(column)];
+  auto [z2, r2] = columnsOf_[at(body)][at(other)];
+  if (z1 < z2) std::swap(z1, z2), std::swap(r1, r2);
+  return z1 == z2 ? entry(diagonal_[at(z1)], std::max(r1, r2), std::min(r1, r2))
+                  : entry(w_[at(slotOf(z1, z2))], r1, r2);
 }
 
 /// From the leaves on; a closing constraint after all that lies below its top, and before it.

@@ -181,55 +181,72 @@ void checkCouplings(ConstraintSystem& system, const Model& model) {
   }
 }
 
+namespace {
+
+/// The part's drives that impose a motion.
+std::vector<int> imposingDrives(const ConstraintSystem& system, const Model& model,
+                                const ConstraintSystem::Part& part) {
+  std::vector<int> drives;
+  for (int d = 0; d < static_cast<int>(model.drives().size()); ++d) {
+    const Drive& drive = model.drives()[at(d)];
+    const int axis = system.axisOf(drive.joint, drive.axis);
+    const bool here = std::find(part.constraints.begin(), part.constraints.end(), system.axes()[at(axis)].constraint) !=
+                      part.constraints.end();
+    if (here && imposesMotion(drive) && drive.on) drives.push_back(d);
+  }
+  return drives;
+}
+
+/// J M^-1 J^T of an axis whose bodies nothing holds; y: what a unit impulse along it gives them.
+double freeMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                    const std::vector<Vector6>& y) {
+  double free = 0;
+  for (const int node : part.bodies) {
+    const Body& body = model.bodies()[at(system.bodyOf(node))];
+    const Mat3d& I = system.inertia(node);
+    free +=
+        norm2(linear(y[at(node)])) / body.mass + norm2(angular(y[at(node)])) * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
+  }
+  return free;
+}
+
 /// Goes through the drives in order: y_d = K^-1 (row d), with joints and couplings held; what the drives before leave
 /// of row d . y_d is the mobility of its axis (Cholesky's pivot).
-void checkDrives(ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = system.framesOfModel();
-  const std::vector<AxisLaw> laws = hardOnly(system);
-  const std::vector<double> start = driveStart(system, model);
-  for (const ConstraintSystem::Part& part : system.parts()) {
-    std::vector<int> drives;
-    for (int d = 0; d < static_cast<int>(model.drives().size()); ++d) {
-      const Drive& drive = model.drives()[at(d)];
-      const int axis = system.axisOf(drive.joint, drive.axis);
-      const bool here = std::find(part.constraints.begin(), part.constraints.end(),
-                                  system.axes()[at(axis)].constraint) != part.constraints.end();
-      if (here && imposesMotion(drive) && drive.on) drives.push_back(d);
-    }
-    if (drives.empty()) continue;
-    system.linearise(part, frames, laws);
-    std::vector<std::vector<double>> L;
-    for (std::size_t i = 0; i < drives.size(); ++i) {
+void checkMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                   const std::vector<int>& drives) {
+  const auto axisOf = [&](int d) {
+    const Drive& drive = model.drives()[at(d)];
+    return system.axes()[at(system.axisOf(drive.joint, drive.axis))];
+  };
+  std::vector<std::vector<double>> L;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const Axis a = axisOf(drives[i]);
+    std::vector<Vector6> y(at(system.nodes()));
+    system.addImpulse(a.constraint, a.row, 1, y);
+    const double free = freeMobility(system, model, part, y);
+    system.solve(part, y);
+    L.emplace_back(i + 1);
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Axis b = axisOf(drives[j]);
+      double s = system.rowTimes(b.constraint, b.row, y);
+      for (std::size_t m = 0; m < j; ++m) s -= L[i][m] * L[j][m];
+      if (j < i) {
+        L[i][j] = s / L[j][j];
+        continue;
+      }
       const Drive& drive = model.drives()[at(drives[i])];
-      const Axis& a = system.axes()[at(system.axisOf(drive.joint, drive.axis))];
-      std::vector<Vector6> y(at(system.nodes())), alone;
-      system.addImpulse(a.constraint, a.row, 1, y);
-      double free = 0;
-      for (const int node : part.bodies) {
-        const Body& body = model.bodies()[at(system.bodyOf(node))];
-        const Mat3d& I = system.inertia(node);
-        free += norm2(linear(y[at(node)])) / body.mass +
-                norm2(angular(y[at(node)])) * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
-      }
-      system.solve(part, y);
-      L.emplace_back(i + 1);
-      for (std::size_t j = 0; j <= i; ++j) {
-        const Drive& other = model.drives()[at(drives[j])];
-        const Axis& b = system.axes()[at(system.axisOf(other.joint, other.axis))];
-        double s = system.rowTimes(b.constraint, b.row, y);
-        for (std::size_t m = 0; m < j; ++m) s -= L[i][m] * L[j][m];
-        if (j < i) {
-          L[i][j] = s / L[j][j];
-        } else {
-          if (!(s > kFixedAxis * free))
-            refuse("drive '", drive.name, "': the axis of joint '", model.joints()[at(drive.joint)].name,
-                   "' cannot move on its own: it is already determined by ", others(model, drive.name),
-                   "; leave one of them out, or start away from a dead centre");
-          L[i][i] = std::sqrt(s);
-        }
-      }
+      if (!(s > kFixedAxis * free))
+        refuse("drive '", drive.name, "': the axis of joint '", model.joints()[at(drive.joint)].name,
+               "' cannot move on its own: it is already determined by ", others(model, drive.name),
+               "; leave one of them out, or start away from a dead centre");
+      L[i][i] = std::sqrt(s);
     }
   }
+}
+
+/// Position laws begin where their axes are.
+void checkLawStarts(const ConstraintSystem& system, const Model& model) {
+  const std::vector<double> start = driveStart(system, model);
   for (std::size_t d = 0; d < model.drives().size(); ++d) {
     const Drive& drive = model.drives()[d];
     if (drive.kind != DriveKind::kPosition) continue;
@@ -239,6 +256,20 @@ void checkDrives(ConstraintSystem& system, const Model& model) {
              model.joints()[at(drive.joint)].name, "' starts at ", start[d],
              "; begin the law there, or place the bodies so");
   }
+}
+
+} // namespace
+
+void checkDrives(ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = system.framesOfModel();
+  const std::vector<AxisLaw> laws = hardOnly(system);
+  for (const ConstraintSystem::Part& part : system.parts()) {
+    const std::vector<int> drives = imposingDrives(system, model, part);
+    if (drives.empty()) continue;
+    system.linearise(part, frames, laws);
+    checkMobility(system, model, part, drives);
+  }
+  checkLawStarts(system, model);
 }
 
 void checkVelocities(ConstraintSystem& system, const Model& model, double tolerance, bool drives) {
