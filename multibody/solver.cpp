@@ -6,6 +6,7 @@
 #include "multibody/detail/geometric_stiffness.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rattle_step.hpp"
+#include "multibody/detail/reaction_sharing.hpp"
 #include "multibody/detail/redundancy.hpp"
 #include "multibody/detail/stability.hpp"
 #include "multibody/detail/start_checks.hpp"
@@ -31,6 +32,8 @@ SolverOptions resolved(const SolverOptions& given) {
   if (o.maxIterations == 0) o.maxIterations = rattle ? 40 : 12;
   if (!(o.positionTolerance > 0 && std::isfinite(o.positionTolerance)))
     throw base::InputError("multibody: positionTolerance must be > 0 [m, rad]");
+  if (!(o.momentLength >= 0 && std::isfinite(o.momentLength)))
+    throw base::InputError("multibody: momentLength must be >= 0 [m]");
   if (o.maxIterations < 1) throw base::InputError("multibody: maxIterations must be >= 1");
   if (o.order != 2 && o.order != 4 && o.order != 6 && o.order != 8)
     throw base::InputError("multibody: order = " + std::to_string(o.order) + " is none of 2, 4, 6, 8");
@@ -83,12 +86,13 @@ struct Solver::Impl {
   std::unique_ptr<Stepper> stepper;
 
   long long steps = 0;
-  double checkedStep = 0;        ///< largest step found stable since the last check
-  double checkedDampers = 0;     ///< largest step that the dampers allow
-  std::vector<AxisLaw> laws;     ///< one an axis
-  std::vector<double> stiffness; ///< or damping, one an axis
-  std::vector<Vector6> x;        ///< one a node
-  std::vector<Frame> frames;     ///< one a body, the world last
+  double checkedStep = 0;                   ///< largest step found stable since the last check
+  double checkedDampers = 0;                ///< largest step that the dampers allow
+  std::vector<AxisLaw> laws;                ///< one an axis
+  std::vector<double> stiffness;            ///< or damping, one an axis
+  std::vector<Vector6> x;                   ///< one a node
+  std::vector<Frame> frames;                ///< one a body, the world last
+  std::unique_ptr<ReactionSharing> sharing; ///< made when reactions of redundant joints are first asked for
 };
 
 /// Freedom at a generic position: the redundant rows are known; couplings that others imply are those without a pivot.
@@ -126,7 +130,9 @@ void Solver::Impl::describe() {
   out << "degrees of freedom: " << freedom << '\n';
   out << "redundant rows: " << redundancy.rows.size() + redundancy.couplings.size();
   if (!redundancy.rows.empty() || !redundancy.couplings.empty())
-    out << ", left out (other joints imply them; their reactions read 0; at each position the rows that follow best)";
+    out << ", left out of the solution (other joints imply them; at each position the rows that follow best); "
+           "reactions are "
+           "those of least norm";
   out << '\n';
   for (const auto& [k, row] : redundancy.rows) out << "  " << system.describe(k, row) << '\n';
   for (const int c : redundancy.couplings) out << "  coupling '" << model.couplings()[at(c)].name << "'\n";
@@ -298,6 +304,16 @@ std::vector<std::string> Solver::redundantRowNames() const {
   for (const int c : impl_->redundancy.couplings)
     names.push_back("coupling '" + impl_->model.couplings()[at(c)].name + "'");
   return names;
+}
+
+std::vector<JointReaction> Solver::reactions(const State& state) const {
+  std::vector<JointReaction> reactions;
+  for (const JointReading& joint : state.joint) reactions.push_back({joint.force, joint.torque});
+  if (impl_->redundancy.rows.empty()) return reactions;
+  if (!impl_->sharing)
+    impl_->sharing = std::make_unique<ReactionSharing>(impl_->model, impl_->redundancy, impl_->options.momentLength);
+  impl_->sharing->share(state, reactions);
+  return reactions;
 }
 
 const StepReport& Solver::lastStep() const { return impl_->last; }

@@ -51,6 +51,13 @@ public:
   /// Largest omega dt [rad] of a swing that the scheme takes explicitly: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
   double stableTurn() const;
 
+  /// Force and torque in every joint in the last step, as JointReading has them, but where joints hold more than is
+  /// needed. There the equations of motion leave the reactions open, and the readings of a State are one solution, with
+  /// zeros for the rows left out; these here are the one of least norm, sum of |force|^2 + |moment / L|^2 with L of
+  /// SolverOptions::momentLength, so that equal joints share alike. For outputs: costs about as much as some steps
+  /// where rows are redundant, nothing elsewhere, and has no effect on the motion.
+  std::vector<JointReaction> reactions(const State& state) const;
+
   const StepReport& lastStep() const;
   /// Rows without a pivot, by name, in the last matrix of the last step (kSymplecticEuler: of its start, kRattle: of
   /// its end); empty but in singular positions.

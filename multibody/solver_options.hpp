@@ -49,6 +49,10 @@ struct SolverOptions {
   int order = 2;
   Springs springs = Springs::kExplicit;
   StartVelocities startVelocities = StartVelocities::kRefuse;
+  /// L of Solver::reactions() [m], >= 0: how far a moment that a joint takes is from a couple of forces. 0: the spacing
+  /// of the joints that share, the root mean square of the distances between any two of them as the model places them.
+  /// Well below it joints take moments only where forces alone cannot hold, as hinges whose own length is short.
+  double momentLength = 0;
   double velocityTolerance = 1e-6; ///< of the check of start velocities [m/s, rad/s]
 };
 

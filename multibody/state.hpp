@@ -23,6 +23,12 @@ struct JointReading {
   double springForce = 0; ///< the springs' part of it, with their dampers and stops [N] or [N m]
 };
 
+/// Force and torque of a joint, as JointReading has them.
+struct JointReaction {
+  Vec3d force;  ///< [N]
+  Vec3d torque; ///< about the joint point [N m]
+};
+
 /// What the second axis of a joint, the slide of a cylindrical, did in the last step. As in JointReading.
 struct AxisReading {
   double position = 0;    ///< [m]
