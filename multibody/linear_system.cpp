@@ -30,7 +30,7 @@ int LinearSystem::hardRows() const {
   for (const Constraint& c : impl_->system.constraints()) rows += __builtin_popcount(detail::hardRows(c.kind));
   return rows;
 }
-int LinearSystem::loops() const { return static_cast<int>(impl_->system.elimination().articulation().closings.size()); }
+int LinearSystem::loops() const { return static_cast<int>(impl_->system.elimination().tree().loops.size()); }
 int LinearSystem::batches() const { return impl_->system.elimination().batches(); }
 long LinearSystem::multiplications() const { return impl_->system.elimination().multiplications(); }
 

@@ -36,7 +36,7 @@ Totals totals(const Model& model, const State& state, const Loads& loads) {
     t.kinetic += 0.5 * body.mass * norm2(V.v) + 0.5 * dot(w_B, body.inertia_B * w_B);
     t.gravity -= body.mass * dot(loads.gravity, p);
     t.linearMomentum += body.mass * V.v;
-    t.angularMomentum += cross(p, body.mass * V.v) + state.spinMomentum[b];
+    t.angularMomentum += cross(p, body.mass * V.v) + state.angularMomentum[b];
   }
   for (std::size_t s = 0; s < model.axisSprings().size(); ++s) {
     const AxisSpring& spring = model.axisSprings()[s];

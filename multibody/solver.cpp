@@ -67,8 +67,8 @@ struct Solver::Impl {
   void countFreedom();
   void describe();
   void checkFits(const State& state, const Loads& loads) const;
-  double stableTurn() const {
-    return options.integrator == Integrator::kRattle ? detail::stableTurn(options.order) : 2;
+  double stabilityLimit() const {
+    return options.integrator == Integrator::kRattle ? detail::stabilityLimit(options.order) : 2;
   }
   double stableStep(const State& state, const Loads& loads, std::string* spring);
   double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part);
@@ -123,8 +123,8 @@ void Solver::Impl::describe() {
   rows -= static_cast<int>(redundancy.rows.size());
   out << "multibody: " << system.movableBodies() << " bodies, " << model.joints().size() << " joints, "
       << model.pointSprings().size() << " point springs, " << rows << " constraint rows, "
-      << system.elimination().articulation().independent << " independent parts, "
-      << system.elimination().articulation().closings.size() << " loops\n";
+      << system.elimination().tree().independent << " independent parts, " << system.elimination().tree().loops.size()
+      << " loops\n";
   if (!model.bushings().empty() || !model.couplings().empty())
     out << model.bushings().size() << " bushings, " << model.couplings().size() << " couplings\n";
   out << "degrees of freedom: " << freedom << '\n';
@@ -164,21 +164,21 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
     if (omega2 > highest) highest = omega2, worst = axis;
   }
   if (spring) *spring = worst < 0 ? "" : springName(system, model, worst);
-  return highest > 0 ? stableTurn() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
+  return highest > 0 ? stabilityLimit() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
 }
 
 double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loads, std::string* name) {
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
   const SoftRows softRows(model, system, start);
-  Pull pull(system.constraints().size());
+  RowForces forces(system.constraints().size());
   double highest = 0;
   int worst = -1;
   for (const ConstraintSystem::Part& part : system.parts()) {
     system.linearise(part, frames, laws);
-    findPull(system, model, part, frames, state, loads, softRows, x, pull);
+    findRowForces(system, model, part, frames, state, loads, softRows, x, forces);
     int constraint = -1;
-    const double rate2 = fastestOnPull(system, model, part, state.pose, pull, x, constraint);
+    const double rate2 = highestGeometricFrequency(system, model, part, state.pose, forces, x, constraint);
     if (rate2 > highest) highest = rate2, worst = constraint;
   }
   if (name) *name = worst < 0 ? "" : system.describe(worst);
@@ -249,7 +249,7 @@ double Solver::projectVelocities(State& state, const Loads& loads) {
     s.system.linearise(part, frames, s.laws);
     std::vector<Twist> twist = state.twist;
     // The second pass takes out what round-off has left.
-    for (int pass = 0; pass < 2; ++pass) fitTwists(s.system, part, s.laws, s.x, twist);
+    for (int pass = 0; pass < 2; ++pass) projectTwists(s.system, part, s.laws, s.x, twist);
     for (const int node : part.bodies)
       setTwist(s.model, state, s.system.bodyOf(node), twist[at(s.system.bodyOf(node))]);
   }
@@ -267,7 +267,7 @@ double Solver::geometricStiffnessRate(const State& state, const Loads& loads, st
   return impl_->geometricStiffnessRate(state, loads, part);
 }
 
-double Solver::stableTurn() const { return impl_->stableTurn(); }
+double Solver::stabilityLimit() const { return impl_->stabilityLimit(); }
 
 double Solver::velocityError(const State& state) const {
   Impl& s = *impl_;

@@ -42,14 +42,14 @@ public:
   /// infinite without springs. `spring`, if given, receives the name of the spring with the greatest part in it.
   double stableStep(const State& state, const Loads& loads, std::string* spring = nullptr);
 
-  /// Fastest rate [rad/s] at which the pull of joints, springs, couplings and drives moves bodies at a state: a taut
-  /// chain or spring lets them swing across it, a pressed one lets them fall to the side
-  /// (detail/geometric_stiffness.hpp). All schemes need dt < stableTurn() / rate; beyond that a swing grows. 0 where
-  /// nothing pulls. `part`, if given, receives the name of what has the greatest part in it.
+  /// Fastest rate [rad/s] at which geometric stiffness moves bodies at a state: under tension joints, springs,
+  /// couplings and drives let them swing across it, under compression they let them buckle
+  /// (detail/geometric_stiffness.hpp). All schemes need dt < stabilityLimit() / rate; beyond that a swing grows. 0
+  /// where there are no forces. `part`, if given, receives the name of what has the greatest part in it.
   double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part = nullptr);
 
   /// Largest omega dt [rad] of a swing that the scheme takes explicitly: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
-  double stableTurn() const;
+  double stabilityLimit() const;
 
   /// Force and torque in every joint in the last step, as JointReading has them, but where joints hold more than is
   /// needed. There the equations of motion leave the reactions open, and the readings of a State are one solution, with

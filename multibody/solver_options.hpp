@@ -10,7 +10,7 @@ enum class Integrator {
   kSymplecticEuler,
   /// RATTLE on the rotation group (detail/rattle_step.cpp). Order 2, or 4, 6, 8 by composition (SolverOptions::order);
   /// symplectic and time-reversible; position and velocity constraints both met at the end of each step. A start
-  /// velocity that differs from an imposed rate is changed by a blow in the first step (StartVelocities::kAccept).
+  /// velocity that differs from an imposed rate is changed by an impact in the first step (StartVelocities::kAccept).
   kRattle,
 };
 

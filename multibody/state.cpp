@@ -24,7 +24,7 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
     f(X.orientation.w), f(X.orientation.x), f(X.orientation.y), f(X.orientation.z);
   }
   for (auto& V : s.twist) vec(V.v), vec(V.w);
-  for (auto& P : s.spinMomentum) vec(P);
+  for (auto& P : s.angularMomentum) vec(P);
   for (auto& j : s.joint) {
     vec(j.force), vec(j.torque);
     f(j.position), f(j.rate), f(j.axisForce), f(j.driveForce), f(j.springForce);
@@ -86,7 +86,7 @@ State makeState(const Model& model) {
   for (const Body& body : model.bodies()) {
     s.pose.push_back(body.pose);
     s.twist.push_back({});
-    s.spinMomentum.push_back({});
+    s.angularMomentum.push_back({});
   }
   s.joint.resize(model.joints().size());
   s.spring.resize(model.pointSprings().size());
@@ -115,7 +115,7 @@ void setTwist(const Model& model, State& state, int body, const Twist& twist) {
   if (model.bodies()[b].fixed) return;
   state.twist[b] = twist;
   const Mat3d R = state.pose[b].orientation.matrix();
-  state.spinMomentum[b] = rotatedInertia(R, model.bodies()[b].inertia_B) * twist.w;
+  state.angularMomentum[b] = rotatedInertia(R, model.bodies()[b].inertia_B) * twist.w;
 }
 
 } // namespace grouser::multibody

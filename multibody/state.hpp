@@ -72,11 +72,11 @@ struct Ledger {
 /// mean twist over the step that led there.
 struct State {
   double time = 0;
-  std::vector<Pose> pose;            ///< X_WB, one a body
-  std::vector<Twist> twist;          ///< one a body
-  std::vector<Vec3d> spinMomentum;   ///< angular momentum about the centre of mass, world components [kg m2/s]
-  std::vector<JointReading> joint;   ///< one a joint
-  std::vector<SpringReading> spring; ///< one a point spring
+  std::vector<Pose> pose;             ///< X_WB, one a body
+  std::vector<Twist> twist;           ///< one a body
+  std::vector<Vec3d> angularMomentum; ///< angular momentum about the centre of mass, world components [kg m2/s]
+  std::vector<JointReading> joint;    ///< one a joint
+  std::vector<SpringReading> spring;  ///< one a point spring
   Ledger ledger;
   std::vector<AxisReading> slide; ///< one a joint if the model has cylindrical joints (others' stay 0), else empty
   std::vector<BushingReading> bushing;

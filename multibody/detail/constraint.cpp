@@ -56,7 +56,7 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
-    // Coinciding points: the spring has no direction, and pulls nowhere.
+    // Coinciding points: the spring has no direction, and acts nowhere.
     rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
     return;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/detail/articulation.hpp"
 #include "multibody/detail/constraint.hpp"
+#include "multibody/detail/spanning_tree.hpp"
 #include "multibody/model.hpp"
 
 #include <string>

@@ -104,7 +104,7 @@ int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& fram
 void ConstraintSystem::setUp(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
   packed_ = true;
   lineariseLinks(frames, laws);
-  for (const int k : loose_) {
+  for (const int k : offTree_) {
     const Constraint& c = constraints()[at(k)];
     placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], frames_[at(k)]);
     setRowDirections(c, frames_[at(k)], rows_[at(k)]);
@@ -117,8 +117,8 @@ void ConstraintSystem::setUp(const std::vector<Frame>& frames, const std::vector
     for (int a = firstAxis(k); a < firstAxis(k + 1); ++a) {
       const AxisLaw& law = laws[at(a)];
       const int row = axes()[at(a)].row;
-      if (law.driven || law.softness != 0) active |= 1u << row;
-      if (!law.driven && law.softness != 0) compliance[row] = 1 / law.softness;
+      if (law.driven || law.inverseCompliance != 0) active |= 1u << row;
+      if (!law.driven && law.inverseCompliance != 0) compliance[row] = 1 / law.inverseCompliance;
     }
     active_[at(k)] = active;
 

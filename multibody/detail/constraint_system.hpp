@@ -14,13 +14,13 @@ namespace grouser::multibody::detail {
 
 /// What acts along an axis row (of a joint, point spring or bushing) in one step (axis_laws.hpp).
 struct AxisLaw {
-  double force = 0;          ///< applied along the row as a known force [N, N m]
-  double known = 0;          ///< springs' and stops' part of it that does not depend on the new rate
-  double driveForce = 0;     ///< of force drives, included in `force`
-  double softness = 0;       ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
-  double dampingPart = 0;    ///< dt c of all dampers
-  double springKnown = 0;    ///< `known`, and
-  double springSoftness = 0; ///< `softness` without the joint's own damping
+  double force = 0;             ///< applied along the row as a known force [N, N m]
+  double known = 0;             ///< springs' and stops' part of it that does not depend on the new rate
+  double driveForce = 0;        ///< of force drives, included in `force`
+  double inverseCompliance = 0; ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
+  double dampingPart = 0;       ///< dt c of all dampers
+  double springKnown = 0;       ///< `known`, and
+  double springInverseCompliance = 0; ///< `inverseCompliance` without the joint's own damping
   bool driven = false;
   double speed = 0; ///< imposed rate
 };
@@ -71,7 +71,7 @@ public:
   }
   /// All bodies with the joints of the spanning tree, and the constraints that are not in it.
   const std::vector<LinkLanes>& links() const { return links_; }
-  const std::vector<int>& loose() const { return loose_; }
+  const std::vector<int>& offTree() const { return offTree_; }
   /// Inertias of a batch of links in world axes, by columns of the lower triangle.
   const Lanes (&inertiaOf(std::size_t batch) const)[6] { return elimination_->links(static_cast<int>(batch)).inertia; }
   /// Rate of one row: J (v, w).
@@ -108,7 +108,7 @@ private:
   std::vector<unsigned> hard_, active_;
   std::vector<LinkLanes> links_; ///< one a batch of the elimination
   std::vector<char> inTree_;     ///< of each constraint
-  std::vector<int> loose_;
+  std::vector<int> offTree_;
   // One a constraint or body; of the tree taken out of the lanes when somebody asks.
   mutable bool packed_ = false;
   mutable std::vector<RowDirections> rows_;

@@ -106,7 +106,7 @@ GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads,
     Vec3L force, torque;
     gather6(row, force, torque);
     gatherTwists(state, b.body, s.v, s.w);
-    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.spinMomentum[at(b.body[l])].x;
+    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.angularMomentum[at(b.body[l])].x;
     const Vec3L spin = gather3(row);
     for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.pose[at(b.body[l])].position.x;
     Lanes low[4], high[4];
@@ -152,12 +152,12 @@ GROUSER_LANES void EulerStep::startLinkAxes(const State& state, double dt) {
 }
 
 /// The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
-void EulerStep::solveSpin(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
+void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
   const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
   const auto put = [l](Vec3L& v, const Vec3d& value) { v.x[l] = value.x, v.y[l] = value.y, v.z[l] = value.z; };
   const double lower[6] = {inertia[0][l], inertia[1][l], inertia[2][l], inertia[3][l], inertia[4][l], inertia[5][l]};
   const Mat3d I{{{lower[0], lower[1], lower[2]}, {lower[1], lower[3], lower[4]}, {lower[2], lower[4], lower[5]}}};
-  const Vec3d w = twistOfSpin(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
+  const Vec3d w = angularVelocityOf(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
   put(s.w, w);
   put(s.gyro, gyroscopicMomentum(I, w, dt)); // solved: nothing is left for the next iterate
 }
@@ -174,7 +174,7 @@ GROUSER_LANES void EulerStep::correctLinks(double dt) {
     const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > kFastSpin;
     if (__builtin_expect(anyOf(fast), 0))
       for (int l = 0; l < kLanes; ++l)
-        if (fast[l] && !relinearised) solveSpin(system.inertiaOf(i), s, l, dt);
+        if (fast[l] && !relinearised) solveAngularVelocity(system.inertiaOf(i), s, l, dt);
     if (!b.joint) continue;
     gatherNode(x, b.constraint, system.movableBodies(), d);
     for (int r = 0; r < 6; ++r) s.impulse[r] += d[r];
@@ -299,7 +299,7 @@ GROUSER_KERNEL void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& 
     if (!sound[l])
       checkTwist(model.bodies()[body], {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}}, state.time,
                  dt);
-    state.spinMomentum[body] += Vec3d{dt * s.torque.x[l], dt * s.torque.y[l], dt * s.torque.z[l]};
+    state.angularMomentum[body] += Vec3d{dt * s.torque.x[l], dt * s.torque.y[l], dt * s.torque.z[l]};
     state.twist[body] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
     state.pose[body] = {{s.trial.p.x[l], s.trial.p.y[l], s.trial.p.z[l]},
                         {s.newOrientation.w[l], s.newOrientation.x[l], s.newOrientation.y[l], s.newOrientation.z[l]}};
@@ -329,9 +329,9 @@ GROUSER_KERNEL void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& 
   const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
   const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
   for (int l = 0; l < b.count; ++l) {
-    state.spinMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
+    state.angularMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
     if (b.parentNode[at(l)] >= 0)
-      state.spinMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
+      state.angularMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
     const int k = b.constraint[at(l)];
     JointReading& reading = state.joint[at(system.constraints()[at(k)].source)];
     reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
@@ -351,10 +351,10 @@ GROUSER_KERNEL void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, in
     row[l] = &law.force;
     driven[l] = law.driven ? 1 : 0;
   }
-  // Force, known, driveForce, softness; dampingPart and what follows it.
+  // Force, known, driveForce, inverseCompliance; dampingPart and what follows it.
   constexpr std::size_t kDouble = sizeof(double);
   static_assert(offsetof(AxisLaw, force) == 0 && offsetof(AxisLaw, known) == kDouble &&
-                offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, softness) == 3 * kDouble &&
+                offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, inverseCompliance) == 3 * kDouble &&
                 offsetof(AxisLaw, dampingPart) == 4 * kDouble && sizeof(AxisLaw) >= 7 * kDouble);
   gather4(row, 0, known);
   gather4(row, 3, damping);
@@ -389,7 +389,7 @@ GROUSER_KERNEL void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, i
       axis.rate = newRate[l];
       axis.axisForce = total[l] / dt;
       axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
-      axis.springForce = law.springKnown - law.springSoftness / dt * newRate[l];
+      axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRate[l];
     };
     const std::size_t source = at(system.constraints()[at(b.constraint[at(l)])].source);
     if (slide)

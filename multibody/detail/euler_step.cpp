@@ -42,7 +42,7 @@ void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State
                                  double dt) {
   startLinks(state, loads, dt);
   startLinkAxes(state, dt);
-  for (const int k : system.loose()) {
+  for (const int k : system.offTree()) {
     impulse[at(k)] = {};
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
       const int row = system.axes()[at(a)].row;
@@ -62,7 +62,7 @@ double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State
   const auto meet = [&](double gap) {
     if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap);
   };
-  for (const int k : system.loose()) {
+  for (const int k : system.offTree()) {
     double error[6];
     positionError(system.constraints()[at(k)], trialFramesOf(k), error);
     Vector6& residual = x[at(rowNode(k))];
@@ -118,7 +118,7 @@ void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
     mixing.improve(part, {newTwist, impulse, couplingImpulse}, x);
   }
   correctLinks(dt);
-  for (const int k : system.loose())
+  for (const int k : system.offTree())
     for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
   for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
 }
@@ -280,26 +280,26 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
     const CouplingRow& row = system.couplings()[at(c)];
     for (const auto& [axis, share] : {std::pair{row.axis2, 1.0}, std::pair{row.axis1, -row.ratio}}) {
       const Axis& a = system.axes()[at(axis)];
-      addSpin(a.constraint, share * couplingImpulse[at(c)] * system.rows(a.constraint).force[at(a.row)],
-              share * couplingImpulse[at(c)] * system.rows(a.constraint).torque[at(a.row)], state);
+      addAngularMomentum(a.constraint, share * couplingImpulse[at(c)] * system.rows(a.constraint).force[at(a.row)],
+                         share * couplingImpulse[at(c)] * system.rows(a.constraint).torque[at(a.row)], state);
     }
     state.coupling[at(c)].force = couplingImpulse[at(c)] / dt;
   }
-  for (const int k : system.loose()) readConstraint(k, state, dt);
+  for (const int k : system.offTree()) readConstraint(k, state, dt);
   if (relinearised)
     for (const int node : part.bodies) {
       // The impulses belong to rows of several positions: the momentum is what the twist says.
       const std::size_t b = at(system.bodyOf(node));
       const Mat3d I = rotatedInertia(frames[b].R, model.bodies()[b].inertia_B);
-      state.spinMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
+      state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
 }
 
-void EulerStep::addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
+void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
   const Constraint& c = system.constraints()[at(k)];
   const Vec3d& p = system.jointFrames(k).p_B;
-  if (c.nodeB >= 0) state.spinMomentum[at(c.bodyB)] += cross(p - frames[at(c.bodyB)].p, force) + torque;
-  if (c.nodeA >= 0) state.spinMomentum[at(c.bodyA)] -= cross(p - frames[at(c.bodyA)].p, force) + torque;
+  if (c.nodeB >= 0) state.angularMomentum[at(c.bodyB)] += cross(p - frames[at(c.bodyB)].p, force) + torque;
+  if (c.nodeA >= 0) state.angularMomentum[at(c.bodyA)] -= cross(p - frames[at(c.bodyA)].p, force) + torque;
 }
 
 /// Adds what is known along the axes of one constraint to the impulses of its rows, and their work.
@@ -330,7 +330,7 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
     force += total[r] * rows.force[r];
     torque += total[r] * rows.torque[r];
   }
-  addSpin(k, force, torque, state);
+  addAngularMomentum(k, force, torque, state);
 
   if (c.kind == ConstraintKind::kPointSpring) {
     state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, after, 0)};
@@ -359,7 +359,7 @@ void EulerStep::readAxes(int k, const std::array<double, 6>& total, State& state
     axis.axisForce = total[row] / dt;
     axis.driveForce = law.driven ? impulse[at(k)][row] / dt : 0;
     if (law.driveForce != 0) axis.driveForce += law.driveForce;
-    axis.springForce = law.springKnown - law.springSoftness / dt * newRates[at(a)];
+    axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRates[at(a)];
   };
   for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
     if (c.kind == ConstraintKind::kCylindrical && system.axes()[at(a)].row == kSlideRow)

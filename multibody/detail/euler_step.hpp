@@ -51,7 +51,7 @@ private:
   OpenRow widestGap() const;
   double openGap() const;
   void finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
-  void addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
+  void addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
   void readConstraint(int k, State& state, double dt);
   void addAxes(int k, std::array<double, 6>& total, State& state, double dt);
   void readAxes(int k, const std::array<double, 6>& total, State& state, double dt) const;
@@ -77,7 +77,7 @@ private:
   void correctLinks(double dt);
   void unpackIterate();
   void packTwists();
-  static void solveSpin(const Lanes (&inertia)[6], LinkStep& s, int l, double dt);
+  static void solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int l, double dt);
   void moveLinks(double dt);
   double setLinkGaps(double dt, bool first);
   double setLinkGyro(double dt);

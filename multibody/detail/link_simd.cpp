@@ -66,7 +66,7 @@ void ConstraintSystem::makeLinks() {
     links_.push_back(links);
   }
   for (std::size_t k = 0; k < constraints().size(); ++k)
-    if (!inTree_[k]) loose_.push_back(static_cast<int>(k));
+    if (!inTree_[k]) offTree_.push_back(static_cast<int>(k));
 }
 
 GROUSER_LANES void ConstraintSystem::lineariseLinks(const std::vector<Frame>& frames,
@@ -95,11 +95,11 @@ GROUSER_LANES void ConstraintSystem::lineariseLinks(const std::vector<Frame>& fr
     for (int a = 0; a < b.axes; ++a)
       for (std::size_t l = 0; l < kLanes; ++l) {
         const AxisLaw& law = laws[at(b.axis[at(a)][l])];
-        lane(to.softness[b.freedom[at(a)]], l) = law.driven ? 0 : law.softness;
+        lane(to.inverseCompliance[b.freedom[at(a)]], l) = law.driven ? 0 : law.inverseCompliance;
         lane(to.free[b.freedom[at(a)]], l) = law.driven ? 0 : 1;
         const unsigned bit = 1u << b.axisRow[at(a)];
         unsigned& active = active_[at(b.constraint[l])];
-        active = law.driven || law.softness != 0 ? active | bit : active & ~bit;
+        active = law.driven || law.inverseCompliance != 0 ? active | bit : active & ~bit;
       }
   }
 }

@@ -30,9 +30,9 @@ constexpr double kNearTolerance = 1e2, kAcceptable = 1e3;
 /// costs less than going on. Round-off does not even halve it.
 constexpr double kSlowConvergence = 0.2, kStalled = 0.5;
 
-/// Of soft rows, in units of the row's own J M^-1 J^T: softness that a row which lets go keeps, so that its impulse can
-/// vanish; and change, as a part of both together, that Newton's method tolerates without a new matrix.
-constexpr double kLeastSoftness = 1e-3, kSoftnessChange = 0.05;
+/// Of soft rows, in units of the row's own J M^-1 J^T: inverse compliance that a row which lets go keeps, so that its
+/// impulse can vanish; and change, as a part of both together, that Newton's method tolerates without a new matrix.
+constexpr double kLeastInverseCompliance = 1e-3, kComplianceChange = 0.05;
 
 /// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
 /// Newton's method within the iteration, to round-off: what a tolerance would leave has the same sign in each step, and
@@ -62,9 +62,9 @@ ForceAndSlope RattleStep::meanForce(int axis, double h) const {
   return f;
 }
 
-/// Axis positions at the current iterate, and the softness 1/G of the soft rows there. Returns whether it has moved so
-/// far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J M^-1
-/// J^T.
+/// Axis positions at the current iterate, and the inverse compliance 1/G of the soft rows there. Returns whether it has
+/// moved so far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J
+/// M^-1 J^T.
 bool RattleStep::updateAxes(const Part& part, double h) {
   bool follow = false;
   for (const int k : part.constraints) {
@@ -77,9 +77,12 @@ bool RattleStep::updateAxes(const Part& part, double h) {
       AxisLaw& law = laws[at(a)];
       const double size = system.rowSize(k, row);
       double now = 0.5 * h * h * meanForce(a, h).slope;
-      if (law.softness != 0 && std::fabs(now) * size < kLeastSoftness) now = kLeastSoftness / size;
-      if (std::fabs(now - law.softness) * size <= kSoftnessChange * (1 + std::fabs(law.softness) * size)) continue;
-      law.softness = now;
+      if (law.inverseCompliance != 0 && std::fabs(now) * size < kLeastInverseCompliance)
+        now = kLeastInverseCompliance / size;
+      if (std::fabs(now - law.inverseCompliance) * size <=
+          kComplianceChange * (1 + std::fabs(law.inverseCompliance) * size))
+        continue;
+      law.inverseCompliance = now;
       follow = true;
     }
   }
@@ -135,7 +138,7 @@ void RattleStep::startAxes(const Part& part, const State& state, double h) {
       x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
       laws[at(a)] = {};
       laws[at(a)].driven = soft[at(a)].driven;
-      laws[at(a)].softness = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
+      laws[at(a)].inverseCompliance = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
     }
   }
 }
@@ -145,7 +148,7 @@ void RattleStep::startAxes(const Part& part, const State& state, double h) {
 void RattleStep::predictSoftRows(const Part& part, double h) {
   for (const int k : part.constraints)
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      if (laws[at(a)].softness != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
+      if (laws[at(a)].inverseCompliance != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
       if (soft[at(a)].driven) startRate[at(a)] = system.rateOfAxis(a, mean);
     }
 }
@@ -236,7 +239,7 @@ void RattleStep::setFirstResidual(const Part& part, const State& state, const Lo
     const Vec3d& w = mean[at(b)].w;
     gyro[at(node)] = gyroscopicMomentum(I, w, h);
     set(x[at(node)], 0.5 * h * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
-        (state.spinMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
+        (state.angularMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
   }
   for (const int k : part.constraints) {
     impulse[at(k)] = {};
@@ -244,7 +247,7 @@ void RattleStep::setFirstResidual(const Part& part, const State& state, const Lo
       const std::size_t row = at(system.axes()[at(a)].row);
       softImpulse[at(a)] = 0.5 * h * meanForce(a, h).force;
       const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
-      // A soft row's impulse is an unknown of the system; without softness it is known.
+      // A soft row's impulse is an unknown of the system; without compliance it is known.
       impulse[at(k)][row] = softImpulse[at(a)];
       if (known + softImpulse[at(a)] != 0) system.addImpulse(k, static_cast<int>(row), known + softImpulse[at(a)], x);
     }
@@ -304,11 +307,11 @@ void RattleStep::setResidual(int k, double h, Gaps& gaps) {
       const double gap = x1[at(a)] - (s.relative ? x0[at(a)] + s.target : s.target);
       residual[at(row)] = -gap / h;
       gaps.take(gap, kept >> row & 1u);
-    } else if (laws[at(a)].softness != 0) {
-      residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].softness;
+    } else if (laws[at(a)].inverseCompliance != 0) {
+      residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].inverseCompliance;
       // In terms of position: what the soft row and the masses behind it would still move.
-      const double softness = std::fabs(laws[at(a)].softness) * system.rowSize(k, row);
-      Gaps::takeLarger(gaps.largest, residual[at(row)] * h * softness / (1 + softness));
+      const double inverseCompliance = std::fabs(laws[at(a)].inverseCompliance) * system.rowSize(k, row);
+      Gaps::takeLarger(gaps.largest, residual[at(row)] * h * inverseCompliance / (1 + inverseCompliance));
     }
   }
 }
@@ -359,7 +362,7 @@ void RattleStep::applyCorrection(const Part& part, double h) {
     // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
     const Mat3d& I = system.inertia(node);
     if (std::fabs(h) * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
-      V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, h);
+      V.w = angularVelocityOf(I, I * V.w + gyro[at(node)], V.w, h);
       gyro[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
     }
   }
@@ -381,7 +384,7 @@ void RattleStep::collectMomentum(const Part& part, const State& state, const Loa
   }
   for (const int node : part.bodies) {
     const int b = system.bodyOf(node);
-    spin[at(node)] = state.spinMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
+    spin[at(node)] = state.angularMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
     x[at(node)] = {};
   }
   for (const int k : part.constraints) {

@@ -131,6 +131,6 @@ private:
 };
 
 /// Largest omega dt [rad] for which the composition of an order is stable with explicit springs.
-double stableTurn(int order);
+double stabilityLimit(int order);
 
 } // namespace grouser::multibody::detail

@@ -159,7 +159,7 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
       if (s.stops) state.ledger.dissipated += softRows.stopLoss(a, x0[at(a)], x1[at(a)], h);
       state.ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
       if (s.driven) {
-        // Impulse times mean rate in either half: right also when a law starts with a blow.
+        // Impulse times mean rate in either half: right also when a law starts with an impact.
         const double meanRate = path / h, first = impulse[at(k)][row] - 0.5 * h * meanForce(a, h).force;
         state.ledger.driveWork += 0.5 * (first * (startRate[at(a)] + meanRate) +
                                          endImpulse[at(k)][row] * (meanRate + system.rateOfAxis(a, twist)));
@@ -171,7 +171,7 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
     const int b = system.bodyOf(node);
     state.twist[at(b)] = twist[at(b)];
     state.pose[at(b)] = trialPose[at(b)];
-    state.spinMomentum[at(b)] = spin[at(node)];
+    state.angularMomentum[at(b)] = spin[at(node)];
     frames[at(b)] = trial[at(b)];
   }
 }

@@ -39,12 +39,11 @@ class LoopSets {
 public:
   LoopSets(const ConstraintSystem& system) : parent_(system.constraints().size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
-    const Articulation& tree = system.elimination().articulation();
-    for (const Articulation::Closing& closing : tree.closings) {
-      if (hardRows(system.constraints()[at(closing.constraint)].kind) == 0) continue;
-      for (const int body : closing.path)
-        if (const int joint = tree.links[at(body)].joint; joint >= 0)
-          parent_[at(find(joint))] = find(closing.constraint);
+    const SpanningTree& tree = system.elimination().tree();
+    for (const SpanningTree::Loop& loop : tree.loops) {
+      if (hardRows(system.constraints()[at(loop.constraint)].kind) == 0) continue;
+      for (const int body : loop.path)
+        if (const int joint = tree.links[at(body)].joint; joint >= 0) parent_[at(find(joint))] = find(loop.constraint);
     }
   }
   int find(int k) {

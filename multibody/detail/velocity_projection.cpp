@@ -29,8 +29,8 @@ void readRates(const ConstraintSystem& system, State& state) {
   }
 }
 
-void fitTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
-               std::vector<Vector6>& x, std::vector<Twist>& twist) {
+void projectTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
+                   std::vector<Vector6>& x, std::vector<Twist>& twist) {
   for (const int node : part.bodies) x[at(node)] = {};
   for (const int k : part.constraints) {
     Vector6& residual = x[at(system.movableBodies() + k)];

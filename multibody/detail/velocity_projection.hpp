@@ -15,8 +15,8 @@ void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads
 /// Change of the twists of one part, at a linearised system, that makes them fit the rows: solves
 ///   M dv - J^T dLambda = 0,   J (v + dv) = rate of the laws (0 on hard rows and couplings).
 /// Adds dv to `twist`; the impulses stay in `x`.
-void fitTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
-               std::vector<Vector6>& x, std::vector<Twist>& twist);
+void projectTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
+                   std::vector<Vector6>& x, std::vector<Twist>& twist);
 
 /// Rates of the joints' axes at a linearised system.
 void readRates(const ConstraintSystem& system, State& state);
