@@ -69,9 +69,6 @@ template <class T> struct Mat3 {
 
   GROUSER_HD static Mat3 identity() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
   GROUSER_HD static Mat3 diagonal(const Vec3<T>& d) { return {{{d.x, 0, 0}, {0, d.y, 0}, {0, 0, d.z}}}; }
-  GROUSER_HD Mat3 transposed() const {
-    return {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}};
-  }
 };
 
 template <class T> GROUSER_HD Vec3<T> operator*(const Mat3<T>& a, const Vec3<T>& v) {

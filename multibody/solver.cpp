@@ -6,8 +6,12 @@
 #include "multibody/detail/geometric_stiffness.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rattle_step.hpp"
-#include "multibody/detail/rotation.hpp"
-#include "multibody/detail/start.hpp"
+#include "multibody/detail/reaction_sharing.hpp"
+#include "multibody/detail/redundancy.hpp"
+#include "multibody/detail/stability.hpp"
+#include "multibody/detail/start_checks.hpp"
+#include "multibody/detail/velocity_projection.hpp"
+#include "multibody/readings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +32,8 @@ SolverOptions resolved(const SolverOptions& given) {
   if (o.maxIterations == 0) o.maxIterations = rattle ? 40 : 12;
   if (!(o.positionTolerance > 0 && std::isfinite(o.positionTolerance)))
     throw base::InputError("multibody: positionTolerance must be > 0 [m, rad]");
+  if (!(o.momentLength >= 0 && std::isfinite(o.momentLength)))
+    throw base::InputError("multibody: momentLength must be >= 0 [m]");
   if (o.maxIterations < 1) throw base::InputError("multibody: maxIterations must be >= 1");
   if (o.order != 2 && o.order != 4 && o.order != 6 && o.order != 8)
     throw base::InputError("multibody: order = " + std::to_string(o.order) + " is none of 2, 4, 6, 8");
@@ -61,8 +67,8 @@ struct Solver::Impl {
   void countFreedom();
   void describe();
   void checkFits(const State& state, const Loads& loads) const;
-  double stableTurn() const {
-    return options.integrator == Integrator::kRattle ? detail::stableTurn(options.order) : 2;
+  double stabilityLimit() const {
+    return options.integrator == Integrator::kRattle ? detail::stabilityLimit(options.order) : 2;
   }
   double stableStep(const State& state, const Loads& loads, std::string* spring);
   double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part);
@@ -80,12 +86,13 @@ struct Solver::Impl {
   std::unique_ptr<Stepper> stepper;
 
   long long steps = 0;
-  double checkedStep = 0;        ///< largest step found stable since the last check
-  double checkedDampers = 0;     ///< largest step that the dampers allow
-  std::vector<AxisLaw> laws;     ///< one an axis
-  std::vector<double> stiffness; ///< or damping, one an axis
-  std::vector<Vector6> x;        ///< one a node
-  std::vector<Frame> frames;     ///< one a body, the world last
+  double checkedStep = 0;                   ///< largest step found stable since the last check
+  double checkedDampers = 0;                ///< largest step that the dampers allow
+  std::vector<AxisLaw> laws;                ///< one an axis
+  std::vector<double> stiffness;            ///< or damping, one an axis
+  std::vector<Vector6> x;                   ///< one a node
+  std::vector<Frame> frames;                ///< one a body, the world last
+  std::unique_ptr<ReactionSharing> sharing; ///< made when reactions of redundant joints are first asked for
 };
 
 /// Freedom at a generic position: the redundant rows are known; couplings that others imply are those without a pivot.
@@ -116,14 +123,16 @@ void Solver::Impl::describe() {
   rows -= static_cast<int>(redundancy.rows.size());
   out << "multibody: " << system.movableBodies() << " bodies, " << model.joints().size() << " joints, "
       << model.pointSprings().size() << " point springs, " << rows << " constraint rows, "
-      << system.elimination().articulation().independent << " independent parts, "
-      << system.elimination().articulation().closings.size() << " loops\n";
+      << system.elimination().tree().independent << " independent parts, " << system.elimination().tree().loops.size()
+      << " loops\n";
   if (!model.bushings().empty() || !model.couplings().empty())
     out << model.bushings().size() << " bushings, " << model.couplings().size() << " couplings\n";
   out << "degrees of freedom: " << freedom << '\n';
   out << "redundant rows: " << redundancy.rows.size() + redundancy.couplings.size();
   if (!redundancy.rows.empty() || !redundancy.couplings.empty())
-    out << ", left out (other joints imply them; their reactions read 0; at each position the rows that follow best)";
+    out << ", left out of the solution (other joints imply them; at each position the rows that follow best); "
+           "reactions are "
+           "those of least norm";
   out << '\n';
   for (const auto& [k, row] : redundancy.rows) out << "  " << system.describe(k, row) << '\n';
   for (const int c : redundancy.couplings) out << "  coupling '" << model.couplings()[at(c)].name << "'\n";
@@ -155,21 +164,21 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
     if (omega2 > highest) highest = omega2, worst = axis;
   }
   if (spring) *spring = worst < 0 ? "" : springName(system, model, worst);
-  return highest > 0 ? stableTurn() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
+  return highest > 0 ? stabilityLimit() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
 }
 
 double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loads, std::string* name) {
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
   const SoftRows softRows(model, system, start);
-  Pull pull(system.constraints().size());
+  RowForces forces(system.constraints().size());
   double highest = 0;
   int worst = -1;
   for (const ConstraintSystem::Part& part : system.parts()) {
     system.linearise(part, frames, laws);
-    findPull(system, model, part, frames, state, loads, softRows, x, pull);
+    findRowForces(system, model, part, frames, state, loads, softRows, x, forces);
     int constraint = -1;
-    const double rate2 = fastestOnPull(system, model, part, state.pose, pull, x, constraint);
+    const double rate2 = highestGeometricFrequency(system, model, part, state.pose, forces, x, constraint);
     if (rate2 > highest) highest = rate2, worst = constraint;
   }
   if (name) *name = worst < 0 ? "" : system.describe(worst);
@@ -240,7 +249,7 @@ double Solver::projectVelocities(State& state, const Loads& loads) {
     s.system.linearise(part, frames, s.laws);
     std::vector<Twist> twist = state.twist;
     // The second pass takes out what round-off has left.
-    for (int pass = 0; pass < 2; ++pass) fitTwists(s.system, part, s.laws, s.x, twist);
+    for (int pass = 0; pass < 2; ++pass) projectTwists(s.system, part, s.laws, s.x, twist);
     for (const int node : part.bodies)
       setTwist(s.model, state, s.system.bodyOf(node), twist[at(s.system.bodyOf(node))]);
   }
@@ -258,7 +267,7 @@ double Solver::geometricStiffnessRate(const State& state, const Loads& loads, st
   return impl_->geometricStiffnessRate(state, loads, part);
 }
 
-double Solver::stableTurn() const { return impl_->stableTurn(); }
+double Solver::stabilityLimit() const { return impl_->stabilityLimit(); }
 
 double Solver::velocityError(const State& state) const {
   Impl& s = *impl_;
@@ -267,16 +276,11 @@ double Solver::velocityError(const State& state) const {
   double largest = 0;
   for (std::size_t k = 0; k < s.system.constraints().size(); ++k) {
     const Constraint& c = s.system.constraints()[k];
-    const Frame &A = frames[at(c.bodyA)], &B = frames[at(c.bodyB)];
-    const JointFrames f = framesOf(c, A, B);
+    const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
     const RowDirections rows = rowDirections(c, f);
-    const auto rate = [&](const Vec3d& e, const Vec3d& t, int node, int body, const Frame& F) {
-      return node < 0 ? 0.0 : dot(e, state.twist[at(body)].v) + dot(cross(f.p_B - F.p, e) + t, state.twist[at(body)].w);
-    };
     for (int r = 0; r < 6; ++r)
       if (hardRows(c.kind) >> r & 1u)
-        largest = std::max(largest, std::fabs(rate(rows.force[at(r)], rows.torque[at(r)], c.nodeB, c.bodyB, B) -
-                                              rate(rows.force[at(r)], rows.torque[at(r)], c.nodeA, c.bodyA, A)));
+        largest = std::max(largest, std::fabs(rowRate(c, f, rows, r, frames, state.twist)));
   }
   return largest;
 }
@@ -300,6 +304,16 @@ std::vector<std::string> Solver::redundantRowNames() const {
   for (const int c : impl_->redundancy.couplings)
     names.push_back("coupling '" + impl_->model.couplings()[at(c)].name + "'");
   return names;
+}
+
+std::vector<JointReaction> Solver::reactions(const State& state) const {
+  std::vector<JointReaction> reactions;
+  for (const JointReading& joint : state.joint) reactions.push_back({joint.force, joint.torque});
+  if (impl_->redundancy.rows.empty()) return reactions;
+  if (!impl_->sharing)
+    impl_->sharing = std::make_unique<ReactionSharing>(impl_->model, impl_->redundancy, impl_->options.momentLength);
+  impl_->sharing->share(state, reactions);
+  return reactions;
 }
 
 const StepReport& Solver::lastStep() const { return impl_->last; }

@@ -2,21 +2,11 @@
 #pragma once
 
 #include "multibody/model.hpp"
+#include "multibody/spatial.hpp"
 
 #include <vector>
 
 namespace grouser::multibody {
-
-struct Twist {
-  Vec3d v; ///< of the centre of mass, world components [m/s]
-  Vec3d w; ///< world components [rad/s]
-};
-
-/// Force and torque about the centre of mass, world components.
-struct Wrench {
-  Vec3d force;  ///< [N]
-  Vec3d torque; ///< [N m]
-};
 
 /// What a joint did in the last step. Forces: kSymplecticEuler gives the mean over the step, kRattle the values at its
 /// end.
@@ -31,6 +21,12 @@ struct JointReading {
   double axisForce = 0;   ///< damping, spring, stops and drive along the free axis, on B [N] or [N m]
   double driveForce = 0;  ///< the drive's part of it [N] or [N m]
   double springForce = 0; ///< the springs' part of it, with their dampers and stops [N] or [N m]
+};
+
+/// Force and torque of a joint, as JointReading has them.
+struct JointReaction {
+  Vec3d force;  ///< [N]
+  Vec3d torque; ///< about the joint point [N m]
 };
 
 /// What the second axis of a joint, the slide of a cylindrical, did in the last step. As in JointReading.
@@ -76,11 +72,11 @@ struct Ledger {
 /// mean twist over the step that led there.
 struct State {
   double time = 0;
-  std::vector<Pose> pose;            ///< X_WB, one a body
-  std::vector<Twist> twist;          ///< one a body
-  std::vector<Vec3d> spinMomentum;   ///< angular momentum about the centre of mass, world components [kg m2/s]
-  std::vector<JointReading> joint;   ///< one a joint
-  std::vector<SpringReading> spring; ///< one a point spring
+  std::vector<Pose> pose;             ///< X_WB, one a body
+  std::vector<Twist> twist;           ///< one a body
+  std::vector<Vec3d> angularMomentum; ///< angular momentum about the centre of mass, world components [kg m2/s]
+  std::vector<JointReading> joint;    ///< one a joint
+  std::vector<SpringReading> spring;  ///< one a point spring
   Ledger ledger;
   std::vector<AxisReading> slide; ///< one a joint if the model has cylindrical joints (others' stay 0), else empty
   std::vector<BushingReading> bushing;
@@ -120,24 +116,5 @@ State makeState(const Model& model);
 Loads makeLoads(const Model& model);
 /// Sets a body's velocity (the spin momentum follows it).
 void setTwist(const Model& model, State& state, int body, const Twist& twist);
-/// Puts a body elsewhere, keeping its twist. Axis positions follow at the next step.
-void setPose(const Model& model, State& state, int body, const Pose& pose);
-
-/// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly where there is one axis.
-AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
-/// Force a drive exerted on B along its axis in the last step [N m] or [N], and its power [W], positive when it puts
-/// energy into the mechanism.
-double driveForce(const Model& model, const State& state, int drive);
-double drivePower(const Model& model, const State& state, int drive);
-
-/// Energies [J] and momenta of a state.
-struct Totals {
-  double kinetic = 0;
-  double gravity = 0; ///< -sum m g.p
-  double elastic = 0; ///< springs, preloads (as constant forces from freePosition or restLength on) and stops
-  Vec3d linearMomentum;
-  Vec3d angularMomentum; ///< about the world's origin
-};
-Totals totals(const Model& model, const State& state, const Loads& loads);
 
 } // namespace grouser::multibody

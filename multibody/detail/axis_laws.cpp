@@ -13,10 +13,10 @@ namespace {
 /// Adds a spring-damper: `force` known at the start of the step, stiffness and damping for its implicit part.
 void add(AxisLaw& law, double force, double stiffness, double damping, double dt) {
   law.known += force;
-  law.softness += dt * damping + dt * dt * stiffness;
+  law.inverseCompliance += dt * damping + dt * dt * stiffness;
   law.dampingPart += dt * damping;
   law.springKnown += force;
-  law.springSoftness += dt * damping + dt * dt * stiffness;
+  law.springInverseCompliance += dt * damping + dt * dt * stiffness;
 }
 
 /// Adds a spring at position x.
@@ -58,13 +58,21 @@ double drivenRate(const Drive& drive, double t) {
   return drive.kind == DriveKind::kPosition ? drive.law.rate(t) : drive.law.value(t);
 }
 
+std::vector<double> driveStart(const ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = system.framesOfModel();
+  std::vector<double> start;
+  for (const Drive& drive : model.drives())
+    start.push_back(system.positionOfAxis(system.axisOf(drive.joint, drive.axis), frames));
+  return start;
+}
+
 void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
                         const std::vector<Frame>& frames, const std::vector<double>& start,
                         std::vector<AxisLaw>& laws) const {
   for (AxisLaw& law : laws) law = {};
   const std::size_t ofJoints = at(system.firstAxis(static_cast<int>(model_->joints().size())));
   for (std::size_t a = 0; a < ofJoints; ++a)
-    laws[a].softness = laws[a].dampingPart = dt * ownDamping(system, *model_, system.axes()[a]);
+    laws[a].inverseCompliance = laws[a].dampingPart = dt * ownDamping(system, *model_, system.axes()[a]);
   for (std::size_t s = 0; s < model_->axisSprings().size(); ++s) {
     const AxisSpring& spring = model_->axisSprings()[s];
     const int axis = system.axisOf(spring.joint, spring.axis);
@@ -95,7 +103,7 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
     law.speed = drive.law.empty()
                     ? loads.drives[d].speed
                     : (drivenPosition(drive, start[d], state.time + dt) - axisPositionIn(state, system, axis)) / dt;
-    law.force = law.known - law.softness / dt * law.speed;
+    law.force = law.known - law.inverseCompliance / dt * law.speed;
   }
   for (AxisLaw& law : laws)
     if (law.driveForce != 0) law.force += law.driveForce;
@@ -105,7 +113,7 @@ AxisWork AxisLaws::work(const AxisLaw& law, double multiplier, double newRate, d
   AxisWork work;
   const double damper = law.dampingPart / dt * newRate;
   work.dissipated = damper * path;
-  work.spring = (law.known - (law.softness - law.dampingPart) / dt * newRate) * path;
+  work.spring = (law.known - (law.inverseCompliance - law.dampingPart) / dt * newRate) * path;
   work.drive = (law.driven ? multiplier * path : 0) + law.driveForce * path;
   return work;
 }

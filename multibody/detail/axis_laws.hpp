@@ -2,6 +2,9 @@
 #pragma once
 
 #include "multibody/detail/constraint_system.hpp"
+#include "multibody/state.hpp"
+
+#include <vector>
 
 namespace grouser::multibody::detail {
 
@@ -36,6 +39,12 @@ double overLimit(const AxisSpring& spring, double position);
 double& axisPositionIn(State& state, const ConstraintSystem& system, int axis);
 double axisPositionIn(const State& state, const ConstraintSystem& system, int axis);
 double axisRateIn(const State& state, const ConstraintSystem& system, int axis);
+
+/// Position of each drive's axis at the model's poses.
+std::vector<double> driveStart(const ConstraintSystem& system, const Model& model);
+
+/// Whether the drive imposes the motion of its axis by a constraint.
+inline bool imposesMotion(const Drive& drive) { return drive.kind != DriveKind::kForce; }
 
 /// Position that a drive's law wants at time t [rad, m]; `start`: where the axis was at t = 0.
 double drivenPosition(const Drive& drive, double start, double t);

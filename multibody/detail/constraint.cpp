@@ -2,6 +2,7 @@
 #include "multibody/detail/constraint.hpp"
 
 #include "base/math.hpp"
+#include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
 #include <cstddef>
@@ -55,7 +56,7 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
-    // Coinciding points: the spring has no direction, and pulls nowhere.
+    // Coinciding points: the spring has no direction, and acts nowhere.
     rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
     return;
   }
@@ -129,6 +130,17 @@ double axisPositionAfter(const Constraint& c, const JointFrames& f0, const Joint
   if (q < 4e-4 && c1 * c0 + s1 * s0 > 0)
     return before + s * (1 + q * (1.0 / 6 + q * (3.0 / 40 + q * (15.0 / 336 + q * (105.0 / 3456)))));
   return before + base::atan2(s, c1 * c0 + s1 * s0);
+}
+
+double rowRate(const Constraint& c, const JointFrames& f, const RowDirections& rows, int row,
+               const std::vector<Frame>& frames, const std::vector<Twist>& twist) {
+  const Vec3d &e = rows.force[at(row)], &t = rows.torque[at(row)];
+  const auto share = [&](int node, int body) {
+    if (node < 0) return 0.0;
+    const Twist& V = twist[at(body)];
+    return dot(e, V.v) + dot(cross(f.p_B - frames[at(body)].p, e) + t, V.w);
+  };
+  return share(c.nodeB, c.bodyB) - share(c.nodeA, c.bodyA);
 }
 
 void rowBias(const Constraint& c, const JointFrames& f, const Frame& A, const Frame& B, const Twist& V_A,

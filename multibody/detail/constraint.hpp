@@ -4,9 +4,10 @@
 #include "multibody/detail/block.hpp"
 #include "multibody/detail/joint_rows.hpp"
 #include "multibody/model.hpp"
-#include "multibody/state.hpp"
+#include "multibody/spatial.hpp"
 
 #include <array>
+#include <vector>
 
 namespace grouser::multibody::detail {
 
@@ -104,6 +105,10 @@ double axisPositionAfter(const Constraint& c, const JointFrames& f0, const Joint
 
 /// Rotation vector of R_AB in the axes of A [rad], |phi| <= pi.
 Vec3d relativeRotation(const JointFrames& f);
+
+/// J (v, w) of one row [m/s, rad/s], from frames and twists of all bodies.
+double rowRate(const Constraint& c, const JointFrames& f, const RowDirections& rows, int row,
+               const std::vector<Frame>& frames, const std::vector<Twist>& twist);
 
 /// J' (v, w) of all rows: what is left of C'' when nothing accelerates [m/s2, rad/s2]. `A`, `B`: the bodies' frames;
 /// twists of immovable bodies are zero.

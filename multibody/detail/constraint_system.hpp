@@ -1,77 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/detail/constraint.hpp"
+#include "multibody/detail/constraint_graph.hpp"
 #include "multibody/detail/elimination.hpp"
 #include "multibody/detail/link_simd.hpp"
-#include "multibody/state.hpp"
+#include "multibody/spatial.hpp"
 
 #include <array>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace grouser::multibody::detail {
 
 /// What acts along an axis row (of a joint, point spring or bushing) in one step (axis_laws.hpp).
 struct AxisLaw {
-  double force = 0;          ///< applied along the row as a known force [N, N m]
-  double known = 0;          ///< springs' and stops' part of it that does not depend on the new rate
-  double driveForce = 0;     ///< of force drives, included in `force`
-  double softness = 0;       ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
-  double dampingPart = 0;    ///< dt c of all dampers
-  double springKnown = 0;    ///< `known`, and
-  double springSoftness = 0; ///< `softness` without the joint's own damping
+  double force = 0;             ///< applied along the row as a known force [N, N m]
+  double known = 0;             ///< springs' and stops' part of it that does not depend on the new rate
+  double driveForce = 0;        ///< of force drives, included in `force`
+  double inverseCompliance = 0; ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
+  double dampingPart = 0;       ///< dt c of all dampers
+  double springKnown = 0;       ///< `known`, and
+  double springInverseCompliance = 0; ///< `inverseCompliance` without the joint's own damping
   bool driven = false;
   double speed = 0; ///< imposed rate
-};
-
-/// An axis row: a place where springs, dampers, drives and couplings act.
-struct Axis {
-  int constraint;
-  int row;
-};
-
-/// Ties axis 2 to axis 1: x_2 - ratio x_1 - offset = 0. A row over the bodies of both axes.
-struct CouplingRow {
-  int axis1, axis2;
-  double ratio, offset;
 };
 
 /// The mechanism linearised at given poses: rows, masses and their factorisation. Knows nothing of time integration:
 /// integrators ask it for position errors and for solutions of
 ///   M dv - J^T dLambda = bodyResidual,   J dv + G dLambda = rowResidual.
 ///
-/// Nodes are the movable bodies, the constraints, the couplings, in this order. A coupling's row b acts on up to four
-/// bodies and lies outside the blocks of the factor: with Y = K^-1 b^T and the small matrix S = b Y (symmetric, not
-/// negative), a solution x of the rest is completed to x + Y mu by S mu = residual - b x.
-class ConstraintSystem {
+/// A coupling's row b acts on up to four bodies and lies outside the blocks of the factor: with Y = K^-1 b^T and the
+/// small matrix S = b Y (symmetric, not negative), a solution x of the rest is completed to x + Y mu by
+/// S mu = residual - b x.
+class ConstraintSystem : public ConstraintGraph {
 public:
   explicit ConstraintSystem(const Model& model);
 
   const Elimination& elimination() const { return *elimination_; }
-  const std::vector<Constraint>& constraints() const { return constraints_; }
-  int movableBodies() const { return static_cast<int>(movable_.size()); }
-  int bodyOf(int node) const { return movable_[static_cast<std::size_t>(node)]; } ///< model's index of a movable body
-
-  /// What depends on one another through constraints, springs or couplings.
-  struct Part {
-    int index = 0;
-    std::vector<int> bodies; ///< movable bodies (nodes)
-    std::vector<int> constraints;
-    std::vector<int> couplings;
-  };
-  const std::vector<Part>& parts() const { return parts_; }
-
-  /// Axis rows in the order of the constraints; those of constraint k are firstAxis(k) to firstAxis(k + 1) - 1.
-  const std::vector<Axis>& axes() const { return axes_; }
-  int firstAxis(int constraint) const { return firstAxis_[static_cast<std::size_t>(constraint)]; }
-  /// Index of a joint's axis.
-  int axisOf(int joint, JointAxis axis) const;
-  const std::vector<CouplingRow>& couplings() const { return couplings_; }
-  int couplingNode(int coupling) const { return movableBodies() + static_cast<int>(constraints_.size()) + coupling; }
-  int nodes() const { return couplingNode(static_cast<int>(couplings_.size())); }
 
   /// Hard rows that hold in the last linearise() (before any: all of the kind). In a constraint with redundant rows
   /// those that follow from others best are left out anew each time; and in singular positions rows without a pivot.
@@ -81,14 +46,6 @@ public:
   int redundantRowsIn(int constraint) const {
     return __builtin_popcount(redundant_[static_cast<std::size_t>(constraint)]);
   }
-
-  /// Frames of all bodies at `poses`, the world last.
-  void place(const std::vector<Pose>& poses, std::vector<Frame>& frames) const;
-  void placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const;
-  /// The same as the model places the bodies.
-  std::vector<Frame> framesOfModel() const;
-  /// Position along an axis row [m, rad] of bodies at `frames`.
-  double positionOfAxis(int axis, const std::vector<Frame>& frames) const;
 
   /// Sets up and factors one part at `frames`. `laws`: one an axis. Returns the rows left out as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
@@ -114,13 +71,13 @@ public:
   }
   /// All bodies with the joints of the spanning tree, and the constraints that are not in it.
   const std::vector<LinkLanes>& links() const { return links_; }
-  const std::vector<int>& loose() const { return loose_; }
+  const std::vector<int>& offTree() const { return offTree_; }
   /// Inertias of a batch of links in world axes, by columns of the lower triangle.
   const Lanes (&inertiaOf(std::size_t batch) const)[6] { return elimination_->links(static_cast<int>(batch)).inertia; }
   /// Rate of one row: J (v, w).
   double rate(int constraint, int row, const std::vector<Twist>& twist) const;
   double rateOfAxis(int axis, const std::vector<Twist>& twist) const {
-    return rate(axes_[static_cast<std::size_t>(axis)].constraint, axes_[static_cast<std::size_t>(axis)].row, twist);
+    return rate(axes()[static_cast<std::size_t>(axis)].constraint, axes()[static_cast<std::size_t>(axis)].row, twist);
   }
   /// Adds the momentum that `impulse` along one row gives the bodies to their vectors in `x`.
   void addImpulse(int constraint, int row, double impulse, std::vector<Vector6>& x) const;
@@ -133,11 +90,6 @@ public:
   /// Leaves out rows whose pivot is below `scale` times the usual threshold.
   void scalePivotThreshold(double scale);
 
-  /// "joint 'pin 7': rotation about x".
-  std::string describe(int constraint, int row) const;
-  /// "joint 'pin 7'".
-  std::string describe(int constraint) const;
-
 private:
   void makeLinks();
   void lineariseLinks(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
@@ -149,19 +101,14 @@ private:
   void setSizes();
   void setUp(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
   void setPivotThreshold(int constraint);
-  void setOffsets();
   void factorCouplings(const Part& part);
   void solveCouplings(const Part& part, std::vector<Vector6>& x) const;
 
-  const Model* model_;
-  std::vector<int> movable_;
-  std::vector<Constraint> constraints_;
-  std::vector<Part> parts_;
   std::unique_ptr<Elimination> elimination_;
   std::vector<unsigned> hard_, active_;
   std::vector<LinkLanes> links_; ///< one a batch of the elimination
   std::vector<char> inTree_;     ///< of each constraint
-  std::vector<int> loose_;
+  std::vector<int> offTree_;
   // One a constraint or body; of the tree taken out of the lanes when somebody asks.
   mutable bool packed_ = false;
   mutable std::vector<RowDirections> rows_;
@@ -176,26 +123,11 @@ private:
   bool strict_ = false;             ///< redundant constraints keep every row with a pivot, however small
   std::vector<long long> linearisation_;
 
-  std::vector<Axis> axes_;
-  std::vector<int> firstAxis_;
-  std::vector<CouplingRow> couplings_;
   std::vector<std::vector<Vector6>> couplingSolution_; ///< Y, one vector a node for each coupling
   std::vector<std::vector<double>> couplingFactor_;    ///< lower Cholesky factor of S within the part
   std::vector<char> couplingKept_;
   mutable std::vector<double> couplingWork_;
   bool couplingsOn_ = true;
 };
-
-/// A redundant row and what implies it, found at set-up.
-struct Redundancy {
-  std::vector<std::pair<int, int>> rows; ///< constraint, row: dropped
-  std::vector<int> couplings;            ///< implied by others
-  int singularAtStart = 0;               ///< rows without pivot only at the starting poses: a singular position
-};
-
-/// Finds the hard rows that others imply wherever the mechanism goes: moves it a little along motions its
-/// constraints allow (the starting velocities, then generic ones), closes the constraints again by Newton's method, and
-/// takes the rows without pivot there. A row that is dependent only at the starting poses (a folded four-bar) is kept.
-Redundancy findRedundantRows(ConstraintSystem& system, const Model& model);
 
 } // namespace grouser::multibody::detail

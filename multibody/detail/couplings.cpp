@@ -10,7 +10,7 @@
 namespace grouser::multibody::detail {
 
 void ConstraintSystem::addImpulse(int k, int row, double impulse, std::vector<Vector6>& x) const {
-  const Constraint& c = constraints_[at(k)];
+  const Constraint& c = constraints()[at(k)];
   const Vec3d force = impulse * rows(k).force[at(row)], torque = impulse * rows(k).torque[at(row)];
   const auto add = [&](int node, double sign, const Vec3d& com) {
     if (node < 0) return;
@@ -22,7 +22,7 @@ void ConstraintSystem::addImpulse(int k, int row, double impulse, std::vector<Ve
 }
 
 double ConstraintSystem::rowTimes(int k, int row, const std::vector<Vector6>& x) const {
-  const Constraint& c = constraints_[at(k)];
+  const Constraint& c = constraints()[at(k)];
   const Vec3d &e = rows(k).force[at(row)], &t = rows(k).torque[at(row)];
   const auto share = [&](int node, const Vec3d& com) {
     if (node < 0) return 0.0;
@@ -36,8 +36,8 @@ double ConstraintSystem::rowTimes(int k, int row, const std::vector<Vector6>& x)
 void ConstraintSystem::factorCouplings(const Part& part) {
   for (std::size_t i = 0; i < part.couplings.size(); ++i) {
     const int c = part.couplings[i];
-    const CouplingRow& row = couplings_[at(c)];
-    const Axis &one = axes_[at(row.axis1)], &two = axes_[at(row.axis2)];
+    const CouplingRow& row = couplings()[at(c)];
+    const Axis &one = axes()[at(row.axis1)], &two = axes()[at(row.axis2)];
     std::vector<Vector6>& y = couplingSolution_[at(c)];
     for (const int node : part.bodies) y[at(node)] = {};
     for (const int k : part.constraints) y[at(movableBodies() + k)] = {};
@@ -49,8 +49,8 @@ void ConstraintSystem::factorCouplings(const Part& part) {
     std::vector<double>& L = couplingFactor_[at(c)];
     for (std::size_t j = 0; j <= i; ++j) {
       const int d = part.couplings[j];
-      const CouplingRow& other = couplings_[at(d)];
-      const Axis &o1 = axes_[at(other.axis1)], &o2 = axes_[at(other.axis2)];
+      const CouplingRow& other = couplings()[at(d)];
+      const Axis &o1 = axes()[at(other.axis1)], &o2 = axes()[at(other.axis2)];
       double s = rowTimes(o2.constraint, o2.row, y) - other.ratio * rowTimes(o1.constraint, o1.row, y);
       for (std::size_t m = 0; m < j; ++m) s -= L[m] * couplingFactor_[at(d)][m];
       if (j < i) {
@@ -70,8 +70,8 @@ void ConstraintSystem::solveCouplings(const Part& part, std::vector<Vector6>& x)
   const std::size_t n = part.couplings.size();
   for (std::size_t i = 0; i < n; ++i) {
     const int c = part.couplings[i];
-    const CouplingRow& row = couplings_[at(c)];
-    const Axis &one = axes_[at(row.axis1)], &two = axes_[at(row.axis2)];
+    const CouplingRow& row = couplings()[at(c)];
+    const Axis &one = axes()[at(row.axis1)], &two = axes()[at(row.axis2)];
     double r = x[at(couplingNode(c))][0] - rowTimes(two.constraint, two.row, x) +
                row.ratio * rowTimes(one.constraint, one.row, x);
     for (std::size_t j = 0; j < i; ++j) r -= couplingFactor_[at(c)][j] * mu[j];

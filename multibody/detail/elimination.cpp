@@ -67,7 +67,7 @@ void Elimination::setBody(int body, double mass, const double (&I)[3][3]) {
 void Elimination::setJoint(int k, const RowDirectionsOf<double>& rows, const base::Vec3<double>& p_B,
                            const base::Vec3<double>& com_A, const base::Vec3<double>& com_B, const double* compliance,
                            unsigned active) {
-  if (closingOf_[at(k)] >= 0) {
+  if (loopOf_[at(k)] >= 0) {
     Block jacobians[2]{};
     rowBlocks(rows, p_B, com_A, com_B, jacobians[0], jacobians[1]);
     setConstraint(k, jacobians, compliance, active);
@@ -87,30 +87,30 @@ void Elimination::setJoint(int k, const RowDirectionsOf<double>& rows, const bas
   for (int i = 0; i < links.freedoms; ++i) {
     const int r = links.freeRow[at(i)];
     const bool holds = active >> r & 1u;
-    in(links.softness[i], lane) = holds && compliance[r] != 0 ? 1 / compliance[r] : 0;
+    in(links.inverseCompliance[i], lane) = holds && compliance[r] != 0 ? 1 / compliance[r] : 0;
     in(links.free[i], lane) = holds && compliance[r] == 0 ? 0 : 1;
   }
   kept_[at(k)] = active;
 }
 
 void Elimination::setConstraint(int k, const Block* jacobians, const double* compliance, unsigned active) {
-  Closing& z = closings_[at(closingOf_[at(k)])];
+  Loop& z = loops_[at(loopOf_[at(k)])];
   std::copy(jacobians, jacobians + z.bodies.size(), z.jacobians.begin());
   std::copy(compliance, compliance + 6, z.compliance.begin());
   z.active = active;
 }
 
 void Elimination::setSmallestPivots(int k, const double (&smallest)[6]) {
-  if (closingOf_[at(k)] < 0) return;
-  std::copy(smallest, smallest + 6, closings_[at(closingOf_[at(k)])].smallest.begin());
+  if (loopOf_[at(k)] < 0) return;
+  std::copy(smallest, smallest + 6, loops_[at(loopOf_[at(k)])].smallest.begin());
 }
 
-void Elimination::startClosings() {
+void Elimination::startLoops() {
   for (Column& column : columns_)
     for (Lanes& l : column.l) l = all(0);
   for (Block& block : w_) block.fill(0);
-  for (std::size_t index = 0; index < closings_.size(); ++index) {
-    Closing& z = closings_[index];
+  for (std::size_t index = 0; index < loops_.size(); ++index) {
+    Loop& z = loops_[index];
     z.atTop.fill(0);
     diagonal_[index].fill(0);
     for (std::size_t r = 0; r < 6; ++r) diagonal_[index][(kStride + 1) * r] = -z.compliance[r];
@@ -144,7 +144,7 @@ GROUSER_KERNEL void factorBatch(Elimination::Links& b, Elimination::Column* colu
     const Vec3L v = vector(b.s[i], 0), w = vector(b.s[i], 3);
     put(b.u[i], timesSymmetric(b.vv, v) + times(b.vw, w), transposedTimes(b.vw, v) + timesSymmetric(b.ww, w));
     const Lanes(&u)[6] = b.u[i];
-    const Lanes inverseD = b.free[i] / (dot6(b.s[i], u) + b.softness[i]);
+    const Lanes inverseD = b.free[i] / (dot6(b.s[i], u) + b.inverseCompliance[i]);
     b.inverseD[i] = inverseD;
     Lanes h[6];
 #pragma GCC unroll 6
@@ -239,7 +239,7 @@ GROUSER_KERNEL void passOn(Elimination::Links& b, Elimination::Column* columns, 
 }
 
 int Elimination::factor() {
-  startClosings();
+  startLoops();
   return sweep();
 }
 
@@ -254,7 +254,7 @@ GROUSER_LANES int Elimination::sweep() {
   }
   for (const Operation& operation : program_) {
     if (operation.closes) {
-      leftOut += factorClosing(closings_[at(operation.index)]);
+      leftOut += factorLoop(loops_[at(operation.index)]);
       continue;
     }
     Links& b = links_[at(operation.index)];
@@ -265,8 +265,8 @@ GROUSER_LANES int Elimination::sweep() {
   return leftOut;
 }
 
-int Elimination::factorClosing(Closing& z) {
-  const std::size_t index = static_cast<std::size_t>(&z - closings_.data());
+int Elimination::factorLoop(Loop& z) {
+  const std::size_t index = static_cast<std::size_t>(&z - loops_.data());
   double* const L = diagonal_[index].data();
   const unsigned kept = factor6(L, z.dInverse.data(), z.smallest.data(), z.active);
   kept_[at(z.constraint)] = kept;
@@ -326,7 +326,7 @@ GROUSER_KERNEL void forwardBatch(const Elimination::Links& b, const Elimination:
   }
   for (int r = 0; r < 6; ++r) b.delta[r] = delta[r], b.residual[r] = c[r];
   for (int i = 0; i < b.freedoms; ++i) {
-    const Lanes right = dot6(b.s[i], p) + b.softness[i] * c[b.freeRow[at(i)]];
+    const Lanes right = dot6(b.s[i], p) + b.inverseCompliance[i] * c[b.freeRow[at(i)]];
     b.right[i] = right;
     const Lanes q = right * b.inverseD[i];
 #pragma GCC unroll 6
@@ -394,7 +394,7 @@ GROUSER_KERNEL void backwardBatch(const Elimination::Links& b, const Elimination
     for (int j = 0; j < 6; ++j) y[j] += b.s[i][j] * q;
     if (b.joint[0] < 0) continue;
     const int r = b.freeRow[at(i)];
-    lambda[r] = b.free[i] > 0.0 ? b.softness[i] * (b.residual[r] - q) : lambda[r];
+    lambda[r] = b.free[i] > 0.0 ? b.inverseCompliance[i] * (b.residual[r] - q) : lambda[r];
   }
 
   const auto write = [&](const Lanes(&z)[6], int first, const std::array<int, kLanes>& node) {
@@ -417,7 +417,7 @@ GROUSER_KERNEL void backwardBatch(const Elimination::Links& b, const Elimination
 GROUSER_LANES void Elimination::sweepForward(Vector6* x) const {
   for (const Operation& operation : program_) {
     if (operation.closes) {
-      forwardClosing(closings_[at(operation.index)], x);
+      forwardLoop(loops_[at(operation.index)], x);
     } else {
       const Links& b = links_[at(operation.index)];
       forwardBatch(b, columns_.data() + b.firstColumn, x, bodies_);
@@ -428,7 +428,7 @@ GROUSER_LANES void Elimination::sweepForward(Vector6* x) const {
 GROUSER_LANES void Elimination::sweepBackward(Vector6* x) const {
   for (auto operation = program_.rbegin(); operation != program_.rend(); ++operation) {
     if (operation->closes) {
-      backwardClosing(closings_[at(operation->index)], x);
+      backwardLoop(loops_[at(operation->index)], x);
     } else {
       const Links& b = links_[at(operation->index)];
       backwardBatch(b, columns_.data() + b.firstColumn, x, bodies_);
@@ -436,22 +436,21 @@ GROUSER_LANES void Elimination::sweepBackward(Vector6* x) const {
   }
 }
 
-void Elimination::forwardClosing(const Closing& z, Vector6* x) const {
-  const std::size_t index = static_cast<std::size_t>(&z - closings_.data());
+void Elimination::forwardLoop(const Loop& z, Vector6* x) const {
+  const std::size_t index = static_cast<std::size_t>(&z - loops_.data());
   double* const y = x[bodies_ + z.constraint].data();
   forward6(y, diagonal_[index].data());
   for (std::size_t i = 0; i < z.slots.size(); ++i)
-    subtractTimes6(x[bodies_ + closings_[at(z.neighbours[i])].constraint].data(), v_[at(z.slots[i])].data(), y);
+    subtractTimes6(x[bodies_ + loops_[at(z.neighbours[i])].constraint].data(), v_[at(z.slots[i])].data(), y);
   if (z.top >= 0) subtractTimes6(x[z.top].data(), z.vTop.data(), y);
 }
 
-void Elimination::backwardClosing(const Closing& z, Vector6* x) const {
-  const std::size_t index = static_cast<std::size_t>(&z - closings_.data());
+void Elimination::backwardLoop(const Loop& z, Vector6* x) const {
+  const std::size_t index = static_cast<std::size_t>(&z - loops_.data());
   double* const y = x[bodies_ + z.constraint].data();
   for (std::size_t r = 0; r < 6; ++r) y[r] *= z.dInverse[r];
   for (std::size_t i = 0; i < z.slots.size(); ++i)
-    subtractTransposedTimes6(y, v_[at(z.slots[i])].data(),
-                             x[bodies_ + closings_[at(z.neighbours[i])].constraint].data());
+    subtractTransposedTimes6(y, v_[at(z.slots[i])].data(), x[bodies_ + loops_[at(z.neighbours[i])].constraint].data());
   if (z.top >= 0) subtractTransposedTimes6(y, z.vTop.data(), x[z.top].data());
   backward6(y, diagonal_[index].data());
 }
@@ -460,7 +459,7 @@ void Elimination::solve(Vector6* x) const {
   sweepForward(x);
   sweepBackward(x);
   // The sweeps took the multipliers of the loops with the opposite sign.
-  for (const Closing& z : closings_)
+  for (const Loop& z : loops_)
     for (double& lambda : x[bodies_ + z.constraint]) lambda *= -1;
 }
 

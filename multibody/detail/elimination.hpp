@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/detail/articulation.hpp"
 #include "multibody/detail/block.hpp"
 #include "multibody/detail/joint_rows.hpp"
 #include "multibody/detail/lanes.hpp"
+#include "multibody/detail/spanning_tree.hpp"
 
 #include <array>
 #include <vector>
@@ -16,8 +16,8 @@ namespace grouser::multibody::detail {
 ///   M dv - J^T dLambda = r           M      mass and inertia of each body, twists at the centres of mass, world axes
 ///   J dv + G dLambda = c             G      diagonal, >= 0: 0 on hard and driven rows, compliance on soft rows
 ///
-/// solved directly along a spanning tree of joints (articulation.hpp), leaves first. A body b whose joint leaves it the
-/// directions s_i of motion relative to its parent (dual to the joint's rows) has
+/// solved directly along a spanning tree of joints (spanning_tree.hpp), leaves first. A body b whose joint leaves it
+/// the directions s_i of motion relative to its parent (dual to the joint's rows) has
 ///
 ///   dv_b = X dv_parent + delta + sum s_i q_i             X: shift of a twist between centres of mass
 ///   F = I dv_b + L mu - p                                wrench from the joint; L mu: from the loops' constraints
@@ -29,9 +29,9 @@ namespace grouser::multibody::detail {
 ///
 ///   U = I s,  D = s . U + 1/G,   I -= U U^T / D,   L -= U (s . L) / D,   p -= U (s . p + c/G) / D
 ///
-/// and what is left is passed on to the parent. The closing constraints gather -(G + sum (s.L)(s.L)^T / D); each is
+/// and what is left is passed on to the parent. The loop constraints gather -(G + sum (s.L)(s.L)^T / D); each is
 /// eliminated, in blocks, just before its top. Cost: about 250 multiplications a body, and 25 more for each row of a
-/// loop that it is part of. A row of a closing constraint whose pivot is below kPivotTolerance of its own J M^-1 J^T
+/// loop that it is part of. A row of a loop constraint whose pivot is below kPivotTolerance of its own J M^-1 J^T
 /// depends on others; it is left out (its multiplier is 0). A tree joint always has its pivots.
 ///
 /// Bodies at the same distance from the root are treated four at a time, one a lane. (The two branches of either of a
@@ -40,7 +40,7 @@ class Elimination {
 public:
   static constexpr double kPivotTolerance = 1e-11;
 
-  /// Where a column of L goes on: to the parent's, or to the closing constraint's own block at its top.
+  /// Where a column of L goes on: to the parent's, or to the loop constraint's own block at its top.
   struct Onward {
     double* entry = nullptr; ///< null: the world
     int stride = 0;
@@ -62,7 +62,7 @@ public:
     Vec3L force[3], torque[3];
     Vec3L arm;  ///< p_B - com
     Vec3L away; ///< com - com of the parent
-    Lanes softness[6], free[6];
+    Lanes inverseCompliance[6], free[6];
     // Articulated inertia: force and torque, of v and w; the symmetric ones by columns of the lower triangle.
     Lanes vv[6], vw[9], ww[6];
     Vec3L dual[3]; ///< of the torque rows
@@ -82,7 +82,7 @@ public:
   Elimination(const Elimination&) = delete;
   Elimination& operator=(const Elimination&) = delete;
 
-  const Articulation& articulation() const { return tree_; }
+  const SpanningTree& tree() const { return tree_; }
   int batches() const { return static_cast<int>(links_.size()); }
   /// Multiplications of one factorisation and one solution, lanes that stand idle not counted.
   long multiplications() const;
@@ -99,7 +99,7 @@ public:
   /// Any other constraint: one block a body of its edge (row = constraint row, column = v, w of the body).
   void setConstraint(int constraint, const Block* jacobians, const double* compliance, unsigned active);
 
-  /// Sizes of pivots below which rows of a closing constraint are left out; a joint of the tree needs none.
+  /// Sizes of pivots below which rows of a loop constraint are left out; a joint of the tree needs none.
   void setSmallestPivots(int constraint, const double (&smallest)[6]);
   /// Returns the number of active rows left out for want of a pivot.
   int factor();
@@ -109,10 +109,10 @@ public:
   unsigned keptRows(int constraint) const { return kept_[static_cast<std::size_t>(constraint)]; }
 
 private:
-  struct Closing {
+  struct Loop {
     int constraint = 0, top = -1;
     std::vector<int> bodies;
-    std::vector<int> neighbours; ///< closings of a later place that it is coupled with,
+    std::vector<int> neighbours; ///< loops of a later place that it is coupled with,
     std::vector<int> slots;      ///< by these blocks
     /// Where L has its rows: at its own bodies, and those of its neighbours at its top.
     std::vector<std::array<Onward, 6>> entries, onto;
@@ -131,33 +131,37 @@ private:
   };
 
   void makeBatches(const std::vector<ConstraintEdge>& edges);
+  void addBatch(const std::vector<int>& bodies, const std::vector<ConstraintEdge>& edges);
   void makeColumns();
-  void makeClosings(const std::vector<ConstraintEdge>& edges);
+  void makeLoops(const std::vector<ConstraintEdge>& edges);
+  bool parentsAligned(const Links& links) const;
+  void linkColumns(Links& links);
+  double* productOf(int body, int column, int other);
   void makeProgram();
-  Onward columnAt(int body, int closing, int row);
+  Onward columnAt(int body, int loop, int row);
   int slotOf(int later, int earlier) const;
 
-  void startClosings();
+  void startLoops();
   int sweep();
-  int factorClosing(Closing& z);
+  int factorLoop(Loop& z);
   void sweepForward(Vector6* x) const;
   void sweepBackward(Vector6* x) const;
-  void forwardClosing(const Closing& z, Vector6* x) const;
-  void backwardClosing(const Closing& z, Vector6* x) const;
+  void forwardLoop(const Loop& z, Vector6* x) const;
+  void backwardLoop(const Loop& z, Vector6* x) const;
 
   int bodies_ = 0;
-  Articulation tree_;
+  SpanningTree tree_;
   std::vector<Links> links_;
   std::vector<Column> columns_;
   std::vector<double*> pairs_;
-  std::vector<Closing> closings_;
-  std::vector<Block> diagonal_, w_, v_; ///< of the closings; and of their couplings
+  std::vector<Loop> loops_;
+  std::vector<Block> diagonal_, w_, v_; ///< of the loops; and of their couplings
   std::vector<Place> placeOfBody_, placeOfJoint_;
-  std::vector<int> closingOf_;      ///< of a constraint; -1: in the tree
+  std::vector<int> loopOf_;         ///< of a constraint; -1: in the tree
   std::vector<signed char> sideOf_; ///< of a tree joint: 1 where the child is B, -1 where it is A
   std::vector<Operation> program_;
   std::vector<unsigned> kept_;
-  std::vector<std::vector<std::pair<int, int>>> columnsOf_; ///< of a body: closing and row
+  std::vector<std::vector<std::pair<int, int>>> columnsOf_; ///< of a body: loop and row
 };
 
 } // namespace grouser::multibody::detail

@@ -92,7 +92,7 @@ GROUSER_KERNEL Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const V
 
 } // namespace
 
-/// Momentum that is there and comes from outside, and the rates of the axes before the step.
+/// Momentum that is there and comes from outside.
 GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads, double dt) {
   static_assert(sizeof(Wrench) == 6 * sizeof(double) && sizeof(Pose) == 7 * sizeof(double));
   const Vec3L gravity = all(loads.gravity);
@@ -106,7 +106,7 @@ GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads,
     Vec3L force, torque;
     gather6(row, force, torque);
     gatherTwists(state, b.body, s.v, s.w);
-    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.spinMomentum[at(b.body[l])].x;
+    for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.angularMomentum[at(b.body[l])].x;
     const Vec3L spin = gather3(row);
     for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.pose[at(b.body[l])].position.x;
     Lanes low[4], high[4];
@@ -122,7 +122,10 @@ GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads,
     scatterNode(x, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
     for (Lanes& lambda : s.impulse) lambda = all(0);
   }
+}
 
+/// Angles and rates of the axes before the step, and the known forces along them.
+GROUSER_LANES void EulerStep::startLinkAxes(const State& state, double dt) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const LinkLanes& b = system.links()[i];
     LinkStep& s = steps[i];
@@ -149,12 +152,12 @@ GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads,
 }
 
 /// The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
-void EulerStep::solveSpin(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
+void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
   const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
   const auto put = [l](Vec3L& v, const Vec3d& value) { v.x[l] = value.x, v.y[l] = value.y, v.z[l] = value.z; };
   const double lower[6] = {inertia[0][l], inertia[1][l], inertia[2][l], inertia[3][l], inertia[4][l], inertia[5][l]};
   const Mat3d I{{{lower[0], lower[1], lower[2]}, {lower[1], lower[3], lower[4]}, {lower[2], lower[4], lower[5]}}};
-  const Vec3d w = twistOfSpin(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
+  const Vec3d w = angularVelocityOf(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
   put(s.w, w);
   put(s.gyro, gyroscopicMomentum(I, w, dt)); // solved: nothing is left for the next iterate
 }
@@ -171,7 +174,7 @@ GROUSER_LANES void EulerStep::correctLinks(double dt) {
     const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > kFastSpin;
     if (__builtin_expect(anyOf(fast), 0))
       for (int l = 0; l < kLanes; ++l)
-        if (fast[l] && !relinearised) solveSpin(system.inertiaOf(i), s, l, dt);
+        if (fast[l] && !relinearised) solveAngularVelocity(system.inertiaOf(i), s, l, dt);
     if (!b.joint) continue;
     gatherNode(x, b.constraint, system.movableBodies(), d);
     for (int r = 0; r < 6; ++r) s.impulse[r] += d[r];
@@ -271,88 +274,95 @@ GROUSER_LANES double EulerStep::setLinkGyro(double dt) {
 
 /// Work, momenta, readings and poses, once the impulses are known.
 GROUSER_LANES void EulerStep::finishLinks(State& state, const Loads& loads, double dt) {
-  const Vec3L gravity = all(loads.gravity);
-  const Lanes half = all(0.5 * dt), h = all(dt), perTime = all(1 / dt);
-  Lanes gravityWork = all(0), externalWork = all(0), driveWork = all(0), springWork = all(0), dissipated = all(0);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    const LinkStep& s = steps[i];
-    const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
-    gravityWork += b.real * (b.mass * dot(gravity, path));
-    externalWork += b.real * (dot(s.force, path) + dot(s.torque, turn));
-    const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
-    const LaneMask sound = (v2 - v2 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
-    for (int l = 0; l < b.count; ++l) {
-      const std::size_t body = at(b.body[at(l)]);
-      if (!sound[l])
-        checkTwist(model.bodies()[body], {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}}, state.time,
-                   dt);
-      state.spinMomentum[body] += Vec3d{dt * s.torque.x[l], dt * s.torque.y[l], dt * s.torque.z[l]};
-      state.twist[body] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
-      state.pose[body] = {{s.trial.p.x[l], s.trial.p.y[l], s.trial.p.z[l]},
-                          {s.newOrientation.w[l], s.newOrientation.x[l], s.newOrientation.y[l], s.newOrientation.z[l]}};
+  LinkWork work{};
+  for (std::size_t i = 0; i < steps.size(); ++i) finishBodies(system.links()[i], steps[i], state, loads, dt, work);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (system.links()[i].joint) finishJoints(system.links()[i], steps[i], state, dt, work);
+  state.ledger.gravityWork += sumOf(work.gravity);
+  state.ledger.externalWork += sumOf(work.external);
+  state.ledger.driveWork += sumOf(work.drive);
+  state.ledger.springWork += sumOf(work.spring);
+  state.ledger.dissipated += sumOf(work.dissipated);
+}
+
+/// What loads do on four bodies, and their new state.
+GROUSER_KERNEL void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads,
+                                            double dt, LinkWork& work) const {
+  const Lanes half = all(0.5 * dt);
+  const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
+  work.gravity += b.real * (b.mass * dot(all(loads.gravity), path));
+  work.external += b.real * (dot(s.force, path) + dot(s.torque, turn));
+  const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
+  const LaneMask sound = (v2 - v2 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
+  for (int l = 0; l < b.count; ++l) {
+    const std::size_t body = at(b.body[at(l)]);
+    if (!sound[l])
+      checkTwist(model.bodies()[body], {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}}, state.time,
+                 dt);
+    state.angularMomentum[body] += Vec3d{dt * s.torque.x[l], dt * s.torque.y[l], dt * s.torque.z[l]};
+    state.twist[body] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
+    state.pose[body] = {{s.trial.p.x[l], s.trial.p.y[l], s.trial.p.z[l]},
+                        {s.newOrientation.w[l], s.newOrientation.x[l], s.newOrientation.y[l], s.newOrientation.z[l]}};
+  }
+}
+
+/// What four joints give to their bodies, their work and readings.
+GROUSER_KERNEL void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s, State& state, double dt,
+                                            LinkWork& work) const {
+  Lanes total[6], newRate[2];
+  for (int r = 0; r < 6; ++r) total[r] = s.impulse[r];
+  if (b.axes > 0) {
+    Vec3L parentV, parentW;
+    gatherTwists(state, b.parent, parentV, parentW);
+    for (int a = 0; a < b.axes; ++a) {
+      newRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
+      addAxis(b, s, a, newRate[a], dt, total[b.axisRow[at(a)]], work);
     }
   }
 
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    const LinkStep& s = steps[i];
-    if (!b.joint) continue;
-    Lanes total[6], newRate[2];
-    for (int r = 0; r < 6; ++r) total[r] = s.impulse[r];
-    if (b.axes > 0) {
-      Vec3L parentV, parentW;
-      gatherTwists(state, b.parent, parentV, parentW);
-      for (int a = 0; a < b.axes; ++a) {
-        const int r = b.axisRow[at(a)];
-        newRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
-        const Lanes path = half * (s.oldRate[a] + newRate[a]);
-        const double* row[kLanes];
-        Lanes known[4], damping[4], driven;
-        for (std::size_t l = 0; l < kWidth; ++l) {
-          const AxisLaw& law = laws[at(b.axis[at(a)][l])];
-          row[l] = &law.force;
-          driven[l] = law.driven ? 1 : 0;
-        }
-        // Force, known, driveForce, softness; dampingPart and what follows it.
-        constexpr std::size_t kDouble = sizeof(double);
-        static_assert(offsetof(AxisLaw, force) == 0 && offsetof(AxisLaw, known) == kDouble &&
-                      offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, softness) == 3 * kDouble &&
-                      offsetof(AxisLaw, dampingPart) == 4 * kDouble && sizeof(AxisLaw) >= 7 * kDouble);
-        gather4(row, 0, known);
-        gather4(row, 3, damping);
-        total[r] += h * known[0];
-        const Lanes drive = driven > 0.0 ? s.impulse[r] * perTime : all(0);
-        driveWork += b.real * ((drive + known[2]) * path);
-        springWork += b.real * ((known[1] - (known[3] - damping[1]) * perTime * newRate[a]) * path);
-        dissipated += b.real * (damping[1] * perTime * newRate[a] * path);
-      }
-    }
-
-    Vec3L force{}, torque{};
-    for (std::size_t r = 0; r < 6; ++r) {
-      force += b.rows.force[r] * total[r];
-      torque += b.rows.torque[r] * total[r];
-    }
-    const Vec3L& p = b.frames.p_B;
-    const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
-    const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
-    for (int l = 0; l < b.count; ++l) {
-      state.spinMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
-      if (b.parentNode[at(l)] >= 0)
-        state.spinMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
-      const int k = b.constraint[at(l)];
-      JointReading& reading = state.joint[at(system.constraints()[at(k)].source)];
-      reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
-      reading.torque = Vec3d{torque.x[l], torque.y[l], torque.z[l]} * (1 / dt);
-    }
-    for (int a = 0; a < b.axes; ++a) readAxis(b, s, a, total[b.axisRow[at(a)]], newRate[a], state, dt);
+  Vec3L force{}, torque{};
+  for (std::size_t r = 0; r < 6; ++r) {
+    force += b.rows.force[r] * total[r];
+    torque += b.rows.torque[r] * total[r];
   }
-  state.ledger.gravityWork += sumOf(gravityWork);
-  state.ledger.externalWork += sumOf(externalWork);
-  state.ledger.driveWork += sumOf(driveWork);
-  state.ledger.springWork += sumOf(springWork);
-  state.ledger.dissipated += sumOf(dissipated);
+  const Vec3L& p = b.frames.p_B;
+  const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
+  const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
+  for (int l = 0; l < b.count; ++l) {
+    state.angularMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
+    if (b.parentNode[at(l)] >= 0)
+      state.angularMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
+    const int k = b.constraint[at(l)];
+    JointReading& reading = state.joint[at(system.constraints()[at(k)].source)];
+    reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
+    reading.torque = Vec3d{torque.x[l], torque.y[l], torque.z[l]} * (1 / dt);
+  }
+  for (int a = 0; a < b.axes; ++a) readAxis(b, s, a, total[b.axisRow[at(a)]], newRate[a], state, dt);
+}
+
+/// Adds the known force of an axis to the impulse `total` of its row, and its work.
+GROUSER_KERNEL void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& newRate, double dt,
+                                       Lanes& total, LinkWork& work) const {
+  const Lanes perTime = all(1 / dt), path = all(0.5 * dt) * (s.oldRate[a] + newRate);
+  const double* row[kLanes];
+  Lanes known[4], damping[4], driven;
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    const AxisLaw& law = laws[at(b.axis[at(a)][l])];
+    row[l] = &law.force;
+    driven[l] = law.driven ? 1 : 0;
+  }
+  // Force, known, driveForce, inverseCompliance; dampingPart and what follows it.
+  constexpr std::size_t kDouble = sizeof(double);
+  static_assert(offsetof(AxisLaw, force) == 0 && offsetof(AxisLaw, known) == kDouble &&
+                offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, inverseCompliance) == 3 * kDouble &&
+                offsetof(AxisLaw, dampingPart) == 4 * kDouble && sizeof(AxisLaw) >= 7 * kDouble);
+  gather4(row, 0, known);
+  gather4(row, 3, damping);
+  total += all(dt) * known[0];
+  const Lanes drive = driven > 0.0 ? s.impulse[b.axisRow[at(a)]] * perTime : all(0);
+  work.drive += b.real * ((drive + known[2]) * path);
+  work.spring += b.real * ((known[1] - (known[3] - damping[1]) * perTime * newRate) * path);
+  work.dissipated += b.real * (damping[1] * perTime * newRate * path);
 }
 
 /// Position, rate and forces of one axis of four joints.
@@ -379,7 +389,7 @@ GROUSER_KERNEL void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, i
       axis.rate = newRate[l];
       axis.axisForce = total[l] / dt;
       axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
-      axis.springForce = law.springKnown - law.springSoftness / dt * newRate[l];
+      axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRate[l];
     };
     const std::size_t source = at(system.constraints()[at(b.constraint[at(l)])].source);
     if (slide)

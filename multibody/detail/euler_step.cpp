@@ -31,15 +31,18 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Iterations before a slow position solve is helped.
+/// Iterations before a slow position solve is helped, and new gap over the one before above which it is slow: Newton's
+/// method with the matrix of the start takes a gap down by dt |w|, far below a fifth in a step that is worth taking.
 constexpr int kPatience = 4;
+constexpr double kSlowConvergence = 0.2;
 
 } // namespace
 
 void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                  double dt) {
   startLinks(state, loads, dt);
-  for (const int k : system.loose()) {
+  startLinkAxes(state, dt);
+  for (const int k : system.offTree()) {
     impulse[at(k)] = {};
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
       const int row = system.axes()[at(a)].row;
@@ -59,7 +62,7 @@ double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State
   const auto meet = [&](double gap) {
     if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap);
   };
-  for (const int k : system.loose()) {
+  for (const int k : system.offTree()) {
     double error[6];
     positionError(system.constraints()[at(k)], trialFramesOf(k), error);
     Vector6& residual = x[at(rowNode(k))];
@@ -115,7 +118,7 @@ void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
     mixing.improve(part, {newTwist, impulse, couplingImpulse}, x);
   }
   correctLinks(dt);
-  for (const int k : system.loose())
+  for (const int k : system.offTree())
     for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
   for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
 }
@@ -141,84 +144,108 @@ bool EulerStep::startWithoutWeakRows(const ConstraintSystem::Part& part, const S
 }
 
 void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
-  enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
-  const int lost = system.linearise(part, frames, laws);
-  last.singularRows += lost;
+  PositionSolve solve;
+  solve.lost = system.linearise(part, frames, laws);
+  last.singularRows += solve.lost;
 
   // First solve from the old twist: the gap it would open already holds the curvature of the constraints.
   setFirstResidual(part, state, loads, dt);
   moveLinks(dt);
   setGapResidual(part, state, dt, true);
 
-  double gap = 0, before = 0;
-  int iteration = 0, since = 0; // in all; in this phase
-  Phase phase = Phase::kAllRows;
-  const auto enter = [&](Phase next) { phase = next, since = 0; };
   mixing.reset();
   relinearised = false;
   for (bool solved = false; !solved;) {
-    applyCorrection(part, dt);
-    moveLinks(dt);
-    ++iteration, ++since;
-    gap = setGapResidual(part, state, dt, false);
-    const double turn = relinearised ? 0 : setLinkGyro(dt);
-    const bool done = gap <= options.positionTolerance && turn <= options.positionTolerance;
-    const bool slow = !(gap <= 0.2 * before);
-    before = gap;
-    switch (phase) {
-    case Phase::kAllRows:
-      solved = done && (lost == 0 || openGap() <= kGapFailure);
-      if (solved) break;
-      if (since >= kPatience) {
-        unpackIterate();
-        mixing.remember(part, gap, newTwist);
-      }
-      // Slow: a singular position is near, or the bodies turn far in a step.
-      if (since == kPatience && slow) {
-        if (startWithoutWeakRows(part, state, loads, dt))
-          enter(Phase::kWithoutWeakRows);
-        else
-          mixing.switchOn();
-      } else if (since >= (mixing.on() ? 3 : 1) * options.maxIterations) {
-        enter(Phase::kEachIterate);
-      }
-      break;
-    case Phase::kWithoutWeakRows:
-      if (done || since >= options.maxIterations || (since > 2 && slow)) {
-        // From here the others have a short way to go, and to the solution that inertia leads to.
-        unpackIterate();
-        mixing.remember(part, gap, newTwist);
-        system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
-        system.linearise(part, frames, laws);
-        system.scalePivotThreshold(1);
-        setGapResidual(part, state, dt, false);
-        mixing.switchOn();
-        enter(Phase::kMixed);
-      }
-      break;
-    case Phase::kMixed:
-      solved = done && openGap() <= kGapFailure;
-      if (!solved && (done || since >= 2 * options.maxIterations || !std::isfinite(gap))) enter(Phase::kEachIterate);
-      break;
-    case Phase::kEachIterate:
-      if (!done && since >= 3 * options.maxIterations && !(gap <= kGapFailure)) fail(state, gap, iteration, dt);
-      solved = done || since >= 3 * options.maxIterations;
-      break;
-    }
-    if (solved || phase != Phase::kEachIterate) continue;
-    if (since == 0 && std::isfinite(mixing.bestGap())) {
-      mixing.takeBest(part, newTwist);
-      packTwists();
-      moveLinks(dt);
-    }
-    relinearised = true;
-    system.linearise(part, trial, laws);
-    for (const int node : part.bodies) x[at(node)] = {};
-    setGapResidual(part, state, dt, false);
+    iterate(part, state, dt, solve);
+    solved = advance(part, state, loads, dt, solve);
+    if (!solved && solve.phase == Phase::kEachIterate) relinearise(part, state, dt, solve);
   }
-  last.iterations = std::max(last.iterations, iteration);
-  last.maxPositionError = std::max(last.maxPositionError, gap);
+  last.iterations = std::max(last.iterations, solve.iterations);
+  last.maxPositionError = std::max(last.maxPositionError, solve.gap);
   finish(part, state, loads, dt);
+}
+
+/// One iteration of Newton's method, and how it went.
+void EulerStep::iterate(const ConstraintSystem::Part& part, const State& state, double dt, PositionSolve& solve) {
+  applyCorrection(part, dt);
+  moveLinks(dt);
+  ++solve.iterations, ++solve.since;
+  solve.gap = setGapResidual(part, state, dt, false);
+  const double turn = relinearised ? 0 : setLinkGyro(dt);
+  solve.done = solve.gap <= options.positionTolerance && turn <= options.positionTolerance;
+  solve.slow = !(solve.gap <= kSlowConvergence * solve.before);
+  solve.before = solve.gap;
+}
+
+/// What to do after an iteration: returns whether the positions are found, or enters the next phase.
+bool EulerStep::advance(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
+                        PositionSolve& solve) {
+  switch (solve.phase) {
+  case Phase::kAllRows:
+    return advanceAllRows(part, state, loads, dt, solve);
+  case Phase::kWithoutWeakRows:
+    advanceWithoutWeakRows(part, state, dt, solve);
+    return false;
+  case Phase::kMixed:
+    if (solve.done && openGap() <= kGapFailure) return true;
+    if (solve.done || solve.since >= 2 * options.maxIterations || !std::isfinite(solve.gap))
+      solve.enter(Phase::kEachIterate);
+    return false;
+  case Phase::kEachIterate:
+    break;
+  }
+  const bool exhausted = solve.since >= 3 * options.maxIterations;
+  if (!solve.done && exhausted && !(solve.gap <= kGapFailure)) fail(state, solve.gap, solve.iterations, dt);
+  return solve.done || exhausted;
+}
+
+/// All rows, with the matrix of the start of the step: all that nearly every step needs.
+bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
+                               PositionSolve& solve) {
+  if (solve.done && (solve.lost == 0 || openGap() <= kGapFailure)) return true;
+  if (solve.since >= kPatience) {
+    unpackIterate();
+    mixing.remember(part, solve.gap, newTwist);
+  }
+  // Slow: a singular position is near, or the bodies turn far in a step.
+  if (solve.since == kPatience && solve.slow) {
+    if (startWithoutWeakRows(part, state, loads, dt))
+      solve.enter(Phase::kWithoutWeakRows);
+    else
+      mixing.switchOn();
+  } else if (solve.since >= (mixing.on() ? 3 : 1) * options.maxIterations) {
+    solve.enter(Phase::kEachIterate);
+  }
+  return false;
+}
+
+/// Without the weak rows until that has led to where inertia takes the bodies; from there the others have a short way
+/// to go, and to the solution that inertia leads to.
+void EulerStep::advanceWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, double dt,
+                                       PositionSolve& solve) {
+  if (!solve.done && solve.since < options.maxIterations && !(solve.since > 2 && solve.slow)) return;
+  unpackIterate();
+  mixing.remember(part, solve.gap, newTwist);
+  system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
+  system.linearise(part, frames, laws);
+  system.scalePivotThreshold(1);
+  setGapResidual(part, state, dt, false);
+  mixing.switchOn();
+  solve.enter(Phase::kMixed);
+}
+
+/// Takes the matrix of the iterate, first of the best one so far.
+void EulerStep::relinearise(const ConstraintSystem::Part& part, const State& state, double dt,
+                            const PositionSolve& solve) {
+  if (solve.since == 0 && std::isfinite(mixing.bestGap())) {
+    mixing.takeBest(part, newTwist);
+    packTwists();
+    moveLinks(dt);
+  }
+  relinearised = true;
+  system.linearise(part, trial, laws);
+  for (const int node : part.bodies) x[at(node)] = {};
+  setGapResidual(part, state, dt, false);
 }
 
 void EulerStep::fail(const State& state, double gap, int iterations, double dt) const {
@@ -253,33 +280,30 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
     const CouplingRow& row = system.couplings()[at(c)];
     for (const auto& [axis, share] : {std::pair{row.axis2, 1.0}, std::pair{row.axis1, -row.ratio}}) {
       const Axis& a = system.axes()[at(axis)];
-      addSpin(a.constraint, share * couplingImpulse[at(c)] * system.rows(a.constraint).force[at(a.row)],
-              share * couplingImpulse[at(c)] * system.rows(a.constraint).torque[at(a.row)], state);
+      addAngularMomentum(a.constraint, share * couplingImpulse[at(c)] * system.rows(a.constraint).force[at(a.row)],
+                         share * couplingImpulse[at(c)] * system.rows(a.constraint).torque[at(a.row)], state);
     }
     state.coupling[at(c)].force = couplingImpulse[at(c)] / dt;
   }
-  for (const int k : system.loose()) readConstraint(k, state, dt);
+  for (const int k : system.offTree()) readConstraint(k, state, dt);
   if (relinearised)
     for (const int node : part.bodies) {
       // The impulses belong to rows of several positions: the momentum is what the twist says.
       const std::size_t b = at(system.bodyOf(node));
       const Mat3d I = rotatedInertia(frames[b].R, model.bodies()[b].inertia_B);
-      state.spinMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
+      state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
 }
 
-void EulerStep::addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
+void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
   const Constraint& c = system.constraints()[at(k)];
   const Vec3d& p = system.jointFrames(k).p_B;
-  if (c.nodeB >= 0) state.spinMomentum[at(c.bodyB)] += cross(p - frames[at(c.bodyB)].p, force) + torque;
-  if (c.nodeA >= 0) state.spinMomentum[at(c.bodyA)] -= cross(p - frames[at(c.bodyA)].p, force) + torque;
+  if (c.nodeB >= 0) state.angularMomentum[at(c.bodyB)] += cross(p - frames[at(c.bodyB)].p, force) + torque;
+  if (c.nodeA >= 0) state.angularMomentum[at(c.bodyA)] -= cross(p - frames[at(c.bodyA)].p, force) + torque;
 }
 
-void EulerStep::readConstraint(int k, State& state, double dt) {
-  const Constraint& c = system.constraints()[at(k)];
-  const RowDirections& rows = system.rows(k);
-  const JointFrames after = trialFramesOf(k);
-  std::array<double, 6> total = impulse[at(k)];
+/// Adds what is known along the axes of one constraint to the impulses of its rows, and their work.
+void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, double dt) {
   for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
     const std::size_t row = at(system.axes()[at(a)].row);
     const AxisLaw& law = laws[at(a)];
@@ -292,13 +316,21 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
     state.ledger.dissipated += work.dissipated;
     newRates[at(a)] = newRate;
   }
+}
+
+void EulerStep::readConstraint(int k, State& state, double dt) {
+  const Constraint& c = system.constraints()[at(k)];
+  const RowDirections& rows = system.rows(k);
+  const JointFrames after = trialFramesOf(k);
+  std::array<double, 6> total = impulse[at(k)];
+  addAxes(k, total, state, dt);
 
   Vec3d force, torque;
   for (std::size_t r = 0; r < 6; ++r) {
     force += total[r] * rows.force[r];
     torque += total[r] * rows.torque[r];
   }
-  addSpin(k, force, torque, state);
+  addAngularMomentum(k, force, torque, state);
 
   if (c.kind == ConstraintKind::kPointSpring) {
     state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, after, 0)};
@@ -313,6 +345,12 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
   JointReading& reading = state.joint[at(c.source)];
   reading.force = force * (1 / dt);
   reading.torque = torque * (1 / dt);
+  readAxes(k, total, state, dt);
+}
+
+/// What the axes of a joint did, `total` being the impulses of its rows.
+void EulerStep::readAxes(int k, const std::array<double, 6>& total, State& state, double dt) const {
+  const Constraint& c = system.constraints()[at(k)];
   const auto read = [&](int a, auto& axis) {
     const std::size_t row = at(system.axes()[at(a)].row);
     const AxisLaw& law = laws[at(a)];
@@ -321,13 +359,13 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
     axis.axisForce = total[row] / dt;
     axis.driveForce = law.driven ? impulse[at(k)][row] / dt : 0;
     if (law.driveForce != 0) axis.driveForce += law.driveForce;
-    axis.springForce = law.springKnown - law.springSoftness / dt * newRates[at(a)];
+    axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRates[at(a)];
   };
   for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
     if (c.kind == ConstraintKind::kCylindrical && system.axes()[at(a)].row == kSlideRow)
       read(a, state.slide[at(c.source)]);
     else
-      read(a, reading);
+      read(a, state.joint[at(c.source)]);
 }
 
 EulerStep::EulerStep(const Problem& problem)

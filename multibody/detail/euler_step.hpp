@@ -18,7 +18,27 @@ public:
   void step(State& state, const Loads& loads, double dt) override;
 
 private:
+  /// What the position solve works with: see RATTLE's scheme (rattle_step.cpp).
+  enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
+  /// How far the position solve of a step has come.
+  struct PositionSolve {
+    Phase phase = Phase::kAllRows;
+    int lost = 0;                    ///< rows that have no pivot
+    int iterations = 0, since = 0;   ///< in all, and in the present phase
+    double gap = 0, before = 0;      ///< largest of the last iteration, and of the one before
+    bool done = false, slow = false; ///< of the last iteration
+
+    void enter(Phase next) { phase = next, since = 0; }
+  };
+
   void solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
+  void iterate(const ConstraintSystem::Part& part, const State& state, double dt, PositionSolve& solve);
+  bool advance(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
+               PositionSolve& solve);
+  bool advanceAllRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
+                      PositionSolve& solve);
+  void advanceWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, double dt, PositionSolve& solve);
+  void relinearise(const ConstraintSystem::Part& part, const State& state, double dt, const PositionSolve& solve);
   void setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt);
   void applyCorrection(const ConstraintSystem::Part& part, double dt);
   double setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first);
@@ -31,8 +51,10 @@ private:
   OpenRow widestGap() const;
   double openGap() const;
   void finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt);
-  void addSpin(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
+  void addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const;
   void readConstraint(int k, State& state, double dt);
+  void addAxes(int k, std::array<double, 6>& total, State& state, double dt);
+  void readAxes(int k, const std::array<double, 6>& total, State& state, double dt) const;
   double trialPosition(const State& state, int axis) const;
   JointFrames trialFramesOf(int k) const;
 
@@ -51,14 +73,24 @@ private:
     Lanes spread;             ///< of the inertias (spreadOf())
   };
   void startLinks(const State& state, const Loads& loads, double dt);
+  void startLinkAxes(const State& state, double dt);
   void correctLinks(double dt);
   void unpackIterate();
   void packTwists();
-  static void solveSpin(const Lanes (&inertia)[6], LinkStep& s, int l, double dt);
+  static void solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int l, double dt);
   void moveLinks(double dt);
   double setLinkGaps(double dt, bool first);
   double setLinkGyro(double dt);
+  /// Of four bodies and their joints in a step [J].
+  struct LinkWork {
+    Lanes gravity, external, drive, spring, dissipated;
+  };
   void finishLinks(State& state, const Loads& loads, double dt);
+  void finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads, double dt,
+                    LinkWork& work) const;
+  void finishJoints(const LinkLanes& b, const LinkStep& s, State& state, double dt, LinkWork& work) const;
+  void addAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& newRate, double dt, Lanes& total,
+               LinkWork& work) const;
   void readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total, const Lanes& newRate, State& state,
                 double dt) const;
   int rowNode(int k) const { return system.movableBodies() + k; }

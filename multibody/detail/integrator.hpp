@@ -2,7 +2,8 @@
 #pragma once
 
 #include "multibody/detail/constraint_system.hpp"
-#include "multibody/solver.hpp"
+#include "multibody/solver_options.hpp"
+#include "multibody/state.hpp"
 
 #include <vector>
 

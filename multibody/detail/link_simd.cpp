@@ -22,8 +22,8 @@ Vec3d get(const Vec3L& v, int l) { return {v.x[l], v.y[l], v.z[l]}; }
 } // namespace
 
 void ConstraintSystem::makeLinks() {
-  const int world = static_cast<int>(model_->bodies().size());
-  inTree_.assign(constraints_.size(), 0);
+  const int world = static_cast<int>(model().bodies().size());
+  inTree_.assign(constraints().size(), 0);
   for (int index = 0; index < elimination_->batches(); ++index) {
     const Elimination::Links& batch = elimination_->links(index);
     LinkLanes links;
@@ -31,7 +31,7 @@ void ConstraintSystem::makeLinks() {
     links.joint = batch.joint[0] >= 0;
     links.node = batch.body, links.constraint = batch.joint, links.parentNode = batch.parentNode;
     if (links.joint) {
-      links.kind = constraints_[at(batch.joint[0])].kind;
+      links.kind = constraints()[at(batch.joint[0])].kind;
       for (int r = 0; r < 6; ++r)
         if (axisRows(links.kind) >> r & 1u) links.axisRow[at(links.axes++)] = r;
     }
@@ -39,8 +39,8 @@ void ConstraintSystem::makeLinks() {
       for (int i = 0; i < batch.freedoms; ++i)
         if (batch.freeRow[at(i)] == links.axisRow[at(a)]) links.freedom[at(a)] = i;
     for (std::size_t l = 0; l < kLanes; ++l) {
-      links.body[l] = movable_[at(links.node[l])];
-      const Body& body = model_->bodies()[at(links.body[l])];
+      links.body[l] = bodyOf(links.node[l]);
+      const Body& body = model().bodies()[at(links.body[l])];
       lane(links.real, l) = static_cast<int>(l) < links.count ? 1 : 0;
       lane(links.mass, l) = body.mass;
       const double(&I)[3][3] = body.inertia_B.m;
@@ -50,7 +50,7 @@ void ConstraintSystem::makeLinks() {
       lane(links.side, l) = 1;
       if (!links.joint) continue;
       const int k = links.constraint[l];
-      const Constraint& c = constraints_[at(k)];
+      const Constraint& c = constraints()[at(k)];
       inTree_[at(k)] = 1;
       const bool childIsB = c.bodyB == links.body[l];
       lane(links.side, l) = childIsB ? 1 : -1;
@@ -65,8 +65,8 @@ void ConstraintSystem::makeLinks() {
     target.mass = links.mass;
     links_.push_back(links);
   }
-  for (std::size_t k = 0; k < constraints_.size(); ++k)
-    if (!inTree_[k]) loose_.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < constraints().size(); ++k)
+    if (!inTree_[k]) offTree_.push_back(static_cast<int>(k));
 }
 
 GROUSER_LANES void ConstraintSystem::lineariseLinks(const std::vector<Frame>& frames,
@@ -95,11 +95,11 @@ GROUSER_LANES void ConstraintSystem::lineariseLinks(const std::vector<Frame>& fr
     for (int a = 0; a < b.axes; ++a)
       for (std::size_t l = 0; l < kLanes; ++l) {
         const AxisLaw& law = laws[at(b.axis[at(a)][l])];
-        lane(to.softness[b.freedom[at(a)]], l) = law.driven ? 0 : law.softness;
+        lane(to.inverseCompliance[b.freedom[at(a)]], l) = law.driven ? 0 : law.inverseCompliance;
         lane(to.free[b.freedom[at(a)]], l) = law.driven ? 0 : 1;
         const unsigned bit = 1u << b.axisRow[at(a)];
         unsigned& active = active_[at(b.constraint[l])];
-        active = law.driven || law.softness != 0 ? active | bit : active & ~bit;
+        active = law.driven || law.inverseCompliance != 0 ? active | bit : active & ~bit;
       }
   }
 }

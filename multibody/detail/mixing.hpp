@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/detail/acceleration.hpp"
+#include "multibody/detail/anderson_acceleration.hpp"
 #include "multibody/detail/constraint_system.hpp"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ struct Iterate {
 };
 
 /// Helps the position solve of one part where it converges slowly or not at all: near singular positions, where pivots
-/// change in size or sign within a step, and for turns of about a radian a step. Mixes corrections (acceleration.hpp),
-/// and remembers the best iterate.
+/// change in size or sign within a step, and for turns of about a radian a step. Mixes corrections
+/// (anderson_acceleration.hpp), and remembers the best iterate.
 class Mixing {
 public:
   explicit Mixing(const ConstraintSystem& system, const Model& model)
@@ -54,7 +54,7 @@ public:
 private:
   const ConstraintSystem& system_;
   const Model& model_;
-  Acceleration acceleration_;
+  AndersonAcceleration acceleration_;
   std::vector<double> z_, change_, weight_;
   std::vector<Twist> best_;
   double bestGap_ = 0;

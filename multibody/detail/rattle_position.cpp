@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "multibody/detail/rattle_step.hpp"
+
 #include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/index.hpp"
-#include "multibody/detail/rattle_step.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
 
@@ -19,6 +20,19 @@ namespace {
 
 /// Gaps are not closed further than this part of the coordinates.
 constexpr double kRoundOff = 5e-16;
+
+/// In units of the tolerance: up to where a gap that iterations no longer reduce is round-off, which a long loop sums
+/// up; and the gap that is accepted when no phase is left to try (1e-12 m or rad by default).
+constexpr double kNearTolerance = 1e2, kAcceptable = 1e3;
+
+/// Of an iteration, new gap over the one before. Newton's method with the matrix of the start takes a gap down by
+/// h |w|, some 1e-2 in a step that is worth taking: above a fifth something else than curvature is at work, and help
+/// costs less than going on. Round-off does not even halve it.
+constexpr double kSlowConvergence = 0.2, kStalled = 0.5;
+
+/// Of soft rows, in units of the row's own J M^-1 J^T: inverse compliance that a row which lets go keeps, so that its
+/// impulse can vanish; and change, as a part of both together, that Newton's method tolerates without a new matrix.
+constexpr double kLeastInverseCompliance = 1e-3, kComplianceChange = 0.05;
 
 /// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
 /// Newton's method within the iteration, to round-off: what a tolerance would leave has the same sign in each step, and
@@ -48,9 +62,9 @@ ForceAndSlope RattleStep::meanForce(int axis, double h) const {
   return f;
 }
 
-/// Axis positions at the current iterate, and the softness 1/G of the soft rows there. Returns whether it has moved so
-/// far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J M^-1
-/// J^T.
+/// Axis positions at the current iterate, and the inverse compliance 1/G of the soft rows there. Returns whether it has
+/// moved so far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J
+/// M^-1 J^T.
 bool RattleStep::updateAxes(const Part& part, double h) {
   bool follow = false;
   for (const int k : part.constraints) {
@@ -63,10 +77,12 @@ bool RattleStep::updateAxes(const Part& part, double h) {
       AxisLaw& law = laws[at(a)];
       const double size = system.rowSize(k, row);
       double now = 0.5 * h * h * meanForce(a, h).slope;
-      // A row that lets go stays in the system, or its impulse could not vanish.
-      if (law.softness != 0 && std::fabs(now) * size < 1e-3) now = 1e-3 / size;
-      if (std::fabs(now - law.softness) * size <= 0.05 * (1 + std::fabs(law.softness) * size)) continue;
-      law.softness = now;
+      if (law.inverseCompliance != 0 && std::fabs(now) * size < kLeastInverseCompliance)
+        now = kLeastInverseCompliance / size;
+      if (std::fabs(now - law.inverseCompliance) * size <=
+          kComplianceChange * (1 + std::fabs(law.inverseCompliance) * size))
+        continue;
+      law.inverseCompliance = now;
       follow = true;
     }
   }
@@ -74,6 +90,42 @@ bool RattleStep::updateAxes(const Part& part, double h) {
 }
 
 void RattleStep::solvePositions(const Part& part, const State& state, const Loads& loads, double h) {
+  PositionSolve solve;
+  solve.tolerance = gapTolerance(part, state);
+  startAxes(part, state, h);
+  solve.lost = positionsFactored(part) ? 0 : linearise(part, frames);
+  factored[at(part.index)] = -1;
+  relinearised[at(part.index)] = 0;
+  predictSoftRows(part, h);
+  setFirstResidual(part, state, loads, h);
+  setResiduals(part, h);
+
+  mixing.reset();
+  for (bool solved = false; !solved;) {
+    iterate(part, state, h, solve);
+    solved = advance(part, state, loads, h, solve);
+    if (solved || solve.phase != Phase::kEachIterate) continue;
+    const int lostHere = solve.since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial);
+    solve.lost = std::max(solve.lost, lostHere);
+  }
+  // Also of rows that had no pivot.
+  if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
+  last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
+  collectMomentum(part, state, loads, h);
+}
+
+/// Below a few units in the last place of the coordinates there is nothing to gain.
+double RattleStep::gapTolerance(const Part& part, const State& state) const {
+  double scale = 0;
+  for (const int node : part.bodies) {
+    const Vec3d& p = state.pose[at(system.bodyOf(node))].position;
+    scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  }
+  return std::max(options.positionTolerance, kRoundOff * scale);
+}
+
+/// First iterate: the twists of the node; where axes are then, and how soft.
+void RattleStep::startAxes(const Part& part, const State& state, double h) {
   for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
   moveTrial(part, state, h);
   for (const int k : part.constraints) {
@@ -86,97 +138,97 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
       x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
       laws[at(a)] = {};
       laws[at(a)].driven = soft[at(a)].driven;
-      laws[at(a)].softness = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
+      laws[at(a)].inverseCompliance = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
     }
   }
-  int lost = positionsFactored(part) ? 0 : linearise(part, frames); // rows that have no pivot
-  factored[at(part.index)] = -1;
-  relinearised[at(part.index)] = 0;
-  // Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of
-  // the node alone would take it.
+}
+
+/// Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of the
+/// node alone would take it.
+void RattleStep::predictSoftRows(const Part& part, double h) {
   for (const int k : part.constraints)
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      if (laws[at(a)].softness != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
+      if (laws[at(a)].inverseCompliance != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
       if (soft[at(a)].driven) startRate[at(a)] = system.rateOfAxis(a, mean);
     }
-  setFirstResidual(part, state, loads, h);
-  setResiduals(part, h);
+}
 
-  double scale = 0;
-  for (const int node : part.bodies) {
-    const Vec3d& p = state.pose[at(system.bodyOf(node))].position;
-    scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+/// One iteration of Newton's method, and how it went.
+void RattleStep::iterate(const Part& part, const State& state, double h, PositionSolve& solve) {
+  system.solve(part, x);
+  if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
+  applyCorrection(part, h);
+  moveTrial(part, state, h);
+  solve.follow = updateAxes(part, h);
+  solve.gap = setResiduals(part, h);
+  solve.open = gapOf[at(part.index)];
+  ++solve.iterations, ++solve.since;
+  last.iterations = std::max(last.iterations, solve.iterations);
+
+  // A little above the tolerance and not getting better is round-off.
+  const bool atRoundOff =
+      std::min(solve.best, solve.gap) <= kNearTolerance * solve.tolerance && solve.gap > kStalled * solve.before;
+  solve.done = !solve.follow && (solve.gap <= solve.tolerance || atRoundOff);
+  solve.slow = solve.since > 1 && !(solve.gap <= kSlowConvergence * solve.before);
+  solve.best = std::min(solve.best, solve.gap);
+  solve.before = solve.gap;
+}
+
+/// What to do after an iteration: returns whether the stage's positions are found, or enters the next phase.
+bool RattleStep::advance(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve) {
+  switch (solve.phase) {
+  case Phase::kAllRows:
+    return advanceAllRows(part, state, loads, h, solve);
+  case Phase::kWithoutWeakRows:
+    advanceWithoutWeakRows(part, solve);
+    return false;
+  case Phase::kMixed:
+    if (solve.done && solve.open <= kNearTolerance * solve.tolerance) return true;
+    if (solve.done || solve.since >= 2 * options.maxIterations || !std::isfinite(solve.gap))
+      solve.enter(Phase::kEachIterate);
+    return false;
+  case Phase::kEachIterate:
+    break;
   }
-  // Below a few units in the last place of the coordinates there is nothing to gain.
-  const double tolerance = std::max(options.positionTolerance, kRoundOff * scale);
-  double before = std::numeric_limits<double>::infinity(), best = before;
+  if (solve.done) return true;
+  if (solve.since < 2 * options.maxIterations) return false;
+  // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
+  if (!(solve.gap <= (solve.lost > 0 ? kGapFailure : kAcceptable * solve.tolerance))) fail(part, state, solve.gap, h);
+  return true;
+}
+
+/// All rows, with the matrix of the start of the stage: all that nearly every step needs.
+bool RattleStep::advanceAllRows(const Part& part, const State& state, const Loads& loads, double h,
+                                PositionSolve& solve) {
+  const bool closed = solve.lost == 0 || solve.open <= kNearTolerance * solve.tolerance;
+  if (solve.done && closed) return true;
+  mixing.remember(part, solve.gap, mean);
+  if ((solve.done || solve.slow) && !mixing.on() && startWithoutWeakRows(part, state, loads, h)) {
+    solve.enter(Phase::kWithoutWeakRows);
+  } else if (solve.done) {
+    return true;
+  } else if (solve.since >= options.maxIterations) {
+    solve.enter(Phase::kEachIterate);
+  } else if (solve.follow) {
+    solve.lost = std::max(solve.lost, linearise(part, frames));
+    mixing.forget();
+  } else if (solve.slow && !mixing.on()) {
+    mixing.switchOn();
+  }
+  return false;
+}
+
+/// Without the weak rows until that has led to where inertia takes the bodies; from there the others have a short way
+/// to go, and to the solution that inertia leads to.
+void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) {
+  if (!solve.done && solve.since < options.maxIterations && !(solve.since > 2 && solve.slow)) return;
   mixing.reset();
-  Phase phase = Phase::kAllRows;
-  int since = 0; // iterations of this phase
-  const auto enter = [&](Phase next) {
-    phase = next, since = 0, best = before = std::numeric_limits<double>::infinity();
-  };
-  const int limit = options.maxIterations;
-  for (int iteration = 1;; ++iteration) {
-    system.solve(part, x);
-    if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
-    applyCorrection(part, h);
-    moveTrial(part, state, h);
-    const bool follow = updateAxes(part, h);
-    const double gap = setResiduals(part, h), open = gapOf[at(part.index)];
-    last.iterations = std::max(last.iterations, iteration);
-    ++since;
-    // A little above the tolerance and not getting better is round-off.
-    const bool done = !follow && (gap <= tolerance || (std::min(best, gap) <= 1e2 * tolerance && gap > 0.5 * before));
-    const bool slow = since > 1 && !(gap <= 0.2 * before);
-    const bool closed = lost == 0 || open <= 1e2 * tolerance;
-    best = std::min(best, gap);
-    before = gap;
-    if (phase == Phase::kAllRows) {
-      if (done && closed) break;
-      mixing.remember(part, gap, mean);
-      if ((done || slow) && !mixing.on() && startWithoutWeakRows(part, state, loads, h)) {
-        enter(Phase::kWithoutWeakRows);
-      } else if (done) {
-        break;
-      } else if (since >= limit) {
-        enter(Phase::kEachIterate);
-      } else if (follow) {
-        lost = std::max(lost, linearise(part, frames));
-        mixing.forget();
-      } else if (slow && !mixing.on()) {
-        mixing.switchOn();
-      }
-    } else if (phase == Phase::kWithoutWeakRows) {
-      if (done || since >= limit || (since > 2 && slow)) {
-        // From here the others have a short way to go, and to the solution that inertia leads to.
-        mixing.reset();
-        mixing.remember(part, gap, mean);
-        system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
-        linearise(part, frames);
-        system.scalePivotThreshold(1);
-        mixing.switchOn();
-        enter(Phase::kMixed);
-      }
-    } else if (phase == Phase::kMixed) {
-      if (done && open <= 1e2 * tolerance) break;
-      if (done || since >= 2 * limit || !std::isfinite(gap)) enter(Phase::kEachIterate);
-    } else {
-      if (done) break;
-      if (since >= 2 * limit) {
-        // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
-        if (!(gap <= (lost > 0 ? kGapFailure : 1e3 * tolerance))) fail(part, state, gap, h);
-        break;
-      }
-    }
-    if (phase != Phase::kEachIterate) continue;
-    const int lostHere = since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial);
-    lost = std::max(lost, lostHere);
-  }
-  // Also of rows that had no pivot.
-  if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
-  last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
-  collectMomentum(part, state, loads, h);
+  mixing.remember(part, solve.gap, mean);
+  system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
+  linearise(part, frames);
+  system.scalePivotThreshold(1);
+  mixing.switchOn();
+  solve.enter(Phase::kMixed);
 }
 
 void RattleStep::setFirstResidual(const Part& part, const State& state, const Loads& loads, double h) {
@@ -187,7 +239,7 @@ void RattleStep::setFirstResidual(const Part& part, const State& state, const Lo
     const Vec3d& w = mean[at(b)].w;
     gyro[at(node)] = gyroscopicMomentum(I, w, h);
     set(x[at(node)], 0.5 * h * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
-        (state.spinMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
+        (state.angularMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
   }
   for (const int k : part.constraints) {
     impulse[at(k)] = {};
@@ -195,7 +247,7 @@ void RattleStep::setFirstResidual(const Part& part, const State& state, const Lo
       const std::size_t row = at(system.axes()[at(a)].row);
       softImpulse[at(a)] = 0.5 * h * meanForce(a, h).force;
       const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
-      // A soft row's impulse is an unknown of the system; without softness it is known.
+      // A soft row's impulse is an unknown of the system; without compliance it is known.
       impulse[at(k)][row] = softImpulse[at(a)];
       if (known + softImpulse[at(a)] != 0) system.addImpulse(k, static_cast<int>(row), known + softImpulse[at(a)], x);
     }
@@ -214,58 +266,54 @@ void RattleStep::moveTrial(const Part& part, const State& state, double h) {
 }
 
 double RattleStep::setResiduals(const Part& part, double h) {
-  double largest = 0, open = 0;
-  // Written so that a gap that is not a number counts as the largest.
-  const auto take = [](double& most, double gap) {
-    if (!(std::fabs(gap) <= most)) most = std::fabs(gap);
-  };
-  for (const int k : part.constraints) {
-    double error[6];
-    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
-    Vector6& residual = x[at(rowNode(k))];
-    residual = {};
-    const unsigned hard = hardRows(system.constraints()[at(k)].kind), kept = system.elimination().keptRows(k);
-    for (int r = 0; r < 6; ++r) {
-      if (!(hard >> r & 1u)) continue;
-      residual[at(r)] = -error[r] / h;
-      take(open, error[r]);
-      if (kept >> r & 1u) take(largest, error[r]);
-    }
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      const SoftRow& s = soft[at(a)];
-      if (s.driven) {
-        const double gap = x1[at(a)] - (s.relative ? x0[at(a)] + s.target : s.target);
-        residual[at(row)] = -gap / h;
-        take(open, gap);
-        if (kept >> row & 1u) take(largest, gap);
-      } else if (laws[at(a)].softness != 0) {
-        residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].softness;
-        // In terms of position: what the soft row and the masses behind it would still move.
-        const double softness = std::fabs(laws[at(a)].softness) * system.rowSize(k, row);
-        take(largest, residual[at(row)] * h * softness / (1 + softness));
-      }
-    }
-  }
+  Gaps gaps;
+  for (const int k : part.constraints) setResidual(k, h, gaps);
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
     const double gap = x1[at(row.axis2)] - row.ratio * x1[at(row.axis1)] - row.offset;
     x[at(system.couplingNode(c))] = {};
     x[at(system.couplingNode(c))][0] = -gap / h;
-    take(open, gap);
-    if (system.couplingKept(c)) take(largest, gap);
+    gaps.take(gap, system.couplingKept(c));
   }
-  gapOf[at(part.index)] = open;
-  if (relinearised[at(part.index)]) return largest;
+  gapOf[at(part.index)] = gaps.open;
+  if (relinearised[at(part.index)]) return gaps.largest;
   for (const int node : part.bodies) {
     const Mat3d& I = system.inertia(node);
     const Vec3d g = gyroscopicMomentum(I, mean[at(system.bodyOf(node))].w, h);
     const Vec3d residual = gyro[at(node)] - g;
     gyro[at(node)] = g;
     add(x[at(node)], {}, residual);
-    take(largest, h * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual));
+    Gaps::takeLarger(gaps.largest, h * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual));
   }
-  return largest;
+  return gaps.largest;
+}
+
+/// Residuals of the rows of one constraint.
+void RattleStep::setResidual(int k, double h, Gaps& gaps) {
+  double error[6];
+  positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
+  Vector6& residual = x[at(rowNode(k))];
+  residual = {};
+  const unsigned hard = hardRows(system.constraints()[at(k)].kind), kept = system.elimination().keptRows(k);
+  for (int r = 0; r < 6; ++r) {
+    if (!(hard >> r & 1u)) continue;
+    residual[at(r)] = -error[r] / h;
+    gaps.take(error[r], kept >> r & 1u);
+  }
+  for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
+    const int row = system.axes()[at(a)].row;
+    const SoftRow& s = soft[at(a)];
+    if (s.driven) {
+      const double gap = x1[at(a)] - (s.relative ? x0[at(a)] + s.target : s.target);
+      residual[at(row)] = -gap / h;
+      gaps.take(gap, kept >> row & 1u);
+    } else if (laws[at(a)].inverseCompliance != 0) {
+      residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].inverseCompliance;
+      // In terms of position: what the soft row and the masses behind it would still move.
+      const double inverseCompliance = std::fabs(laws[at(a)].inverseCompliance) * system.rowSize(k, row);
+      Gaps::takeLarger(gaps.largest, residual[at(row)] * h * inverseCompliance / (1 + inverseCompliance));
+    }
+  }
 }
 
 /// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero: near a
@@ -314,7 +362,7 @@ void RattleStep::applyCorrection(const Part& part, double h) {
     // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
     const Mat3d& I = system.inertia(node);
     if (std::fabs(h) * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
-      V.w = twistOfSpin(I, I * V.w + gyro[at(node)], V.w, h);
+      V.w = angularVelocityOf(I, I * V.w + gyro[at(node)], V.w, h);
       gyro[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
     }
   }
@@ -336,7 +384,7 @@ void RattleStep::collectMomentum(const Part& part, const State& state, const Loa
   }
   for (const int node : part.bodies) {
     const int b = system.bodyOf(node);
-    spin[at(node)] = state.spinMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
+    spin[at(node)] = state.angularMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
     x[at(node)] = {};
   }
   for (const int k : part.constraints) {

@@ -64,7 +64,7 @@ const std::vector<double>& halfComposition(int order) {
 
 /// Least omega dt at which the trace of the step's matrix for one oscillator reaches 2 in size, from the compositions
 /// above.
-double stableTurn(int order) { return order == 2 ? 2 : order == 4 ? 2.7209 : order == 6 ? 2.5326 : 3.0964; }
+double stabilityLimit(int order) { return order == 2 ? 2 : order == 4 ? 2.7209 : order == 6 ? 2.5326 : 3.0964; }
 
 RattleStep::RattleStep(const Problem& problem)
     : model(problem.model), options(problem.options), system(problem.system), last(problem.last),
@@ -126,7 +126,7 @@ bool RattleStep::positionsFactored(const Part& part) const {
   if (factored[at(part.index)] != system.linearisation(part)) return false;
   for (const int k : part.constraints)
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-      if (laws[at(a)].softness != 0 || laws[at(a)].driven != (drivenThen[at(a)] != 0)) return false;
+      if (laws[at(a)].inverseCompliance != 0 || laws[at(a)].driven != (drivenThen[at(a)] != 0)) return false;
   return true;
 }
 

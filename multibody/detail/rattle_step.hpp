@@ -6,6 +6,8 @@
 #include "multibody/detail/soft_rows.hpp"
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace grouser::multibody::detail {
@@ -21,6 +23,35 @@ private:
   /// What the position solve works with: see the scheme.
   enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
 
+  /// How far the position solve of a stage has come.
+  struct PositionSolve {
+    Phase phase = Phase::kAllRows;
+    double tolerance = 0; ///< of gaps [m, rad]
+    int lost = 0;         ///< rows that have no pivot
+    int iterations = 0;   ///< in all
+    // Of the present phase.
+    int since = 0;                                                        ///< iterations
+    double best = std::numeric_limits<double>::infinity(), before = best; ///< smallest gap, last gap
+    // Of the last iteration.
+    double gap = 0;      ///< largest of the rows that have a pivot
+    double open = 0;     ///< largest of all rows
+    bool follow = false; ///< soft rows have moved too far from what the matrix holds
+    bool done = false, slow = false;
+
+    void enter(Phase next) { phase = next, since = 0, best = before = std::numeric_limits<double>::infinity(); }
+  };
+  /// Largest gaps so far, of the rows that have a pivot and of all. A gap that is not a number counts as the largest.
+  struct Gaps {
+    double largest = 0, open = 0;
+    static void takeLarger(double& most, double gap) {
+      if (!(std::fabs(gap) <= most)) most = std::fabs(gap);
+    }
+    void take(double gap, bool hasPivot) {
+      takeLarger(open, gap);
+      if (hasPivot) takeLarger(largest, gap);
+    }
+  };
+
   void stage(State& state, const Loads& loads, double h);
   /// Returns the rows without a pivot.
   int linearise(const Part& part, const std::vector<Frame>& at);
@@ -28,6 +59,13 @@ private:
 
   // Position stage (rattle_position.cpp).
   void solvePositions(const Part& part, const State& state, const Loads& loads, double h);
+  double gapTolerance(const Part& part, const State& state) const;
+  void startAxes(const Part& part, const State& state, double h);
+  void predictSoftRows(const Part& part, double h);
+  void iterate(const Part& part, const State& state, double h, PositionSolve& solve);
+  bool advance(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve);
+  bool advanceAllRows(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve);
+  void advanceWithoutWeakRows(const Part& part, PositionSolve& solve);
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);
   void applyCorrection(const Part& part, double h);
@@ -36,11 +74,15 @@ private:
   void moveTrial(const Part& part, const State& state, double h);
   /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.
   double setResiduals(const Part& part, double h);
+  void setResidual(int k, double h, Gaps& gaps);
   void collectMomentum(const Part& part, const State& state, const Loads& loads, double h);
   [[noreturn]] void fail(const Part& part, const State& state, double gap, double h) const;
 
   // Velocity stage (rattle_velocity.cpp).
   void solveVelocities(const Part& part, const Loads& loads, double h);
+  void factorEnd(const Part& part);
+  void setSecondKick(const Part& part, const Loads& loads, double h);
+  void addEndImpulses(const Part& part);
   double setRateResiduals(const Part& part);
   void finish(const Part& part, State& state, const Loads& loads, double h);
 
@@ -89,6 +131,6 @@ private:
 };
 
 /// Largest omega dt [rad] for which the composition of an order is stable with explicit springs.
-double stableTurn(int order);
+double stabilityLimit(int order);
 
 } // namespace grouser::multibody::detail

@@ -14,8 +14,43 @@
 /// Second half of a stage of RATTLE (rattle_step.cpp), and the reactions at its end.
 namespace grouser::multibody::detail {
 
+namespace {
+
+/// Part of the fastest twist that rates may miss: round-off. One pass solves them; more take out what small pivots
+/// leave.
+constexpr double kRateRoundOff = 1e-14;
+constexpr int kMostPasses = 4;
+
+} // namespace
+
 /// p_1 = P(u) + h/2 f(q_1) + J^T Mu, J v_1 = rates, solved for v_1 - u and Mu.
 void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h) {
+  factorEnd(part);
+  setSecondKick(part, loads, h);
+  double fastest = 0;
+  for (const int node : part.bodies) {
+    const Twist& V = mean[at(system.bodyOf(node))];
+    fastest = std::max({fastest, norm(V.v), norm(V.w)});
+  }
+  setRateResiduals(part);
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    system.solve(part, x);
+    for (const int node : part.bodies) {
+      Twist& V = twist[at(system.bodyOf(node))];
+      V.v += linear(x[at(node)]);
+      V.w += angular(x[at(node)]);
+      x[at(node)] = {};
+    }
+    for (const int k : part.constraints)
+      for (std::size_t r = 0; r < 6; ++r) endImpulse[at(k)][r] += x[at(rowNode(k))][r];
+    for (const int c : part.couplings) couplingEndImpulse[at(c)] += x[at(system.couplingNode(c))][0];
+    if (setRateResiduals(part) <= kRateRoundOff * fastest) break;
+  }
+  addEndImpulses(part);
+}
+
+/// The matrix at the end of the stage.
+void RattleStep::factorEnd(const Part& part) {
   for (const int k : part.constraints)
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
       laws[at(a)] = {};
@@ -28,7 +63,10 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
   system.scalePivotThreshold(1);
   // The next stage's positions need every row that has a pivot at all.
   factored[at(part.index)] = lost == 0 ? system.linearisation(part) : -1;
+}
 
+/// Momentum of the second half kick without the rows' impulses, as residuals of the bodies.
+void RattleStep::setSecondKick(const Part& part, const Loads& loads, double h) {
   for (const int node : part.bodies) {
     const int b = system.bodyOf(node);
     const Wrench& wrench = loads.external[at(b)];
@@ -41,8 +79,8 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
       const int row = system.axes()[at(a)].row;
       // The implicit part's impulse, the same as in the first half, and what acts at the node. A driven row's own
       // impulse is not among them.
-      const double mean_ = soft[at(a)].driven ? 0.5 * h * meanForce(a, h).force : impulse[at(k)][at(row)];
-      const double known = mean_ + 0.5 * h * (nodeForce(soft[at(a)], x1[at(a)]) + soft[at(a)].applied1);
+      const double meanImpulse = soft[at(a)].driven ? 0.5 * h * meanForce(a, h).force : impulse[at(k)][at(row)];
+      const double known = meanImpulse + 0.5 * h * (nodeForce(soft[at(a)], x1[at(a)]) + soft[at(a)].applied1);
       if (known != 0) system.addImpulse(k, row, known, x);
     }
   }
@@ -52,28 +90,10 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
     add(x[at(node)], {},
         -(angular(x[at(node)])) + (spin[at(node)] - system.inertia(node) * mean[at(system.bodyOf(node))].w));
   }
+}
 
-  double fastest = 0;
-  for (const int node : part.bodies) {
-    const Twist& V = mean[at(system.bodyOf(node))];
-    fastest = std::max({fastest, norm(V.v), norm(V.w)});
-  }
-  // One pass solves it; more take out the round-off that small pivots leave.
-  setRateResiduals(part);
-  for (int pass = 0; pass < 4; ++pass) {
-    system.solve(part, x);
-    for (const int node : part.bodies) {
-      Twist& V = twist[at(system.bodyOf(node))];
-      V.v += linear(x[at(node)]);
-      V.w += angular(x[at(node)]);
-      x[at(node)] = {};
-    }
-    for (const int k : part.constraints)
-      for (std::size_t r = 0; r < 6; ++r) endImpulse[at(k)][r] += x[at(rowNode(k))][r];
-    for (const int c : part.couplings) couplingEndImpulse[at(c)] += x[at(system.couplingNode(c))][0];
-    if (setRateResiduals(part) <= 1e-14 * fastest) break;
-  }
-
+/// What the rows' impulses give to the angular momenta.
+void RattleStep::addEndImpulses(const Part& part) {
   for (const int node : part.bodies) x[at(node)] = {};
   for (const int k : part.constraints)
     for (int r = 0; r < 6; ++r)
@@ -139,7 +159,7 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
       if (s.stops) state.ledger.dissipated += softRows.stopLoss(a, x0[at(a)], x1[at(a)], h);
       state.ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
       if (s.driven) {
-        // Impulse times mean rate in either half: right also when a law starts with a blow.
+        // Impulse times mean rate in either half: right also when a law starts with an impact.
         const double meanRate = path / h, first = impulse[at(k)][row] - 0.5 * h * meanForce(a, h).force;
         state.ledger.driveWork += 0.5 * (first * (startRate[at(a)] + meanRate) +
                                          endImpulse[at(k)][row] * (meanRate + system.rateOfAxis(a, twist)));
@@ -151,7 +171,7 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
     const int b = system.bodyOf(node);
     state.twist[at(b)] = twist[at(b)];
     state.pose[at(b)] = trialPose[at(b)];
-    state.spinMomentum[at(b)] = spin[at(node)];
+    state.angularMomentum[at(b)] = spin[at(node)];
     frames[at(b)] = trial[at(b)];
   }
 }

@@ -110,7 +110,7 @@ inline double spreadOf(const Mat3d& I) {
 ///   dS/dw = I + dt/2 ([w] I - [I w]) + beta dt^2 (w.y + w y^T + w (I w)^T - |w|^2 I - 2 y w^T),   y = I w,
 /// each step halved until the residual falls. Where moments differ by orders of magnitude the fixed-point iteration
 /// with I alone diverges although the motion is slow.
-inline Vec3d twistOfSpin(const Mat3d& I, const Vec3d& S, const Vec3d& guess, double dt) {
+inline Vec3d angularVelocityOf(const Mat3d& I, const Vec3d& S, const Vec3d& guess, double dt) {
   Vec3d w = guess;
   const auto residual = [&](const Vec3d& v) { return S - (I * v + gyroscopicMomentum(I, v, dt)); };
   Vec3d r = residual(w);

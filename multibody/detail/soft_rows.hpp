@@ -2,6 +2,7 @@
 #pragma once
 
 #include "multibody/detail/constraint_system.hpp"
+#include "multibody/state.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #include "runs/bench/multibody.hpp"
 
 #include "base/exec.hpp"
-#include "multibody/detail/constraint_system.hpp"
+#include "multibody/linear_system.hpp"
 #include "runs/bench/report.hpp"
 #include "runs/support/locations.hpp"
 #include "vehicle/driver.hpp"
@@ -59,20 +59,11 @@ vehicle::DriverOptions driverOptions(double speed) {
 
 void timeParts(const multibody::Model& model, const multibody::State& state, const multibody::Loads& loads,
                const MultibodyBench& bench, VehicleGraphFigures& f) {
-  using namespace multibody::detail;
-  ConstraintSystem system(model);
-  std::vector<multibody::detail::Frame> frames;
-  const std::vector<AxisLaw> laws(system.axes().size());
-  std::vector<Vector6> x(static_cast<std::size_t>(system.nodes()));
-  system.place(state.pose, frames);
-  for (std::size_t k = 0; k < system.constraints().size(); ++k)
-    f.rows += __builtin_popcount(system.hardRowsOf(static_cast<int>(k)));
-  f.batches = system.elimination().batches();
-  f.loops = static_cast<int>(system.elimination().articulation().closings.size());
-  const ConstraintSystem::Part& whole = system.parts().front();
-  f.linearise =
-      timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.linearise(whole, frames, laws); }); });
-  f.solve = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.solve(whole, x); }); });
+  multibody::LinearSystem system(model);
+  system.place(state);
+  f.rows = system.hardRows(), f.batches = system.batches(), f.loops = system.loops();
+  f.linearise = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.factor(); }); });
+  f.solve = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.solve(); }); });
 
   // Two tolerances ask for different numbers of iterations at the same state.
   const auto stepped = [&](double tolerance, double& iterations) {
@@ -171,7 +162,7 @@ RingFigures benchRings(int shoes, const MultibodyBench& bench) {
   f.shoes = shoes;
   const multibody::Model model = ringsAndHull(shoes);
   f.bodies = static_cast<int>(model.bodies().size());
-  f.multiplications = multibody::detail::ConstraintSystem(model).elimination().multiplications();
+  f.multiplications = multibody::LinearSystem(model).multiplications();
   multibody::Solver solver(model);
   multibody::State state = multibody::makeState(model);
   const multibody::Loads loads = multibody::makeLoads(model);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/mechanism_output.hpp"
 
+#include "multibody/readings.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Keys and checks of [run].
 #include "runs/scene/detail/section_lists.hpp"
 
-#include "multibody/solver.hpp"
+#include "multibody/solver_options.hpp"
 
 #include <fmt/format.h>
 

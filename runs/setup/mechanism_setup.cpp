@@ -16,8 +16,8 @@ namespace {
 /// Steps of a period or turn that "auto" gives [-], and the longest step it gives [s].
 constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
 /// The same of swings on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves room for
-/// forty times the pull of the start [-].
-constexpr double kStepsPerSwingOnPull = 20;
+/// forty times the tension of the start [-].
+constexpr double kStepsPerTensionSwing = 20;
 /// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
 constexpr double kRoundedRate = 1e-12;
 
@@ -29,9 +29,9 @@ struct Start {
     beginMotion(setup, solver, state, loads);
   }
   /// Shortest period of all springs and bushings against the masses [s]; infinite without any.
-  double shortestSwing() { return 2 * base::kPi / solver.stableTurn() * solver.stableStep(state, loads); }
+  double shortestSwing() { return 2 * base::kPi / solver.stabilityLimit() * solver.stableStep(state, loads); }
   /// The same of bodies that hang on taut joints and springs.
-  double shortestSwingOnPull() { return 2 * base::kPi / solver.geometricStiffnessRate(state, loads); }
+  double shortestTensionSwing() { return 2 * base::kPi / solver.geometricStiffnessRate(state, loads); }
 
   const MechanismSetup setup;
   multibody::State state;
@@ -43,7 +43,7 @@ double automaticTimeStep(const scene::Scene& scene) {
   Start start(scene);
   double shortest = std::min(kStepsPerPeriod * kLongestStep, start.shortestSwing());
   for (const multibody::Twist& V : start.state.twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
-  shortest = std::min(shortest, kStepsPerPeriod / kStepsPerSwingOnPull * start.shortestSwingOnPull());
+  shortest = std::min(shortest, kStepsPerPeriod / kStepsPerTensionSwing * start.shortestTensionSwing());
   // Rows fall on whole steps.
   const double row = scene.run.outputInterval;
   return row / std::ceil(kStepsPerPeriod * row / shortest);
@@ -92,7 +92,8 @@ double mechanismTimeStep(const scene::Scene& scene) {
 std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep) {
   Start start(scene);
   std::string part;
-  const double most = start.solver.stableTurn() / start.solver.geometricStiffnessRate(start.state, start.loads, &part);
+  const double most =
+      start.solver.stabilityLimit() / start.solver.geometricStiffnessRate(start.state, start.loads, &part);
   if (timeStep < most) return "";
   return fmt::format("{}: run.time_step = {:g} s: at the start {} bears so much that swings across it grow with steps "
                      "above {:.2g} s, after the least push; choose a shorter step, or \"auto\"",

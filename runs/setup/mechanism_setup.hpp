@@ -27,7 +27,7 @@ MechanismSetup mechanismSetup(const scene::Scene& scene);
 multibody::SolverOptions solverOptions(const scene::RunSettings& run);
 
 /// Brings `state`, as the model says it, and `loads` to the start: gravity, and velocities that fit joints and drives.
-/// Returns the kinetic energy that the drives gave in a blow, since the velocities did not fit theirs [J].
+/// Returns the kinetic energy that the drives gave in an impact, since the velocities did not fit theirs [J].
 double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multibody::State& state,
                    multibody::Loads& loads);
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "multibody/readings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,10 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A stable step is inverse to the root of the pull. It is looked at again when this share of what the step bears is
-/// reached, but not before the pull has grown by the second, which a swing beyond it needs to make itself felt, and
+/// A stable step is inverse to the root of the tension. It is checked again when this share of what the step bears is
+/// reached, but not before the tension has grown by the second, which a swing beyond it needs to make itself felt, and
 /// when it has grown by the third: poses change too [-].
-constexpr double kPullShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
+constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
 } // namespace
 
@@ -38,24 +39,25 @@ void Mechanism::advance() {
   worst_.position = std::max(worst_.position, report.maxPositionError);
   worst_.iterations = std::max(worst_.iterations, report.iterations);
   worst_.singularSteps += report.singularRows > 0;
-  if (tensionStepWarning_.empty()) watchPull();
+  if (tensionStepWarning_.empty()) watchTension();
 }
 
 /// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
 /// The first that the step does not bear is kept, not the worst: what comes later holds the forces of the swing itself.
-void Mechanism::watchPull() {
-  double pull = 0;
-  for (const multibody::JointReading& joint : state_.joint) pull = std::max(pull, norm(joint.force));
-  for (const multibody::SpringReading& spring : state_.spring) pull = std::max(pull, std::fabs(spring.force));
-  if (!(pull > boundedPull_)) return;
-  const double most = lookAtPull();
-  boundedPull_ = pull * std::clamp(kPullShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
+void Mechanism::watchTension() {
+  double force = 0;
+  for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
+  for (const multibody::SpringReading& spring : state_.spring) force = std::max(force, std::fabs(spring.force));
+  if (!(force > boundedTension_)) return;
+  const double most = checkTension();
+  boundedTension_ =
+      force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
 }
 
-/// The longest step that bears the pull of now [s].
-double Mechanism::lookAtPull() {
+/// The longest step that bears the tension of now [s].
+double Mechanism::checkTension() {
   std::string part;
-  const double most = stableStepOnPull(&part);
+  const double most = stableStepUnderTension(&part);
   if (timeStep_ >= most)
     tensionStepWarning_ =
         fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
@@ -63,7 +65,7 @@ double Mechanism::lookAtPull() {
 }
 
 const std::string& Mechanism::tensionStepWarning() {
-  if (tensionStepWarning_.empty()) lookAtPull();
+  if (tensionStepWarning_.empty()) checkTension();
   return tensionStepWarning_;
 }
 

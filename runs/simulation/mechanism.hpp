@@ -43,16 +43,16 @@ public:
   };
   Ledger ledger() const;
 
-  /// Kinetic energy that the drives gave in a blow, since the velocities of the scene did not fit theirs [J].
+  /// Kinetic energy that the drives gave in an impact, since the velocities of the scene did not fit theirs [J].
   double startBlow() const { return startBlow_; }
 
-  /// Up to which step such a swing does not grow [s]; infinite where nothing pulls. `part`, if given, receives the name
-  /// of what has the greatest part in it.
-  double stableStepOnPull(std::string* part = nullptr) {
-    return solver_.stableTurn() / solver_.geometricStiffnessRate(state_, loads_, part);
+  /// Up to which step a swing across the tension of joints and springs does not grow [s]; infinite without. `part`, if
+  /// given, receives the name of what has the greatest part in it.
+  double stableStepUnderTension(std::string* part = nullptr) {
+    return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
-  /// When and where the pull of joints and springs first asked for a shorter step, and for which; empty: nowhere, nor
-  /// does it now.
+  /// When and where the tension of joints and springs first asked for a shorter step, and for which; empty: nowhere,
+  /// nor does it now.
   const std::string& tensionStepWarning();
 
   /// How well the joints are closed.
@@ -70,8 +70,8 @@ public:
   void restore(const MechanismState& saved);
 
 private:
-  void watchPull();
-  double lookAtPull();
+  void watchTension();
+  double checkTension();
 
   const double timeStep_;
   const multibody::Model model_;
@@ -80,7 +80,7 @@ private:
   multibody::Solver solver_;
   double startBlow_;
   Drift worst_;
-  double boundedPull_ = 0; ///< up to this force in joints and springs the step is short enough [N]
+  double boundedTension_ = 0; ///< up to this force in joints and springs the step is short enough [N]
   std::string tensionStepWarning_;
 };
 

@@ -2,6 +2,7 @@
 #include "runs/simulation/vehicle_rig.hpp"
 
 #include "base/error.hpp"
+#include "multibody/readings.hpp"
 
 #include <fmt/format.h>
 

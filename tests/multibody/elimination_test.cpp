@@ -140,8 +140,8 @@ TEST(MultibodyElimination, SolvesATreeOfAllKindsOfJoints) {
   // Two trees, one on the world: fixed, revolute, universal, spherical, prismatic, cylindrical; a branch of three.
   MadeUpSystem s(9, {joint(-1, 0, 0x3f), joint(0, 1), joint(2, 1, 0x0f), joint(1, 3, 0x07), joint(1, 4, 0x1f, 0x23),
                      joint(4, 5, 0x0f, 0x23), joint(6, 7), joint(8, 7)});
-  EXPECT_EQ(s.e.articulation().independent, 2);
-  EXPECT_TRUE(s.e.articulation().closings.empty());
+  EXPECT_EQ(s.e.tree().independent, 2);
+  EXPECT_TRUE(s.e.tree().loops.empty());
   for (int c = 0; c < 8; ++c) s.addJoint(c, {}, s.edges[static_cast<std::size_t>(c)].hard);
   EXPECT_LT(s.residual(), 1e-12);
 }
@@ -161,7 +161,7 @@ TEST(MultibodyElimination, SolvesABranchedGraphWithLoopsSpringsAndTwoParts) {
   MadeUpSystem s(9, {joint(-1, 0, 0x01), joint(0, 1, 0x01), joint(1, 2, 0x01), joint(2, 0, 0x01), joint(2, 3, 0x01),
                      joint(2, 4, 0x01), joint(2, 5, 0x01), joint(5, 6, 0x01), joint(6, 3, 0x01), joint(7, 8, 0x01),
                      joint(8, -1, 0x01), other({4, 1}), other({6, -1}), other({3, 4, 5, 8})});
-  EXPECT_EQ(s.e.articulation().independent, 1) << "the last constraint joins the parts";
+  EXPECT_EQ(s.e.tree().independent, 1) << "the last constraint joins the parts";
   for (int c = 0; c < 11; ++c) s.addJoint(c, {0, 0.3, 0.1, 0.2, 0.3, 0.5}, 0x3f);
   s.addOther(11, {0.4, 0, 0, 0, 0, 0}, 0x01);
   s.addOther(12, {0.4, 0.3, 0.2, 0.2, 0.5, 0.6}, 0x3f);
@@ -179,7 +179,7 @@ TEST(MultibodyElimination, SolvesNestedAndNeighbouringLoops) {
   graph.push_back(joint(12, 5, 0x07));
   graph.push_back(joint(11, 0, 0x07));
   MadeUpSystem s(13, graph);
-  EXPECT_EQ(s.e.articulation().closings.size(), 6u);
+  EXPECT_EQ(s.e.tree().loops.size(), 6u);
   for (int c = 0; c < static_cast<int>(graph.size()); ++c)
     s.addJoint(c, {0, 0, 0, 0, 0, 0.2}, graph[static_cast<std::size_t>(c)].hard | (c % 2 ? 0x20u : 0u));
   EXPECT_LT(s.residual(), 1e-10);
@@ -240,9 +240,9 @@ TEST(MultibodyElimination, WorkForARingIsLinearInItsLinks) {
 
 TEST(MultibodyElimination, ARingIsTakenApartOppositeItsWeakestJoint) {
   const Elimination e(46, ring(46));
-  ASSERT_EQ(e.articulation().closings.size(), 1u);
-  EXPECT_EQ(e.articulation().closings[0].constraint, 0);
-  EXPECT_EQ(e.articulation().closings[0].path.size(), 45u);
+  ASSERT_EQ(e.tree().loops.size(), 1u);
+  EXPECT_EQ(e.tree().loops[0].constraint, 0);
+  EXPECT_EQ(e.tree().loops[0].path.size(), 45u);
   // Two branches of 22 and 23 links side by side, and the root.
   EXPECT_EQ(e.batches(), 24);
 }

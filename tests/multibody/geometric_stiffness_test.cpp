@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Swings on the pull of joints and springs: their rate in closed form, and the steps that they bear.
+// Swings across the tension of joints and springs: their rate in closed form, and the steps that they bear.
 #include "base/error.hpp"
 #include "benchmarks.hpp"
 
@@ -54,7 +54,7 @@ Mechanism beadedString(int beads, double mass, double pitch, double force, bool 
   return m;
 }
 
-TEST(Pull, TautStringOfBeadsSwingsAsItsClosedFormSays) {
+TEST(GeometricStiffness, TautStringOfBeadsSwingsAsItsClosedFormSays) {
   // Highest of the N modes: omega^2 = 2 T / (m l) (1 - cos(pi N / (N + 1))).
   for (const bool springs : {false, true})
     for (const double force : {1e-3, 1e2, 1e7})
@@ -82,7 +82,7 @@ Mechanism rodWithWeight(double weight, bool upright) {
   return m;
 }
 
-TEST(Pull, PendulumSwingsAndAnUprightOneFallsAtTheSameRate) {
+TEST(GeometricStiffness, PendulumSwingsAndAnUprightOneFallsAtTheSameRate) {
   // omega^2 = g (m l / 2 + M l) / (I + m l^2 / 4 + M l^2); one mode, so that only the derivative's error is left.
   for (const double weight : {1e-3, 1.0, 1e6}) {
     const double expected = std::sqrt(9.81 * (2 * 0.4 + weight * 0.8) / (0.11 + 2 * 0.16 + weight * 0.64));
@@ -110,13 +110,13 @@ Mechanism chainWithWeight(double weight) {
   return m;
 }
 
-TEST(Pull, ChainBearsStepsUpToTheStatedOneAndNoLongerOnes) {
+TEST(GeometricStiffness, ChainBearsStepsUpToTheStatedOneAndNoLongerOnes) {
   for (const double weight : {1.0, 1e2, 1e4, 1e6})
     for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle})
       for (const double share : {0.95, 1.05}) {
         Mechanism m = chainWithWeight(weight);
         Solver solver(m.model, scheme(integrator));
-        const double dt = share * solver.stableTurn() / solver.geometricStiffnessRate(m.state, m.loads);
+        const double dt = share * solver.stabilityLimit() / solver.geometricStiffnessRate(m.state, m.loads);
         // It swings as a whole to twice the 1 mrad that gravity leans; what grows bends the pins.
         double widest = 0;
         try {
@@ -134,7 +134,7 @@ TEST(Pull, ChainBearsStepsUpToTheStatedOneAndNoLongerOnes) {
       }
 }
 
-TEST(Pull, NamesWhatIsTautAndIsZeroWhereNothingPulls) {
+TEST(GeometricStiffness, NamesWhatIsUnderTensionAndIsZeroWithoutForces) {
   std::string part = "left as it was";
   Mechanism slack = beadedString(3, 1, 0.3, 0, false);
   EXPECT_EQ(rateOf(slack, &part), 0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/math.hpp"
+#include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
 
 #include <string>

@@ -61,7 +61,7 @@ TEST_P(MultibodyRing, PerturbedLinkKeepsMomentumAndEnergy) {
   Mechanism m = ring(spec);
   Solver solver(m.model);
   const double dt = 1e-4;
-  // A blow of 3 N s on one link, in the plane and beside its centre.
+  // An impulse of 3 N s on one link, in the plane and beside its centre.
   m.loads.external[5] = {{2e4, 0, 2.2e4}, {0, 30, 0}};
   solver.step(m.state, m.loads, dt);
   m.loads.external[5] = {};

@@ -214,7 +214,7 @@ TEST(TimeLaws, RateAndIntegralBelongToTheValue) {
 
 TEST(TimeLaws, ATableOfPositionsBeginsAndEndsAtRest) {
   const TimeLaw law{{}, {}, {{0, 1, 2, 3}, {0, 0.5, 0.2, 0.2}}, {}};
-  // From both sides of the ends, and of every time between: a jump of the rate would be a blow.
+  // From both sides of the ends, and of every time between: a jump of the rate would be an impact.
   for (const double t : {0.0, 1.0, 2.0, 3.0}) {
     const double before = law.rate(t - 1e-9), after = law.rate(t + 1e-9); // curvature of 10 times 2e-9
     EXPECT_NEAR(before, after, 1e-7) << t;

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ void solveReactions(const ConstraintSystem& system, const Model& model, const Co
     const int b = system.bodyOf(node);
     const Wrench& wrench = loads.external[at(b)];
     set(x[at(node)], wrench.force + model.bodies()[at(b)].mass * loads.gravity,
-        wrench.torque - cross(state.twist[at(b)].w, state.spinMomentum[at(b)]));
+        wrench.torque - cross(state.twist[at(b)].w, state.angularMomentum[at(b)]));
   }
   for (const int k : part.constraints) {
     double bias[6];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody/detail/articulation.hpp"
+#include "multibody/detail/spanning_tree.hpp"
 
 #include "multibody/detail/index.hpp"
 
@@ -29,15 +29,15 @@ public:
     reached_.assign(at(bodies), 0);
   }
 
-  Articulation build() {
+  SpanningTree build() {
     std::vector<int> level = reach({}, worldJoints_, 0);
     grow(level);
     for (int root = pickRoot(); root >= 0; root = pickRoot()) {
       reached_[at(root)] = 1;
       grow({root});
     }
-    findClosings();
-    orderClosings();
+    findLoops();
+    orderLoops();
     countIndependent();
     return std::move(result_);
   }
@@ -56,7 +56,7 @@ private:
     const auto offer = [&](int k, int parent) {
       const int child = otherBody(k, parent);
       if (child < 0 || reached_[at(child)] == 1) return;
-      Articulation::Link& link = result_.links[at(child)];
+      SpanningTree::Link& link = result_.links[at(child)];
       if (reached_[at(child)] == 0) {
         reached_[at(child)] = 2;
         next.push_back(child);
@@ -121,16 +121,16 @@ private:
     return distance;
   }
 
-  void findClosings() {
+  void findLoops() {
     const auto& links = result_.links;
     std::vector<char> inTree(edges_.size(), 0);
-    for (const Articulation::Link& link : links)
+    for (const SpanningTree::Link& link : links)
       if (link.joint >= 0) inTree[at(link.joint)] = 1;
     std::vector<int> passes(links.size(), 0);
     for (int k = 0; k < static_cast<int>(edges_.size()); ++k) {
       if (inTree[at(k)]) continue;
-      Articulation::Closing closing;
-      closing.constraint = k;
+      SpanningTree::Loop loop;
+      loop.constraint = k;
       const std::set<int> own(edges_[at(k)].bodies.begin(), edges_[at(k)].bodies.end());
       // A body passed by all of them, first met from below, is the top; the world is passed by all.
       std::vector<int> met;
@@ -139,43 +139,40 @@ private:
           if (++passes[at(i)] == 1) met.push_back(i);
       const int ends = static_cast<int>(own.size());
       for (const int i : met)
-        if (passes[at(i)] == ends && (closing.top < 0 || links[at(i)].depth > links[at(closing.top)].depth))
-          closing.top = i;
+        if (passes[at(i)] == ends && (loop.top < 0 || links[at(i)].depth > links[at(loop.top)].depth)) loop.top = i;
       for (const int i : met)
-        if (passes[at(i)] < ends) closing.path.push_back(i);
+        if (passes[at(i)] < ends) loop.path.push_back(i);
       for (const int i : met) passes[at(i)] = 0;
-      result_.closings.push_back(std::move(closing));
+      result_.loops.push_back(std::move(loop));
     }
   }
 
   /// Deepest tops first; among these the one that couples the fewest others.
-  void orderClosings() {
-    std::vector<Articulation::Closing>& closings = result_.closings;
+  void orderLoops() {
+    std::vector<SpanningTree::Loop>& loops = result_.loops;
     std::vector<std::vector<int>> passing(result_.links.size());
-    for (int z = 0; z < static_cast<int>(closings.size()); ++z)
-      for (const int b : closings[at(z)].path) passing[at(b)].push_back(z);
-    std::vector<std::set<int>> neighbours(closings.size());
+    for (int z = 0; z < static_cast<int>(loops.size()); ++z)
+      for (const int b : loops[at(z)].path) passing[at(b)].push_back(z);
+    std::vector<std::set<int>> neighbours(loops.size());
     for (const auto& group : passing)
       for (const int z : group)
         for (const int other : group)
           if (other != z) neighbours[at(z)].insert(other);
 
-    const auto depthOf = [&](int z) {
-      return closings[at(z)].top < 0 ? -1 : result_.links[at(closings[at(z)].top)].depth;
-    };
+    const auto depthOf = [&](int z) { return loops[at(z)].top < 0 ? -1 : result_.links[at(loops[at(z)].top)].depth; };
     std::set<int> left;
-    for (int z = 0; z < static_cast<int>(closings.size()); ++z) left.insert(z);
+    for (int z = 0; z < static_cast<int>(loops.size()); ++z) left.insert(z);
     std::set<std::tuple<int, std::size_t, int>> queue;
     const auto key = [&](int z) { return std::make_tuple(-depthOf(z), neighbours[at(z)].size(), z); };
     for (const int z : left) queue.insert(key(z));
-    std::vector<int> order, place(closings.size(), 0);
+    std::vector<int> order, place(loops.size(), 0);
     while (!queue.empty()) {
       const int z = std::get<2>(*queue.begin());
       queue.erase(queue.begin());
       place[at(z)] = static_cast<int>(order.size());
       order.push_back(z);
       const std::vector<int> around(neighbours[at(z)].begin(), neighbours[at(z)].end());
-      closings[at(z)].neighbours = around;
+      loops[at(z)].neighbours = around;
       for (const int i : around) {
         queue.erase(key(i));
         neighbours[at(i)].erase(z);
@@ -184,13 +181,13 @@ private:
         queue.insert(key(i));
       }
     }
-    std::vector<Articulation::Closing> sorted;
+    std::vector<SpanningTree::Loop> sorted;
     for (const int z : order) {
-      for (int& n : closings[at(z)].neighbours) n = place[at(n)];
-      std::sort(closings[at(z)].neighbours.begin(), closings[at(z)].neighbours.end());
-      sorted.push_back(std::move(closings[at(z)]));
+      for (int& n : loops[at(z)].neighbours) n = place[at(n)];
+      std::sort(loops[at(z)].neighbours.begin(), loops[at(z)].neighbours.end());
+      sorted.push_back(std::move(loops[at(z)]));
     }
-    closings = std::move(sorted);
+    loops = std::move(sorted);
   }
 
   void countIndependent() {
@@ -215,11 +212,13 @@ private:
   std::vector<std::vector<int>> jointsOf_;
   std::vector<int> worldJoints_;
   std::vector<char> reached_; ///< 2: in this round
-  Articulation result_;
+  SpanningTree result_;
 };
 
 } // namespace
 
-Articulation takeApart(int bodies, const std::vector<ConstraintEdge>& edges) { return Builder(bodies, edges).build(); }
+SpanningTree findSpanningTree(int bodies, const std::vector<ConstraintEdge>& edges) {
+  return Builder(bodies, edges).build();
+}
 
 } // namespace grouser::multibody::detail

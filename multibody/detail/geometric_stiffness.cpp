@@ -13,15 +13,15 @@
 #include <cstddef>
 #include <limits>
 
-/// The stiffness of pull. Rows of constraints and springs turn with the bodies, so that forces lambda along them change
+/// Rows of constraints and springs turn with the bodies, so that forces lambda along them change
 /// with the positions q even where they keep their size:
 ///
 ///   f(q) = J(q)^T lambda,    K u = -d/ds f(q + s u),
 ///
 /// the geometric stiffness of structures under load: a link in a chain under the tension T is turned back by T times
 /// its length. Both integrators take the directions of f at the beginning of a step. With A the mobility that the
-/// constraints leave and omega^2 an eigenvalue of A K, a swing on the pull therefore bears steps up to 2 / omega, as
-/// one on explicit springs does; springs that are implicit along themselves only add to the mass there.
+/// constraints leave and omega^2 an eigenvalue of A K, a swing across the tension therefore bears steps up to 2 /
+/// omega, as one on explicit springs does; springs that are implicit along themselves only add to the mass there.
 namespace grouser::multibody::detail {
 
 namespace {
@@ -33,11 +33,11 @@ constexpr double kTurn = 1e-4;
 constexpr int kIterations = 200, kLeastIterations = 12;
 constexpr double kSettled = 1e-5;
 
-class PullStiffness {
+class GeometricStiffness {
 public:
-  PullStiffness(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
-                const std::vector<Pose>& poses, const Pull& pull)
-      : system_(system), model_(model), part_(part), poses_(poses), pull_(pull), work_(pull.size(), 0.0) {
+  GeometricStiffness(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                     const std::vector<Pose>& poses, const RowForces& forces)
+      : system_(system), model_(model), part_(part), poses_(poses), forces_(forces), work_(forces.size(), 0.0) {
     system.place(poses, frames_);
     for (const int k : part.constraints) {
       const Constraint& c = system.constraints()[at(k)];
@@ -47,9 +47,9 @@ public:
     }
   }
 
-  bool pulls() const {
+  bool loaded() const {
     return std::any_of(part_.constraints.begin(), part_.constraints.end(), [&](int k) {
-      return std::any_of(pull_[at(k)].begin(), pull_[at(k)].end(), [](double force) { return force != 0; });
+      return std::any_of(forces_[at(k)].begin(), forces_[at(k)].end(), [](double force) { return force != 0; });
     });
   }
 
@@ -111,8 +111,8 @@ private:
     const RowDirections rows = rowDirections(c, f);
     Vec3d force, torque;
     for (std::size_t r = 0; r < 6; ++r) {
-      force += share * pull_[at(k)][r] * rows.force[r];
-      torque += share * pull_[at(k)][r] * rows.torque[r];
+      force += share * forces_[at(k)][r] * rows.force[r];
+      torque += share * forces_[at(k)][r] * rows.torque[r];
     }
     const auto act = [&](int node, const Vec3d& F, const Vec3d& M) {
       if (node < 0) return;
@@ -127,7 +127,7 @@ private:
   const Model& model_;
   const ConstraintSystem::Part& part_;
   const std::vector<Pose>& poses_;
-  const Pull& pull_;
+  const RowForces& forces_;
   std::vector<Frame> frames_;
   std::vector<Vector6> motion_;
   std::vector<double> work_;                                  ///< one a constraint
@@ -136,9 +136,9 @@ private:
 
 } // namespace
 
-void findPull(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
-              const std::vector<Frame>& frames, const State& state, const Loads& loads, const SoftRows& softRows,
-              std::vector<Vector6>& x, Pull& pull) {
+void findRowForces(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                   const std::vector<Frame>& frames, const State& state, const Loads& loads, const SoftRows& softRows,
+                   std::vector<Vector6>& x, RowForces& forces) {
   std::vector<SoftRow> soft(system.axes().size());
   softRows.evaluate(loads, state.time, 0, soft);
   std::vector<double> force(soft.size(), 0.0);
@@ -153,37 +153,38 @@ void findPull(const ConstraintSystem& system, const Model& model, const Constrai
   solveReactions(system, model, part, frames, state, loads, soft, force, x);
 
   for (const int k : part.constraints) {
-    pull[at(k)] = x[at(system.movableBodies() + k)];
+    forces[at(k)] = x[at(system.movableBodies() + k)];
     for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-      pull[at(k)][at(system.axes()[at(a)].row)] += force[at(a)];
+      forces[at(k)][at(system.axes()[at(a)].row)] += force[at(a)];
   }
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
     const Axis &one = system.axes()[at(row.axis1)], &two = system.axes()[at(row.axis2)];
     const double mu = x[at(system.couplingNode(c))][0];
-    pull[at(two.constraint)][at(two.row)] += mu;
-    pull[at(one.constraint)][at(one.row)] -= row.ratio * mu;
+    forces[at(two.constraint)][at(two.row)] += mu;
+    forces[at(one.constraint)][at(one.row)] -= row.ratio * mu;
   }
 }
 
 /// Power iteration u <- A K u. In the norm of kinetic energy A K is symmetric where forces balance, and |A K u| / |u|
 /// grows to the largest of its eigenvalues in size.
-double fastestOnPull(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
-                     const std::vector<Pose>& poses, const Pull& pull, std::vector<Vector6>& x, int& constraint) {
+double highestGeometricFrequency(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                                 const std::vector<Pose>& poses, const RowForces& forces, std::vector<Vector6>& x,
+                                 int& constraint) {
   constraint = -1;
-  PullStiffness stiffness(system, model, part, poses, pull);
-  if (!stiffness.pulls()) return 0;
+  GeometricStiffness stiffness(system, model, part, poses, forces);
+  if (!stiffness.loaded()) return 0;
 
-  // What blows at random leave behind has a share of every mode.
+  // What random impulses leave behind has a share of every mode. The name is part of the seed.
   stiffness.clear(x);
   for (const int node : part.bodies) {
     const Body& body = model.bodies()[at(system.bodyOf(node))];
-    const auto blow = [&](std::uint64_t i) {
+    const auto impulse = [&](std::uint64_t i) {
       return base::uniform(0, base::purpose("multibody.pull"), static_cast<std::uint64_t>(node), i) - 0.5;
     };
     const Mat3d& I = system.inertia(node);
-    set(x[at(node)], std::sqrt(body.mass) * Vec3d{blow(0), blow(1), blow(2)},
-        std::sqrt(I.m[0][0] + I.m[1][1] + I.m[2][2]) * Vec3d{blow(3), blow(4), blow(5)});
+    set(x[at(node)], std::sqrt(body.mass) * Vec3d{impulse(0), impulse(1), impulse(2)},
+        std::sqrt(I.m[0][0] + I.m[1][1] + I.m[2][2]) * Vec3d{impulse(3), impulse(4), impulse(5)});
   }
   system.solve(part, x);
 

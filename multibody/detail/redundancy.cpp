@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/redundancy.hpp"
+
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
@@ -47,7 +48,7 @@ public:
 
   /// Turns the fastest link by `angle` [rad] along a velocity that the constraints allow: the starting twists made
   /// compatible in attempt 0, a generic one in the others. Returns false if nothing moves.
-  bool wander(const ConstraintSystem::Part& part, int attempt, double angle) {
+  bool perturb(const ConstraintSystem::Part& part, int attempt, double angle) {
     clear(part);
     for (const int node : part.bodies) {
       const Body& body = model_.bodies()[at(system_.bodyOf(node))];
@@ -148,7 +149,7 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
     for (int attempt = 0; attempt < 4; ++attempt) {
       explorer.reset();
       explorer.factor(part);
-      if (!explorer.wander(part, attempt, 0.05 * (1 + attempt))) continue;
+      if (!explorer.perturb(part, attempt, 0.05 * (1 + attempt))) continue;
       if (!explorer.close(part, kWeakPivot) && !explorer.close(part, 1)) continue;
       explorer.factor(part);
       const auto lost = explorer.rowsWithoutPivot(part);

@@ -16,26 +16,26 @@ struct ConstraintEdge {
 };
 
 /// How a mechanism is taken apart: each body hangs on its parent by one joint of a spanning tree; the constraints that
-/// are left close loops. A closing constraint's top is the nearest body that all its bodies hang on, itself included.
-struct Articulation {
+/// are left close loops. A loop constraint's top is the nearest body that all its bodies hang on, itself included.
+struct SpanningTree {
   struct Link {
     int parent = -1; ///< body; -1 is the world or, without a joint, nothing
     int joint = -1;  ///< constraint; -1: the body is free
     int depth = 0;
   };
-  struct Closing {
+  struct Loop {
     int constraint = 0;
     int top = -1;                ///< body; -1 is the world, and what holds free bodies of several trees together
     std::vector<int> path;       ///< bodies between its own and the top, its own included, the top not
-    std::vector<int> neighbours; ///< closings of a later place in the order that it is coupled with
+    std::vector<int> neighbours; ///< loops of a later place in the order that it is coupled with
   };
-  std::vector<Link> links;       ///< one a body
-  std::vector<Closing> closings; ///< in the order of elimination: those with the deepest tops first
-  int independent = 0;           ///< parts of the mechanism that nothing joins
+  std::vector<Link> links; ///< one a body
+  std::vector<Loop> loops; ///< in the order of elimination: those with the deepest tops first
+  int independent = 0;     ///< parts of the mechanism that nothing joins
 };
 
 /// The tree is searched breadth first, from the world, then from the body with the most joints of what is left (among
 /// equals the farthest from the joint with the fewest rows), so that paths are short and weak joints close the loops.
-Articulation takeApart(int bodies, const std::vector<ConstraintEdge>& edges);
+SpanningTree findSpanningTree(int bodies, const std::vector<ConstraintEdge>& edges);
 
 } // namespace grouser::multibody::detail

@@ -14,12 +14,12 @@ namespace grouser::multibody::detail {
 /// iterate and dF of its correction it takes
 ///   gamma = argmin |f - dF gamma|,   z <- z + f - (dZ + dF) gamma.
 /// For a linear problem that is GMRES.
-class Acceleration {
+class AndersonAcceleration {
 public:
   static constexpr std::size_t kMemory = 8;
 
   /// Room for vectors of `size` numbers.
-  explicit Acceleration(std::size_t size) : lastZ_(size), lastF_(size) {
+  explicit AndersonAcceleration(std::size_t size) : lastZ_(size), lastF_(size) {
     for (std::size_t j = 0; j < kMemory; ++j) dZ_[j].resize(size), dF_[j].resize(size), q_[j].resize(size);
   }
 

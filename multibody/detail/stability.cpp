@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody/detail/start.hpp"
+#include "multibody/detail/stability.hpp"
 
 #include "multibody/detail/axis_springs.hpp"
 #include "multibody/detail/index.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "multibody/detail/start.hpp"
+#include "multibody/detail/start_checks.hpp"
 
 #include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/index.hpp"
-#include "multibody/detail/integrator.hpp"
 #include "multibody/detail/vector6.hpp"
+#include "multibody/detail/velocity_projection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +35,6 @@ template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) {
   throw base::InputError(message.str());
 }
 
-bool imposes(const Drive& drive) { return drive.kind != DriveKind::kForce; }
-
 /// Pivot-free axes: nothing but hard rows.
 std::vector<AxisLaw> hardOnly(const ConstraintSystem& system) { return std::vector<AxisLaw>(system.axes().size()); }
 
@@ -44,7 +42,7 @@ std::vector<AxisLaw> hardOnly(const ConstraintSystem& system) { return std::vect
 std::string others(const Model& model, const std::string& drive) {
   std::string text;
   for (const Drive& d : model.drives())
-    if (d.name != drive && d.on && imposes(d)) text += (text.empty() ? "drive '" : ", drive '") + d.name + "'";
+    if (d.name != drive && d.on && imposesMotion(d)) text += (text.empty() ? "drive '" : ", drive '") + d.name + "'";
   for (const Coupling& c : model.couplings()) text += (text.empty() ? "coupling '" : ", coupling '") + c.name + "'";
   return text.empty() ? "joints" : "joints, " + text;
 }
@@ -183,63 +181,72 @@ void checkCouplings(ConstraintSystem& system, const Model& model) {
   }
 }
 
-std::vector<double> driveStart(const ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = system.framesOfModel();
-  std::vector<double> start;
-  for (const Drive& drive : model.drives())
-    start.push_back(system.positionOfAxis(system.axisOf(drive.joint, drive.axis), frames));
-  return start;
+namespace {
+
+/// The part's drives that impose a motion.
+std::vector<int> imposingDrives(const ConstraintSystem& system, const Model& model,
+                                const ConstraintSystem::Part& part) {
+  std::vector<int> drives;
+  for (int d = 0; d < static_cast<int>(model.drives().size()); ++d) {
+    const Drive& drive = model.drives()[at(d)];
+    const int axis = system.axisOf(drive.joint, drive.axis);
+    const bool here = std::find(part.constraints.begin(), part.constraints.end(), system.axes()[at(axis)].constraint) !=
+                      part.constraints.end();
+    if (here && imposesMotion(drive) && drive.on) drives.push_back(d);
+  }
+  return drives;
+}
+
+/// J M^-1 J^T of an axis whose bodies nothing holds; y: what a unit impulse along it gives them.
+double freeMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                    const std::vector<Vector6>& y) {
+  double free = 0;
+  for (const int node : part.bodies) {
+    const Body& body = model.bodies()[at(system.bodyOf(node))];
+    const Mat3d& I = system.inertia(node);
+    free +=
+        norm2(linear(y[at(node)])) / body.mass + norm2(angular(y[at(node)])) * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
+  }
+  return free;
 }
 
 /// Goes through the drives in order: y_d = K^-1 (row d), with joints and couplings held; what the drives before leave
 /// of row d . y_d is the mobility of its axis (Cholesky's pivot).
-void checkDrives(ConstraintSystem& system, const Model& model) {
-  const std::vector<Frame> frames = system.framesOfModel();
-  const std::vector<AxisLaw> laws = hardOnly(system);
-  const std::vector<double> start = driveStart(system, model);
-  for (const ConstraintSystem::Part& part : system.parts()) {
-    std::vector<int> drives;
-    for (int d = 0; d < static_cast<int>(model.drives().size()); ++d) {
-      const Drive& drive = model.drives()[at(d)];
-      const int axis = system.axisOf(drive.joint, drive.axis);
-      const bool here = std::find(part.constraints.begin(), part.constraints.end(),
-                                  system.axes()[at(axis)].constraint) != part.constraints.end();
-      if (here && imposes(drive) && drive.on) drives.push_back(d);
-    }
-    if (drives.empty()) continue;
-    system.linearise(part, frames, laws);
-    std::vector<std::vector<double>> L;
-    for (std::size_t i = 0; i < drives.size(); ++i) {
+void checkMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
+                   const std::vector<int>& drives) {
+  const auto axisOf = [&](int d) {
+    const Drive& drive = model.drives()[at(d)];
+    return system.axes()[at(system.axisOf(drive.joint, drive.axis))];
+  };
+  std::vector<std::vector<double>> L;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const Axis a = axisOf(drives[i]);
+    std::vector<Vector6> y(at(system.nodes()));
+    system.addImpulse(a.constraint, a.row, 1, y);
+    const double free = freeMobility(system, model, part, y);
+    system.solve(part, y);
+    L.emplace_back(i + 1);
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Axis b = axisOf(drives[j]);
+      double s = system.rowTimes(b.constraint, b.row, y);
+      for (std::size_t m = 0; m < j; ++m) s -= L[i][m] * L[j][m];
+      if (j < i) {
+        L[i][j] = s / L[j][j];
+        continue;
+      }
       const Drive& drive = model.drives()[at(drives[i])];
-      const Axis& a = system.axes()[at(system.axisOf(drive.joint, drive.axis))];
-      std::vector<Vector6> y(at(system.nodes())), alone;
-      system.addImpulse(a.constraint, a.row, 1, y);
-      double free = 0;
-      for (const int node : part.bodies) {
-        const Body& body = model.bodies()[at(system.bodyOf(node))];
-        const Mat3d& I = system.inertia(node);
-        free += norm2(linear(y[at(node)])) / body.mass +
-                norm2(angular(y[at(node)])) * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]);
-      }
-      system.solve(part, y);
-      L.emplace_back(i + 1);
-      for (std::size_t j = 0; j <= i; ++j) {
-        const Drive& other = model.drives()[at(drives[j])];
-        const Axis& b = system.axes()[at(system.axisOf(other.joint, other.axis))];
-        double s = system.rowTimes(b.constraint, b.row, y);
-        for (std::size_t m = 0; m < j; ++m) s -= L[i][m] * L[j][m];
-        if (j < i) {
-          L[i][j] = s / L[j][j];
-        } else {
-          if (!(s > kFixedAxis * free))
-            refuse("drive '", drive.name, "': the axis of joint '", model.joints()[at(drive.joint)].name,
-                   "' cannot move on its own: it is already determined by ", others(model, drive.name),
-                   "; leave one of them out, or start away from a dead centre");
-          L[i][i] = std::sqrt(s);
-        }
-      }
+      if (!(s > kFixedAxis * free))
+        refuse("drive '", drive.name, "': the axis of joint '", model.joints()[at(drive.joint)].name,
+               "' cannot move on its own: it is already determined by ", others(model, drive.name),
+               "; leave one of them out, or start away from a dead centre");
+      L[i][i] = std::sqrt(s);
     }
   }
+}
+
+/// Position laws begin where their axes are.
+void checkLawStarts(const ConstraintSystem& system, const Model& model) {
+  const std::vector<double> start = driveStart(system, model);
   for (std::size_t d = 0; d < model.drives().size(); ++d) {
     const Drive& drive = model.drives()[d];
     if (drive.kind != DriveKind::kPosition) continue;
@@ -251,16 +258,18 @@ void checkDrives(ConstraintSystem& system, const Model& model) {
   }
 }
 
-void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads& loads, double t,
-                 std::vector<AxisLaw>& laws) {
-  for (AxisLaw& law : laws) law = {};
-  for (std::size_t d = 0; d < model.drives().size(); ++d) {
-    const Drive& drive = model.drives()[d];
-    if (!loads.drives[d].on || !imposes(drive)) continue;
-    AxisLaw& law = laws[at(system.axisOf(drive.joint, drive.axis))];
-    law.driven = true;
-    law.speed = drive.law.empty() ? loads.drives[d].speed : drivenRate(drive, t);
+} // namespace
+
+void checkDrives(ConstraintSystem& system, const Model& model) {
+  const std::vector<Frame> frames = system.framesOfModel();
+  const std::vector<AxisLaw> laws = hardOnly(system);
+  for (const ConstraintSystem::Part& part : system.parts()) {
+    const std::vector<int> drives = imposingDrives(system, model, part);
+    if (drives.empty()) continue;
+    system.linearise(part, frames, laws);
+    checkMobility(system, model, part, drives);
   }
+  checkLawStarts(system, model);
 }
 
 void checkVelocities(ConstraintSystem& system, const Model& model, double tolerance, bool drives) {
@@ -305,54 +314,6 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
         refuse("coupling '", model.couplings()[at(i)].name, "': the start velocities would open it at ", rate,
                " [m/s or rad/s]; allowed are ", allowed, remedy);
     }
-  }
-}
-
-void checkTwist(const Body& body, const Twist& twist, double time, double dt) {
-  const double turn = std::fabs(dt) * norm(twist.w);
-  if (std::isfinite(norm2(twist.v)) && std::isfinite(norm2(twist.w)) && turn <= kLargestTurn) return;
-  std::ostringstream message;
-  message << "multibody step from t = " << time << " s: ";
-  if (std::isfinite(turn) && turn > kLargestTurn)
-    message << "body '" << body.name << "' turns by " << turn << " rad in a step of " << dt << " s, more than "
-            << kLargestTurn << "; reduce the step, or check the loads on it";
-  else
-    message << "the velocity of body '" << body.name << "' is not finite; check the loads on it";
-  throw base::SimulationError(message.str());
-}
-
-void readRates(const ConstraintSystem& system, State& state) {
-  for (int a = 0; a < static_cast<int>(system.axes().size()); ++a) {
-    const Axis& axis = system.axes()[at(a)];
-    const Constraint& c = system.constraints()[at(axis.constraint)];
-    if (!isJoint(c.kind)) continue;
-    const bool slide = c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow;
-    (slide ? state.slide[at(c.source)].rate : state.joint[at(c.source)].rate) = system.rateOfAxis(a, state.twist);
-  }
-}
-
-void fitTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
-               std::vector<Vector6>& x, std::vector<Twist>& twist) {
-  for (const int node : part.bodies) x[at(node)] = {};
-  for (const int k : part.constraints) {
-    Vector6& residual = x[at(system.movableBodies() + k)];
-    residual = {};
-    for (int r = 0; r < 6; ++r)
-      if (system.hardRowsOf(k) >> r & 1u) residual[at(r)] = -system.rate(k, r, twist);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-      if (laws[at(a)].driven) residual[at(system.axes()[at(a)].row)] = laws[at(a)].speed - system.rateOfAxis(a, twist);
-  }
-  for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
-    x[at(system.couplingNode(c))] = {};
-    x[at(system.couplingNode(c))][0] =
-        row.ratio * system.rateOfAxis(row.axis1, twist) - system.rateOfAxis(row.axis2, twist);
-  }
-  system.solve(part, x);
-  for (const int node : part.bodies) {
-    Twist& V = twist[at(system.bodyOf(node))];
-    V.v += linear(x[at(node)]);
-    V.w += angular(x[at(node)]);
   }
 }
 

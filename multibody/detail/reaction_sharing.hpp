@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/detail/constraint_system.hpp"
+#include "multibody/detail/redundancy.hpp"
+#include "multibody/state.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+/// Reactions of joints that hold more than is needed, by least norm.
+///
+/// Where rows are redundant, what the joints must give, J^T lambda = f, has many solutions: sets n with J^T n = 0 may
+/// be added, which brace the joints against one another and move nothing. The solver leaves redundant rows out, so that
+/// its lambda_0 has zeros there; in terms of rigid bodies nothing tells one solution from another (Wojtyra 2005,
+/// Multibody Syst. Dyn. 14:23). Of all of them this is the one that minimises
+///
+///   sum over joints of |F|^2 + |M / L|^2         F, M: force, and moment about the joint's point, of its hard rows
+///
+/// (a pseudoinverse without a length L would depend on the unit of length: Wojtyra, Pekal and Fraczek 2020, Mech. Mach.
+/// Theory 153:103999). With W = 1 for forces and 1 / L for moments,
+///
+///   lambda = W^-2 J y,   (J^T W^-2 J) y = J^T lambda_0:
+///
+/// what bearings would take that are all alike and all but rigid, 1 against displacement and L^2 against rotation; y is
+/// how far the bodies give. L is the spacing of the joints that share: the root mean square of the distances between
+/// any two of them as the model places them.
+///
+/// Outputs only: works on a system of its own, and nothing of the state is touched.
+class ReactionSharing {
+public:
+  /// `momentLength`: L [m]; 0: the spacing of the joints.
+  ReactionSharing(const Model& model, const Redundancy& redundancy, double momentLength);
+  ~ReactionSharing();
+
+  /// Replaces the reactions of joints that share, one a joint, given as the solver reads them at `state`.
+  void share(const State& state, std::vector<JointReaction>& reactions);
+
+private:
+  struct Group;
+  void addGroups(const Redundancy& redundancy, double momentLength);
+  void startGroup(Group& group, const std::vector<JointReaction>& reactions);
+  void solveGroup(Group& group);
+
+  ConstraintSystem system_;
+  std::vector<AxisLaw> laws_; ///< one an axis: free
+  std::vector<Frame> frames_; ///< one a body, the world last
+  std::vector<Vector6> x_;    ///< one a node
+  std::vector<std::unique_ptr<Group>> groups_;
+};
+
+} // namespace grouser::multibody::detail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/detail/constraint_system.hpp"
+#include "multibody/state.hpp"
+
+#include <vector>
+
+namespace grouser::multibody::detail {
+
+/// Laws for linearise() in which nothing but the imposed axes is active, their rates at time t as `speed`.
+void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads& loads, double t,
+                 std::vector<AxisLaw>& laws);
+
+/// Change of the twists of one part, at a linearised system, that makes them fit the rows: solves
+///   M dv - J^T dLambda = 0,   J (v + dv) = rate of the laws (0 on hard rows and couplings).
+/// Adds dv to `twist`; the impulses stay in `x`.
+void projectTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
+                   std::vector<Vector6>& x, std::vector<Twist>& twist);
+
+/// Rates of the joints' axes at a linearised system.
+void readRates(const ConstraintSystem& system, State& state);
+
+} // namespace grouser::multibody::detail
