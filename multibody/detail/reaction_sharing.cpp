@@ -74,7 +74,7 @@ struct ReactionSharing::Group {
   struct Row {
     int constraint = 0, row = 0;
     int body_A = -1, body_B = -1; ///< in `nodes`; -1: immovable
-    Eigen::Matrix<double, 6, 1> onA, onB;
+    Eigen::Matrix<double, 6, 1> onA = Eigen::Matrix<double, 6, 1>::Zero(), onB = onA;
     bool moment = false;
     double start = 0, mu = 0; ///< W lambda as the solver left it, and as shared
   };

@@ -3,6 +3,7 @@
 
 #include "base/enum_words.hpp"
 #include "base/peer_memory.hpp"
+#include "multibody/model.hpp"
 #include "multibody/solver_options.hpp"
 #include "runs/support/device_choice.hpp"
 #include "terrain/grain_model.hpp"
