@@ -114,7 +114,7 @@ struct Loads {
 State makeState(const Model& model);
 /// No wrenches, all factors 1, drives as the model says.
 Loads makeLoads(const Model& model);
-/// Sets a body's velocity (the spin momentum follows it).
+/// Sets a body's velocity (its angular momentum follows).
 void setTwist(const Model& model, State& state, int body, const Twist& twist);
 
 } // namespace grouser::multibody

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/rattle_step.hpp"
 
-#include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
@@ -10,25 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <sstream>
 
-/// First half of a stage of RATTLE (the scheme is in rattle_step.cpp): u and Lambda such that C(q_1) = 0.
+/// First half of a stage of RATTLE (the scheme is in rattle_step.cpp), u and Lambda such that C(q_1) = 0: its unknowns
+/// and residuals. rattle_phases.cpp solves for them.
 namespace grouser::multibody::detail {
 
 namespace {
-
-/// Gaps are not closed further than this part of the coordinates.
-constexpr double kRoundOff = 5e-16;
-
-/// In units of the tolerance: up to where a gap that iterations no longer reduce is round-off, which a long loop sums
-/// up; and the gap that is accepted when no phase is left to try (1e-12 m or rad by default).
-constexpr double kNearTolerance = 1e2, kAcceptable = 1e3;
-
-/// Of an iteration, new gap over the one before. Newton's method with the matrix of the start takes a gap down by
-/// h |w|, some 1e-2 in a step that is worth taking: above a fifth something else than curvature is at work, and help
-/// costs less than going on. Round-off does not even halve it.
-constexpr double kSlowConvergence = 0.2, kStalled = 0.5;
 
 /// Of soft rows, in units of the row's own J M^-1 J^T: inverse compliance that a row which lets go keeps, so that its
 /// impulse can vanish; and change, as a part of both together, that Newton's method tolerates without a new matrix.
@@ -89,41 +75,6 @@ bool RattleStep::updateAxes(const Part& part, double h) {
   return follow;
 }
 
-void RattleStep::solvePositions(const Part& part, const State& state, const Loads& loads, double h) {
-  PositionSolve solve;
-  solve.tolerance = gapTolerance(part, state);
-  startAxes(part, state, h);
-  solve.lost = positionsFactored(part) ? 0 : linearise(part, frames);
-  factored[at(part.index)] = -1;
-  relinearised[at(part.index)] = 0;
-  predictSoftRows(part, h);
-  setFirstResidual(part, state, loads, h);
-  setResiduals(part, h);
-
-  mixing.reset();
-  for (bool solved = false; !solved;) {
-    iterate(part, state, h, solve);
-    solved = advance(part, state, loads, h, solve);
-    if (solved || solve.phase != Phase::kEachIterate) continue;
-    const int lostHere = solve.since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial);
-    solve.lost = std::max(solve.lost, lostHere);
-  }
-  // Also of rows that had no pivot.
-  if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
-  last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
-  collectMomentum(part, state, loads, h);
-}
-
-/// Below a few units in the last place of the coordinates there is nothing to gain.
-double RattleStep::gapTolerance(const Part& part, const State& state) const {
-  double scale = 0;
-  for (const int node : part.bodies) {
-    const Vec3d& p = state.pose[at(system.bodyOf(node))].position;
-    scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  }
-  return std::max(options.positionTolerance, kRoundOff * scale);
-}
-
 /// First iterate: the twists of the node; where axes are then, and how soft.
 void RattleStep::startAxes(const Part& part, const State& state, double h) {
   for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
@@ -151,84 +102,6 @@ void RattleStep::predictSoftRows(const Part& part, double h) {
       if (laws[at(a)].inverseCompliance != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
       if (soft[at(a)].driven) startRate[at(a)] = system.rateOfAxis(a, mean);
     }
-}
-
-/// One iteration of Newton's method, and how it went.
-void RattleStep::iterate(const Part& part, const State& state, double h, PositionSolve& solve) {
-  system.solve(part, x);
-  if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
-  applyCorrection(part, h);
-  moveTrial(part, state, h);
-  solve.follow = updateAxes(part, h);
-  solve.gap = setResiduals(part, h);
-  solve.open = gapOf[at(part.index)];
-  ++solve.iterations, ++solve.since;
-  last.iterations = std::max(last.iterations, solve.iterations);
-
-  // A little above the tolerance and not getting better is round-off.
-  const bool atRoundOff =
-      std::min(solve.best, solve.gap) <= kNearTolerance * solve.tolerance && solve.gap > kStalled * solve.before;
-  solve.done = !solve.follow && (solve.gap <= solve.tolerance || atRoundOff);
-  solve.slow = solve.since > 1 && !(solve.gap <= kSlowConvergence * solve.before);
-  solve.best = std::min(solve.best, solve.gap);
-  solve.before = solve.gap;
-}
-
-/// What to do after an iteration: returns whether the stage's positions are found, or enters the next phase.
-bool RattleStep::advance(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve) {
-  switch (solve.phase) {
-  case Phase::kAllRows:
-    return advanceAllRows(part, state, loads, h, solve);
-  case Phase::kWithoutWeakRows:
-    advanceWithoutWeakRows(part, solve);
-    return false;
-  case Phase::kMixed:
-    if (solve.done && solve.open <= kNearTolerance * solve.tolerance) return true;
-    if (solve.done || solve.since >= 2 * options.maxIterations || !std::isfinite(solve.gap))
-      solve.enter(Phase::kEachIterate);
-    return false;
-  case Phase::kEachIterate:
-    break;
-  }
-  if (solve.done) return true;
-  if (solve.since < 2 * options.maxIterations) return false;
-  // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
-  if (!(solve.gap <= (solve.lost > 0 ? kGapFailure : kAcceptable * solve.tolerance))) fail(part, state, solve.gap, h);
-  return true;
-}
-
-/// All rows, with the matrix of the start of the stage: all that nearly every step needs.
-bool RattleStep::advanceAllRows(const Part& part, const State& state, const Loads& loads, double h,
-                                PositionSolve& solve) {
-  const bool closed = solve.lost == 0 || solve.open <= kNearTolerance * solve.tolerance;
-  if (solve.done && closed) return true;
-  mixing.remember(part, solve.gap, mean);
-  if ((solve.done || solve.slow) && !mixing.on() && startWithoutWeakRows(part, state, loads, h)) {
-    solve.enter(Phase::kWithoutWeakRows);
-  } else if (solve.done) {
-    return true;
-  } else if (solve.since >= options.maxIterations) {
-    solve.enter(Phase::kEachIterate);
-  } else if (solve.follow) {
-    solve.lost = std::max(solve.lost, linearise(part, frames));
-    mixing.forget();
-  } else if (solve.slow && !mixing.on()) {
-    mixing.switchOn();
-  }
-  return false;
-}
-
-/// Without the weak rows until that has led to where inertia takes the bodies; from there the others have a short way
-/// to go, and to the solution that inertia leads to.
-void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) {
-  if (!solve.done && solve.since < options.maxIterations && !(solve.since > 2 && solve.slow)) return;
-  mixing.reset();
-  mixing.remember(part, solve.gap, mean);
-  system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
-  linearise(part, frames);
-  system.scalePivotThreshold(1);
-  mixing.switchOn();
-  solve.enter(Phase::kMixed);
 }
 
 void RattleStep::setFirstResidual(const Part& part, const State& state, const Loads& loads, double h) {
@@ -316,42 +189,6 @@ void RattleStep::setResidual(int k, double h, Gaps& gaps) {
   }
 }
 
-/// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero: near a
-/// singular position those would need huge impulses on the way, and spoil the rest. What they leave open is second
-/// order in a motion across the singular direction, hence small. Returns whether there are any; if not, nothing has
-/// changed.
-bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
-  double turn = 0;
-  for (const int node : part.bodies) turn = std::max(turn, std::fabs(h) * norm(state.twist[at(system.bodyOf(node))].w));
-  system.scalePivotThreshold(weakPivotScale(turn));
-  const int weak = system.linearise(part, frames, laws);
-  system.scalePivotThreshold(1);
-  if (weak == 0) {
-    system.linearise(part, frames, laws);
-    return false;
-  }
-  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
-  moveTrial(part, state, h);
-  updateAxes(part, h);
-  setFirstResidual(part, state, loads, h);
-  setResiduals(part, h);
-  mixing.reset();
-  return true;
-}
-
-/// Closes what is left with the matrix of each iterate. Returns the rows without a pivot in the first.
-int RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
-  relinearised[at(part.index)] = 1;
-  mixing.takeBest(part, mean);
-  mixing.reset();
-  moveTrial(part, state, h);
-  updateAxes(part, h);
-  const int lost = linearise(part, trial);
-  setResiduals(part, h);
-  for (const int node : part.bodies) x[at(node)] = {};
-  return lost;
-}
-
 void RattleStep::applyCorrection(const Part& part, double h) {
   for (const int node : part.bodies) {
     Twist& V = mean[at(system.bodyOf(node))];
@@ -402,25 +239,6 @@ void RattleStep::collectMomentum(const Part& part, const State& state, const Loa
     system.addImpulse(one.constraint, one.row, -row.ratio * couplingImpulse[at(c)], x);
   }
   for (const int node : part.bodies) spin[at(node)] += angular(x[at(node)]);
-}
-
-void RattleStep::fail(const Part& part, const State& state, double gap, double h) const {
-  int worst = -1, worstRow = 0;
-  double most = 0;
-  for (const int k : part.constraints) {
-    double error[6];
-    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
-    for (int r = 0; r < 6; ++r)
-      if ((hardRows(system.constraints()[at(k)].kind) >> r & 1u) && !(std::fabs(error[r]) <= most))
-        most = std::fabs(error[r]), worst = k, worstRow = r;
-  }
-  std::ostringstream message;
-  message << "multibody step from t = " << state.time << " s";
-  if (worst >= 0) message << ": " << system.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
-  message << " (largest residual " << gap << ") after " << options.maxIterations
-          << " iterations; the motion is too fast for a stage of " << h
-          << " s: reduce the step, or check loads, drives and whether the mechanism can reach where it is driven";
-  throw base::SimulationError(message.str());
 }
 
 } // namespace grouser::multibody::detail

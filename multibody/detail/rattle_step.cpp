@@ -39,7 +39,8 @@
 /// each iterate, by the smallest corrections in the norm of kinetic energy. Slow iterations without weak rows are mixed
 /// at once.
 ///
-/// The first three equations are solved in rattle_position.cpp, the last two in rattle_velocity.cpp.
+/// The first three equations are set up in rattle_position.cpp and solved in rattle_phases.cpp, the last two are solved
+/// in rattle_velocity.cpp.
 ///
 /// Orders 4, 6, 8 are symmetric compositions of stages gamma_i dt.
 namespace grouser::multibody::detail {

@@ -57,26 +57,28 @@ private:
   int linearise(const Part& part, const std::vector<Frame>& at);
   bool positionsFactored(const Part& part) const;
 
-  // Position stage (rattle_position.cpp).
+  // Position solve: Newton's method and its phases (rattle_phases.cpp).
   void solvePositions(const Part& part, const State& state, const Loads& loads, double h);
   double gapTolerance(const Part& part, const State& state) const;
-  void startAxes(const Part& part, const State& state, double h);
-  void predictSoftRows(const Part& part, double h);
   void iterate(const Part& part, const State& state, double h, PositionSolve& solve);
   bool advance(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve);
   bool advanceAllRows(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve);
   void advanceWithoutWeakRows(const Part& part, PositionSolve& solve);
+  bool startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h);
+  int closeWeakRows(const Part& part, const State& state, double h);
+  [[noreturn]] void fail(const Part& part, const State& state, double gap, double h) const;
+
+  // What it iterates (rattle_position.cpp).
+  void startAxes(const Part& part, const State& state, double h);
+  void predictSoftRows(const Part& part, double h);
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
   bool updateAxes(const Part& part, double h);
   void applyCorrection(const Part& part, double h);
-  bool startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h);
-  int closeWeakRows(const Part& part, const State& state, double h);
   void moveTrial(const Part& part, const State& state, double h);
   /// Fills the rows' residuals; returns the largest gap of the rows that have a pivot, in units of position.
   double setResiduals(const Part& part, double h);
   void setResidual(int k, double h, Gaps& gaps);
   void collectMomentum(const Part& part, const State& state, const Loads& loads, double h);
-  [[noreturn]] void fail(const Part& part, const State& state, double gap, double h) const;
 
   // Velocity stage (rattle_velocity.cpp).
   void solveVelocities(const Part& part, const Loads& loads, double h);

@@ -197,13 +197,13 @@ void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, co
     row.set(path + "velocity", state.twist[i].v);
     row.set(path + "spin", state.twist[i].w);
   }
+  const std::vector<multibody::JointReaction> reactions = mechanism.solver().reactions(state);
   for (std::size_t i = 0; i < model.joints().size(); ++i) {
     const multibody::Joint& j = model.joints()[i];
     if (!isKept(record, j.name)) continue;
     const std::string path = "joints/" + j.name + "/";
-    const multibody::JointReading& r = state.joint[i];
-    if (stepped) row.set(path + "force", r.force);
-    if (stepped) row.set(path + "torque", r.torque);
+    if (stepped) row.set(path + "force", reactions[i].force);
+    if (stepped) row.set(path + "torque", reactions[i].torque);
     for (const NamedAxis& a : axesOf(j)) {
       const multibody::AxisReading axis = multibody::axisReading(model, state, static_cast<int>(i), a.axis);
       row.set(path + a.prefix + "position", axis.position);
@@ -278,7 +278,7 @@ std::string mechanismSize(const simulation::Mechanism& mechanism) {
                      mechanism.startBlow()));
   const std::vector<std::string> redundant = solver.redundantRowNames();
   if (redundant.empty()) return text;
-  line("rows held more than once", fmt::format("{}, left out; their reactions read 0", redundant.size()));
+  line("rows held more than once", fmt::format("{}; the reactions of least norm are given", redundant.size()));
   for (std::size_t i = 0; i < std::min(redundant.size(), kRowsShown); ++i) line("", redundant[i]);
   if (redundant.size() > kRowsShown) line("", fmt::format("and {} more", redundant.size() - kRowsShown));
   return text;
