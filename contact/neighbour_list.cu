@@ -46,8 +46,7 @@ void NeighbourList::sort(const Position* position, std::size_t count) {
   for (std::int64_t edge = diameter_ + skin_;; edge *= 2) {
     grid_.setEdge(edge);
     bounds_.zero();
-    base::forEach(exec_, "find grid bounds", (n + kBoundsChunk - 1) / kBoundsChunk,
-                  FindBounds{grid_, position, n, bounds_.data()});
+    base::forEach(exec_, "find grid bounds", sharesOf(n), FindBounds<CellGrid>{grid_, position, n, bounds_.data()});
     const std::vector<std::uint32_t> b = bounds_.toHost();
     double all = 1;
     for (int a = 0; a < 3; ++a) {
@@ -57,7 +56,7 @@ void NeighbourList::sort(const Position* position, std::size_t count) {
     }
     if (all <= most) break;
   }
-  base::forEach(exec_, "assign cell keys", n, AssignKeys{grid_, position, key.data()});
+  base::forEach(exec_, "assign cell keys", n, AssignKeys<CellGrid>{grid_, position, key.data()});
   base::iota(exec_, order_.data(), count);
   base::sortByKey(exec_, key.data(), order_.data(), count);
   const std::int64_t cells = static_cast<std::int64_t>(grid_.cells.x) * grid_.cells.y * grid_.cells.z;

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "contact/detail/cell_search.cuh"
+#include "contact/cell_search.cuh"
 #include "contact/neighbour_list.hpp"
 
 /// How neighbours are found: spheres sorted by the cells of a grid, and a look into the 27 cells around each.
 namespace grouser::contact {
-
-using Cell = CellGrid::Cell;
-using FindBounds = detail::FindBounds<CellGrid>;
-using AssignKeys = detail::AssignKeys<CellGrid>;
-using detail::MarkStarts;
-
-constexpr std::int64_t kBoundsChunk = detail::kShare; ///< grains that one thread finds the bounds of
 
 /// The spheres near one: those whose surfaces are closer than the skin.
 struct NearSpheres {
@@ -34,11 +27,11 @@ struct NearSpheres {
       std::uint32_t x = c.x + static_cast<std::uint32_t>(column / 3) - 1,
                     y = c.y + static_cast<std::uint32_t>(column % 3) - 1;
       if (!besides(0, x) || !besides(1, y)) continue;
-      const detail::ColumnOfThree near(grid, cellStart, x, y, c.z);
+      const ColumnOfThree near(grid, cellStart, x, y, c.z);
       for (std::uint32_t j = near.first; j < near.last; ++j) {
         if (static_cast<int>(j) == i) continue;
         const base::Vec3l apart = grid.period.apart(p, position[j]);
-        if (!detail::differencesHold(apart)) continue;
+        if (!differencesHold(apart)) continue;
         const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
         if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
       }

@@ -2,7 +2,7 @@
 #include "terrain/grain_constants.hpp"
 
 #include "base/error.hpp"
-#include "terrain/whole_units.hpp"
+#include "terrain/length_units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +67,7 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
       throw base::InputError(
           fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a],
                       from, to, scale.limit()));
-    period.low[a] = wholeUnits(from, scale), period.length[a] = wholeUnits(to, scale) - period.low[a];
+    period.low[a] = unitsOf(from, scale), period.length[a] = unitsOf(to, scale) - period.low[a];
     if (period.length[a] < 3 * reach)
       throw base::InputError(
           fmt::format("periodic boundaries {} = {:g} m and {:g} m are too near: a grain could touch another "
@@ -83,7 +83,7 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
 GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& boundaries,
                                const std::vector<GrainSpec>& start)
     : model(grainModel), scale(base::positionScale(2 * model.radius)), smallestRadius(smallestOf(model, start)),
-      diameterUnits(wholeUnits(2 * model.radius, scale)), skinUnits(wholeUnits(model.skin * smallestRadius, scale)),
+      diameterUnits(unitsOf(2 * model.radius, scale)), skinUnits(unitsOf(model.skin * smallestRadius, scale)),
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
       historyWidth(historyWidthOf(features)), boundaryCount(boundaries.count()),
       period(periodOf(boundaries, scale, listRange())) {

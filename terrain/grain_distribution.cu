@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/for_each.cuh"
-#include "terrain/whole_units.hpp"
+#include "terrain/length_units.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -73,7 +73,7 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<std::size_t>(a);
     cuts[k] = chosen.cuts(a);
-    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) cuts[k][c] = wholeUnits(options.cuts[k][c], scale);
+    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) cuts[k][c] = unitsOf(options.cuts[k][c], scale);
   }
   return Partition(cuts);
 }

@@ -2,9 +2,9 @@
 #include "runs/bench/contacts.hpp"
 
 #include "base/error.hpp"
-#include "contact/pair_search.hpp"
 #include "runs/bench/bullet.hpp"
 #include "runs/bench/contact_spheres.hpp"
+#include "runs/bench/pair_search.hpp"
 #include "runs/bench/report.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/device_choice.hpp"
@@ -47,15 +47,15 @@ struct Point {
 };
 
 /// One search from positions alone, pairs given back; all ranks together, timed until the last has ended.
-Times search(contact::PairSearch& searcher, const base::Array<base::Position>& positions,
-             const contact::PairSearchOptions& options, const base::Comm& comm, Point& point) {
+Times search(PairSearch& searcher, const base::Array<base::Position>& positions, const PairSearchOptions& options,
+             const base::Comm& comm, Point& point) {
   comm.wait();
   const Clock::time_point start = Clock::now();
-  const contact::FoundPairs found = searcher.find(positions.data(), positions.size(), options);
+  const FoundPairs found = searcher.find(positions.data(), positions.size(), options);
   comm.wait();
   const double total = std::chrono::duration<double>(Clock::now() - start).count();
   std::size_t bytes = found.workBytes + positions.bytes();
-  for (const base::Array<contact::IdPair>& part : found.pairs) bytes += part.bytes();
+  for (const base::Array<IdPair>& part : found.pairs) bytes += part.bytes();
   point.contacts = comm.sumOf(found.count), point.slabs = found.slabs;
   point.bytesPerSphere = static_cast<double>(bytes) / static_cast<double>(positions.size());
   return {found.gridSeconds, found.sortSeconds, found.countSeconds, found.storeSeconds, total};
@@ -66,8 +66,8 @@ Point measure(std::int64_t spheres, const ContactsBench& bench, const base::Exec
   Point point;
   point.spheres = spheres;
   const base::Array<base::Position> positions = ContactSpheres::make(exec, spheres, kSeed);
-  contact::PairSearch searcher(exec, ContactSpheres::kDiameter);
-  contact::PairSearchOptions options;
+  PairSearch searcher(exec, ContactSpheres::kDiameter);
+  PairSearchOptions options;
   options.store = !bench.countOnly, options.atATime = bench.atATime;
   options.share = comm.rank(), options.of = comm.size();
   point.first = search(searcher, positions, options, comm, point);

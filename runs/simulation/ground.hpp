@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "contact/grain_part_contacts.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "terrain/bed_surface.hpp"
 #include "terrain/grains.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
-#include "contact/pair_search.hpp"
 #include "runs/bench/bullet.hpp"
 #include "runs/bench/contact_spheres.hpp"
 #include "runs/bench/contacts.hpp"
+#include "runs/bench/pair_search.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,7 @@ TEST(ContactSpheres, InsideTheBlockASphereTouchesSixOthers) {
   constexpr int kEdge = 50;
   const base::Exec exec = testExec();
   const base::Array<base::Position> spheres = ContactSpheres::make(exec, kEdge * kEdge * kEdge, 1);
-  const contact::FoundPairs found =
-      contact::PairSearch(exec, ContactSpheres::kDiameter).find(spheres.data(), spheres.size(), {});
+  const FoundPairs found = PairSearch(exec, ContactSpheres::kDiameter).find(spheres.data(), spheres.size(), {});
   // Spheres at least two sites from the faces have all their neighbours.
   const std::vector<base::Position> host = spheres.toHost();
   std::vector<bool> inside;
@@ -55,7 +54,7 @@ TEST(ContactSpheres, InsideTheBlockASphereTouchesSixOthers) {
   }
   double contacts = 0;
   for (const auto& part : found.pairs)
-    for (const contact::IdPair& p : part.toHost()) contacts += inside[p.first] + inside[p.second];
+    for (const IdPair& p : part.toHost()) contacts += inside[p.first] + inside[p.second];
   const double count = static_cast<double>(std::count(inside.begin(), inside.end(), true));
   // About 90,000 spheres whose number of contacts has a standard deviation of 1.2: 0.02 is five errors of the mean.
   EXPECT_NEAR(contacts / count, 6.0, 0.02);

@@ -8,7 +8,7 @@
 
 /// Kernel bodies of every search by cells: spheres are sorted by the cells of a dense grid, z fastest, and each looks
 /// into the columns of cells around its own. A grid gives cellOf(position), low, cells, local(position), key(cell).
-namespace grouser::contact::detail {
+namespace grouser::contact {
 
 using Cell = base::Vec3<std::uint32_t>;
 
@@ -99,4 +99,4 @@ GROUSER_HD bool differencesHold(const base::Vec3l& apart) {
          apart.z > -kSafe;
 }
 
-} // namespace grouser::contact::detail
+} // namespace grouser::contact

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace grouser::contact {
+namespace grouser::bench {
 
 /// Two spheres that touch, by their places in the array of positions.
 struct IdPair {
@@ -57,4 +57,4 @@ private:
   std::unique_ptr<Work> work_;
 };
 
-} // namespace grouser::contact
+} // namespace grouser::bench

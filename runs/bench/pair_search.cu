@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/pair_search.hpp"
+#include "runs/bench/pair_search.hpp"
 
 #include "base/algorithms.hpp"
 #include "base/error.hpp"
 #include "base/gather.cuh"
-#include "contact/detail/pair_kernels.cuh"
+#include "runs/bench/pair_kernels.cuh"
 
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
-namespace grouser::contact {
+namespace grouser::bench {
 
 using base::Position;
+using contact::AssignKeys;
+using contact::Cell;
+using contact::FindBounds;
+using contact::MarkStarts;
+using contact::sharesOf;
 using namespace detail; // the kernels
 
 namespace {
@@ -212,4 +217,4 @@ FoundPairs PairSearch::find(const Position* positions, std::size_t count, const 
   return found;
 }
 
-} // namespace grouser::contact
+} // namespace grouser::bench

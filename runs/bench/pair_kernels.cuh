@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "contact/detail/cell_search.cuh"
-#include "contact/pair_search.hpp"
+#include "contact/cell_search.cuh"
+#include "runs/bench/pair_search.hpp"
 
 /// Kernel bodies of the pair search.
-namespace grouser::contact::detail {
+namespace grouser::bench::detail {
 
 using base::Position;
 using base::Vec3l;
+using contact::Cell;
+using contact::ColumnOfThree;
+using contact::overShare;
 
 /// Quotients of 42-bit numbers by the cells' edge, without a division.
 struct Divider {
@@ -97,7 +100,7 @@ struct Neighbourhood {
   bool checkFar; ///< cells are so wide that 32-bit differences may wrap
 
   GROUSER_HD bool overlaps(const Position& a, const Position& b) const {
-    if (checkFar && !differencesHold(base::toUnits(b) - base::toUnits(a))) return false;
+    if (checkFar && !contact::differencesHold(base::toUnits(b) - base::toUnits(a))) return false;
     return base::squaredNorm(base::difference(a, b)) < reach2;
   }
 
@@ -171,4 +174,4 @@ struct Store {
   }
 };
 
-} // namespace grouser::contact::detail
+} // namespace grouser::bench::detail

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/device_under_test.hpp"
 #include "base/random.hpp"
-#include "contact/detail/pair_kernels.cuh"
-#include "contact/pair_search.hpp"
+#include "runs/bench/pair_kernels.cuh"
+#include "runs/bench/pair_search.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace grouser::contact {
+namespace grouser::bench {
 namespace {
 
 using base::Position;
@@ -189,4 +189,4 @@ TEST(PairSearch, WrongSizesAreRefused) {
 }
 
 } // namespace
-} // namespace grouser::contact
+} // namespace grouser::bench
