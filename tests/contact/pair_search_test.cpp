@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/device_under_test.hpp"
 #include "base/random.hpp"
 #include "contact/detail/pair_kernels.cuh"
 #include "contact/pair_search.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 
