@@ -92,9 +92,8 @@ __global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
 } // namespace
 
 PeerReduction::PeerReduction(const Exec& exec, const Comm& comm, PeerUse use)
-    : exec_(exec), memory_(exec, comm, use, sizeof(Table)), rank_(comm.rank()), size_(comm.size()) {
-  possible_ = memory_.allSeeAll() && size_ <= kMostRanks && (use == PeerUse::always || !memory_.deviceShared());
-}
+    : exec_(exec), memory_(exec, comm, use, sizeof(Table)), rank_(comm.rank()), size_(comm.size()),
+      possible_(memory_.allSeeAll() && size_ <= kMostRanks && (use == PeerUse::always || !memory_.deviceShared())) {}
 
 double PeerReduction::waited() const {
   if (!possible_) return 0;

@@ -44,6 +44,7 @@ template <class Range, class Format> std::string bracketed(const Range& range, F
 }
 
 template <class... Fs> struct Overloaded : Fs... { using Fs::operator()...; };
+template <class... Fs> Overloaded(Fs...) -> Overloaded<Fs...>;
 
 std::string typeText(FieldType type) {
   switch (type) {

@@ -21,7 +21,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   GROUSER_HD void operator()(int k) const {
     if (Kernel::ended()) {
-      if (k == 0) base::raise(&d.flags->stale); // so that the next step of the batch, which looks only at this one, ends too
+      if (k == 0)
+        base::raise(&d.flags->stale); // so that the next step of the batch, which looks only at this one, ends too
       return;
     }
     const int i = d.active ? static_cast<int>(d.active[k]) : k;

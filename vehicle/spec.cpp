@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle/spec.hpp"
 
-#include "base/error.hpp"
 #include "base/math.hpp"
-#include "base/table.hpp"
-#include "vehicle/spec_tables.hpp"
 
 #include <cmath>
-#include <filesystem>
 
 namespace grouser::vehicle {
 
@@ -24,49 +20,6 @@ double VehicleSpec::sprocketPinRadius() const { return 0.5 * shoe.pitch / base::
 double VehicleSpec::idlerPinRadius() const {
   const double plate = idler.radius + shoe.plateTop;
   return std::sqrt(plate * plate + 0.25 * shoe.pitch * shoe.pitch);
-}
-
-namespace {
-
-/// Rules between keys, which no single range can state.
-void checkTogether(const base::Section& root, const VehicleSpec& spec) {
-  if (spec.roller.x.size() != spec.roller.z.size())
-    root.section("roller").fail("z", "must have as many values as roller.x, one a roller");
-  const auto principal = [&root](const std::string& section, const std::string& key, const Vec3d& i) {
-    if (i.x <= 0 || i.y <= 0 || i.z <= 0) root.section(section).fail(key, "must be positive in all three components");
-    if (i.x > i.y + i.z || i.y > i.z + i.x || i.z > i.x + i.y)
-      root.section(section).fail(key, "belongs to no solid body: no principal moment exceeds the sum of the other two");
-  };
-  principal("chassis", "inertia", spec.chassis.inertia);
-  principal("shoe", "inertia", spec.shoe.inertia);
-  principal("sprocket", "inertia", spec.sprocket.inertia);
-  principal("road_wheel", "inertia", spec.roadWheel.inertia);
-  principal("arm", "inertia", spec.arm.inertia);
-  principal("roller", "inertia", spec.roller.inertia);
-  principal("idler", "inertia", spec.idler.inertia);
-  principal("idler", "carrier_inertia", spec.idler.carrierInertia);
-}
-
-} // namespace
-
-VehicleSpec readVehicleSpec(const std::string& path) {
-  const base::Document document = base::Document::load(path);
-  const base::Section root = document.root();
-  root.allowOnly(
-      {"version", "vehicle", "chassis", "shoe", "sprocket", "road_wheel", "arm", "roller", "idler", "contact"});
-  VehicleSpec spec = root.section("vehicle").read(vehicleTable());
-  spec.chassis = root.section("chassis").read(chassisTable());
-  spec.shoe = root.section("shoe").read(shoeTable());
-  spec.sprocket = root.section("sprocket").read(sprocketTable());
-  spec.roadWheel = root.section("road_wheel").read(roadWheelTable());
-  spec.arm = root.section("arm").read(armTable());
-  spec.roller = root.section("roller").read(rollerTable());
-  spec.idler = root.section("idler").read(idlerTable());
-  spec.contact = root.section("contact").read(contactTable());
-  checkTogether(root, spec);
-  // The mesh folder is named from the spec file's own place.
-  spec.meshFolder = (std::filesystem::path(path).parent_path() / spec.meshFolder).lexically_normal().string();
-  return spec;
 }
 
 } // namespace grouser::vehicle

@@ -120,8 +120,4 @@ struct VehicleSpec {
   double idlerPinRadius() const;
 };
 
-/// Read a vehicle spec file. Throws base::InputError (file:line, key, value, range) on anything unknown, missing or
-/// out of range.
-VehicleSpec readVehicleSpec(const std::string& path);
-
 } // namespace grouser::vehicle

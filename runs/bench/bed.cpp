@@ -76,8 +76,9 @@ std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
   for (std::int64_t i = 0; i < b.grains; ++i) {
     const auto id = static_cast<std::uint64_t>(i);
     const auto shake = [&](std::uint64_t axis) { return (2 * base::uniform(kSeed, kPurpose, id, axis) - 1) * shift; };
-    const Vec3d place{static_cast<double>(i % side) + 0.5, static_cast<double>(i / side % side) + 0.5,
-                      static_cast<double>(i / (side * side)) + 0.5};
+    const std::int64_t column = i % side, row = i / side % side, layer = i / (side * side);
+    const Vec3d place{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5,
+                      static_cast<double>(layer) + 0.5};
     start.push_back({place * spacing + Vec3d{shake(0), shake(1), shake(2)}, {}, {}});
   }
   return start;

@@ -152,7 +152,8 @@ std::unique_ptr<simulation::Simulation> prepare(const scene::Scene& scene, const
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
   };
-  auto simulation = std::make_unique<simulation::Simulation>(setup::simulationSetup(scene, comm.size()), exec, settle, comm);
+  auto simulation =
+      std::make_unique<simulation::Simulation>(setup::simulationSetup(scene, comm.size()), exec, settle, comm);
   if (settling) settling->finish("at rest");
   seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return simulation;

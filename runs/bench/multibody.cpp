@@ -6,6 +6,7 @@
 #include "runs/bench/report.hpp"
 #include "runs/support/locations.hpp"
 #include "vehicle/driver.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -71,7 +72,7 @@ void timeParts(const multibody::Model& model, const multibody::State& state, con
     options.positionTolerance = tolerance;
     multibody::Solver solver(model, options);
     multibody::State copy;
-    const BatchTimes times = timed(bench.batches, bench.steps, [&] {
+    BatchTimes times = timed(bench.batches, bench.steps, [&] {
       copy = state;
       return microsecondsOf([&] { solver.step(copy, loads, bench.timeStep); });
     });

@@ -51,7 +51,7 @@ struct PairSearch::Work {
   std::int64_t sort(const Slab& slab, const SlabGrid& grid, const Position* positions, std::int64_t chosen);
   Neighbourhood neighbourhood(const SlabGrid& grid) const;
   std::int64_t countPairs(const Neighbourhood& near, std::int64_t owned);
-  base::Array<IdPair> storePairs(const Neighbourhood& near, std::int64_t owned, std::int64_t total);
+  base::Array<IdPair> storePairs(const Neighbourhood& near, std::int64_t owned, std::int64_t sum);
   std::size_t bytes() const;
 
   base::Exec exec;
@@ -80,13 +80,14 @@ std::vector<PairSearch::Work::Slab> PairSearch::Work::cut(const Grid& grid, cons
                                                           std::int64_t count, std::size_t wanted) {
   if (wanted <= 1) return {{0, grid.cells.x}};
   const std::int64_t stride = std::max<std::int64_t>(1, count / kSample);
+  const std::int64_t sampled = count / stride;
   small.resize(grid.cells.x);
   small.zero();
-  base::forEach(exec, "count spheres by layer", count / stride,
+  base::forEach(exec, "count spheres by layer", sampled,
                 CountLayers{{Divider(grid.edge)}, positions, stride, grid.low.x, small.data()});
   const std::vector<std::uint32_t> layers = small.toHost();
   // Each slab ends with the layer that fills its share of the sample; a layer is never cut.
-  const double share = static_cast<double>(count / stride) / static_cast<double>(wanted);
+  const double share = static_cast<double>(sampled) / static_cast<double>(wanted);
   std::vector<Slab> slabs;
   double held = 0;
   for (std::uint32_t from = 0, to = 1; to <= grid.cells.x; ++to) {

@@ -38,7 +38,7 @@ void nameIfThere(const char* what, const fs::path& file) {
 }
 
 /// A run goes on in the folder of its checkpoint.
-void chooseCheckpoint(const RunCommand& command, RunOptions& options) {
+void chooseCheckpoint(const RunCommand& command, RunRequest& options) {
   if (command.checkpoint.empty()) {
     options.resume = options.folder / simulation::kCheckpointName;
     return;
@@ -62,7 +62,7 @@ void runCommand(const RunCommand& command) {
   const scene::Scene scene = setup::loadScene(command.scene, overrides);
   if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
-  RunOptions options;
+  RunRequest options;
   options.folder = !command.folder.empty()        ? fs::path(command.folder)
                    : !scene.output.folder.empty() ? fs::path(scene.output.folder)
                                                   : fs::path("out") / scene.name();

@@ -15,7 +15,7 @@
 #include "runs/simulation/surfaces.hpp"
 #include "runs/support/progress.hpp"
 #include "terrain/layers.hpp"
-#include "vehicle/spec.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 

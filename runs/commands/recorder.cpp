@@ -81,7 +81,7 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
 }
-output::RunWriter::Options writerOptions(bool frames, const RunOptions& options, const base::Exec& exec,
+output::RunWriter::Options writerOptions(bool frames, const RunRequest& options, const base::Exec& exec,
                                          const std::vector<output::Channel>& channels,
                                          const simulation::Checkpoint* former) {
   output::RunWriter::Options w;
@@ -139,7 +139,7 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 } // namespace
 
-Recorder::Recorder(simulation::Simulation& simulation, const RunOptions& options, const base::Exec& exec,
+Recorder::Recorder(simulation::Simulation& simulation, const RunRequest& options, const base::Exec& exec,
                    const simulation::Checkpoint* former)
     : simulation_(simulation), begunAt_(simulation.steps()), channels_(channelsOf(simulation)), row_(channels_),
       writer_(options.folder, simulation.setup().provenance, channels_,
@@ -152,7 +152,7 @@ Recorder::Recorder(simulation::Simulation& simulation, const RunOptions& options
   }
 }
 
-void Recorder::begin(const RunOptions& options, const simulation::Checkpoint* former) {
+void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* former) {
   const setup::SimulationSetup& setup = simulation_.setup();
   if (const simulation::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/commands/run_scene.hpp"
+#include "runs/commands/run_request.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/grains_csv.hpp"
 #include "runs/output/output.hpp"
@@ -18,7 +18,7 @@ namespace grouser::commands {
 class Recorder {
 public:
   /// `former`: the checkpoint that the run goes on from, or null.
-  Recorder(simulation::Simulation& simulation, const RunOptions& options, const base::Exec& exec,
+  Recorder(simulation::Simulation& simulation, const RunRequest& options, const base::Exec& exec,
            const simulation::Checkpoint* former);
 
   void row();
@@ -29,7 +29,7 @@ public:
   output::RunWriter& writer() { return writer_; }
 
 private:
-  void begin(const RunOptions& options, const simulation::Checkpoint* former);
+  void begin(const RunRequest& options, const simulation::Checkpoint* former);
   output::Frame currentFrame() const;
 
   simulation::Simulation& simulation_;

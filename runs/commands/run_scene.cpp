@@ -103,7 +103,7 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
 /// The checkpoint of a run, written again and again.
 class Checkpoints {
 public:
-  Checkpoints(const setup::Provenance& provenance, const RunOptions& options)
+  Checkpoints(const setup::Provenance& provenance, const RunRequest& options)
       : path_(options.folder / simulation::kCheckpointName) {
     checkpoint_.scene = provenance.resolved;
     checkpoint_.inputs = provenance.inputs;
@@ -132,7 +132,7 @@ private:
 };
 
 /// Reads the checkpoint of a run to be resumed; null for one from the start.
-std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& provenance, const RunOptions& options) {
+std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& options) {
   if (!options.resume) return nullptr;
   auto former = std::make_unique<simulation::Checkpoint>(simulation::readCheckpoint(*options.resume, options.comm()));
   simulation::checkSameScene(*former, *options.resume, provenance);
@@ -231,7 +231,7 @@ void describeLedger(simulation::Simulation& simulation) {
 
 } // namespace
 
-output::Summary runScene(const scene::Scene& scene, const RunOptions& options) {
+output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
   const Clock::time_point start = Clock::now();
   const support::StopSignals signals;
   const base::Comm comm = options.comm();

@@ -1,34 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/comm.hpp"
+#include "runs/commands/run_request.hpp"
 #include "runs/output/output.hpp"
 #include "runs/scene/scene.hpp"
 
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-
 namespace grouser::commands {
-
-/// What the command line adds to a scene.
-struct RunOptions {
-  std::filesystem::path folder;                ///< of the results
-  bool force = false;                          ///< overwrite what is there
-  std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
-  bool hash = false;                           ///< take the state hash at the end
-  std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
-  std::string commandLine;                     ///< for the manifest
-  bool cache = true;                           ///< take settled beds from earlier runs, where the scene allows it
-  const base::Ranks* ranks = nullptr;          ///< that run the scene together; null: this program alone
-
-  base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
-};
 
 /// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.
 /// With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the end, and where
 /// SIGINT or SIGTERM stops the run. Throws InputError, SimulationError, DeviceError, or Stopped.
-output::Summary runScene(const scene::Scene& scene, const RunOptions& options);
+output::Summary runScene(const scene::Scene& scene, const RunRequest& options);
 
 } // namespace grouser::commands

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/command_entry.hpp"
 
-#include "runs/studies/multibody.hpp"
+#include "runs/studies/cases.hpp"
+#include "runs/studies/multibody_command.hpp"
 #include "runs/studies/options.hpp"
 #include "runs/support/option_checks.hpp"
 

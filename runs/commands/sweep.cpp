@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/sweep.hpp"
-#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "base/exec.hpp"
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/support/progress.hpp"
 
 #include <fcntl.h>

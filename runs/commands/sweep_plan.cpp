@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/sweep.hpp"
-#include "runs/setup/load_scene.hpp"
+#include "runs/commands/sweep_plan.hpp"
 
 #include "base/error.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>
 

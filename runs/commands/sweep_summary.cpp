@@ -240,7 +240,7 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, columns), ","));
 
-  const fs::path path = folder / "summary.csv";
+  fs::path path = folder / "summary.csv";
   support::replaceTextFile(path, text);
   return path;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/commands/sweep.hpp"
+#include "runs/commands/sweep_plan.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/output/output.hpp"
+#include "base/comm.hpp"
+#include "runs/output/records.hpp"
 #include "runs/support/hdf5_file.hpp"
 
 #include <filesystem>

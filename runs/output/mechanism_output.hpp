@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runs/output/channels.hpp"
-#include "runs/output/output.hpp"
+#include "runs/output/records.hpp"
 #include "runs/simulation/mechanism.hpp"
 
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runs/output/frames_reader.hpp"
-#include "runs/render/render.hpp"
+#include "runs/render/colour.hpp"
 
 #include <array>
 #include <optional>

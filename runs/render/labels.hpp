@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/render/colour.hpp"
 #include "runs/render/image.hpp"
-#include "runs/render/render.hpp"
 
 #include <memory>
 #include <string>

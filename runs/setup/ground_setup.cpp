@@ -15,6 +15,7 @@
 #include "runs/setup/step_limit.hpp"
 #include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
+#include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <algorithm>

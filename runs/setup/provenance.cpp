@@ -6,7 +6,7 @@
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/build_info.hpp"
-#include "vehicle/spec.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -25,8 +25,8 @@ struct RunSetup {
 /// What a run writes.
 struct OutputSetup {
   std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
-  bool frames{}, contactForces{}; ///< contact forces of each grain in the frames
-  std::optional<bool> grainsCsv; ///< every grain in every row as text; empty: in small scenes
+  bool frames{}, contactForces{};  ///< contact forces of each grain in the frames
+  std::optional<bool> grainsCsv;   ///< every grain in every row as text; empty: in small scenes
   bool picture{};
   int pictureWidth{}; ///< [px]
 };

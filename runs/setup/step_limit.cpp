@@ -11,7 +11,7 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/scene_surfaces.hpp"
-#include "vehicle/spec.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <algorithm>
 #include <cmath>

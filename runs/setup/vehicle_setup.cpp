@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/vehicle_setup.hpp"
 
+#include "vehicle/spec_file.hpp"
+
 namespace grouser::setup {
 
 namespace {

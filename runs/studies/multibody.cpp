@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/multibody.hpp"
-#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
-#include "base/table.hpp"
-#include "runs/output/manifest.hpp"
-#include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/studies/report.hpp"
-#include "runs/studies/stability.hpp"
-#include "runs/support/build_info.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "runs/support/locations.hpp"
-#include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
-#include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <limits>
 
 namespace grouser::studies {
@@ -28,13 +23,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kThreshold = 1e-3;  ///< y_thr of the error's definition
-constexpr double kShortRun = 0.2;    ///< [s] of CPU below which a run is done again
-constexpr int kRepeats = 3;          ///< of a short run; the least time counts
-constexpr double kHopeless = 1e3;    ///< an error that is not worth a number [-]
-constexpr int kQuickSteps = 3;       ///< step sizes of --quick
-constexpr int kFullSteps = 7;        ///< a quarter each: a factor of 4096
-constexpr double kQuickBudget = 0.5; ///< [s] of CPU for one run of --quick
+constexpr double kThreshold = 1e-3; ///< y_thr of the error's definition
+constexpr double kShortRun = 0.2;   ///< [s] of CPU below which a run is done again
+constexpr int kRepeats = 3;         ///< of a short run; the least time counts
+constexpr double kHopeless = 1e3;   ///< an error that is not worth a number [-]
 
 double cpuSeconds() {
   timespec now{};
@@ -139,67 +131,6 @@ std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& int
     points.push_back(p);
   }
   return points;
-}
-
-void studyMultibodyCommand(const StudyCommand& command) {
-  std::vector<StudyCase> cases = studyCases();
-  std::vector<std::string> names;
-  for (const StudyCase& c : cases) names.push_back(c.name);
-  for (const std::string& name : command.cases)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw base::InputError(fmt::format("--cases {}: is no case; did you mean {}? (cases: {})", name,
-                                         base::nearestWord(name, names), fmt::join(names, ", ")));
-  std::erase_if(cases, [&](const StudyCase& c) {
-    if (!command.cases.empty())
-      return std::find(command.cases.begin(), command.cases.end(), c.name) == command.cases.end();
-    return command.quick && c.isLong;
-  });
-  const fs::path folder = command.folder.empty() ? fs::path("out") / "study_multibody" : fs::path(command.folder);
-  output::checkOutputFolder(folder, command.force);
-  fs::create_directories(folder);
-
-  const support::StopSignals signals;
-  const int count = command.quick ? kQuickSteps : kFullSteps;
-  const double budget = command.quick ? kQuickBudget : command.budget;
-  const std::vector<IntegratorChoice> integrators = studyIntegrators();
-  fmt::print("study     multibody: commit {}, {}, one thread; CPU time of the steps, without set-up and output\n",
-             support::buildInfo().commit, support::machineText());
-  if (command.stability) {
-    const std::vector<StabilityPoint> points = studyStability();
-    fmt::print("{}", stabilityTable(points));
-    support::writeTextFile(folder / "stability.csv", stabilityCsv(points), "--out");
-    fmt::print("table     {}\n", (folder / "stability.csv").string());
-    return;
-  }
-  support::Progress progress("studying");
-  std::vector<StudyResult> results;
-  double done = 0;
-  for (const StudyCase& c : cases) {
-    StudyResult result{c, {}};
-    for (const IntegratorChoice& integrator : integrators) {
-      progress.update(done / static_cast<double>(cases.size() * integrators.size()), c.name + ", " + integrator.name);
-      for (const StudyPoint& p : studyOne(c, integrator, count, budget)) result.points.push_back(p);
-      done += 1;
-    }
-    progress.note(caseTable(result));
-    results.push_back(std::move(result));
-  }
-  progress.finish(fmt::format("{} cases", cases.size()));
-
-  std::vector<ReactionResult> reactions;
-  for (const ReactionCase& r : reactionCases()) {
-    if (std::none_of(cases.begin(), cases.end(), [&](const StudyCase& c) { return c.name == r.name; }) &&
-        !command.cases.empty())
-      continue;
-    for (const IntegratorChoice& integrator : integrators)
-      if (integrator.order <= 2) reactions.push_back(measureReaction(r, integrator));
-  }
-  fmt::print("{}\n{}", cheapestTable(results), reactionTable(reactions));
-  support::writeTextFile(folder / "multibody.csv", pointsCsv(results), "--out");
-  support::writeTextFile(folder / "cheapest.csv", cheapestCsv(results), "--out");
-  support::writeTextFile(folder / "reactions.csv", reactionsCsv(reactions), "--out");
-  output::drawPicture("study.py", {folder / "multibody.csv"}, folder / "multibody.png");
-  fmt::print("tables    {}\n", folder.string());
 }
 
 ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& integrator) {

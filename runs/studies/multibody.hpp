@@ -37,15 +37,14 @@ struct StudyPoint {
 /// seconds of CPU is left out.
 std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& integrator, int count, double budget);
 
-/// `grouser study multibody`.
-struct StudyCommand {
-  std::vector<std::string> cases; ///< empty: all
-  bool stability = false;         ///< only which steps are stable
-  bool quick = false;             ///< few steps of a few cases, in seconds
-  double budget = 60;             ///< [s] of CPU for one run
-  std::string folder;             ///< empty: out/study_multibody
-  bool force = false;
+struct ReactionResult {
+  ReactionCase reaction;
+  std::string integrator;
+  std::optional<double> mean; ///< [N] over all steps
+  double worst = 0;           ///< largest deviation after the first step, over the exact value [-]
+  std::string failure;
 };
-void studyMultibodyCommand(const StudyCommand& command);
+/// Runs a mechanism whose reaction is known in closed form, and compares it in every step.
+ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& integrator);
 
 } // namespace grouser::studies

@@ -3,7 +3,6 @@
 
 #include "runs/studies/multibody.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,14 +24,6 @@ const StudyPoint* cheapest(const StudyResult& result, double threshold);
 std::string cheapestTable(const std::vector<StudyResult>& results);
 std::string cheapestCsv(const std::vector<StudyResult>& results);
 
-struct ReactionResult {
-  ReactionCase reaction;
-  std::string integrator;
-  std::optional<double> mean; ///< [N] over all steps
-  double worst = 0;           ///< largest deviation after the first step, over the exact value [-]
-  std::string failure;
-};
-ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& integrator);
 std::string reactionTable(const std::vector<ReactionResult>& results);
 std::string reactionsCsv(const std::vector<ReactionResult>& results);
 

@@ -27,7 +27,7 @@ struct SampleGrains {
 struct Sample {
   double timeStep = 0; ///< [s]
   simulation::Ground ground;
-  terrain::Grains& grains() { return *ground.grains; }
+  terrain::Grains& grains() const { return *ground.grains; }
 };
 
 /// Builds the grains of a scene; its step is the scene's own.

@@ -22,7 +22,6 @@ PROGRAM = [['support'], ['scene'], ['setup'], ['simulation'], ['output'], ['rend
 # What only reads, keeps or draws needs no physics.
 NARROW = {
     'runs/support': {'base'},
-    'runs/scene': {'base', 'multibody', 'spheredecomp'},
     'runs/render': {'base'},
 }
 GENERATED = {'grouser_commit.hpp'}  # written by the build

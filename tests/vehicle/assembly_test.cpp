@@ -5,6 +5,7 @@
 #include "base/math.hpp"
 #include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 

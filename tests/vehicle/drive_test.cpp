@@ -4,6 +4,7 @@
 
 #include "multibody/solver.hpp"
 #include "vehicle/observers.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 

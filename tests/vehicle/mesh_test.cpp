@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The meshes are made by a generator of their own: here the spec and the meshes are held together.
 #include "base/math.hpp"
-#include "vehicle/spec.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vehicle/spec.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include "base/error.hpp"
 

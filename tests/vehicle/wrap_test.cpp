@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 

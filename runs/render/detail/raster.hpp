@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/render/render.hpp"
+#include "runs/render/render_scene.hpp"
 
 #include <array>
 #include <cstdint>

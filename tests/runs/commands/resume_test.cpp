@@ -80,12 +80,12 @@ protected:
 
   output::Summary run(const fs::path& folder, const scene::Scene& scene, std::optional<std::int64_t> steps = {},
                       bool force = false) {
-    RunOptions options;
+    RunRequest options;
     options.folder = folder, options.hash = true, options.steps = steps, options.force = force;
     return runScene(scene, options);
   }
   output::Summary resume(const scene::Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
-    RunOptions options;
+    RunRequest options;
     options.folder = resumed_, options.hash = true, options.steps = steps, options.force = force;
     options.resume = resumed_ / simulation::kCheckpointName;
     return runScene(scene, options);

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/channels.hpp"
+#include "runs/output/output.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 

@@ -3,6 +3,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "runs/output/channels.hpp"
+#include "runs/output/output.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 

@@ -6,7 +6,7 @@
 #include "runs/setup/placement.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
-#include "vehicle/spec.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 

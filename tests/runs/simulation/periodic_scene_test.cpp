@@ -141,7 +141,9 @@ TEST(PeriodicBoundaries, GrainsOfASourceDoNotEnterInEachOthersImages) {
     ASSERT_EQ(grains.size(), 25u);
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        EXPECT_GT(norm(setup::toNearestImage(setup::periodicBoundaries(scene), grains[i].position - grains[j].position)), 0.02);
+        EXPECT_GT(
+            norm(setup::toNearestImage(setup::periodicBoundaries(scene), grains[i].position - grains[j].position)),
+            0.02);
   }
 }
 

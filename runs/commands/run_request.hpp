@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grouser::commands {
+
+/// What is asked of a run, beside its scene.
+struct RunRequest {
+  std::filesystem::path folder;                ///< of the results
+  bool force = false;                          ///< overwrite what is there
+  std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
+  bool hash = false;                           ///< take the state hash at the end
+  std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
+  std::string commandLine;                     ///< for the manifest
+  bool cache = true;                           ///< take settled beds from earlier runs, where the scene allows it
+  const base::Ranks* ranks = nullptr;          ///< that run the scene together; null: this program alone
+
+  base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
+};
+
+} // namespace grouser::commands

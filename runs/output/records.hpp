@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+#include "base/vec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+/// What is written of a run, as plain data: rows of the time series, frames of the pictures, and its end.
+namespace grouser::output {
+
+/// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
+/// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
+struct Channel {
+  std::string path; ///< "vehicle/shoes/sinkage"
+  std::string unit; ///< "m"; "-" where dimensionless
+  std::string help;
+  int width = 1;
+  /// Names of the columns in timeseries.csv: "x","y","z". Empty: a wide channel is in results.h5 only.
+  std::vector<std::string> columns;
+};
+
+/// The numbers of one output time, in the order of the channels, each channel's `width` numbers in turn.
+struct Row {
+  std::int64_t step{};
+  double time{}; ///< [s]
+  std::vector<double> values;
+};
+
+/// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
+struct FramePart {
+  std::string name; ///< "left shoe 12"
+  std::string kind; ///< "chassis", "shoe", "sprocket", "road_wheel", "roller", "idler", "surface": decides the colour
+  base::TriangleMesh mesh; ///< body frame
+};
+
+/// The grains and parts at one time; on several ranks this rank's block of the grains. All arrays of grains have the
+/// same length.
+struct Frame {
+  std::int64_t step{};
+  double time{};                       ///< [s]
+  std::vector<base::Vec3f> positions;  ///< [m]
+  std::vector<float> radii;            ///< [m]
+  std::vector<base::Vec3f> velocities; ///< [m/s]
+  /// Resultant of all contact forces on each grain in the last step [N], NaN before the first; empty where frames do
+  /// not have them.
+  std::vector<base::Vec3f> contactForces;
+  bool withContactForces{false}; ///< the same on all ranks, some of which may have no grains
+  std::vector<std::uint32_t> ids;
+  std::vector<base::Pose> partPoses; ///< one a part
+  /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
+  std::array<std::vector<double>, 3> borders;
+};
+
+/// What is known when a run ends.
+struct Summary {
+  std::int64_t steps{};
+  double simulatedTime{};                ///< [s]
+  double wallTime{};                     ///< [s]
+  std::string stateHash;                 ///< hexadecimal; empty where not taken
+  std::map<std::string, double> figures; ///< anything else worth keeping: "particle steps per second"
+};
+
+} // namespace grouser::output

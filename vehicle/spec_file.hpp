@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vehicle/spec.hpp"
+
+#include <string>
+
+namespace grouser::vehicle {
+
+/// Read a vehicle spec file. Throws base::InputError (file:line, key, value, range) on anything unknown, missing or
+/// out of range.
+VehicleSpec readVehicleSpec(const std::string& path);
+
+} // namespace grouser::vehicle
