@@ -6,6 +6,7 @@
 #include "contact/contact_law.hpp"
 #include "contact/exchange.hpp"
 #include "contact/grain_loads.hpp"
+#include "contact/grain_part_model.hpp"
 #include "contact/grains_view.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
@@ -15,39 +16,6 @@
 #include <vector>
 
 namespace grouser::contact {
-
-/// A grain's contact with one part merges into patches, one for each cluster of surface normals: one on a face, two in
-/// a corner or between two teeth.
-inline constexpr int kPatches = 3;
-
-/// Tangential spring of a patch, kept in the part's frame so that it turns with the part. A zero normal is a free
-/// place.
-struct PatchMemory {
-  base::Vec3f normal, shear;
-};
-
-/// A rigid part as the grains meet it.
-struct GrainPart {
-  int surface{};               ///< index of its unique sphere set
-  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]
-};
-
-/// Constants of the contacts between grains and parts. Kernels take a copy. Forces are computed in single precision.
-struct GrainPartModel {
-  double radius{}, mass{}; ///< of a grain, of the largest where they differ [m], [kg]
-  double timeStep{};       ///< [s]
-  double margin{};         ///< parts may move this far relative to the grains before the pairs are looked for anew [m]
-  ContactLaw law;
-  base::PositionScale scale;
-  base::FixedPoint force, torque, energy; ///< quanta of the sums
-  bool manyRadii{false};                  ///< each grain has its own radius in velocity.w and material in spin.w
-};
-
-/// Where grains differ: by material, their law against the parts (instead of the model's) and mass over radius^3.
-struct GrainPartMaterials {
-  std::vector<ContactLaw> laws;
-  std::vector<double> massPerCube; ///< [kg/m3]
-};
 
 /// Contacts of grains with rigid parts made of spheres.
 ///

@@ -2,7 +2,11 @@
 #pragma once
 
 #include "base/for_each_group.cuh"
-#include "contact/grain_part_contacts.hpp"
+#include "contact/grain_loads.hpp"
+#include "contact/grain_part_model.hpp"
+#include "contact/grains_view.hpp"
+#include "contact/part_motion.hpp"
+#include "contact/part_surface.hpp"
 #include "contact/rolling_resistance.hpp"
 
 /// Contacts of one grain with one part: its patches, their springs, and the loads on both.

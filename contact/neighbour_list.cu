@@ -21,15 +21,6 @@ constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by a CPU's l
 
 } // namespace
 
-void CellGrid::setEdge(std::int64_t least) {
-  for (int a = 0; a < 3; ++a) {
-    edge[a] = least;
-    if (!period.along(a)) continue;
-    const std::int64_t ring = std::max<std::int64_t>(3, period.length[a] / least);
-    edge[a] = period.length[a] / ring, cells[a] = static_cast<std::uint32_t>(ring), low[a] = 0;
-  }
-}
-
 NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                              const base::Period& period)
     : exec_(exec), diameter_(diameter), skin_(skin), period_(period), width_(width), count_(exec), start_(exec),

@@ -3,84 +3,14 @@
 
 #include "base/array.hpp"
 #include "base/period.hpp"
+#include "base/position.hpp"
+#include "contact/cell_grid.hpp"
+#include "contact/neighbour_view.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace grouser::contact {
-
-/// Where rows lie, one for each grain slot: place k of row i is start[i] + k stride. On a CPU row stands behind row, in
-/// few cache lines each; on a GPU the rows of 32 slots lie side by side, so that a warp reads its k-th places at once.
-struct NeighbourRows {
-  const std::uint32_t* start;
-  std::int64_t stride;
-  GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return start[i] + k * stride; }
-};
-
-/// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
-/// ids, each with the history of that contact: `width` numbers. Bit k of the mask at touching[i * maskWords] says that
-/// slot k touched in the last step. A CPU may read slots by eights: what lies behind a row's last is some grain's slot.
-struct NeighbourView : NeighbourRows {
-  const std::uint32_t *count, *slot;
-  float* history; ///< null where contacts have none
-  std::uint64_t* touching;
-  std::int64_t maskWords; ///< 1 among equal spheres
-};
-
-/// Rows that came from other ranks with grains that were handed over: for each row `words(capacity)` words, namely the
-/// number of neighbours in touch, `capacity` ids of those (ascending), and `capacity` histories of `width` numbers.
-struct TravellingRows {
-  std::uint32_t* data;
-  std::uint32_t capacity;
-  std::uint32_t width;
-  GROUSER_HD std::uint32_t words() const { return 1 + capacity * (1 + width); }
-};
-
-/// Radii of spheres that are not all alike: by slot, in `w` [m], each a whole number of units of length.
-struct RadiiInW {
-  const base::Vec4f* sphere = nullptr; ///< null: all have the list's diameter
-  float unitsPerLength = 0;            ///< a power of two
-  GROUSER_HD std::int64_t units(int i) const { return static_cast<std::int64_t>(sphere[i].w * unitsPerLength); }
-};
-
-/// Where the rows of a list on one of several ranks come from.
-struct RowOrigins {
-  static constexpr std::uint32_t kNone = ~0u;
-  const std::uint32_t* origin; ///< by new slot: row of the former list, or rows() + place in `arrived`, or kNone
-  const std::uint32_t* ghost;  ///< by new slot: not 0 for a grain that needs no row
-  TravellingRows arrived;
-};
-
-/// Dense grid over the cells in use; z runs fastest, so the three cells of a column are neighbours in memory. Along
-/// periodic boundaries it is a ring of cells that fills the period, none narrower than `edge` asks.
-struct CellGrid {
-  using Cell = base::Vec3<std::uint32_t>;
-  base::Period period;
-  base::Vec3l edge{}; ///< [units]
-  Cell low{}, cells{};
-
-  /// Sets the edges, at least `least`, and the rings; bounds of the other axes are the caller's to find.
-  void setEdge(std::int64_t least);
-  GROUSER_HD std::uint64_t key(const Cell& c) const {
-    return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
-  }
-  /// Counted from the lowest representable position, or from the lower of two periodic boundaries.
-  GROUSER_HD Cell cellOf(const base::Position& p) const {
-    constexpr std::int64_t kBias = std::int64_t{1} << 41;
-    const base::Vec3l u = base::toUnits(p);
-    Cell c;
-    for (int a = 0; a < 3; ++a) {
-      if (period.along(a)) {
-        const std::int64_t inside = u[a] + period.periodsBack(a, u[a]) * period.length[a] - period.low[a];
-        const auto k = static_cast<std::uint32_t>(inside / edge[a]);
-        c[a] = k < cells[a] ? k : cells[a] - 1; // the last cell holds what the division leaves over
-      } else {
-        c[a] = static_cast<std::uint32_t>((u[a] + kBias) / edge[a]);
-      }
-    }
-    return c;
-  }
-  GROUSER_HD Cell local(const base::Position& p) const { return cellOf(p) - low; }
-};
 
 struct TouchingRows;
 

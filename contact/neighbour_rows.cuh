@@ -3,7 +3,7 @@
 
 #include "base/bits.hpp"
 #include "base/for_each.cuh"
-#include "contact/neighbour_list.hpp"
+#include "contact/neighbour_view.hpp"
 
 #include <cstring>
 

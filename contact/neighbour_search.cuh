@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/cell_grid.hpp"
 #include "contact/cell_search.cuh"
-#include "contact/neighbour_list.hpp"
+#include "contact/neighbour_view.hpp"
 
 /// How neighbours are found: spheres sorted by the cells of a grid, and a look into the 27 cells around each.
 namespace grouser::contact {

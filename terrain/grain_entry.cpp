@@ -2,7 +2,6 @@
 #include "terrain/grain_entry.hpp"
 
 #include "base/error.hpp"
-#include "terrain/grain_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,26 +13,6 @@ namespace grouser::terrain {
 
 using base::Position;
 using base::Vec3d;
-using base::Vec3f;
-
-namespace {
-
-void checkDistinct(const std::vector<Position>& position, const std::vector<std::uint32_t>& id) {
-  std::vector<std::size_t> order(position.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t i) {
-    const Position& p = position[i];
-    return std::tuple(p.x, p.y, p.z, p.high);
-  };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (key(order[k - 1]) == key(order[k]))
-      throw base::InputError(fmt::format("grains {} and {} have the same position; move one of them",
-                                         std::min(id[order[k - 1]], id[order[k]]),
-                                         std::max(id[order[k - 1]], id[order[k]])));
-}
-
-} // namespace
 
 std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c) {
   const base::PositionScale& scale = c.scale;
@@ -59,19 +38,19 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
   return places;
 }
 
-EnteringGrains enteringHere(const GrainSystem& system, const std::vector<GrainSpec>& grains,
-                            const std::vector<Position>& places) {
-  EnteringGrains own;
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    if (system.ownerOf(places[i]) != system.comm.rank()) continue;
-    const Vec3f v = grains[i].velocity.as<float>(), w = grains[i].spin.as<float>();
-    own.position.push_back(places[i]);
-    own.velocity.push_back({v.x, v.y, v.z, system.constants.storedRadius(grains[i])});
-    own.spin.push_back({w.x, w.y, w.z, static_cast<float>(grains[i].material)});
-    own.id.push_back(static_cast<std::uint32_t>(system.count + i));
-  }
-  checkDistinct(own.position, own.id);
-  return own;
+void checkDistinct(const std::vector<Position>& position, const std::vector<std::uint32_t>& id) {
+  std::vector<std::size_t> order(position.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const Position& p = position[i];
+    return std::tuple(p.x, p.y, p.z, p.high);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (key(order[k - 1]) == key(order[k]))
+      throw base::InputError(fmt::format("grains {} and {} have the same position; move one of them",
+                                         std::min(id[order[k - 1]], id[order[k]]),
+                                         std::max(id[order[k - 1]], id[order[k]])));
 }
 
 } // namespace grouser::terrain

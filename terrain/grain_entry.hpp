@@ -15,10 +15,8 @@ struct GrainSystem;
 /// the integer positions or beyond periodic boundaries.
 std::vector<base::Position> placesOf(const std::vector<GrainSpec>& grains, std::size_t first, const GrainConstants& c);
 
-/// Those of the grains that belong to this rank; their ids follow the system's. Throws InputError when two have the
-/// same place: no direction would push them apart. (Two at one place have one owner.)
-EnteringGrains enteringHere(const GrainSystem& system, const std::vector<GrainSpec>& grains,
-                            const std::vector<base::Position>& places);
+/// Throws InputError when two grains have the same place: no direction would push them apart.
+void checkDistinct(const std::vector<base::Position>& position, const std::vector<std::uint32_t>& id);
 
 /// What keeps a grain from entering: it would lie in another grain or in a surface, deeper than the model allows.
 struct InsertionOverlap {

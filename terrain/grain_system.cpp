@@ -14,8 +14,23 @@ GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, cons
       count(0) {
   const std::vector<base::Position> places = placesOf(start, 0, constants);
   if (!comm.alone()) distribution = std::make_unique<GrainDistribution>(exec, partition, constants, places);
-  arrays.append(enteringHere(*this, start, places));
+  arrays.append(entering(start, places));
   count = start.size();
+}
+
+EnteringGrains GrainSystem::entering(const std::vector<GrainSpec>& grains,
+                                     const std::vector<base::Position>& places) const {
+  EnteringGrains own;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    if (ownerOf(places[i]) != comm.rank()) continue;
+    const base::Vec3f v = grains[i].velocity.as<float>(), w = grains[i].spin.as<float>();
+    own.position.push_back(places[i]);
+    own.velocity.push_back({v.x, v.y, v.z, constants.storedRadius(grains[i])});
+    own.spin.push_back({w.x, w.y, w.z, static_cast<float>(grains[i].material)});
+    own.id.push_back(static_cast<std::uint32_t>(count + i));
+  }
+  checkDistinct(own.position, own.id);
+  return own;
 }
 
 std::vector<std::uint32_t> GrainSystem::ghostsOnHost() const {

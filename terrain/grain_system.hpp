@@ -37,6 +37,9 @@ struct GrainSystem {
                ? distribution->subdomain().partition().view().ownerOf(constants.period.wrapped(base::toUnits(place)))
                : 0;
   }
+  /// Those of the grains that belong to this rank; their ids follow those of the grains that are here. Throws
+  /// InputError when two have the same place (which have one owner).
+  EnteringGrains entering(const std::vector<GrainSpec>& grains, const std::vector<base::Position>& places) const;
   void finishGhostUpdate() {
     if (distribution) distribution->finishGhostUpdate(exec, arrays);
   }

@@ -28,7 +28,7 @@ void Grains::add(const std::vector<GrainSpec>& more) {
   if (insertionOverlapAlarm_)
     if (const std::optional<InsertionOverlap> overlap = insertionOverlapOf(more, system_))
       insertionOverlapAlarm_(*overlap);
-  const EnteringGrains here = enteringHere(system_, more, places);
+  const EnteringGrains here = system_.entering(more, places);
   system_.arrays.append(here);
   system_.count += more.size();
   if (system_.distribution) system_.distribution->subdomain().appended(here.id.size());

@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "runs/bench/report.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 

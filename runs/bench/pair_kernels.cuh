@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/cell_search.cuh"
-#include "runs/bench/pair_search.hpp"
+#include "runs/bench/id_pair.hpp"
 
 /// Kernel bodies of the pair search.
 namespace grouser::bench::detail {

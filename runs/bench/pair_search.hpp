@@ -3,17 +3,13 @@
 
 #include "base/array.hpp"
 #include "base/position.hpp"
+#include "runs/bench/id_pair.hpp"
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace grouser::bench {
-
-/// Two spheres that touch, by their places in the array of positions.
-struct IdPair {
-  std::uint32_t first, second; ///< first < second
-};
 
 struct PairSearchOptions {
   bool store = true;       ///< false: count only

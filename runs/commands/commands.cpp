@@ -9,6 +9,7 @@
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/output/sinkage.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/support/text_file.hpp"

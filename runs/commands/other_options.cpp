@@ -2,7 +2,7 @@
 #include "runs/commands/command_entry.hpp"
 
 #include "runs/commands/commands.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/support/option_checks.hpp"
 
 #include <fmt/format.h>

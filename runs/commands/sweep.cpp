@@ -5,6 +5,7 @@
 #include "base/exec.hpp"
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/support/progress.hpp"
 

@@ -247,20 +247,4 @@ struct Scene {
   const ContactPair* contact(const std::string& a, const std::string& b) const;
 };
 
-/// Reads a scene and checks what its keys say by themselves; loadScene() checks what they mean together, too.
-/// Throws base::InputError with file, line, key, value, range and remedy.
-Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
-/// The same from text; paths in it are relative to the folder of `file`.
-Scene readSceneText(std::string_view text, const std::filesystem::path& file,
-                    const std::vector<std::string>& overrides = {});
-
-/// Says on stderr, a line each, which keys of the scene's file have a new name.
-void printNotes(const Scene& scene);
-
-/// The scene with every default filled in, as TOML that loads to the same scene.
-std::string resolvedToml(const Scene& scene);
-
-/// All keys of a scene file with unit, default, range and meaning, as Markdown.
-std::string fieldHelp();
-
 } // namespace grouser::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in its file a loaded scene says what, and what is to be said about that file.
+// Where in its file a loaded scene says what.
 #include "base/table.hpp"
 #include "runs/scene/scene.hpp"
 
@@ -33,11 +33,6 @@ std::string Scene::placeOf(const std::string& list, std::size_t number) const {
     if (const std::vector<base::Section> all = document->root().list(list); number < all.size())
       return fmt::format("{}: {}", all[number].origin(), all[number].path());
   return fmt::format("{}: {}.{}", file.string(), list, number);
-}
-
-void printNotes(const Scene& scene) {
-  if (!scene.document) return;
-  for (const std::string& note : scene.document->notes()) fmt::print(stderr, "grouser: note: {}\n", note);
 }
 
 } // namespace grouser::scene

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_count.hpp"
 
+#include "runs/setup/bed_layers.hpp"
 #include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/ground_setup.hpp"
 #include "terrain/layers.hpp"
 
 namespace grouser::setup {

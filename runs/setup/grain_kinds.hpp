@@ -2,10 +2,8 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
-#include "runs/setup/scene_surfaces.hpp"
-#include "terrain/grains.hpp"
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,23 +33,5 @@ std::vector<scene::Grain> placedGrains(const scene::Scene& scene);
 /// How many those are, without placing them.
 std::int64_t placedCount(const scene::Scene& scene);
 std::int64_t placedCount(const scene::GrainFill& block);
-
-/// A surface that grains meet, as constants of a step.
-struct Surroundings {
-  struct Wall {
-    base::Vec3d normal;
-    double offset;
-    std::string material;
-    std::string name{}; ///< in messages: "plane 0"
-  };
-  std::vector<Wall> walls;
-  std::optional<terrain::HeightField> floor;
-  std::string floorMaterial;
-  std::vector<SceneSurface> surfaces{};
-};
-
-/// The grains' constants, and their walls, floor and surfaces with their laws.
-terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
-                               const Surroundings& surroundings, terrain::Boundaries& boundaries);
 
 } // namespace grouser::setup

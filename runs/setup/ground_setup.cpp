@@ -3,8 +3,9 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/bed_layers.hpp"
 #include "runs/setup/grain_memory.hpp"
+#include "runs/setup/grain_model.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
@@ -13,7 +14,6 @@
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "terrain/heightmap.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -25,18 +25,6 @@
 namespace grouser::setup {
 
 using base::Vec3d;
-
-terrain::HeightField readSurface(const scene::Scene& scene) {
-  const scene::Terrain& t = *scene.terrain;
-  terrain::HeightmapPlacement placement;
-  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
-  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
-  try {
-    return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
-  } catch (const base::InputError& error) {
-    scene.fail("terrain", "heightmap", fmt::format("is of no use: {}", error.what()));
-  }
-}
 
 namespace {
 
@@ -227,21 +215,6 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   }
   return all;
 }
-
-} // namespace
-
-terrain::LayerOptions layerOptions(const scene::Scene& scene) {
-  const scene::Terrain& t = *scene.terrain;
-  terrain::LayerOptions options;
-  options.radius = *t.grainRadius, options.layers = t.layers.value_or(0), options.depth = t.depth.value_or(0);
-  options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
-  options.floor = t.floor;
-  options.seed = static_cast<std::uint64_t>(scene.run.seed);
-  options.joined = scene.run.periodic;
-  return options;
-}
-
-namespace {
 
 /// What stands beside each other in a scene.
 void checkCompany(const scene::Scene& scene) {

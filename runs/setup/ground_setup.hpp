@@ -79,10 +79,4 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks = 
 /// them), sources in solids, surfaces too quick for the step.
 void checkGround(const scene::Scene& scene, double timeStep);
 
-/// The ground's surface as the height-map says. Throws InputError where that cannot be read.
-terrain::HeightField readSurface(const scene::Scene& scene);
-
-/// How the scene's bed is laid.
-terrain::LayerOptions layerOptions(const scene::Scene& scene);
-
 } // namespace grouser::setup

@@ -2,6 +2,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/table.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_space.hpp"
 #include "runs/setup/mechanism_model.hpp"

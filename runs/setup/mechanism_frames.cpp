@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/mechanism_frames.hpp"
 
-#include "runs/setup/mechanism_model.hpp"
+#include "multibody/model.hpp"
+#include "runs/support/section_fault.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_model.hpp"
 
 namespace grouser::setup {
 

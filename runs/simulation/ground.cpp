@@ -30,6 +30,14 @@ std::vector<terrain::GrainSpec> laidGrains(const setup::GroundSetup& setup, cons
   return start;
 }
 
+/// The grains of a tile, come to rest. Throws SimulationError where they do not. Every rank has all of them.
+std::unique_ptr<terrain::Grains> settledTile(const setup::TileSetup& tile, const base::Exec& exec) {
+  Ground ground = buildGround(*tile.ground, exec);
+  const setup::BedSetup& bed = *tile.ground->grains->bed;
+  if (bed.settle.timeLimit > 0) settle(bed, *ground.grains, [](double, double) {});
+  return std::move(ground.grains);
+}
+
 std::vector<terrain::GrainSpec> tiledGrains(const setup::GroundSetup& setup, const setup::BedSetup& bed,
                                             const TiledBed& tiles) {
   std::vector<terrain::GrainSpec> start = tiles.start(bed.layers.radius, bed.material);
@@ -63,7 +71,7 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
   } else if (!g.bed->tile) {
     make(laidGrains(setup, *g.bed));
   } else {
-    const TiledBed tiles(*g.bed->tile, *setup.surface, g.bed->layers.radius, exec);
+    const TiledBed tiles(*g.bed->tile, *settledTile(*g.bed->tile, exec), *setup.surface, g.bed->layers.radius);
     make(tiledGrains(setup, *g.bed, tiles));
     tiles.bringToRest(*ground.grains, g.boundaries.walls.size()); // the floor stands behind the walls
   }

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/tiled_bed.hpp"
 
-#include "runs/simulation/ground.hpp"
-
 #include <algorithm>
 #include <utility>
 
 namespace grouser::simulation {
 
-TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::HeightField& surface, double radius,
-                   const base::Exec& exec)
-    : joined_(tile.periodic), copies_(tile.copies) {
-  Ground ground = buildGround(*tile.ground, exec);
-  const setup::BedSetup& bed = *tile.ground->grains->bed;
-  if (bed.settle.timeLimit > 0) settle(bed, *ground.grains, [](double, double) {});
-  tile_ = ground.grains->state(), scale_ = ground.grains->scale(), period_ = ground.grains->system().constants.period;
+TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface,
+                   double radius)
+    : joined_(tile.periodic), copies_(tile.copies), scale_(settled.scale()), period_(settled.system().constants.period),
+      tile_(settled.state()) {
   // The tile lies in [0, size x] and [-size y / 2, size y / 2], as every terrain does.
   lift_ = base::toUnits(scale_.fromMetres(
-      {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - ground.rigid->bounds().lowest}));
+      {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - tile.ground->rigid->bounds().lowest}));
 
   const auto clear = [&](std::size_t a, double x, double low, double high) {
     return joined_[a] || (x >= low + radius && x <= high - radius);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/exec.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
@@ -19,9 +18,9 @@ namespace grouser::simulation {
 /// the height-map; what lay against them has to come to rest again. Every rank makes the same tile.
 class TiledBed {
 public:
-  /// `surface`: of the whole terrain; `radius` [m] of the grains. Throws SimulationError where the tile does not
-  /// settle.
-  TiledBed(const setup::TileSetup& tile, const terrain::HeightField& surface, double radius, const base::Exec& exec);
+  /// `settled`: the grains of tile.ground, at rest; `surface`: of the whole terrain; `radius` [m] of the grains.
+  TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface,
+           double radius);
 
   /// Where the grains are, by id.
   std::vector<terrain::GrainSpec> start(double radius, int material) const;

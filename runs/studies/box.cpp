@@ -3,7 +3,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/random.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_model.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "contact/restitution.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_model.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/step_limit.hpp"
 

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/sinkage.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mechanisms in scene files: what is read, and one clear error for each mistake.
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_model.hpp"
 #include "tests/runs/scene_fixture.hpp"

@@ -2,6 +2,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/support/locations.hpp"
 #include "tests/runs/scene_fixture.hpp"
 

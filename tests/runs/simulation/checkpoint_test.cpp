@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/sealed_file.hpp"

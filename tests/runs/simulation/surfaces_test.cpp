@@ -8,6 +8,7 @@
 #include "base/math.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/output/surface_mesh.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cstdint>
+
+/// What kernels see of a neighbour list, and what a build of it is given.
+namespace grouser::contact {
+
+/// Where rows lie, one for each grain slot: place k of row i is start[i] + k stride. On a CPU row stands behind row, in
+/// few cache lines each; on a GPU the rows of 32 slots lie side by side, so that a warp reads its k-th places at once.
+struct NeighbourRows {
+  const std::uint32_t* start;
+  std::int64_t stride;
+  GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return start[i] + k * stride; }
+};
+
+/// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
+/// ids, each with the history of that contact: `width` numbers. Bit k of the mask at touching[i * maskWords] says that
+/// slot k touched in the last step. A CPU may read slots by eights: what lies behind a row's last is some grain's slot.
+struct NeighbourView : NeighbourRows {
+  const std::uint32_t *count, *slot;
+  float* history; ///< null where contacts have none
+  std::uint64_t* touching;
+  std::int64_t maskWords; ///< 1 among equal spheres
+};
+
+/// Rows that came from other ranks with grains that migrated: for each row `words(capacity)` words, namely the
+/// number of neighbours in touch, `capacity` ids of those (ascending), and `capacity` histories of `width` numbers.
+struct TravellingRows {
+  std::uint32_t* data;
+  std::uint32_t capacity;
+  std::uint32_t width;
+  GROUSER_HD std::uint32_t words() const { return 1 + capacity * (1 + width); }
+};
+
+/// Radii of spheres that are not all alike: by slot, in `w` [m], each a whole number of units of length.
+struct RadiiInW {
+  const base::Vec4f* sphere = nullptr; ///< null: all have the list's diameter
+  float unitsPerLength = 0;            ///< a power of two
+  GROUSER_HD std::int64_t units(int i) const { return static_cast<std::int64_t>(sphere[i].w * unitsPerLength); }
+};
+
+/// Where the rows of a list on one of several ranks come from.
+struct RowOrigins {
+  static constexpr std::uint32_t kNone = ~0u;
+  const std::uint32_t* origin; ///< by new slot: row of the former list, or rows() + place in `arrived`, or kNone
+  const std::uint32_t* ghost;  ///< by new slot: not 0 for a grain that needs no row
+  TravellingRows arrived;
+};
+
+} // namespace grouser::contact

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/scene/scene_file.hpp"
+
+#include "base/table.hpp"
+#include "runs/scene/detail/section_checks.hpp"
+#include "runs/scene/detail/section_lists.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::scene {
+
+using detail::SectionEntry;
+using detail::SectionList;
+
+namespace {
+
+/// All of a scene file, in the order in which it is read, written and described.
+SectionList allSections() {
+  SectionList all;
+  for (SectionList (*const subject)() :
+       {detail::runSections, detail::materialSections, detail::grainSections, detail::surfaceSections,
+        detail::terrainSections, detail::mechanismSections, detail::vehicleSections, detail::outputSections})
+    for (SectionEntry& entry : subject()) all.push_back(std::move(entry));
+  return all;
+}
+
+void allowOnlyKnown(const base::Section& root, const SectionList& sections) {
+  std::vector<std::string> names{"version"};
+  for (const SectionEntry& entry : sections)
+    if (entry.name.find('.') == std::string::npos) names.push_back(entry.name);
+  root.allowOnly(names);
+}
+
+Scene sceneOf(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const SectionList sections = allSections();
+  for (const SectionEntry& entry : sections) entry.renameKeys(read);
+  Scene scene;
+  scene.file = file, scene.overrides = overrides;
+  scene.document = std::make_shared<const base::Document>(std::move(read));
+  const base::Section root = scene.document->root();
+  allowOnlyKnown(root, sections);
+  for (const SectionEntry& entry : sections) entry.read(root, scene);
+  detail::checkTogether(scene);
+  return scene;
+}
+
+} // namespace
+
+Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return sceneOf(base::Document::load(file, overrides), file, overrides);
+}
+
+Scene readSceneText(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides) {
+  return sceneOf(base::Document::parse(text, file.string(), overrides), file, overrides);
+}
+
+void printNotes(const Scene& scene) {
+  if (!scene.document) return;
+  for (const std::string& note : scene.document->notes()) fmt::print(stderr, "grouser: note: {}\n", note);
+}
+
+std::string resolvedToml(const Scene& scene) {
+  std::string text = "version = 1\n";
+  for (const SectionEntry& entry : allSections()) text += entry.write(scene);
+  return text;
+}
+
+std::string fieldHelp() {
+  std::string text =
+      "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required; a section "
+      "that is absent is not built.\n";
+  for (const SectionEntry& entry : allSections()) text.append("\n").append(entry.describe());
+  return text;
+}
+
+} // namespace grouser::scene

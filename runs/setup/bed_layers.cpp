@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/bed_layers.hpp"
+
+#include "base/error.hpp"
+#include "terrain/heightmap.hpp"
+
+#include <cstdint>
+#include <fmt/format.h>
+
+namespace grouser::setup {
+
+terrain::HeightField readSurface(const scene::Scene& scene) {
+  const scene::Terrain& t = *scene.terrain;
+  terrain::HeightmapPlacement placement;
+  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
+  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
+  try {
+    return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
+  } catch (const base::InputError& error) {
+    scene.fail("terrain", "heightmap", fmt::format("is of no use: {}", error.what()));
+  }
+}
+
+terrain::LayerOptions layerOptions(const scene::Scene& scene) {
+  const scene::Terrain& t = *scene.terrain;
+  terrain::LayerOptions options;
+  options.radius = *t.grainRadius, options.layers = t.layers.value_or(0), options.depth = t.depth.value_or(0);
+  options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
+  options.floor = t.floor;
+  options.seed = static_cast<std::uint64_t>(scene.run.seed);
+  options.joined = scene.run.periodic;
+  return options;
+}
+
+} // namespace grouser::setup

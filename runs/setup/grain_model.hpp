@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+#include "terrain/grains.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+/// What grains meet besides each other: walls and floor, and surfaces.
+struct Surroundings {
+  struct Wall {
+    base::Vec3d normal;
+    double offset;
+    std::string material;
+    std::string name{}; ///< in messages: "plane 0"
+  };
+  std::vector<Wall> walls;
+  std::optional<terrain::HeightField> floor;
+  std::string floorMaterial;
+  std::vector<SceneSurface> surfaces{};
+};
+
+/// The grains' constants, and their walls, floor and surfaces with their laws.
+terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
+                               const Surroundings& surroundings, terrain::Boundaries& boundaries);
+
+} // namespace grouser::setup
