@@ -3,8 +3,8 @@
 
 #include "base/vec.hpp"
 #include "runs/scene/choices.hpp"
-#include "runs/scene/mechanism_sections.hpp"
-#include "runs/scene/surface_sections.hpp"
+#include "runs/scene/mechanism_structs.hpp"
+#include "runs/scene/surface_structs.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
-#include "runs/scene/mechanism_sections.hpp"
+#include "runs/scene/mechanism_structs.hpp"
 
 namespace grouser::setup {
 

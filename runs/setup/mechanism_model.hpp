@@ -2,7 +2,7 @@
 #pragma once
 
 #include "multibody/model.hpp"
-#include "runs/scene/mechanism_sections.hpp"
+#include "runs/scene/mechanism_structs.hpp"
 #include "runs/support/section_fault.hpp"
 
 #include <map>

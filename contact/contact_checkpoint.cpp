@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/saved_contacts.hpp"
-
+// What contacts of parts are saved as, and are restored from.
 #include "base/algorithms.hpp"
 #include "base/error.hpp"
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
+#include "contact/saved_contacts.hpp"
 
 #include <cstring>
 
