@@ -17,42 +17,6 @@ std::vector<int> probedParts(const std::vector<PartPair>& pairs) {
 
 } // namespace
 
-PatchBuffers::PatchBuffers(const base::Exec& e, const std::vector<const base::SphereSet*>& sets,
-                           const std::vector<int>& setOf, const std::vector<int>& probedParts)
-    : exec(e), pairs(probedParts.size()), setOfPart(e, setOf), near(e, pairs), entry(e), gap(e),
-      sums(e, pairs * kClusters), states(e, pairs * kClusters) {
-  constexpr std::uint32_t kProbesPerChunk = 8;
-  std::vector<SurfaceSample> all;
-  std::vector<std::uint32_t> start{0};
-  for (const base::SphereSet* set : sets) {
-    const std::vector<SurfaceSample> samples = surfaceSamplesOf(*set);
-    all.insert(all.end(), samples.begin(), samples.end());
-    start.push_back(static_cast<std::uint32_t>(all.size()));
-  }
-  std::vector<ProbeChunk> list;
-  for (std::uint32_t p = 0; p < probedParts.size(); ++p) {
-    const auto set = static_cast<std::size_t>(setOf[static_cast<std::size_t>(probedParts[p])]);
-    for (std::uint32_t k = start[set]; k < start[set + 1]; k += kProbesPerChunk)
-      list.push_back({p, k, std::min(k + kProbesPerChunk, start[set + 1])});
-  }
-  sample = base::Array<SurfaceSample>(e, all);
-  chunks = base::Array<ProbeChunk>(e, list);
-  count = base::Array<std::uint32_t>(e, list.size());
-  first = base::Array<std::uint32_t>(e, list.size());
-}
-
-PatchBuffers::Ledger PatchBuffers::ledger(const PatchQuanta& quanta) const {
-  Ledger ledger;
-  std::int64_t elastic = 0;
-  for (const PatchSums& s : sums.toHost()) {
-    elastic += s.elastic;
-    ledger.patches += s.weight > 0;
-  }
-  ledger.elastic = quanta.energy.value(elastic);
-  for (const PatchState& s : states.toHost()) ledger.dissipated += s.dissipated;
-  return ledger;
-}
-
 PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,
                                    const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                    const std::vector<PartPair>& pairs)

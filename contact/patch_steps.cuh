@@ -2,7 +2,8 @@
 #pragma once
 
 #include "base/algorithms.hpp"
-#include "contact/patch_contacts.hpp"
+#include "contact/part_motion.hpp"
+#include "contact/patch_buffers.hpp"
 #include "contact/surface_sample_kernels.cuh"
 
 namespace grouser::contact {

@@ -19,7 +19,7 @@ class Function:
 class Class:
     name: str
     line: int
-    public: list = field(default_factory=list)  # names of its public functions, one for each overload
+    public: list = field(default_factory=list)  # its public functions, one for each overload; copies and ends apart
 
 
 # A digit's separator (1'000) is no quote, hence the look behind.
@@ -184,5 +184,6 @@ def _declared(head, owner, access):
     if re.search(r'= ?(default|delete)$', plain):
         return
     kind, name = _opens(head)
-    if kind == 'function':
+    copies = re.search(r'\boperator\s*=\s*\(|\b%s\s*\((const )?%s ?&' % (owner.name, owner.name), head)
+    if kind == 'function' and not name.startswith('~') and not copies:
         owner.public.append(name)

@@ -209,6 +209,9 @@ class Outline(unittest.TestCase):
     def test_public_functions(self):
         text = '''struct A : B<C> {
   A() = default;
+  A(A&& other) noexcept;
+  A& operator=(const A& other);
+  ~A();
   explicit A(int a) : a_{a} {}
   std::function<void(int)> data;
   int size() const { return 1; }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "contact/part_surface.hpp"
+#include "contact/patch_law.hpp"
+#include "contact/saved_contacts.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::contact {
+
+/// Some samples of one pair: the unit of work when samples are listed.
+struct ProbeChunk {
+  std::uint32_t pair, first, last; ///< samples [first, last)
+};
+
+/// The lists and sums that contacts of extended surfaces share, whatever the other side is.
+struct PatchBuffers {
+  /// `probedParts`: for each pair the part whose samples feel.
+  PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
+               const std::vector<int>& setOfPart, const std::vector<int>& probedParts);
+
+  base::Exec exec;
+  std::size_t pairs;
+  base::Array<SurfaceSample> sample;
+  base::Array<int> setOfPart;
+  base::Array<ProbeChunk> chunks;
+  base::Array<std::uint32_t> near, count, first;
+  base::Array<std::uint64_t> entry;
+  base::Array<float> gap;
+  std::size_t entries{0};
+  base::Array<PatchSums> sums;
+  base::Array<PatchState> states;
+
+  /// Energies [J] over all patches, and touching patches, from the last step.
+  struct Ledger {
+    double elastic{}, dissipated{};
+    std::int64_t patches{};
+  };
+  Ledger ledger(const PatchQuanta& quanta) const;
+  /// For hashes and checkpoints. Throws InputError when what was saved is of other pairs; list the samples afterwards.
+  SavedPatches save() const;
+  void restore(const SavedPatches& saved);
+};
+
+} // namespace grouser::contact
