@@ -86,6 +86,7 @@ public:
 
   /// Velocities before the last step, on the device, by slot; null where something else than a step came last.
   const Vec4f* formerVelocities() const { return hasFormer_ ? fields_.velocity.next.data() : nullptr; }
+  bool knowsFormerVelocities() const { return hasFormer_; } ///< a rank without grains too, whose array has no address
   /// Between these two calls the grains may be sorted and migrate without the loss of formerVelocities().
   void holdFormer();
   void releaseFormer();

@@ -62,7 +62,7 @@ double forceRatio(const GrainSystem& system) {
 }
 
 std::vector<base::Vec3f> contactForces(const GrainSystem& system) {
-  if (!system.arrays.formerVelocities())
+  if (!system.arrays.knowsFormerVelocities())
     throw std::logic_error("contact forces are asked for when something else than a step came last");
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();

@@ -10,6 +10,7 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"

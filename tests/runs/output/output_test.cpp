@@ -244,7 +244,7 @@ TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
     const std::string dataset = between(">frames.h5:", "</DataItem>", at);
     EXPECT_EQ(file.shape(dataset), wanted) << dataset;
   }
-  EXPECT_EQ(references, 3 * (5 + 4 + 2)); // grains, parts, ground
+  EXPECT_EQ(references, 3 * (7 + 4 + 2)); // grains, parts, ground
   // Parts stand where their poses put them.
   const std::vector<double> parts = file.numbers("/000002/parts/position");
   EXPECT_EQ(parts[2], 2.0);
