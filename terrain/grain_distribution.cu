@@ -6,7 +6,7 @@
 #include "terrain/length_units.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <string>
 
 namespace grouser::terrain {
 
@@ -49,9 +49,10 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
     const int given = static_cast<int>(options.cuts[a].size()) + 1;
     if (given == 1) continue;
     if (wanted[a] != 0 && wanted[a] != given)
-      throw base::InputError(fmt::format("parallel.cuts_{} gives {} planes, which make {} subdomains, but "
-                                         "parallel.subdomains says {} along that axis; make them agree",
-                                         "xyz"[a], given - 1, given, wanted[a]));
+      throw base::InputError(std::string("parallel.cuts_") + "xyz"[a] + " gives " + std::to_string(given - 1) +
+                             " planes, which make " + std::to_string(given) +
+                             " subdomains, but parallel.subdomains says " + std::to_string(wanted[a]) +
+                             " along that axis; make them agree");
     wanted[a] = given;
   }
   base::Vec3l low{}, high{};

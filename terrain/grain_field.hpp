@@ -22,12 +22,13 @@ enum FieldUse : unsigned {
 
 /// One field of the grains: `width` values of T by slot, on the device.
 template <class T> struct GrainField {
+  using StateMember = std::vector<T> GrainState::*;
   /// `as`: checkpoints and the state hash take the values as they are, into this member; null where GrainCheckpoint
   /// gives them another form, or where they can be made anew.
-  explicit GrainField(unsigned uses, std::vector<T> GrainState::*as = nullptr) : use(uses), savedAs(as) {}
+  explicit GrainField(unsigned uses, StateMember as = nullptr) : use(uses), savedAs(as) {}
 
   unsigned use; ///< sum of FieldUse
-  std::vector<T> GrainState::*savedAs;
+  StateMember savedAs;
   std::size_t width{1}; ///< 0: this scene has no such field
   base::Array<T> now;
   base::Array<T> next; ///< of kBuffered: what the step writes; between steps, the state before the last step
