@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/vec.hpp"
+#include "base/number.hpp"
 
 #include <cmath>
 
@@ -66,7 +66,11 @@ template <class T> struct BasicLaw {
 /// As a scene has it; kernels take their own precision.
 using ContactLaw = BasicLaw<double>;
 
-/// Two surfaces in touch, seen from side i. The normal points from i to j.
+using base::ScalarOf;
+using base::squareRoot;
+
+/// Two surfaces in touch, seen from side i; with SIMD numbers, as many pairs as there are lanes. The normal points from
+/// i to j.
 template <class T> struct BasicContactGeometry {
   base::Vec3<T> normal;   ///< unit, from i to j
   T overlap;              ///< [m], > 0
@@ -85,10 +89,6 @@ template <class T> struct BasicReaction {
 };
 using Reaction = BasicReaction<float>;
 
-/// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
-GROUSER_HD float squareRoot(float x) { return sqrtf(x); }
-GROUSER_HD double squareRoot(double x) { return sqrt(x); }
-
 /// Spring force and coefficients of a contact at one overlap.
 template <class T> struct Coefficients {
   T elastic;             ///< [N]
@@ -98,17 +98,18 @@ template <class T> struct Coefficients {
   T tangentialDamping;   ///< c_t [N s/m]
 };
 
-template <unsigned kFeatures, class T>
-GROUSER_HD Coefficients<T> coefficientsOf(const BasicLaw<T>& law, T overlap, T effectiveMass, T effectiveRadius) {
+template <unsigned kFeatures, class T> GROUSER_HD Coefficients<T>
+coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T effectiveRadius) {
+  using Scalar = ScalarOf<T>;
   if (kFeatures & kGeneral ? law.hertz : kFeatures & kHertz) {
     const T a = squareRoot(effectiveRadius * overlap);
     const T root = squareRoot(a * effectiveMass);
     const T modulus = law.stiffness * a;
-    return {modulus * overlap, T(1.5) * modulus, law.rootDamping * root, law.tangentialStiffness * a,
+    return {modulus * overlap, Scalar(1.5) * modulus, law.rootDamping * root, law.tangentialStiffness * a,
             law.tangentialRootDamping * root};
   }
-  Coefficients<T> c{law.stiffness * overlap, law.stiffness, law.damping * effectiveMass, law.tangentialStiffness,
-                    law.tangentialDamping * effectiveMass};
+  Coefficients<T> c{law.stiffness * overlap, base::broadcast<T>(law.stiffness), law.damping * effectiveMass,
+                    base::broadcast<T>(law.tangentialStiffness), law.tangentialDamping * effectiveMass};
   if (kFeatures & (kManyMasses | kGeneral)) {
     const T root = squareRoot(effectiveMass);
     c.damping += law.rootDamping * root;
@@ -117,24 +118,28 @@ GROUSER_HD Coefficients<T> coefficientsOf(const BasicLaw<T>& law, T overlap, T e
   return c;
 }
 
-/// Force of `law` on side i, and the tangential spring `shear` [m] carried to the end of the step.
+/// Force of `law` on side i, and the tangential spring `shear` [m] carried to the end of the step. T is float, double,
+/// or SIMD numbers of these: one source for the kernels of both devices and for many contacts at a time.
 /// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit.
 ///
 /// What is dissipated is the work of the dashpot, with the approach in the middle of the step as this contact alone
 /// would make it (second order in the step for a single collision), and of friction (first order). The energy that a
 /// loaded tangential spring gains or loses because k_t follows the contact radius is booked there too.
-template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T>
-contactForce(const BasicLaw<T>& law, const BasicContactGeometry<T>& touch, T dt, base::Vec3<T>& shear) {
+template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law,
+                                                                                const BasicContactGeometry<T>& touch,
+                                                                                ScalarOf<T> dt, base::Vec3<T>& shear) {
+  using Scalar = ScalarOf<T>;
+  const T zero{};
   const base::Vec3<T>& n = touch.normal;
   const T approach = dot(touch.velocity, n);
   const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
   T dashpot = c.damping * approach;
   // Without attraction the dashpot may at most cancel the spring.
-  if (!law.attraction && c.elastic + dashpot < 0) dashpot = -c.elastic;
+  if (!law.attraction) dashpot = c.elastic + dashpot < zero ? -c.elastic : dashpot;
   const T pressing = c.elastic + dashpot;
   T normalForce = pressing;
   if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pullPerRadius * touch.effectiveRadius;
-  const T halfStepPerMass = T(0.5) * dt / touch.effectiveMass;
+  const T halfStepPerMass = Scalar(0.5) * dt / touch.effectiveMass;
   BasicReaction<T> reaction{n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, pressing,
                             c.normalStiffness};
   if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
@@ -145,29 +150,33 @@ contactForce(const BasicLaw<T>& law, const BasicContactGeometry<T>& touch, T dt,
   const T storedBefore = c.tangentialStiffness * dot(shear, shear);
   const bool hertz = kFeatures & kGeneral ? law.hertz : (kFeatures & kHertz) != 0;
   if (hertz) { // k_t has grown as the root of the overlap, which was less by the way of this step
-    const T share = T(1) - approach * dt / touch.overlap;
-    reaction.dissipated -= T(0.5) * storedBefore * (T(1) - (share > 0 ? squareRoot(share) : T(0)));
+    const T share = Scalar(1) - approach * dt / touch.overlap;
+    reaction.dissipated -= Scalar(0.5) * storedBefore * (Scalar(1) - squareRoot(share > zero ? share : zero));
   }
-  shear += slip * dt;
+  shear += slip * base::broadcast<T>(dt);
   base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
-  const T limit = law.friction * (pressing > 0 ? pressing : T(0));
+  const T limit = law.friction * (pressing > zero ? pressing : zero);
   const T size2 = dot(tangential, tangential);
-  if (size2 > limit * limit) {
+  if (const auto slides = size2 > limit * limit; base::any(slides)) {
     // Sliding: the force lies on Coulomb's cone.
-    tangential *= limit / squareRoot(size2);
+    tangential = base::select(slides, tangential * (limit / squareRoot(size2)), tangential);
     if (!hertz) {
       // The spring is as long as it would hold that force.
-      shear = c.tangentialStiffness > 0 ? tangential * (T(-1) / c.tangentialStiffness) : base::Vec3<T>{};
+      if (law.tangentialStiffness > 0)
+        shear = base::select(slides, tangential * (Scalar(-1) / c.tangentialStiffness), shear);
+      else
+        shear = base::select(slides, base::Vec3<T>{}, shear);
     } else {
       // Where contacts begin, k_t is as small as one likes, and a spring that took over the dashpot's force would be
       // as long: it is shortened only where it is beyond the cone alone.
       const T spring2 = c.tangentialStiffness * c.tangentialStiffness * dot(shear, shear);
-      if (spring2 > limit * limit) shear *= limit / squareRoot(spring2);
+      if (const auto beyond = slides & (spring2 > limit * limit); base::any(beyond))
+        shear = base::select(beyond, shear * (limit / squareRoot(spring2)), shear);
     }
   }
   // Work put into the tangential contact, less what its spring has gained.
   reaction.dissipated -=
-      dot(tangential, slip) * dt + T(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
+      dot(tangential, slip) * dt + Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
   reaction.force += tangential;
   return reaction;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/detail/lanes.hpp"
+#include "base/simd.hpp"
 
 #include <array>
 #include <cmath>
-#include <cstring>
 
 /// Kernels on 6x6 blocks, stored by columns of 8 numbers of which the first 6 count (entry (row, column) at
 /// [8 column + row]; a column is one cache line), and on vectors of 8 with 6 in use. A column is one compiler vector:
@@ -17,22 +16,19 @@ inline constexpr int kStride = 8;
 struct alignas(64) Block : std::array<double, 6 * kStride> {};
 struct alignas(64) Vector6 : std::array<double, kStride> {};
 
-using Column8 = double __attribute__((vector_size(64)));
-using Column4 = double __attribute__((vector_size(32)));
-using Column2 = double __attribute__((vector_size(16)));
-
-GROUSER_KERNEL void load(Column8& c, const double* p) { std::memcpy(&c, p, sizeof c); }
-GROUSER_KERNEL void store(double* p, const Column8& c) { std::memcpy(p, &c, sizeof c); }
+using Column8 = base::Simd<double, 8>;
+using Column4 = base::Simd<double, 4>;
+using Column2 = base::Simd<double, 2>;
 
 /// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. A row that is not in the bit mask
 /// `active`, or whose pivot does not exceed its entry of `smallest` in size, is left out: its 1/d is 0. Returns the
 /// mask of the rows kept.
-GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInverse, const double* __restrict smallest,
-                                unsigned active) {
+GROUSER_SIMD unsigned factor6(double* __restrict A, double* __restrict dInverse, const double* __restrict smallest,
+                              unsigned active) {
   unsigned kept = 0;
   Column8 a[6];
 #pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) load(a[j], A + kStride * j);
+  for (int j = 0; j < 6; ++j) a[j] = base::load<Column8>(A + kStride * j);
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     const double d = a[j][j];
@@ -43,60 +39,57 @@ GROUSER_KERNEL unsigned factor6(double* __restrict A, double* __restrict dInvers
     const Column8 l = a[j] * inverse;
 #pragma GCC unroll 6
     for (int k = j + 1; k < 6; ++k) a[k] -= l * a[j][k];
-    store(A + kStride * j, l);
+    base::store(A + kStride * j, l);
   }
   return kept;
 }
 
 /// W <- W L^-T, and V = W diag(1/d).
-GROUSER_KERNEL void solveRight6(double* __restrict W, double* __restrict V, const double* __restrict L,
-                                const double* __restrict dInverse) {
+GROUSER_SIMD void solveRight6(double* __restrict W, double* __restrict V, const double* __restrict L,
+                              const double* __restrict dInverse) {
   Column8 w[6];
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
-    load(w[j], W + kStride * j);
+    w[j] = base::load<Column8>(W + kStride * j);
 #pragma GCC unroll 6
     for (int k = 0; k < j; ++k) w[j] -= w[k] * L[kStride * k + j];
-    store(W + kStride * j, w[j]);
-    store(V + kStride * j, w[j] * dInverse[j]);
+    base::store(W + kStride * j, w[j]);
+    base::store(V + kStride * j, w[j] * dInverse[j]);
   }
 }
 
 /// K -= V W^T.
-GROUSER_KERNEL void subtractProduct6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
+GROUSER_SIMD void subtractProduct6(double* __restrict K, const double* __restrict V, const double* __restrict W) {
   Column8 v[6];
 #pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) load(v[j], V + kStride * j);
+  for (int j = 0; j < 6; ++j) v[j] = base::load<Column8>(V + kStride * j);
 #pragma GCC unroll 6
   for (int c = 0; c < 6; ++c) {
-    Column8 k;
-    load(k, K + kStride * c);
+    Column8 k = base::load<Column8>(K + kStride * c);
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) k -= v[j] * W[kStride * j + c];
-    store(K + kStride * c, k);
+    base::store(K + kStride * c, k);
   }
 }
 
 /// y -= V x.
-GROUSER_KERNEL void subtractTimes6(double* __restrict y, const double* __restrict V, const double* __restrict x) {
-  Column8 sum, v;
-  load(sum, y);
+GROUSER_SIMD void subtractTimes6(double* __restrict y, const double* __restrict V, const double* __restrict x) {
+  Column8 sum = base::load<Column8>(y);
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
-    load(v, V + kStride * j);
+    const auto v = base::load<Column8>(V + kStride * j);
     sum -= v * x[j];
   }
-  store(y, sum);
+  base::store(y, sum);
 }
 
 /// y -= V^T x.
-GROUSER_KERNEL void subtractTransposedTimes6(double* __restrict y, const double* __restrict V,
-                                             const double* __restrict x) {
-  Column8 s, v;
-  load(s, x);
+GROUSER_SIMD void subtractTransposedTimes6(double* __restrict y, const double* __restrict V,
+                                           const double* __restrict x) {
+  const auto s = base::load<Column8>(x);
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
-    load(v, V + kStride * j);
+    const auto v = base::load<Column8>(V + kStride * j);
     const Column8 p = v * s;
     // Halves of a register: ((0 + 4) + 2) + ((1 + 5) + 3).
     const Column4 h = Column4{p[0], p[1], p[2], p[3]} + Column4{p[4], p[5], 0, 0};
@@ -106,7 +99,7 @@ GROUSER_KERNEL void subtractTransposedTimes6(double* __restrict y, const double*
 }
 
 /// y <- L^-1 y.
-GROUSER_KERNEL void forward6(double* __restrict y, const double* __restrict L) {
+GROUSER_SIMD void forward6(double* __restrict y, const double* __restrict L) {
 #pragma GCC unroll 6
   for (int j = 0; j < 5; ++j)
 #pragma GCC unroll 6
@@ -114,7 +107,7 @@ GROUSER_KERNEL void forward6(double* __restrict y, const double* __restrict L) {
 }
 
 /// x <- L^-T x.
-GROUSER_KERNEL void backward6(double* __restrict x, const double* __restrict L) {
+GROUSER_SIMD void backward6(double* __restrict x, const double* __restrict L) {
 #pragma GCC unroll 6
   for (int j = 4; j >= 0; --j)
 #pragma GCC unroll 6

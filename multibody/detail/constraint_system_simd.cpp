@@ -69,8 +69,8 @@ void ConstraintSystem::makeLinks() {
     if (!inTree_[k]) offTree_.push_back(static_cast<int>(k));
 }
 
-GROUSER_LANES void ConstraintSystem::lineariseLinks(const std::vector<Frame>& frames,
-                                                    const std::vector<AxisLaw>& laws) {
+GROUSER_SIMD_CLONES void ConstraintSystem::lineariseLinks(const std::vector<Frame>& frames,
+                                                          const std::vector<AxisLaw>& laws) {
   for (std::size_t index = 0; index < links_.size(); ++index) {
     LinkLanes& b = links_[index];
     Elimination::Links& to = elimination_->links(static_cast<int>(index));

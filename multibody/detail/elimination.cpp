@@ -21,36 +21,36 @@ void set(Vec3L& v, int lane, const base::Vec3<double>& value) {
   in(v.x, lane) = value.x, in(v.y, lane) = value.y, in(v.z, lane) = value.z;
 }
 
-GROUSER_KERNEL Vec3L vector(const Lanes (&a)[6], int first) { return {a[first], a[first + 1], a[first + 2]}; }
+GROUSER_SIMD Vec3L vector(const Lanes (&a)[6], int first) { return {a[first], a[first + 1], a[first + 2]}; }
 
-GROUSER_KERNEL Lanes dot6(const Lanes (&a)[6], const Lanes (&b)[6]) {
+GROUSER_SIMD Lanes dot6(const Lanes (&a)[6], const Lanes (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
 /// Symmetric matrix, lower triangle by columns 00 10 20 11 21 22, times a vector.
-GROUSER_KERNEL Vec3L timesSymmetric(const Lanes (&m)[6], const Vec3L& v) {
+GROUSER_SIMD Vec3L timesSymmetric(const Lanes (&m)[6], const Vec3L& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
           m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
 /// Row-major matrix, and its transpose, times a vector.
-GROUSER_KERNEL Vec3L times(const Lanes (&m)[9], const Vec3L& v) {
+GROUSER_SIMD Vec3L times(const Lanes (&m)[9], const Vec3L& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
           m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
-GROUSER_KERNEL Vec3L transposedTimes(const Lanes (&m)[9], const Vec3L& v) {
+GROUSER_SIMD Vec3L transposedTimes(const Lanes (&m)[9], const Vec3L& v) {
   return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
           m[2] * v.x + m[5] * v.y + m[8] * v.z};
 }
 
-GROUSER_KERNEL void put(Lanes (&a)[6], const Vec3L& v, const Vec3L& w) {
+GROUSER_SIMD void put(Lanes (&a)[6], const Vec3L& v, const Vec3L& w) {
   a[0] = v.x, a[1] = v.y, a[2] = v.z, a[3] = w.x, a[4] = w.y, a[5] = w.z;
 }
 
 /// Reads a node's vector of each lane, six of its eight numbers.
-GROUSER_KERNEL void gatherNodes(const double* const (&row)[kLanes], Lanes (&out)[6]) {
+GROUSER_SIMD void gatherNodes(const double* const (&row)[kLanes], Lanes (&out)[6]) {
   Lanes low[4], high[4];
-  gather4(row, 0, low);
-  gather4(row, 4, high);
+  gatherRows(row, 0, low);
+  gatherRows(row, 4, high);
   out[0] = low[0], out[1] = low[1], out[2] = low[2], out[3] = low[3], out[4] = high[0], out[5] = high[1];
 }
 
@@ -123,7 +123,7 @@ void Elimination::startLoops() {
 
 /// Directions dual to the rows; free ones of them, and the sweep of the file's head. `pairs`: where the products of two
 /// columns go.
-GROUSER_KERNEL void factorBatch(Elimination::Links& b, Elimination::Column* columns, double* const* pairs) {
+GROUSER_SIMD void factorBatch(Elimination::Links& b, Elimination::Column* columns, double* const* pairs) {
   if (b.joint[0] >= 0) {
     const Lanes volume = dot(b.torque[0], cross(b.torque[1], b.torque[2]));
     const Lanes inverse = 1.0 / volume;
@@ -176,7 +176,7 @@ GROUSER_KERNEL void factorBatch(Elimination::Links& b, Elimination::Column* colu
 
 /// Articulated inertia at the parent's centre of mass: with the twist shifted as v = v_parent + w x d, vw becomes
 /// vw - vv [d], ww becomes ww + [d] vw' - vw^T [d]; [d] is the matrix of d x.
-GROUSER_KERNEL void shifted(const Elimination::Links& b, Lanes (&vw)[9], Lanes (&ww)[6]) {
+GROUSER_SIMD void shifted(const Elimination::Links& b, Lanes (&vw)[9], Lanes (&ww)[6]) {
   const Lanes &x = b.away.x, &y = b.away.y, &z = b.away.z;
   const Lanes m[9] = {b.vv[0], b.vv[1], b.vv[2], b.vv[1], b.vv[3], b.vv[4], b.vv[2], b.vv[4], b.vv[5]};
 #pragma GCC unroll 3
@@ -205,7 +205,7 @@ GROUSER_KERNEL void shifted(const Elimination::Links& b, Lanes (&vw)[9], Lanes (
 }
 
 /// Adds what is left of inertia and columns to the parents'.
-GROUSER_KERNEL void passOn(Elimination::Links& b, Elimination::Column* columns, std::vector<Elimination::Links>& all) {
+GROUSER_SIMD void passOn(Elimination::Links& b, Elimination::Column* columns, std::vector<Elimination::Links>& all) {
   Lanes vw[9], ww[6];
   shifted(b, vw, ww);
   if (b.aligned) {
@@ -243,7 +243,7 @@ int Elimination::factor() {
   return sweep();
 }
 
-GROUSER_LANES int Elimination::sweep() {
+GROUSER_SIMD_CLONES int Elimination::sweep() {
   int leftOut = 0;
   for (Links& b : links_) {
     const Lanes zero = all(0);
@@ -305,8 +305,8 @@ int Elimination::factorLoop(Loop& z) {
 
 namespace {
 
-GROUSER_KERNEL void forwardBatch(const Elimination::Links& b, const Elimination::Column* columns, Vector6* x,
-                                 int bodies) {
+GROUSER_SIMD void forwardBatch(const Elimination::Links& b, const Elimination::Column* columns, Vector6* x,
+                               int bodies) {
   const double* row[kLanes];
   for (int l = 0; l < kLanes; ++l) row[l] = x[b.body[at(l)]].data();
   Lanes p[6], c[6] = {}, delta[6] = {};
@@ -346,20 +346,19 @@ GROUSER_KERNEL void forwardBatch(const Elimination::Links& b, const Elimination:
   }
 
   torque += cross(b.away, force);
-  const Lanes low[4] = {force.x, force.y, force.z, torque.x}, high[4] = {torque.y, torque.z, all(0), all(0)};
-  Lanes lowRow[kLanes], highRow[kLanes];
-  transpose4(low, lowRow);
-  transpose4(high, highRow);
+  Lanes low[4] = {force.x, force.y, force.z, torque.x}, high[4] = {torque.y, torque.z, all(0), all(0)};
+  base::transpose(low);
+  base::transpose(high);
   for (int l = 0; l < b.count; ++l) {
     if (b.parentNode[at(l)] < 0) continue;
     Lanes* const to = reinterpret_cast<Lanes*>(x[b.parentNode[at(l)]].data());
-    to[0] += lowRow[l];
-    to[1] += highRow[l];
+    to[0] += low[l];
+    to[1] += high[l];
   }
 }
 
-GROUSER_KERNEL void backwardBatch(const Elimination::Links& b, const Elimination::Column* columns, Vector6* x,
-                                  int bodies) {
+GROUSER_SIMD void backwardBatch(const Elimination::Links& b, const Elimination::Column* columns, Vector6* x,
+                                int bodies) {
   const double* row[kLanes];
   for (int l = 0; l < kLanes; ++l) row[l] = b.parentNode[at(l)] >= 0 ? x[b.parentNode[at(l)]].data() : kStill.data();
   Lanes y[6];
@@ -398,14 +397,13 @@ GROUSER_KERNEL void backwardBatch(const Elimination::Links& b, const Elimination
   }
 
   const auto write = [&](const Lanes(&z)[6], int first, const std::array<int, kLanes>& node) {
-    const Lanes low[4] = {z[0], z[1], z[2], z[3]}, high[4] = {z[4], z[5], all(0), all(0)};
-    Lanes lowRow[kLanes], highRow[kLanes];
-    transpose4(low, lowRow);
-    transpose4(high, highRow);
+    Lanes low[4] = {z[0], z[1], z[2], z[3]}, high[4] = {z[4], z[5], all(0), all(0)};
+    base::transpose(low);
+    base::transpose(high);
     for (int l = 0; l < b.count; ++l) {
       Lanes* const to = reinterpret_cast<Lanes*>(x[first + node[at(l)]].data());
-      to[0] = lowRow[l];
-      to[1] = highRow[l];
+      to[0] = low[l];
+      to[1] = high[l];
     }
   };
   write(y, 0, b.body);
@@ -414,7 +412,7 @@ GROUSER_KERNEL void backwardBatch(const Elimination::Links& b, const Elimination
 
 } // namespace
 
-GROUSER_LANES void Elimination::sweepForward(Vector6* x) const {
+GROUSER_SIMD_CLONES void Elimination::sweepForward(Vector6* x) const {
   for (const Operation& operation : program_) {
     if (operation.closes) {
       forwardLoop(loops_[at(operation.index)], x);
@@ -425,7 +423,7 @@ GROUSER_LANES void Elimination::sweepForward(Vector6* x) const {
   }
 }
 
-GROUSER_LANES void Elimination::sweepBackward(Vector6* x) const {
+GROUSER_SIMD_CLONES void Elimination::sweepBackward(Vector6* x) const {
   for (auto operation = program_.rbegin(); operation != program_.rend(); ++operation) {
     if (operation->closes) {
       backwardLoop(loops_[at(operation->index)], x);

@@ -21,46 +21,45 @@ constexpr Vector6 kStill{};
 /// Newton's method within the iteration; below, the iteration itself converges.
 constexpr double kFastSpin = 0.3;
 
-GROUSER_KERNEL Vec3L axisForce(const LinkLanes& b, int a) { return b.rows.force[at(b.axisRow[at(a)])]; }
-GROUSER_KERNEL Vec3L axisTorque(const LinkLanes& b, int a) { return b.rows.torque[at(b.axisRow[at(a)])]; }
+GROUSER_SIMD Vec3L axisForce(const LinkLanes& b, int a) { return b.rows.force[at(b.axisRow[at(a)])]; }
+GROUSER_SIMD Vec3L axisTorque(const LinkLanes& b, int a) { return b.rows.torque[at(b.axisRow[at(a)])]; }
 
 /// Three and six consecutive numbers of each lane.
-GROUSER_KERNEL Vec3L gather3(const double* const (&row)[kLanes]) {
+GROUSER_SIMD Vec3L gather3(const double* const (&row)[kLanes]) {
   Vec3L v;
 #pragma GCC unroll 4
   for (std::size_t l = 0; l < kWidth; ++l) v.x[l] = row[l][0], v.y[l] = row[l][1], v.z[l] = row[l][2];
   return v;
 }
-GROUSER_KERNEL void gather6(const double* const (&row)[kLanes], Vec3L& first, Vec3L& second) {
+GROUSER_SIMD void gather6(const double* const (&row)[kLanes], Vec3L& first, Vec3L& second) {
   Lanes low[4], high[4];
-  gather4(row, 0, low);
-  gather4(row, 2, high);
+  gatherRows(row, 0, low);
+  gatherRows(row, 2, high);
   first = {low[0], low[1], low[2]}, second = {low[3], high[2], high[3]};
 }
-GROUSER_KERNEL void gatherNode(const std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
-                               Lanes (&out)[6]) {
+GROUSER_SIMD void gatherNode(const std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
+                             Lanes (&out)[6]) {
   const double* row[kLanes];
   for (std::size_t l = 0; l < kWidth; ++l) row[l] = x[at(first + node[l])].data();
   Lanes low[4], high[4];
-  gather4(row, 0, low);
-  gather4(row, 4, high);
+  gatherRows(row, 0, low);
+  gatherRows(row, 4, high);
   out[0] = low[0], out[1] = low[1], out[2] = low[2], out[3] = low[3], out[4] = high[0], out[5] = high[1];
 }
 /// Idle lanes write what the first lane writes.
-GROUSER_KERNEL void scatterNode(std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
-                                const Lanes (&in)[6]) {
-  const Lanes low[4] = {in[0], in[1], in[2], in[3]}, high[4] = {in[4], in[5], all(0), all(0)};
-  Lanes lowRow[kLanes], highRow[kLanes];
-  transpose4(low, lowRow);
-  transpose4(high, highRow);
+GROUSER_SIMD void scatterNode(std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
+                              const Lanes (&in)[6]) {
+  Lanes low[4] = {in[0], in[1], in[2], in[3]}, high[4] = {in[4], in[5], all(0), all(0)};
+  base::transpose(low);
+  base::transpose(high);
   for (std::size_t l = 0; l < kWidth; ++l) {
     double* const to = x[at(first + node[l])].data();
-    store4(to, lowRow[l]);
-    store4(to + 4, highRow[l]);
+    base::store(to, low[l]);
+    base::store(to + 4, high[l]);
   }
 }
 
-GROUSER_KERNEL void gatherTwists(const State& state, const std::array<int, kLanes>& body, Vec3L& v, Vec3L& w) {
+GROUSER_SIMD void gatherTwists(const State& state, const std::array<int, kLanes>& body, Vec3L& v, Vec3L& w) {
   static_assert(sizeof(Twist) == 6 * sizeof(double));
   const double* row[kLanes];
   for (std::size_t l = 0; l < kWidth; ++l)
@@ -68,7 +67,7 @@ GROUSER_KERNEL void gatherTwists(const State& state, const std::array<int, kLane
   gather6(row, v, w);
 }
 
-GROUSER_KERNEL Lanes largestOf(const Lanes& largest, const Lanes& value) {
+GROUSER_SIMD Lanes largestOf(const Lanes& largest, const Lanes& value) {
   // Written so that what is not a number counts as the largest.
   return value <= largest ? largest : value;
 }
@@ -83,8 +82,8 @@ double largestLane(const Lanes& x) {
 double sumOf(const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 /// Rate of an axis of B relative to A: of the child relative to its parent, times the side.
-GROUSER_KERNEL Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
-                              const Vec3L& parentW) {
+GROUSER_SIMD Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
+                            const Vec3L& parentW) {
   const Vec3L& p = b.frames.p_B;
   const Vec3L there = (v + cross(w, p - b.com)) - (parentV + cross(parentW, p - b.parentCom));
   return b.side * (dot(axisForce(b, a), there) + dot(axisTorque(b, a), w - parentW));
@@ -93,7 +92,7 @@ GROUSER_KERNEL Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const V
 } // namespace
 
 /// Momentum that is there and comes from outside.
-GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads, double dt) {
+GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& loads, double dt) {
   static_assert(sizeof(Wrench) == 6 * sizeof(double) && sizeof(Pose) == 7 * sizeof(double));
   const Vec3L gravity = all(loads.gravity);
   const Lanes h = all(dt);
@@ -110,8 +109,8 @@ GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads,
     const Vec3L spin = gather3(row);
     for (std::size_t l = 0; l < kWidth; ++l) row[l] = &state.pose[at(b.body[l])].position.x;
     Lanes low[4], high[4];
-    gather4(row, 0, low);
-    gather4(row, 3, high);
+    gatherRows(row, 0, low);
+    gatherRows(row, 3, high);
     s.position = {low[0], low[1], low[2]};
     s.orientation = {high[0], high[1], high[2], high[3]};
 
@@ -125,7 +124,7 @@ GROUSER_LANES void EulerStep::startLinks(const State& state, const Loads& loads,
 }
 
 /// Angles and rates of the axes before the step, and the known forces along them.
-GROUSER_LANES void EulerStep::startLinkAxes(const State& state, double dt) {
+GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const LinkLanes& b = system.links()[i];
     LinkStep& s = steps[i];
@@ -163,7 +162,7 @@ void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int
 }
 
 /// Takes the corrections into twists and impulses.
-GROUSER_LANES void EulerStep::correctLinks(double dt) {
+GROUSER_SIMD_CLONES void EulerStep::correctLinks(double dt) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const LinkLanes& b = system.links()[i];
     LinkStep& s = steps[i];
@@ -172,7 +171,7 @@ GROUSER_LANES void EulerStep::correctLinks(double dt) {
     s.v += Vec3L{d[0], d[1], d[2]};
     s.w += Vec3L{d[3], d[4], d[5]};
     const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > kFastSpin;
-    if (__builtin_expect(anyOf(fast), 0))
+    if (__builtin_expect(base::any(fast), 0))
       for (int l = 0; l < kLanes; ++l)
         if (fast[l] && !relinearised) solveAngularVelocity(system.inertiaOf(i), s, l, dt);
     if (!b.joint) continue;
@@ -204,7 +203,7 @@ void EulerStep::packTwists() {
     }
 }
 
-GROUSER_LANES void EulerStep::moveLinks(double dt) {
+GROUSER_SIMD_CLONES void EulerStep::moveLinks(double dt) {
   const Lanes h = all(dt);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const LinkLanes& b = system.links()[i];
@@ -213,20 +212,19 @@ GROUSER_LANES void EulerStep::moveLinks(double dt) {
     s.newOrientation = turned(rotationBy(h * s.w), s.orientation);
     s.trial.R = matrixOf(s.newOrientation);
     const Mat3L& R = s.trial.R;
-    const Lanes c[3][4] = {{R.m[0][0], R.m[0][1], R.m[0][2], R.m[1][0]},
-                           {R.m[1][1], R.m[1][2], R.m[2][0], R.m[2][1]},
-                           {R.m[2][2], s.trial.p.x, s.trial.p.y, s.trial.p.z}};
+    Lanes c[3][4] = {{R.m[0][0], R.m[0][1], R.m[0][2], R.m[1][0]},
+                     {R.m[1][1], R.m[1][2], R.m[2][0], R.m[2][1]},
+                     {R.m[2][2], s.trial.p.x, s.trial.p.y, s.trial.p.z}};
     for (int part = 0; part < 3; ++part) {
-      Lanes out[kLanes];
-      transpose4(c[part], out);
+      base::transpose(c[part]);
       for (std::size_t l = 0; l < kWidth; ++l)
-        store4(reinterpret_cast<double*>(&trial[at(b.body[l])]) + 4 * part, out[l]);
+        base::store(reinterpret_cast<double*>(&trial[at(b.body[l])]) + 4 * part, c[part][l]);
     }
   }
 }
 
 /// Gaps of the joints as residuals; in the first iteration also what soft and driven axes ask for.
-GROUSER_LANES double EulerStep::setLinkGaps(double dt, bool first) {
+GROUSER_SIMD_CLONES double EulerStep::setLinkGaps(double dt, bool first) {
   Lanes largest = all(0);
   const Lanes scale = all(-1 / dt);
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -241,7 +239,7 @@ GROUSER_LANES double EulerStep::setLinkGaps(double dt, bool first) {
     jointError(b.kind, s.joint, error);
     Lanes residual[6];
     for (int r = 0; r < 6; ++r) {
-      largest = largestOf(largest, absolute(error[r]));
+      largest = largestOf(largest, base::absolute(error[r]));
       residual[r] = scale * error[r];
     }
     if (first)
@@ -258,7 +256,7 @@ GROUSER_LANES double EulerStep::setLinkGaps(double dt, bool first) {
   return largestLane(largest);
 }
 
-GROUSER_LANES double EulerStep::setLinkGyro(double dt) {
+GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
   Lanes largest = all(0);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const LinkLanes& b = system.links()[i];
@@ -273,7 +271,7 @@ GROUSER_LANES double EulerStep::setLinkGyro(double dt) {
 }
 
 /// Work, momenta, readings and poses, once the impulses are known.
-GROUSER_LANES void EulerStep::finishLinks(State& state, const Loads& loads, double dt) {
+GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads, double dt) {
   LinkWork work{};
   for (std::size_t i = 0; i < steps.size(); ++i) finishBodies(system.links()[i], steps[i], state, loads, dt, work);
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -286,8 +284,8 @@ GROUSER_LANES void EulerStep::finishLinks(State& state, const Loads& loads, doub
 }
 
 /// What loads do on four bodies, and their new state.
-GROUSER_KERNEL void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads,
-                                            double dt, LinkWork& work) const {
+GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads,
+                                          double dt, LinkWork& work) const {
   const Lanes half = all(0.5 * dt);
   const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
   work.gravity += b.real * (b.mass * dot(all(loads.gravity), path));
@@ -307,8 +305,8 @@ GROUSER_KERNEL void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& 
 }
 
 /// What four joints give to their bodies, their work and readings.
-GROUSER_KERNEL void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s, State& state, double dt,
-                                            LinkWork& work) const {
+GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s, State& state, double dt,
+                                          LinkWork& work) const {
   Lanes total[6], newRate[2];
   for (int r = 0; r < 6; ++r) total[r] = s.impulse[r];
   if (b.axes > 0) {
@@ -341,8 +339,8 @@ GROUSER_KERNEL void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& 
 }
 
 /// Adds the known force of an axis to the impulse `total` of its row, and its work.
-GROUSER_KERNEL void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& newRate, double dt,
-                                       Lanes& total, LinkWork& work) const {
+GROUSER_SIMD void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& newRate, double dt,
+                                     Lanes& total, LinkWork& work) const {
   const Lanes perTime = all(1 / dt), path = all(0.5 * dt) * (s.oldRate[a] + newRate);
   const double* row[kLanes];
   Lanes known[4], damping[4], driven;
@@ -356,8 +354,8 @@ GROUSER_KERNEL void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, in
   static_assert(offsetof(AxisLaw, force) == 0 && offsetof(AxisLaw, known) == kDouble &&
                 offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, inverseCompliance) == 3 * kDouble &&
                 offsetof(AxisLaw, dampingPart) == 4 * kDouble && sizeof(AxisLaw) >= 7 * kDouble);
-  gather4(row, 0, known);
-  gather4(row, 3, damping);
+  gatherRows(row, 0, known);
+  gatherRows(row, 3, damping);
   total += all(dt) * known[0];
   const Lanes drive = driven > 0.0 ? s.impulse[b.axisRow[at(a)]] * perTime : all(0);
   work.drive += b.real * ((drive + known[2]) * path);
@@ -366,8 +364,8 @@ GROUSER_KERNEL void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, in
 }
 
 /// Position, rate and forces of one axis of four joints.
-GROUSER_KERNEL void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total,
-                                        const Lanes& newRate, State& state, double dt) const {
+GROUSER_SIMD void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total,
+                                      const Lanes& newRate, State& state, double dt) const {
   const int r = b.axisRow[at(a)];
   const bool slide = b.kind == ConstraintKind::kCylindrical && r == kSlideRow;
   Lanes position;

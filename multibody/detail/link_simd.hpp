@@ -37,7 +37,7 @@ struct alignas(64) LinkLanes {
   Vec3L com, parentCom;
 
   /// Frames of A and B of those of child and parent.
-  GROUSER_KERNEL void sort(const FrameL& child, const FrameL& other, FrameL& A, FrameL& B) const {
+  GROUSER_SIMD void sort(const FrameL& child, const FrameL& other, FrameL& A, FrameL& B) const {
     const auto isB = side > 0.0;
     const auto pick = [&](const Lanes& c, const Lanes& o, Lanes& a, Lanes& b) { a = isB ? o : c, b = isB ? c : o; };
 #pragma GCC unroll 3
@@ -51,15 +51,15 @@ struct alignas(64) LinkLanes {
 };
 
 /// Frames of four bodies, side by side.
-GROUSER_KERNEL void gatherFrames(const std::vector<Frame>& frames, const std::array<int, kLanes>& body, FrameL& out) {
+GROUSER_SIMD void gatherFrames(const std::vector<Frame>& frames, const std::array<int, kLanes>& body, FrameL& out) {
   static_assert(sizeof(Frame) == 12 * sizeof(double));
   const double* row[kLanes];
   for (std::size_t l = 0; l < kLanes; ++l)
     row[l] = reinterpret_cast<const double*>(&frames[static_cast<std::size_t>(body[l])]);
   Lanes a[4], b[4], c[4];
-  gather4(row, 0, a);
-  gather4(row, 4, b);
-  gather4(row, 8, c);
+  gatherRows(row, 0, a);
+  gatherRows(row, 4, b);
+  gatherRows(row, 8, c);
   out.R = {{{a[0], a[1], a[2]}, {a[3], b[0], b[1]}, {b[2], b[3], c[0]}}};
   out.p = {c[1], c[2], c[3]};
 }

@@ -4,7 +4,7 @@
 namespace grouser::terrain::detail {
 
 __attribute__((flatten)) void stepAvx2(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
-  runLanes<8>(d, f, first, last);
+  runSimd<8>(d, f, first, last);
 }
 
 } // namespace grouser::terrain::detail

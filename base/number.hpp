@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cmath>
+
+/// Formulas of laws are templates over a number: float, double, or several of them side by side (base/simd.hpp).
+/// Beside the operators they need the functions below. Choices are written `mask ? a : b`, which both kinds understand.
+namespace grouser::base {
+
+/// What is known of a number; here of a single one.
+template <class T> struct NumberTraits {
+  using Scalar = T;
+  GROUSER_HD static T broadcast(T x) { return x; }
+  GROUSER_HD static float squareRoot(float x) { return sqrtf(x); }
+  GROUSER_HD static double squareRoot(double x) { return sqrt(x); }
+  GROUSER_HD static bool any(bool mask) { return mask; }
+};
+
+/// float of floats side by side, double of doubles.
+template <class T> using ScalarOf = typename NumberTraits<T>::Scalar;
+
+/// The same number in every lane.
+template <class T> GROUSER_HD T broadcast(ScalarOf<T> x) { return NumberTraits<T>::broadcast(x); }
+template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
+  return {broadcast<T>(v.x), broadcast<T>(v.y), broadcast<T>(v.z)};
+}
+
+/// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
+template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
+
+/// Whether a comparison holds in any lane.
+template <class Mask> GROUSER_HD bool any(const Mask& mask) { return NumberTraits<Mask>::any(mask); }
+
+/// mask ? a : b
+template <class Mask, class T> GROUSER_HD Vec3<T> select(const Mask& mask, const Vec3<T>& a, const Vec3<T>& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+
+} // namespace grouser::base

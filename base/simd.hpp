@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/number.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <immintrin.h>
+
+/// Numbers side by side in one register, a lane each: the compiler's own vectors, on which its operators, comparisons
+/// and `mask ? a : b` work lane by lane. A wide vector on a processor with narrow registers is split into several; the
+/// operations on each number and their order are the same, hence the same bits. None may fuse multiply and add
+/// (-ffp-contract=off).
+///
+/// Two ways lead to the processor's own instructions:
+///   - of one width everywhere (multibody: four doubles): GROUSER_SIMD_CLONES compiles a function for each kind of
+///     processor and chooses when the program is loaded;
+///   - of the width that the processor has (grains: 4, 8 or 16 floats): a source file for each, compiled with its
+///     options, and a choice at run time. Such a file must leave nothing behind that other files have too: the linker
+///     might take that copy for the whole program. So all that it calls is inlined (GROUSER_SIMD here, `flatten` on its
+///     one function), and the test simd.alone looks into the objects.
+///
+/// Not Highway or std::experimental::simd: their vectors do not go where float goes (members of structs and arrays, the
+/// operators of base::Vec3 with scalars), so the laws would stand a second time, written in their functions.
+namespace grouser::base {
+
+#define GROUSER_SIMD inline __attribute__((always_inline))
+#if !defined(GROUSER_SIMD_CLONES) // tests choose for themselves
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+#define GROUSER_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))
+#else
+#define GROUSER_SIMD_CLONES
+#endif
+#endif
+
+template <class T, int kWidth> struct SimdOf { using Type __attribute__((vector_size(sizeof(T) * kWidth))) = T; };
+/// kWidth numbers of type T.
+template <class T, int kWidth> using Simd = typename SimdOf<T, kWidth>::Type;
+
+template <class T>
+concept SimdVector = !std::is_class_v<T> && !std::is_pointer_v<T> && !std::is_array_v<T> && requires(T v) {
+  v[0];
+};
+
+template <SimdVector V> inline constexpr int kWidthOf = sizeof(V) / sizeof(V{}[0]);
+
+/// The same bits, seen as another type of the same size.
+template <class To, class From> GROUSER_SIMD To bitsAs(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+/// Lane by lane, as static_cast.
+template <class To, SimdVector From> GROUSER_SIMD Simd<To, kWidthOf<From>> convert(const From& v) {
+  return __builtin_convertvector(v, Simd<To, kWidthOf<From>>);
+}
+
+template <SimdVector V> GROUSER_SIMD V load(const void* from) {
+  V v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+template <SimdVector V> GROUSER_SIMD void store(void* to, const V& v) { std::memcpy(to, &v, sizeof v); }
+
+template <SimdVector V> GROUSER_SIMD V absolute(const V& x) { return x < V{} ? -x : x; }
+
+/// One bit for each lane of a mask, lane 0 lowest.
+template <SimdVector Mask> GROUSER_SIMD unsigned bitsSet(const Mask& mask) {
+  constexpr int kLane = sizeof(mask[0]), kBytes = sizeof mask;
+  static_assert(kLane == 4 || kLane == 8);
+#if defined(__AVX512F__)
+  if constexpr (kBytes == 64 && kLane == 4) return _mm512_movepi32_mask(bitsAs<__m512i>(mask));
+#endif
+#if defined(__AVX__)
+  if constexpr (kBytes == 32 && kLane == 4)
+    return static_cast<unsigned>(_mm256_movemask_ps(bitsAs<__m256>(mask)));
+  else if constexpr (kBytes == 32)
+    return static_cast<unsigned>(_mm256_movemask_pd(bitsAs<__m256d>(mask)));
+#endif
+  if constexpr (kBytes == 16 && kLane == 4) return static_cast<unsigned>(_mm_movemask_ps(bitsAs<__m128>(mask)));
+  unsigned bits = 0;
+  for (int l = 0; l < kWidthOf<Mask>; ++l) bits |= static_cast<unsigned>(mask[l] & 1) << l;
+  return bits;
+}
+
+template <SimdVector V> struct NumberTraits<V> {
+  using Scalar = std::remove_cvref_t<decltype(V{}[0])>;
+  GROUSER_SIMD static V broadcast(Scalar x) { return x - V{}; }
+  GROUSER_SIMD static V squareRoot(const V& x) {
+    V r;
+#pragma GCC unroll 16
+    for (int l = 0; l < kWidthOf<V>; ++l) r[l] = std::sqrt(x[l]);
+    return r;
+  }
+  GROUSER_SIMD static bool any(const V& mask) {
+    if constexpr (sizeof mask == 32 && sizeof(Scalar) == 8) return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
+    return bitsSet(mask) != 0;
+  }
+};
+
+} // namespace grouser::base

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The law on many contacts side by side: each lane has the bits of that contact alone.
+#include "base/random.hpp"
+#include "base/simd.hpp"
+#include "contact/contact_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace grouser::contact {
+namespace {
+
+template <class T> using Geometry = BasicContactGeometry<T>;
+
+/// Contacts of all kinds: pressed and parting, sticking and sliding, stretched and new.
+template <class T> struct RandomContacts {
+  std::uint64_t count = 0;
+  T in(double least, double most) { return static_cast<T>(least + (most - least) * base::uniform(7, 0, count++)); }
+  base::Vec3<T> vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
+  Geometry<T> contact() {
+    return {base::normalized(vector(1)), in(1e-7, 1e-3), vector(in(0, 1) < T(0.5) ? 0.01 : 3), in(0.01, 1),
+            in(0.002, 0.03)};
+  }
+};
+
+template <unsigned kFeatures, int kWidth, class T> void expectLanesAsAlone(const BasicLaw<T>& law) {
+  using Numbers = base::Simd<T, kWidth>;
+  RandomContacts<T> random;
+  int sliding = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::array<Geometry<T>, kWidth> one;
+    std::array<base::Vec3<T>, kWidth> spring;
+    Geometry<Numbers> all{};
+    base::Vec3<Numbers> springs{};
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      one[l] = random.contact(), spring[l] = random.vector(1e-5);
+      for (int a = 0; a < 3; ++a) {
+        all.normal[a][l] = one[l].normal[a], all.velocity[a][l] = one[l].velocity[a];
+        springs[a][l] = spring[l][a];
+      }
+      all.overlap[l] = one[l].overlap;
+      all.effectiveMass[l] = one[l].effectiveMass, all.effectiveRadius[l] = one[l].effectiveRadius;
+    }
+    const auto together = contactForce<kFeatures>(law, all, T(1e-5), springs);
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      const auto alone = contactForce<kFeatures>(law, one[l], T(1e-5), spring[l]);
+      for (int a = 0; a < 3; ++a) {
+        EXPECT_EQ(together.force[a][l], alone.force[a]) << "lane " << l << ", axis " << a;
+        EXPECT_EQ(springs[a][l], spring[l][a]);
+      }
+      EXPECT_EQ(together.dissipated[l], alone.dissipated);
+      EXPECT_EQ(together.pressing[l], alone.pressing);
+      EXPECT_EQ(together.normalStiffness[l], alone.normalStiffness);
+      const base::Vec3<T> tangential = alone.force - one[l].normal * dot(alone.force, one[l].normal);
+      sliding += norm(tangential) > T(0.999) * law.friction * alone.pressing;
+    }
+  }
+  if (law.friction > 0) {
+    EXPECT_GT(sliding, 200 * kWidth / 10);
+    EXPECT_LT(sliding, 200 * kWidth * 9 / 10);
+  }
+}
+
+template <class T> BasicLaw<T> linear() {
+  BasicLaw<T> law;
+  law.stiffness = T(1e5), law.damping = 800, law.tangentialStiffness = T(3e4), law.tangentialDamping = 400;
+  law.friction = T(0.5);
+  return law;
+}
+template <class T> BasicLaw<T> hertz() {
+  BasicLaw<T> law;
+  law.hertz = true, law.stiffness = T(3e8), law.tangentialStiffness = T(2e8);
+  law.rootDamping = T(2e3), law.tangentialRootDamping = T(1e3), law.friction = T(0.5);
+  return law;
+}
+
+TEST(ContactLawSimd, LinearWithAndWithoutFriction) {
+  expectLanesAsAlone<kFriction, 4>(linear<float>());
+  expectLanesAsAlone<kFriction, 8>(linear<float>());
+  expectLanesAsAlone<kFriction, 16>(linear<float>());
+  expectLanesAsAlone<kFriction, 4>(linear<double>());
+  BasicLaw<float> smooth = linear<float>();
+  smooth.friction = 0;
+  expectLanesAsAlone<0, 8>(smooth);
+  BasicLaw<float> noSpring = linear<float>();
+  noSpring.tangentialStiffness = 0;
+  expectLanesAsAlone<kFriction, 8>(noSpring);
+}
+
+TEST(ContactLawSimd, AttractionHertzCohesionAndManyMasses) {
+  BasicLaw<float> pulling = linear<float>();
+  pulling.attraction = true;
+  expectLanesAsAlone<kFriction, 8>(pulling);
+  expectLanesAsAlone<kFriction | kHertz, 8>(hertz<float>());
+  expectLanesAsAlone<kFriction | kHertz, 4>(hertz<double>());
+  BasicLaw<float> sticky = hertz<float>();
+  sticky.pullPerRadius = 2;
+  expectLanesAsAlone<kFriction | kHertz | kCohesion, 8>(sticky);
+  BasicLaw<float> many = linear<float>();
+  many.damping = many.tangentialDamping = 0, many.rootDamping = 300, many.tangentialRootDamping = 100;
+  expectLanesAsAlone<kFriction | kManyMasses, 8>(many);
+  expectLanesAsAlone<kGeneral, 8>(many);
+}
+
+} // namespace
+} // namespace grouser::contact
