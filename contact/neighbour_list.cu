@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
 constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
-constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by a CPU's lanes
+constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
 
 } // namespace
 
@@ -94,7 +94,7 @@ void NeighbourList::checkLengths(std::uint32_t most, bool equal) const {
 void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
                           const RadiiInW& radii) {
   const auto n = static_cast<std::int64_t>(sorted_);
-  // Of the former list only its contacts are needed: they are set aside, and the new one takes its memory.
+  // Of the former list only its contacts are needed: they are cached, and the new list takes its memory.
   const std::uint32_t former = rows();
   base::Array<std::uint32_t> keptStart(exec_, std::size_t{former} + 1), keptId(exec_);
   base::Array<float> keptHistory(exec_);
@@ -130,7 +130,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   if (!haveRows_)
     touching_.zero();
   else
-    base::forEach(exec_, "carry contact history", n,
+    base::forEach(exec_, "restore contact history", n,
                   RestoreHistory{origins ? origins->origin : order_.data(),
                                  id,
                                  count_.data(),

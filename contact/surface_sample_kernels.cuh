@@ -32,10 +32,10 @@ template <class Target> struct MarkNearPairs {
 
 /// Counts (where `entry` is null) or lists the samples of one chunk that are within `margin` of touching, each with its
 /// gap: until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
-template <class Target> struct ListProbes {
+template <class Target> struct ListSamples {
   Target target;
   const SurfaceSample* samples;
-  const ProbeChunk* chunks;
+  const SampleChunk* chunks;
   const PartMotion* motion;
   const std::uint32_t* near;
   double margin;
@@ -44,7 +44,7 @@ template <class Target> struct ListProbes {
   float* gap;           ///< [m], a lower bound
 
   GROUSER_HD void operator()(int item) const {
-    const ProbeChunk chunk = chunks[item];
+    const SampleChunk chunk = chunks[item];
     const int pair = static_cast<int>(chunk.pair);
     std::uint32_t found = 0;
     if (near[pair]) {
@@ -86,7 +86,7 @@ GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion,
 }
 
 /// Pressure on one sample.
-template <class Target> struct PressProbe {
+template <class Target> struct SamplePressure {
   Target target;
   const SurfaceSample* samples;
   PatchQuanta quanta;

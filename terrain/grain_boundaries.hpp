@@ -26,7 +26,8 @@ public:
   /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
   const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
 
-  /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so alike on all ranks.
+  /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so the same on all
+  /// ranks.
   bool surfacesHaveLeft() const;
   /// Lists the grains that may touch a boundary before the next list. `d`: of the grains in their present slots;
   /// `ghosts`: not 0 for those that need no list, null where there are none.
@@ -38,7 +39,7 @@ public:
   // The loads of a step.
   void clearSurfaceLoads();                         ///< before the step, on the device
   void downloadSurfaceLoads();                      ///< after it, without waiting
-  void collectSurfaceLoads(const base::Comm& comm); ///< on the host, once the device has ended; on all ranks
+  void collectSurfaceLoads(const base::Comm& comm); ///< sums over the ranks, after synchronize(); all ranks call it
   /// By place in the list: what walls, floor and surfaces do to a grain.
   template <class Real> BoundaryLoad<Real>* loads() {
     if constexpr (std::is_same_v<Real, float>)

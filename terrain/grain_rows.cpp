@@ -54,7 +54,7 @@ GrainState redistribute(const base::Comm& comm, const GrainState& rows, const st
   return comm.alone() ? rows : redistributeRows(comm, rows, destination);
 }
 
-/// The hash goes from rank to rank.
+/// Each rank continues the hash that the rank before it has sent.
 base::StateHash hashOf(const GrainState& grains, const base::Comm& comm) {
   const std::vector<std::uint32_t> words = grains.words();
   std::uint64_t value = 0;

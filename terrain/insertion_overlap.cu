@@ -23,7 +23,7 @@ struct Entering {
 };
 
 /// Looks for the grain that the entering ones would overlap most.
-struct FindCrowded {
+struct FindInsertionOverlap {
   const base::Position* position;
   const Vec4f* velocity; ///< with the radius [m] in w, where they differ
   const std::uint32_t *id, *ghost;
@@ -70,7 +70,8 @@ std::optional<InsertionOverlap> overlapWithSurface(const std::vector<GrainSpec>&
 
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
 
-/// The key of the deepest overlap, as FindCrowded has it; kNobody where none is too deep. On all ranks the same.
+/// The key of the deepest overlap, as FindInsertionOverlap has it; kNobody where none is too deep. On all ranks the
+/// same.
 std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                              const GrainSystem& system) {
   const GrainConstants& c = system.constants;
@@ -87,10 +88,11 @@ std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::
   base::Array<std::uint64_t> deepest(system.exec, std::vector<std::uint64_t>{kNobody});
   const GrainFields& f = system.arrays.fields();
   base::forEach(system.exec, "find room", static_cast<std::int64_t>(system.arrays.slots()),
-                FindCrowded{f.position.now.data(), f.velocity.now.data(), f.id.now.data(), system.ghosts(), c.period,
-                            device.data(), static_cast<std::int64_t>(all.size()), scale.fromMetres((low + high) * 0.5),
-                            reach * scale.perMetre * (1 + 1e-6), c.manyRadii() ? 0.0 : c.model.radius * scale.perMetre,
-                            scale.perMetre, c.model.maxOverlap, deepest.data()});
+                FindInsertionOverlap{f.position.now.data(), f.velocity.now.data(), f.id.now.data(), system.ghosts(),
+                                     c.period, device.data(), static_cast<std::int64_t>(all.size()),
+                                     scale.fromMetres((low + high) * 0.5), reach * scale.perMetre * (1 + 1e-6),
+                                     c.manyRadii() ? 0.0 : c.model.radius * scale.perMetre, scale.perMetre,
+                                     c.model.maxOverlap, deepest.data()});
   std::uint64_t key = deepest.toHost().front();
   system.comm.minimum(&key, 1);
   return key;

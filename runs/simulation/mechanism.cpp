@@ -42,8 +42,9 @@ void Mechanism::advance() {
   if (tensionStepWarning_.empty()) watchTension();
 }
 
-/// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
-/// The first that the step does not bear is kept, not the worst: what comes later holds the forces of the swing itself.
+/// Growing forces in joints and springs lower the longest stable step. That is only noted here: a peak may pass before
+/// any oscillation has grown. The first tension that the step does not bear is kept, not the largest: later ones
+/// contain the forces of the oscillation itself.
 void Mechanism::watchTension() {
   double force = 0;
   for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));

@@ -30,7 +30,7 @@ public:
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
   void step(StepObserver* observer = nullptr);
-  /// At least one step, at most `most`: as many as can be given to the device at once. Returns how many were taken.
+  /// At least one step, at most `most`: as many as can be launched as one graph. Returns how many were taken.
   std::int64_t advance(std::int64_t most);
 
   const setup::SimulationSetup& setup() const { return setup_; }
