@@ -24,7 +24,7 @@ using Handle = cudaIpcMemHandle_t;
 struct Handle {};
 #endif
 
-/// What a rank says of its memory.
+/// How other ranks can map a rank's memory.
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;

@@ -26,7 +26,7 @@ template <> struct EnumWords<PeerUse> {
 
 /// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
 /// memory (CUDA IPC), without the host and without MPI. Whether two of them can is tried, not assumed; where they
-/// cannot a rank has its own memory alone. CPUs share memory only if asked to: messages are as quick there.
+/// cannot a rank has its own memory alone. CPUs share memory only if asked to: messages are as fast there.
 ///
 /// All ranks call everything that is not marked `local`, the destructor too, in the same order.
 class PeerMemory {

@@ -118,7 +118,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const std::uint32_t most = base::maximum(exec_, count_.data(), sorted_);
   checkLengths(most, !radii.sphere);
   const std::size_t places = layRows() + kSlotsRead;
-  // More than is needed now, so that not every rebuild asks for memory.
+  // More than is needed now, so that not every rebuild allocates.
   const auto width = static_cast<std::size_t>(width_);
   if (places > slot_.size()) slot_.resize(places + places / 16), history_.resize(slot_.size() * width);
   base::forEach(exec_, "list neighbours", n, ListNear{near, id, {start_.data(), stride_}, slot_.data()});

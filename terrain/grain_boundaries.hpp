@@ -12,8 +12,7 @@
 
 namespace grouser::terrain {
 
-/// Walls, floor and surfaces on the device, the list of the grains near them, and what they and the grains do to each
-/// other in a step.
+/// Walls, floor and surfaces on the device, the list of the grains near them, and the loads between both in a step.
 class GrainBoundaries {
 public:
   GrainBoundaries(const base::Exec& exec, const GrainConstants& constants, const Boundaries& boundaries);
@@ -34,7 +33,7 @@ public:
   void list(const GrainConstants& constants, const GrainKernelData& d, GrainArrays& arrays,
             const std::uint32_t* ghosts);
   std::size_t grainsListed() const { return near_.size(); }
-  std::int64_t listings() const { return listings_; } ///< on account of surfaces, made so far
+  std::int64_t listings() const { return listings_; } ///< made so far in scenes with surfaces
 
   // The loads of a step.
   void clearSurfaceLoads();                         ///< before the step, on the device

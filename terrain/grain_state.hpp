@@ -74,7 +74,7 @@ struct GrainState {
   }
 };
 
-/// The grains of a scene on the host, by id, to look at: all of them, or on several ranks this rank's block of ids.
+/// The grains of a scene on the host, by id, for output: all of them, or on several ranks this rank's block of ids.
 struct GrainSnapshot {
   std::uint64_t first{}, total{};    ///< id of the first; grains of the scene
   std::vector<base::Vec3d> position; ///< [m]

@@ -24,13 +24,13 @@ public:
   const base::PositionScale& scale() const { return system_.constants.scale; }
   /// What the grains consist of, to read: constants, fields, boundaries, neighbours as last listed. Local.
   const GrainSystem& system() const { return system_; }
-  /// The grains in their present slots on the device, ghosts among them: for those who compute loads on grains; valid
-  /// until the next refresh. Local.
+  /// The grains in their present slots on the device, ghosts among them: for code that computes loads on grains;
+  /// valid until the next refresh. Local.
   contact::GrainsView view() const;
   /// Migration and cuts; null on one rank. Local.
   GrainDistribution* distribution() const { return system_.distribution.get(); }
 
-  /// Makes the neighbour list valid for the next step. True when slots have changed since it was last asked.
+  /// Makes the neighbour list valid for the next step. True when slots have changed since the last call.
   bool refreshNeighbours();
   /// Asks for a rebuild at the next refresh; for tests and for callers that rely on slots.
   void invalidateNeighbours() { listEnded_ = true; }

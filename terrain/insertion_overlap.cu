@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether grains that enter find room among those that are there.
+// Whether entering grains would overlap those that are there.
 #include "base/for_each.cuh"
 #include "terrain/grain_entry.hpp"
 #include "terrain/grain_system.hpp"
@@ -103,7 +103,7 @@ void describeOverlap(const std::vector<GrainSpec>& entering, const std::vector<E
                      const GrainSystem& system, InsertionOverlap& overlap) {
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();
-  // Only the rank that integrates the other grain knows where it is.
+  // Only the rank that owns the other grain fills in its place; the maximum over the ranks brings it to all.
   const std::vector<std::uint32_t> id = f.id.now.toHost(), ghost = system.ghostsOnHost();
   double found[] = {-1e300, -1e300, -1e300};
   double nearest = 1e300; // to the overlap that was found [m]

@@ -10,9 +10,9 @@
 namespace grouser::simulation {
 
 namespace {
-constexpr double kMostCreated = 2;     // energy that may be left over, as a share of what was put in [-]
-constexpr double kEnergyFloor = 1e-6;  // [J] below which nothing is judged
-constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
+constexpr double kMostCreated = 2;     // largest energy residual, as a share of the energy available [-]
+constexpr double kEnergyFloor = 1e-6;  // [J] residuals below this are never an error
+constexpr double kVehicleFloor = 1e-3; // [J/kg] the same, of a vehicle's mass
 } // namespace
 
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,

@@ -43,7 +43,7 @@ public:
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
-  /// Means of the observers begin anew: after every row.
+  /// Restarts the means of the observers: called after every row.
   void restartMeans() {
     if (surfaces_) surfaces_->restartMeans();
     if (vehicle_) vehicle_->restartMeans();

@@ -31,7 +31,7 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   const double largest = 1e4 * assembly_.mass * 9.81;
   quanta_.force = base::fixedPointFor(largest, 46);
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
-  quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums begin anew every step
+  quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums are of one step only
   quanta_.area = base::fixedPointFor(1, 40);
   groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
   makeTrack();
