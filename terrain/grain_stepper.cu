@@ -126,7 +126,7 @@ StepOutcome GrainStepper::runBatch(GrainSystem& system) {
     flags_.download();
   });
   const StepOutcome outcome = readFlags(kStepsPerGraph);
-  // A batch swaps the buffers an even number of times, but skipped steps have written nothing: after an odd number of
+  // A batch swaps the buffers an even number of times, but skipped steps have advanced no grain: after an odd number of
   // steps taken the newest state is in `next`.
   if ((kStepsPerGraph - outcome.taken) % 2 != 0) system.arrays.swapBuffers();
   if (subdomain) {
