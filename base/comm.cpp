@@ -157,7 +157,7 @@ struct Messages::Impl {
 
 Messages::Messages(const Comm& comm) : impl_(std::make_unique<Impl>()) { impl_->waited = comm.waited_; }
 Messages::~Messages() {
-  // An error on its way out ends all ranks; to wait for messages that nobody will send would hold it up for ever.
+  // Not while an exception unwinds: the other ranks may never send, and the error ends them all.
   if (impl_ && std::uncaught_exceptions() == 0) waitAll();
 }
 Messages::Messages(Messages&&) noexcept = default;

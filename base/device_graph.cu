@@ -34,7 +34,7 @@ void DeviceGraph::begin() {
 void DeviceGraph::end() {
   cudaGraph_t graph = nullptr;
   checkCuda(cudaStreamEndCapture(streamOf(exec_), &graph), "cudaStreamEndCapture");
-  // Work of the same shape takes the former's place, which is quicker than to begin anew.
+  // A graph of the same shape is updated in place, which is quicker than to instantiate a new one.
   cudaGraphExecUpdateResultInfo unused{};
   cudaError_t code = cudaErrorGraphExecUpdateFailure;
   if (graph_) code = cudaGraphExecUpdate(graphOf(graph_), graph, &unused);
@@ -54,7 +54,7 @@ void DeviceGraph::end() {
 void DeviceGraph::abandon() noexcept {
   cudaGraph_t graph = nullptr;
   if (cudaStreamEndCapture(streamOf(exec_), &graph) == cudaSuccess && graph) cudaGraphDestroy(graph);
-  cudaGetLastError(); // the error that ended the recording is already on its way
+  cudaGetLastError(); // cleared: the exception that ended the recording is being thrown
 }
 
 void DeviceGraph::start() { checkCuda(cudaGraphLaunch(graphOf(graph_), streamOf(exec_)), "cudaGraphLaunch"); }

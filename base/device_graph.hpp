@@ -12,7 +12,7 @@ namespace grouser::base {
 /// single kernel (a CUDA graph). On a CPU it is simply done again.
 ///
 /// Recorded are launches and copies with their pointers, counts and constants, not what the host does in between. So
-/// the work asks for no memory, waits for nothing, and is forgotten when anything of it has changed.
+/// the work must not allocate or wait, and forget() must be called when any of these has changed.
 class DeviceGraph {
 public:
   DeviceGraph() = default;
@@ -74,15 +74,15 @@ private:
   bool recorded_{false};
 };
 
-/// Replays of work on one of two buffers that take turns: each has its own record.
+/// Graphs of work on double-buffered memory: a graph holds pointers, so there is one for each of the two buffers.
 class DoubleBufferedGraph {
 public:
   DoubleBufferedGraph() = default;
   explicit DoubleBufferedGraph(const Exec& exec) {
     for (Turn& turn : turns_) turn.graph = DeviceGraph(exec);
   }
-  /// The record of work that begins with `buffer`, and with turn `other` of whatever else takes turns in it; a third
-  /// takes a former one's place.
+  /// The graph of work that reads `buffer` first, and half `other` of a second double buffer. A third combination
+  /// replaces the second.
   DeviceGraph& from(const void* buffer, unsigned other = 0) {
     for (Turn& turn : turns_)
       if (turn.taken && turn.buffer == buffer && turn.other == other) return turn.graph;
@@ -109,7 +109,7 @@ private:
 class SideStream {
 public:
   SideStream() = default;
-  /// `first`: where both have work, the device takes the side's before the main stream's.
+  /// `first`: the side stream has the higher priority.
   explicit SideStream(const Exec& main, bool first = false);
   SideStream(SideStream&& other) noexcept { swap(other); }
   SideStream& operator=(SideStream&& other) noexcept {
@@ -121,9 +121,9 @@ public:
   ~SideStream();
 
   const Exec& exec() const { return side_; }
-  /// What the side is given from now on comes after what the main stream has been given so far.
+  /// Work queued on the side from now on waits for all that is queued on the main stream so far.
   void fork();
-  /// What the main stream is given from now on comes after what the side has been given so far.
+  /// Work queued on the main stream from now on waits for all that is queued on the side so far.
   void join();
 
 private:

@@ -51,7 +51,7 @@ int cudaDevices() {
 
 Exec cudaExec(int index) {
   checkCuda(cudaSetDevice(index), "cudaSetDevice");
-  // What is released is kept for the next who asks: asking the driver takes longer than most kernels.
+  // The pool keeps released memory for the next allocation: asking the driver takes longer than most kernels.
   cudaMemPool_t pool = nullptr;
   checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
   std::uint64_t all = ~std::uint64_t{0};
@@ -130,7 +130,7 @@ DeviceError outOfMemory(std::size_t bytes) {
   const auto inMiB = [](std::size_t count) { return std::to_string((count + (1u << 20) - 1) >> 20) + " MiB"; };
   std::size_t unused = 0, total = 0;
   int index = 0;
-  cudaGetLastError(); // this failure is being told
+  cudaGetLastError(); // cleared: the exception reports it
   if (cudaGetDevice(&index) != cudaSuccess || cudaMemGetInfo(&unused, &total) != cudaSuccess) unused = total = 0;
   return DeviceError("GPU " + std::to_string(index) + " is out of memory: " + inMiB(bytes) + " more are needed, " +
                      inMiB(unused) + " of " + inMiB(total) +

@@ -40,7 +40,7 @@ void synchronize(const Exec& exec);
 void* allocate(const Exec& exec, std::size_t bytes);
 /// The same, not zeroed.
 void* allocateUnset(const Exec& exec, std::size_t bytes);
-/// Work given to `exec` so far, and what has joined it, may still use the memory.
+/// Frees memory in stream order: work queued on `exec` so far, and on side streams joined to it, may still use it.
 void release(const Exec& exec, void* memory) noexcept;
 /// Memory that other processes may be given a view of, as MPI does where it takes device memory; not zeroed. What
 /// allocate() gives comes from a pool of this process, which no other can open.

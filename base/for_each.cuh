@@ -63,7 +63,7 @@ GROUSER_HD std::uint32_t atomicAdd32(std::uint32_t* target, std::uint32_t value)
 #endif
 }
 
-/// Sets a shared flag word; every writer writes the same kind of value, so any order will do.
+/// Sets bit 0 of a shared flag word. Concurrent writers all set the same bit, so their order does not matter.
 GROUSER_HD void raise(std::uint32_t* flag) {
 #if defined(__CUDA_ARCH__)
   atomicOr(flag, 1u);

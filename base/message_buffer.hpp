@@ -7,8 +7,8 @@
 
 namespace grouser::base {
 
-/// Words that go to other ranks or come from them. Room grows with the largest message, and by a quarter more; what was
-/// held is lost then.
+/// Buffer for messages between ranks, in words. Grows to the largest message and a quarter more; its contents are lost
+/// then.
 template <void* (*kAllocate)(const Exec&, std::size_t), void (*kRelease)(const Exec&, void*) noexcept>
 class MessageWords {
 public:

@@ -24,7 +24,7 @@ using Handle = cudaIpcMemHandle_t;
 struct Handle {};
 #endif
 
-/// What a rank says of its memory.
+/// How other ranks can map a rank's memory.
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;
@@ -53,13 +53,14 @@ PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::siz
     : exec_(exec), comm_(comm), use_(use),
       shares_(!comm.alone() && (use == PeerUse::always || (use == PeerUse::automatic && !exec.onCpu()))),
       serial_(memories++), views_(static_cast<std::size_t>(comm.size()), nullptr) {
-  // Who sees whom is known from the start: all have a page at least to look at.
+  // At least one page from the start, so that which ranks see each other is known at once.
   if (shares_ || bytes > 0) allocate(bytes);
   checkUse();
 }
 
 PeerMemory::~PeerMemory() {
-  // An error on its way out ends all ranks. Until then others may look at this memory, and will not come here.
+  // Not while an exception unwinds: others may still read this memory, and release() would wait in closeAll() for ranks
+  // that never come. The error ends them all.
   if (shares_ && std::uncaught_exceptions() > 0) return;
   release();
 }
@@ -105,7 +106,7 @@ void PeerMemory::allocate(std::size_t bytes) {
   if (shares_) share();
 }
 
-/// Shows this rank's memory to the others, and looks at theirs.
+/// Offers this rank's memory to the others of its machine, and maps theirs.
 void PeerMemory::share() {
   Offer mine{};
   mine.device = deviceId(exec_);
@@ -128,7 +129,7 @@ void PeerMemory::share() {
 
   std::vector<Bytes> mineOf;
   const std::vector<bool> goodViews = tryViews();
-  if (ownIsShared_) forgetShared(nameOf(getpid())); // all have it who will
+  if (ownIsShared_) forgetShared(nameOf(getpid())); // every rank has opened it by now
   for (const bool good : goodViews) mineOf.push_back(Comm::bytesOf(std::vector<std::uint8_t>{good}));
   const std::vector<Bytes> theirs = comm_.allToAll(mineOf);
   std::uint64_t missing = 0;
@@ -143,8 +144,8 @@ void PeerMemory::share() {
   comm_.wait();
 }
 
-/// By rank: what is written there arrives, both ways, and what is read there is what was written. A view may open and
-/// still lead elsewhere, as under some virtual machines.
+/// By rank: whether a mark written through its view arrives, both ways, and reads back. A view may open and still lead
+/// elsewhere, as under some virtual machines. wait() keeps the reads of all ranks behind the writes of all.
 std::vector<bool> PeerMemory::tryViews() const {
   const auto word = [](void* memory, int r) { return static_cast<std::uint32_t*>(memory) + r; };
   const int me = comm_.rank();
@@ -185,7 +186,8 @@ void PeerMemory::close(int rank) noexcept {
   view = nullptr;
 }
 
-/// Afterwards nobody looks at this rank's memory, and it may go.
+/// Waits for this device's work, unmaps the memory of the others, and waits until all ranks have done so: afterwards no
+/// rank reads this one's memory, and it may be freed.
 void PeerMemory::closeAll() noexcept {
   if (!shares_ || !own_) return;
 #if defined(__CUDACC__)

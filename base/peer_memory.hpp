@@ -12,11 +12,11 @@
 
 namespace grouser::base {
 
-/// Whether ranks of one machine look into each other's memory.
+/// Whether ranks of one machine access each other's memory.
 enum class PeerUse {
   never,
   automatic, ///< GPUs do where they can
-  always     ///< InputError where they cannot; CPUs do too, and ranks that share one GPU go through steps together
+  always     ///< InputError where they cannot; CPUs too, and PeerReduction also among ranks that share one GPU
 };
 
 template <> struct EnumWords<PeerUse> {
@@ -26,7 +26,7 @@ template <> struct EnumWords<PeerUse> {
 
 /// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
 /// memory (CUDA IPC), without the host and without MPI. Whether two of them can is tried, not assumed; where they
-/// cannot a rank has its own memory alone. CPUs share memory only if asked to: messages are as quick there.
+/// cannot a rank has its own memory alone. CPUs share memory only if asked to: messages are as fast there.
 ///
 /// All ranks call everything that is not marked `local`, the destructor too, in the same order.
 class PeerMemory {
@@ -37,13 +37,13 @@ public:
   PeerMemory& operator=(const PeerMemory&) = delete;
   ~PeerMemory();
 
-  /// Room for `bytes`, the same on all ranks, and a quarter more where it has to grow; it is zero then. Waits until all
-  /// devices have done their work, so that nobody looks any more at what goes.
+  /// Room for `bytes`, the same on all ranks, and a quarter more where it has to grow; it is zero then. Where it grows,
+  /// waits for the devices of all ranks, so that no peer still reads the memory that is freed.
   void reserve(std::size_t bytes);
 
   std::size_t size() const { return size_; } ///< bytes; local, on all ranks the same
   void* own() const { return own_; }         ///< local
-  /// Ranks have been asked to look into each other's memory; local, on all ranks the same.
+  /// Ranks have been asked to access each other's memory; local, on all ranks the same.
   bool shares() const { return shares_; }
   /// The memory of another rank, or null; local. If one rank sees another, that one sees it too.
   void* of(int rank) const { return views_[static_cast<std::size_t>(rank)]; }

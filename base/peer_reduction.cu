@@ -17,26 +17,28 @@ namespace {
 
 constexpr int kMostRanks = 32; // one lane of a warp each
 
-/// What one rank says in one run, in the memory of another: first what, then, behind a fence, in which run. The reader
-/// waits for the run, and reads what behind a fence of its own. What kernels before it have written is out with them.
+/// Message of one rank in one run, written into the memory of another: `least` and `bits`, then a system-wide fence,
+/// then `run`. The reader spins until `run` has the number of this run, fences too, and reads the other two. The
+/// writer's fence also makes visible what earlier kernels of its stream have written, such as packed ghosts.
 struct alignas(16) Word {
   std::uint64_t least, bits;
   std::uint32_t run;
 };
 
-/// The memory of one rank. Two runs take turns: a rank that is through with one may already speak in the next, but not
-/// in the one after, since for that it must have heard from all.
+/// The memory of one rank, written to by all others. Double-buffered by the parity of the run: a rank that has finished
+/// run n may write its message of n + 1 while a slower one still reads those of n. That of n + 2, which overwrites n,
+/// it writes only when it has all messages of n + 1, each sent by a rank that has finished n.
 struct Table {
   Word said[2][kMostRanks]; ///< by rank
   std::uint64_t waited;     ///< [ns]
-  std::uint32_t runs;       ///< that this rank is through with
+  std::uint32_t runs;       ///< that this rank has finished
 };
 
 struct Tables {
   Table* of[kMostRanks];
 };
 
-/// The same among processes.
+/// The same on CPUs; release and acquire of `run` take the place of the fences.
 void agreeOnHost(const Tables& tables, int me, int size, std::uint64_t* words) {
   Table& mine = *tables.of[me];
   const std::uint32_t run = mine.runs + 1;
@@ -103,13 +105,13 @@ double PeerReduction::waited() const {
 }
 
 void PeerReduction::run(const Exec& exec, std::uint64_t* words) {
-  if (!possible_) throw std::logic_error("ranks are to agree that do not see each other");
+  if (!possible_) throw std::logic_error("a reduction among ranks that do not see each other's memory");
   Tables tables{};
   for (int r = 0; r < size_; ++r) tables.of[r] = static_cast<Table*>(r == rank_ ? memory_.own() : memory_.of(r));
   if (exec.onCpu()) return agreeOnHost(tables, rank_, size_, words);
 #if defined(__CUDACC__)
   agree<<<1, kMostRanks, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
-  checkCuda(cudaGetLastError(), "launch of an agreement");
+  checkCuda(cudaGetLastError(), "launch of a peer reduction");
 #endif
 }
 

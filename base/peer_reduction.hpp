@@ -7,8 +7,9 @@
 
 namespace grouser::base {
 
-/// A decision of all ranks that their GPUs take among themselves, in the order of their streams, while no host waits:
-/// each writes its words into the memory of all others and looks at its own until theirs are there.
+/// An all-reduce of two words, and a barrier, among GPUs that see each other's memory: a kernel in the stream of each,
+/// without host or MPI. Each writes its words into the memory of all others and spins on its own until theirs are
+/// there.
 ///
 /// All ranks construct and destroy it in the same order, and run it equally often.
 class PeerReduction {
@@ -18,8 +19,8 @@ public:
   /// All ranks see each other and have a GPU each (with PeerUse::always, sharing is allowed), and they are not too
   /// many.
   bool possible() const { return possible_; }
-  /// words[0] becomes the least of all ranks', words[1] the union of their bits; two words on the device. What the
-  /// GPUs have been given before is done on all of them, and seen by all, when what is given afterwards begins.
+  /// words[0] becomes the least of all ranks', words[1] the union of their bits; two words on the device. Work queued
+  /// after it starts only when what was queued before it has ended on all ranks, and its writes are visible to all.
   void run(const Exec& exec, std::uint64_t* words);
   /// Time that this rank's GPU has spent waiting for others since the start [s]. Waits for the work of the Exec.
   double waited() const;

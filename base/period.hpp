@@ -5,20 +5,20 @@
 
 namespace grouser::base {
 
-/// Sides of a scene that are joined: what leaves through one enters through the opposite one. All in units of the
+/// Periodic boundaries of a scene: what leaves through one enters through the opposite one. All in units of the
 /// scene's positions, so that the images of a place differ by exactly a period, on every device and rank.
 struct Period {
-  Vec3l low{};    ///< the lower sides
-  Vec3l length{}; ///< from side to side; 0 along an axis that is not periodic
+  Vec3l low{};    ///< the lower boundaries
+  Vec3l length{}; ///< from the lower to the upper; 0 along an axis that is not periodic
 
   GROUSER_HD bool along(int axis) const { return length[axis] != 0; }
   GROUSER_HD bool any() const { return along(0) || along(1) || along(2); }
 
-  /// How many periods must be added to coordinate `u`, at most one period outside, to bring it between the sides.
+  /// How many periods must be added to coordinate `u`, at most one period outside, to bring it between the boundaries.
   GROUSER_HD int periodsBack(int axis, std::int64_t u) const {
     return !along(axis) ? 0 : u < low[axis] ? 1 : u >= low[axis] + length[axis] ? -1 : 0;
   }
-  /// The image between the sides of a place at most one period outside.
+  /// The image between the boundaries of a place at most one period outside.
   GROUSER_HD Vec3l wrapped(Vec3l u) const {
     for (int a = 0; a < 3; ++a) u[a] += periodsBack(a, u[a]) * length[a];
     return u;

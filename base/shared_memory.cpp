@@ -20,7 +20,7 @@ void* map(int file, std::size_t bytes) {
 void* createShared(const std::string& name, std::size_t bytes) noexcept {
   const int file = shm_open(name.c_str(), O_CREAT | O_EXCL | O_RDWR, S_IRUSR | S_IWUSR);
   if (file < 0) return nullptr;
-  // Asked for now: a page that is missing when it is touched would end the program.
+  // Reserves all pages now: the first access to one that does not fit any more would end the program (SIGBUS).
   void* const memory = posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0 ? map(file, bytes) : nullptr;
   ::close(file);
   if (!memory) forgetShared(name);

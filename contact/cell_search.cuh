@@ -17,8 +17,8 @@ constexpr std::int64_t kShare = 512; ///< items of a thread that goes over many
 /// Threads of kShare items each.
 GROUSER_HD constexpr std::int64_t sharesOf(std::int64_t count) { return (count + kShare - 1) / kShare; }
 
-/// Calls visit(i) for the items of one of sharesOf(count) threads: on a GPU neighbours read side by side, a core reads
-/// on.
+/// Calls visit(i) for the items of one of sharesOf(count) threads: strided on a GPU, so that reads of neighbouring
+/// threads coalesce; consecutive on a CPU.
 template <class Visit> GROUSER_HD void overShare(std::int64_t thread, std::int64_t count, const Visit& visit) {
 #if defined(__CUDA_ARCH__)
   const std::int64_t threads = sharesOf(count);
@@ -39,7 +39,7 @@ template <class Grid> struct FindBounds {
 
   GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
 #if defined(__CUDA_ARCH__)
-    if (value > *target) atomicMax(target, value); // most find it raised already; a stale look costs one atomic more
+    if (value > *target) atomicMax(target, value); // plain read first: a stale value costs one atomic more
 #else
     std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
     while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {

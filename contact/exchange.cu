@@ -110,7 +110,7 @@ void Exchange::setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint3
   base::copyOnDevice(exec_, sendSlots_.data(), slots.data(), count * sizeof(std::uint32_t));
   base::synchronize(exec_);
 
-  // Each rank tells each other: from which place on, how many, and how many there are in all.
+  // To each rank: the first of its elements in this plan, how many it gets, and how many this plan exports in all.
   std::vector<base::Bytes> mine(size);
   for (std::size_t r = 0; r < size; ++r)
     mine[r] = base::Comm::bytesOf(std::vector<std::uint32_t>{sendStart_[r], sendStart_[r + 1] - sendStart_[r],
@@ -129,7 +129,7 @@ void Exchange::setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint3
 
 void Exchange::setImportSlots(std::size_t first) {
   receiveSlots_.resize(importCount_);
-  base::forEach(exec_, "places of what comes", static_cast<std::int64_t>(importCount_),
+  base::forEach(exec_, "set import slots", static_cast<std::int64_t>(importCount_),
                 CountUp{static_cast<std::uint32_t>(first), receiveSlots_.data()});
 }
 
@@ -138,14 +138,15 @@ void Exchange::renumber(const std::uint32_t* newSlot) {
     base::forEach(exec_, "renumber a plan", static_cast<std::int64_t>(slots->size()), Renumber{newSlot, slots->data()});
 }
 
-/// What a rank has packed in this turn, as this rank sees it; null where it does not.
+/// The buffer that `rank` packs the present run into, as seen from this rank; null where its memory is not visible.
 std::uint32_t* Exchange::packedBy(int rank) const {
   void* memory = rank == comm_.rank() ? packed_.own() : packed_.of(rank);
   if (!memory) return nullptr;
   return static_cast<std::uint32_t*>(memory) + (packed_.shares() ? bufferIndex_ * (packed_.size() / 8) : 0);
 }
 
-/// Calls `each(first, end, peer)` for ranks [first, end) that go the same way: one peer, or any number of others.
+/// Calls `each(first, end, peer)` for ranks [first, end) that are reached the same way: one peer through its memory, or
+/// any number of others by messages.
 template <class Each> void Exchange::forWays(const Each& each) const {
   for (int first = 0, end = 0; first < comm_.size(); first = end) {
     end = first + 1;
@@ -207,12 +208,13 @@ void Exchange::arrive() {
 }
 
 void Exchange::publish() {
-  if (stage_ != Stage::packed || !peersOnly()) throw std::logic_error("elements are passed on that others cannot see");
+  if (stage_ != Stage::packed || !peersOnly())
+    throw std::logic_error("elements are published that others cannot see, or that have not been packed");
   stage_ = Stage::published;
 }
 
 void Exchange::discard() {
-  if (stage_ == Stage::sent) throw std::logic_error("elements that were sent are dropped");
+  if (stage_ == Stage::sent) throw std::logic_error("an exchange is discarded whose messages are under way");
   stage_ = Stage::idle;
 }
 
@@ -224,7 +226,7 @@ void Exchange::countRuns(std::int64_t runs) {
 void Exchange::unpack(const base::Exec& exec, std::span<const ExchangeField> fields) {
   const Fields all = collect(fields);
   if (stage_ < Stage::arrived || all.words != words_)
-    throw std::logic_error("an exchange is finished that was not begun, or with other fields");
+    throw std::logic_error("an exchange is finished that was not started, or with other fields");
   stage_ = Stage::idle;
   forWays([&](int first, int end, bool peer) {
     const std::size_t place = placeOf(receiveStart_, first), count = placeOf(receiveStart_, end) - place;

@@ -27,18 +27,18 @@ template <class T> ExchangeField fieldOf(base::Array<T>& array) {
 
 /// How an exchange goes about it; no bit of what arrives depends on it.
 struct ExchangeOptions {
-  base::PeerUse peers;                             ///< GPUs of one machine fetch what comes from each other
+  base::PeerUse peers;                             ///< whether GPUs of one machine unpack from each other's memory
   std::size_t wordsAtATime = std::size_t{1} << 30; ///< packed by one launch, at most
 };
 
 /// Moves elements between ranks. It knows nothing of what an element is: whoever owns the elements says which slots go
-/// to which ranks (a communication plan) and names the fields that travel; what comes is put where they want it. Full
+/// to which ranks (a communication plan), names the fields to move, and says into which slots the imports go. Full
 /// state on a migration and less on a ghost update are two plans, or one plan with two lists of fields.
 ///
 /// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device. Where the
-/// GPU of the receiver sees the memory of the sender's, it unpacks from there, and MPI carries only the word that it
-/// may; else the bytes go straight to MPI where it takes device memory, and through pinned memory where it does not.
-/// All ranks call everything here, in the same order.
+/// GPU of the receiver sees the memory of the sender's, it unpacks from there, and MPI only carries the notice that the
+/// sender has packed; else the bytes go straight to MPI where it takes device memory, and through pinned memory where
+/// it does not. All ranks call everything here, in the same order.
 class Exchange {
 public:
   static constexpr std::size_t kMaxFields = 12;
@@ -53,18 +53,18 @@ public:
   /// Slots of the elements that leave, by place in the plan (grouped by rank).
   const std::uint32_t* exportSlots() const { return sendSlots_.data(); }
 
-  /// What comes goes to slots first, first + 1...
+  /// Imports go to slots first, first + 1...
   void setImportSlots(std::size_t first);
-  /// The elements have moved: slot s is now newSlot[s] (device array), here and at the places of what comes.
+  /// The elements have moved: slot s is now newSlot[s] (device array), of exports and imports.
   void renumber(const std::uint32_t* newSlot);
 
-  /// Packs and sends. The fields may be overwritten as soon as this returns, but for the slots of what comes.
+  /// Packs and sends. The fields may be overwritten as soon as this returns.
   void start(std::span<const ExchangeField> fields) {
     pack(exec_, fields);
     base::synchronize(exec_);
     send();
   }
-  /// Waits for what comes and unpacks it into `fields`, which have as many words as those that were sent.
+  /// Waits for the imports and unpacks them into `fields`, which have as many words as those that were sent.
   void finish(std::span<const ExchangeField> fields) {
     arrive();
     unpack(exec_, fields);
@@ -75,27 +75,27 @@ public:
     finish(fields);
   }
 
-  // The same in its parts, for those who have other work to do in between. `exec` is the exchange's own or a side
-  // stream of it.
+  // The same in its parts, to overlap it with other work. `exec` is the exchange's own or a side stream of it.
 
-  /// On the device, without waiting; only where memory has to grow it waits, for all ranks: not in the second of two
-  /// runs of as many words on one plan. What was packed may be packed anew, by all ranks, and the former is forgotten.
+  /// Queues packing on `exec`, without waiting, into the half of the buffer that the run before did not use. Where
+  /// memory has to grow it waits, for all ranks: not in the second of two runs of as many words on one plan. All ranks
+  /// may pack again before send(); what was packed first is dropped.
   void pack(const base::Exec& exec, std::span<const ExchangeField> fields);
-  void send();   ///< what has been packed: that work has ended
-  void arrive(); ///< waits for what comes, where it was sent
-  /// On the device, without waiting.
+  void send();   ///< after the device has packed: call synchronize() first
+  void arrive(); ///< waits for the messages; does nothing where none were sent
+  /// Queues unpacking on `exec`, without waiting.
   void unpack(const base::Exec& exec, std::span<const ExchangeField> fields);
 
-  /// Every rank sees the memory of all others. Then GPUs that agree in their streams that all have packed
-  /// (base::PeerReduction) need no message: publish() takes the place of send() and arrive().
+  /// Every rank sees the memory of all others. Then no message is needed where a base::PeerReduction, queued between
+  /// pack() and unpack(), makes every GPU wait until all have packed: publish() takes the place of send() and arrive().
   bool peersOnly() const { return packed_.allSeeAll(); }
   bool sharesMemory() const { return packed_.seesAny(); } ///< with one other rank at least
   void publish();
-  void discard();                    ///< nobody wants it any more
-  void countRuns(std::int64_t runs); ///< of those that were passed on
+  void discard();                    ///< drops what was packed or published
+  void countRuns(std::int64_t runs); ///< adds runs that were published to the counts below
   unsigned bufferIndex() const {
     return bufferIndex_;
-  } ///< which half of the memory was packed last: what is recorded depends on it
+  } ///< half of the memory that was packed last; recorded graphs hold pointers into it
 
   std::int64_t bytesSent() const { return bytesSent_; } ///< by this rank since the start
   std::int64_t runs() const { return runs_; }
@@ -106,7 +106,7 @@ private:
   }
   std::size_t placesTo(int rank) const { return placeOf(sendStart_, rank + 1) - placeOf(sendStart_, rank); }
   std::size_t placesFrom(int rank) const { return placeOf(receiveStart_, rank + 1) - placeOf(receiveStart_, rank); }
-  /// A peer that something goes to or comes from: it is told when this rank has packed, and tells.
+  /// Whether elements go to or come from this peer: then each notifies the other by a message when it has packed.
   bool withPeer(int rank) const { return packed_.of(rank) && placesTo(rank) + placesFrom(rank) > 0; }
   template <class Each> void forWays(const Each& each) const;
   std::uint32_t* packedBy(int rank) const;
@@ -120,17 +120,17 @@ private:
   std::size_t mostExported_{0};                         ///< of all ranks
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
   std::size_t importCount_{0};
-  /// Two runs take turns, each in its half. A rank packs run n + 2 into the half of run n only after every reader of n
-  /// has told it so: with its word of run n + 1, sent after its work on n had ended, or by what all ranks have agreed
-  /// upon in between. A new plan ends with such an agreement.
+  /// Double-buffered: peers read run n out of one half while this rank packs run n + 1 into the other. Run n + 2, which
+  /// overwrites run n, is packed only when every peer has unpacked n: its message of n + 1 says so, sent after its
+  /// device had finished n, as does a reduction over all ranks in between. setPlan() contains such a reduction.
   base::PeerMemory packed_;
   unsigned bufferIndex_{0};
   base::DeviceMessage received_;
   base::HostMessage sendHost_, receiveHost_;
   std::size_t words_{0};              ///< of one element in the buffers
-  std::uint32_t sent_{0};             ///< runs sent: the word for peers
-  std::vector<std::uint32_t> sentBy_; ///< by rank: their word
-  base::Messages messages_;           ///< waits, at the latest when it goes, for what comes into all of the above
+  std::uint32_t sent_{0};             ///< runs sent: the number in the message to peers
+  std::vector<std::uint32_t> sentBy_; ///< by rank: the number in their last message
+  base::Messages messages_;           ///< destroyed before the buffers above: waits for messages into them
   enum class Stage { idle, packed, sent, arrived, published } stage_{Stage::idle};
   std::int64_t bytesSent_{0}, runs_{0};
 };

@@ -59,7 +59,7 @@ struct ListParts {
 };
 
 /// Finds each pair in the sorted keys of the former list and takes its history.
-struct CarryMemory {
+struct RestorePatches {
   const std::uint64_t *key, *oldKey;
   const std::uint32_t* oldIndex;
   std::int64_t oldCount;
@@ -85,7 +85,7 @@ struct CarryMemory {
   }
 };
 
-/// The rank that a pair follows its grain to; the own one for those that stay.
+/// Marks the pairs whose grain goes to another rank.
 struct FindDestination {
   const std::uint32_t *slot, *destination;
   std::uint32_t me;
@@ -148,7 +148,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   sums_ = base::Array<std::int64_t>(exec, 6);
 }
 
-/// What travels with a pair.
+/// What is sent with a pair.
 std::vector<ExchangeField> GrainPartContacts::history() {
   std::vector<ExchangeField> fields{{key_.data(), 2}, {memory_.data(), kPatches * sizeof(PatchMemory) / 4}};
   if (rolling_) fields.push_back({angle_.data(), kPatches * sizeof(Vec3f) / 4});
@@ -157,9 +157,10 @@ std::vector<ExchangeField> GrainPartContacts::history() {
 
 void GrainPartContacts::migrate(const std::uint32_t* destination) {
   if (held_ == Held::everywhere) return;
-  // Twice between two steps: nobody knows slots any more, so all ranks take all pairs.
-  if (held_ == Held::handedOver) return restore(save());
-  // A few pairs at a rebuild: messages will do.
+  // A second migration before a refresh: pairs that arrived have no slots yet by which to follow their grains, so every
+  // rank takes all pairs of the scene, as after a restore.
+  if (held_ == Held::migrated) return restore(save());
+  // Few pairs, and at rebuilds only: plain messages are quick enough.
   if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_, ExchangeOptions{.peers = base::PeerUse::never});
   const auto n = static_cast<std::int64_t>(pairs_);
   base::Array<std::uint32_t> leaves(exec_, pairs_), leaving(exec_);
@@ -171,7 +172,8 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
                 ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
   exchange_->setPlan(ranks, leaving, leaving.size());
   exchange_->start(history());
-  // Those that leave are found by no grain of the next list, and are not saved here.
+  // Pairs that left stay in the arrays until the next refresh, which finds no grain for them; emptied, save() skips
+  // them.
   base::forEach(exec_, "forget pairs that leave", static_cast<std::int64_t>(leaving.size()),
                 Forget{exchange_->exportSlots(), memory_.data()});
   key_.resizeKeeping(pairs_ + exchange_->importCount());
@@ -180,7 +182,7 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
   exchange_->setImportSlots(pairs_);
   exchange_->finish(history());
   pairs_ += exchange_->importCount();
-  held_ = Held::handedOver;
+  held_ = Held::migrated;
 }
 
 void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<PartMotion>& motion) {
@@ -232,9 +234,10 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   load_.resize(pairs_);
   list.key = key_.data(), list.slot = slot_.data();
   base::forEach(exec_, "list parts near grains", n, list);
-  base::forEach(exec_, "carry patch history", static_cast<std::int64_t>(pairs_),
-                CarryMemory{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
-                            oldMemory_.data(), memory_.data(), oldAngle_.data(), rolling_ ? angle_.data() : nullptr});
+  base::forEach(exec_, "restore patch history", static_cast<std::int64_t>(pairs_),
+                RestorePatches{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
+                               oldMemory_.data(), memory_.data(), oldAngle_.data(),
+                               rolling_ ? angle_.data() : nullptr});
   held_ = Held::listed;
 }
 

@@ -30,11 +30,11 @@ public:
                     const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
                     const base::Comm& comm = {}, const GrainPartMaterials& materials = {});
 
-  /// Grains go to other ranks (see terrain::Grains::onMigrate): sends the history of their pairs after them. Refresh
-  /// before the next compute. All ranks call it.
+  /// For terrain::GrainDistribution::onMigrate(): sends the history of pairs to where their grains go. Refresh before
+  /// the next compute. All ranks call it.
   void migrate(const std::uint32_t* destination);
 
-  /// Lists the pairs for grains in their present slots; history is carried over by grain id and part.
+  /// Lists the pairs for grains in their present slots; history is restored by grain id and part.
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
   /// Contact loads of this step. `loads` (one a part) is added to.
@@ -77,8 +77,8 @@ private:
   /// Which pairs this rank holds.
   enum class Held {
     listed,     ///< those of its own grains, with their slots
-    handedOver, ///< those of its own grains, whose slots the next refresh finds
-    everywhere, ///< all of the scene, as every rank does: what was restored
+    migrated,   ///< those of its own grains, some without slots: the next refresh finds them
+    everywhere, ///< all of the scene, the same on every rank: after a restore
   };
   Held held_{Held::everywhere};
   std::unique_ptr<Exchange> exchange_;

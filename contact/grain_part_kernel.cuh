@@ -12,11 +12,11 @@
 /// Contacts of one grain with one part: its patches, their springs, and the loads on both.
 namespace grouser::contact {
 
-inline constexpr float kSameNormal = 0.9f; // cosine: touches within 26 degrees are one patch
+inline constexpr float kSameNormal = 0.9f; // cosine: contacts within 26 degrees are one patch
 inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face are one patch
 inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is the one it was in the step before
 
-/// One patch while it is being made out.
+/// One patch of the present step, before it is matched to those of the step before.
 struct TouchedPatch {
   base::Vec3f normal; ///< outward from the part, in its frame
   base::Vec3f face;   ///< plane normal of the disc that is deepest
@@ -113,7 +113,7 @@ private:
     base::atomicAdd64(&target.z, value.z);
   }
 
-  /// The deepest touch first, then the deepest that belongs to none of the patches so far.
+  /// The deepest contact first, then the deepest that belongs to none of the patches so far.
   template <class Group> GROUSER_HD int findPatches(const SurfaceGridView& grid, const base::Vec3d& c,
                                                     double ballRadius, const Group& group,
                                                     TouchedPatch* patches) const {

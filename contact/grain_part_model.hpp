@@ -21,7 +21,7 @@ struct PatchMemory {
   base::Vec3f normal, shear;
 };
 
-/// A rigid part as the grains meet it.
+/// A rigid part, for contacts with grains.
 struct GrainPart {
   int surface{};               ///< index of its unique sphere set
   base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]
@@ -31,7 +31,7 @@ struct GrainPart {
 struct GrainPartModel {
   double radius{}, mass{}; ///< of a grain, of the largest where they differ [m], [kg]
   double timeStep{};       ///< [s]
-  double margin{};         ///< parts may move this far relative to the grains before the pairs are looked for anew [m]
+  double margin{};         ///< parts may move this far relative to the grains before the pairs are listed again [m]
   ContactLaw law;
   base::PositionScale scale;
   base::FixedPoint force, torque, energy; ///< quanta of the sums

@@ -8,7 +8,7 @@
 
 namespace grouser::contact {
 
-/// Grains as those see them who compute loads on them: device arrays by slot.
+/// The grains' state for code that computes loads on them: device arrays by slot.
 struct GrainsView {
   const base::Position* position;
   const base::Vec4f* velocity; ///< [m/s]; w: radius [m], where radii differ

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
 constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
-constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by a CPU's lanes
+constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
 
 } // namespace
 
@@ -94,7 +94,7 @@ void NeighbourList::checkLengths(std::uint32_t most, bool equal) const {
 void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
                           const RadiiInW& radii) {
   const auto n = static_cast<std::int64_t>(sorted_);
-  // Of the former list only its contacts are needed: they are set aside, and the new one takes its memory.
+  // Of the former list only its contacts are needed: they are cached, and the new list takes its memory.
   const std::uint32_t former = rows();
   base::Array<std::uint32_t> keptStart(exec_, std::size_t{former} + 1), keptId(exec_);
   base::Array<float> keptHistory(exec_);
@@ -118,7 +118,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const std::uint32_t most = base::maximum(exec_, count_.data(), sorted_);
   checkLengths(most, !radii.sphere);
   const std::size_t places = layRows() + kSlotsRead;
-  // More than is needed now, so that not every rebuild asks for memory.
+  // More than is needed now, so that not every rebuild allocates.
   const auto width = static_cast<std::size_t>(width_);
   if (places > slot_.size()) slot_.resize(places + places / 16), history_.resize(slot_.size() * width);
   base::forEach(exec_, "list neighbours", n, ListNear{near, id, {start_.data(), stride_}, slot_.data()});
@@ -130,7 +130,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   if (!haveRows_)
     touching_.zero();
   else
-    base::forEach(exec_, "carry contact history", n,
+    base::forEach(exec_, "restore contact history", n,
                   RestoreHistory{origins ? origins->origin : order_.data(),
                                  id,
                                  count_.data(),

@@ -30,7 +30,7 @@ public:
   void sort(const base::Position* position, std::size_t count);
   const std::uint32_t* order() const { return order_.data(); }
 
-  /// Lists the neighbours of grains already permuted by `order()`, and carries history over from the last list.
+  /// Lists the neighbours of grains already permuted by `order()`, and restores history from the last list.
   /// `id` is ascending-comparable global id by new slot.
   /// `origins`: on one of several ranks, else null; `radii`: of spheres of several sizes.
   void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins = nullptr,

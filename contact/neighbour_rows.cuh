@@ -31,7 +31,7 @@ struct StartInSlice {
   GROUSER_HD void operator()(int i) const { start[i] = sliceStart[i / kSlice] * kSlice + i % kSlice; }
 };
 
-/// A list's rows as those need them who read contacts only.
+/// A list's rows, for kernels that read contacts only.
 struct TouchingRows {
   NeighbourRows rows;
   const std::uint32_t *count, *slot, *id; ///< id by slot, as at the build
@@ -80,7 +80,7 @@ struct ExportRow {
   }
 };
 
-/// What is kept of a list while the next takes its place: contacts alone, row behind row.
+/// Contacts of a list, kept while the next one is built in its memory: row behind row.
 struct ContactCache {
   std::uint32_t* start; ///< [rows + 1]
   std::uint32_t* id;

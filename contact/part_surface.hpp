@@ -81,12 +81,12 @@ private:
   base::Vec3i cells_;
 };
 
-/// Surface spheres of a part as samples that feel other surfaces: each stands for a share of the part's area.
+/// Surface spheres of a part as samples that are tested against other surfaces: each stands for a share of its area.
 struct SurfaceSample {
   base::Vec3f centre;
   float radius;          ///< [m]
   float area;            ///< [m2]
-  std::uint32_t cluster; ///< which way its face looks in the part's frame: 0..5 = -x, +x, -y, +y, -z, +z
+  std::uint32_t cluster; ///< main direction of its normal in the part's frame: 0..5 = -x, +x, -y, +y, -z, +z
 };
 
 inline constexpr int kClusters = 6;

@@ -12,21 +12,21 @@
 namespace grouser::contact {
 
 /// Some samples of one pair: the unit of work when samples are listed.
-struct ProbeChunk {
+struct SampleChunk {
   std::uint32_t pair, first, last; ///< samples [first, last)
 };
 
 /// The lists and sums that contacts of extended surfaces share, whatever the other side is.
 struct PatchBuffers {
-  /// `probedParts`: for each pair the part whose samples feel.
+  /// `sampledParts`: for each pair the part whose samples are tested against the other side.
   PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
-               const std::vector<int>& setOfPart, const std::vector<int>& probedParts);
+               const std::vector<int>& setOfPart, const std::vector<int>& sampledParts);
 
   base::Exec exec;
   std::size_t pairs;
   base::Array<SurfaceSample> sample;
   base::Array<int> setOfPart;
-  base::Array<ProbeChunk> chunks;
+  base::Array<SampleChunk> chunks;
   base::Array<std::uint32_t> near, count, first;
   base::Array<std::uint64_t> entry;
   base::Array<float> gap;

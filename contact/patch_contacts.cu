@@ -9,7 +9,7 @@ namespace grouser::contact {
 
 namespace {
 
-std::vector<int> probedParts(const std::vector<PartPair>& pairs) {
+std::vector<int> sampledParts(const std::vector<PartPair>& pairs) {
   std::vector<int> parts;
   for (const PartPair& pair : pairs) parts.push_back(pair.a);
   return parts;
@@ -20,7 +20,7 @@ std::vector<int> probedParts(const std::vector<PartPair>& pairs) {
 PartPartContacts::PartPartContacts(const base::Exec& exec, const Model& model,
                                    const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                    const std::vector<PartPair>& pairs)
-    : model_(model), buffers_(exec, sets, setOfPart, probedParts(pairs)), pairs_(exec, pairs) {
+    : model_(model), buffers_(exec, sets, setOfPart, sampledParts(pairs)), pairs_(exec, pairs) {
   std::vector<bool> isTarget(sets.size());
   double widest = 0;
   for (const PartPair& pair : pairs) {
@@ -47,11 +47,11 @@ PartPartContacts::Target PartPartContacts::target() const {
 }
 
 void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {
-  listProbes(buffers_, target(), motion, model_.margin);
+  listSamples(buffers_, target(), motion, model_.margin);
 }
 
 void PartPartContacts::compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads) {
-  pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
+  computePatches(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 
 } // namespace grouser::contact

@@ -10,7 +10,7 @@
 
 namespace grouser::contact {
 
-/// A pair of parts that may meet; `a` is felt by its samples, `b` by its table.
+/// A pair of parts that may touch; `a` is represented by its samples, `b` by its table of discs.
 struct PartPair {
   int a{}, b{}; ///< parts
 };

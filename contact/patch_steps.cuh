@@ -10,11 +10,11 @@ namespace grouser::contact {
 
 /// Lists the samples of every pair that are within `margin` of touching the target.
 template <class Target>
-void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<PartMotion>& motion, double margin) {
+void listSamples(PatchBuffers& buffers, const Target& target, const base::Array<PartMotion>& motion, double margin) {
   base::forEach(buffers.exec, "mark near pairs", static_cast<std::int64_t>(buffers.pairs),
                 MarkNearPairs<Target>{target, motion.data(), margin, buffers.near.data()});
-  ListProbes<Target> list{target, buffers.sample.data(), buffers.chunks.data(), motion.data(), buffers.near.data(),
-                          margin, buffers.count.data(),  buffers.first.data(),  nullptr,       nullptr};
+  ListSamples<Target> list{target, buffers.sample.data(), buffers.chunks.data(), motion.data(), buffers.near.data(),
+                           margin, buffers.count.data(),  buffers.first.data(),  nullptr,       nullptr};
   const auto chunks = static_cast<std::int64_t>(buffers.chunks.size());
   base::forEach(buffers.exec, "count samples", chunks, list);
   buffers.entries =
@@ -27,14 +27,15 @@ void listProbes(PatchBuffers& buffers, const Target& target, const base::Array<P
 
 /// Pressure on every listed sample, then friction on every patch. `travelled`: bound of the relative motion of any pair
 /// since the samples were listed [m], on the device.
-template <class Target> void pressAndRub(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
-                                         double timeStep, const double* travelled,
-                                         const base::Array<PartMotion>& motion, PartLoad* loads) {
+template <class Target> void computePatches(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
+                                            double timeStep, const double* travelled,
+                                            const base::Array<PartMotion>& motion, PartLoad* loads) {
   buffers.sums.zero();
-  base::forEachGroup<8>(buffers.exec, "press samples", static_cast<std::int64_t>(buffers.entries),
-                        PressProbe<Target>{target, buffers.sample.data(), quanta, motion.data(), buffers.entry.data(),
-                                           buffers.gap.data(), travelled, buffers.sums.data(), loads, timeStep});
-  base::forEach(buffers.exec, "rub patches", static_cast<std::int64_t>(buffers.sums.size()),
+  base::forEachGroup<8>(buffers.exec, "pressure of samples", static_cast<std::int64_t>(buffers.entries),
+                        SamplePressure<Target>{target, buffers.sample.data(), quanta, motion.data(),
+                                               buffers.entry.data(), buffers.gap.data(), travelled, buffers.sums.data(),
+                                               loads, timeStep});
+  base::forEach(buffers.exec, "friction of patches", static_cast<std::int64_t>(buffers.sums.size()),
                 PatchFriction<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads,
                                       timeStep});
 }

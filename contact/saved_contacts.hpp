@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What contacts carry from one step to the next, as a checkpoint holds it. Lists are left out: they can be built anew.
+/// History of contacts, as a checkpoint holds it. Lists are left out: they can be built anew.
 namespace grouser::contact {
 
 /// Contacts of extended surfaces, by pair and cluster.

@@ -6,9 +6,9 @@
 #include "contact/part_surface.hpp"
 #include "contact/patch_law.hpp"
 
-/// Kernel bodies of contacts between extended surfaces. Part A is felt by its samples; the other side is a Target:
-/// another part's table of discs, or the ground. A patch is all touching samples of one pair whose faces look the same
-/// way.
+/// Kernel bodies of contacts between extended surfaces. Part A is represented by its samples; the other side is a
+/// Target: another part's table of discs, or the ground. A patch is all touching samples of one pair whose normals fall
+/// into one cluster.
 ///
 /// A Target offers
 ///   int pairs                                   number of pairs
@@ -32,10 +32,10 @@ template <class Target> struct MarkNearPairs {
 
 /// Counts (where `entry` is null) or lists the samples of one chunk that are within `margin` of touching, each with its
 /// gap: until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
-template <class Target> struct ListProbes {
+template <class Target> struct ListSamples {
   Target target;
   const SurfaceSample* samples;
-  const ProbeChunk* chunks;
+  const SampleChunk* chunks;
   const PartMotion* motion;
   const std::uint32_t* near;
   double margin;
@@ -44,7 +44,7 @@ template <class Target> struct ListProbes {
   float* gap;           ///< [m], a lower bound
 
   GROUSER_HD void operator()(int item) const {
-    const ProbeChunk chunk = chunks[item];
+    const SampleChunk chunk = chunks[item];
     const int pair = static_cast<int>(chunk.pair);
     std::uint32_t found = 0;
     if (near[pair]) {
@@ -86,7 +86,7 @@ GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion,
 }
 
 /// Pressure on one sample.
-template <class Target> struct PressProbe {
+template <class Target> struct SamplePressure {
   Target target;
   const SurfaceSample* samples;
   PatchQuanta quanta;
@@ -143,7 +143,7 @@ template <class Target> struct PatchFriction {
     PatchSums& sums = patches[index];
     PatchState& state = states[index];
     if (sums.weight <= 0) {
-      state.dissipated += 0.5 * state.stiffness * dot(state.shear, state.shear); // the spring lets go
+      state.dissipated += 0.5 * state.stiffness * dot(state.shear, state.shear); // contact has ended
       state.shear = {}, state.stiffness = 0;
       state.dissipated += quanta.energy.value(sums.dissipated);
       return;
@@ -164,7 +164,7 @@ template <class Target> struct PatchFriction {
       base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
       const double stiffness = law.tangentialRatio * law.modulus * quanta.area.value(sums.area);
       // The area has changed: where it grew, fresh material touches without strain and the force stays; where it
-      // shrank, the strain stays and the part of the spring that has let go is lost. Neither gives energy.
+      // shrank, the strain stays and the energy of the area that has lost contact is dissipated. Neither gives energy.
       const double storedBefore = state.stiffness * dot(state.shear, state.shear);
       if (stiffness > state.stiffness) shear *= state.stiffness / stiffness;
       shear += slip * timeStep;

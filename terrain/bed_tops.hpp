@@ -45,7 +45,7 @@ private:
 };
 
 /// Highest grain top (centre + radius) [m] within `reach` of each node; minus infinity where there is none. Computed
-/// where the grains are; a maximum knows no order. On several ranks, over the grains of all.
+/// on the grains' device; a maximum does not depend on the order. On several ranks, over the grains of all.
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach);
 /// The same of grains on the host. InputError: one that is no finite number.
 std::vector<double> highestTops(std::span<const Seed> grains, const NodeGrid& grid, double reach);

@@ -18,7 +18,7 @@ struct KeepReference {
   GROUSER_HD void operator()(int i) const { reference[i] = {position[i].x, position[i].y, position[i].z}; }
 };
 
-/// Records of `width` elements go to places that nobody moves from.
+/// Moves records of `width` elements within one array. Threads do not conflict: no slot is both in `from` and in `to`.
 template <class T> struct Move {
   const std::uint32_t *from, *to;
   T* array;
@@ -29,7 +29,7 @@ template <class T> struct Move {
   }
 };
 
-/// A member that is missing in all() is missing in growth, migration and all else.
+/// A field that is missing in all() would be left out of growth, sorting, migration and checkpoints.
 template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&...>*) {
   return (sizeof(Fields) + ...);
 }
@@ -55,7 +55,7 @@ void GrainArrays::append(const EnteringGrains& grains) {
   slots_ += fresh;
   forEach([&]<class T>(GrainField<T>& field) {
     if (!field.has(kMigrates)) return; // made with the next list
-    // The first take no more memory than they need; those that enter later do so by and by.
+    // Exactly what is needed at the start; in leaps for grains that enter later.
     const auto grow = [&](base::Array<T>& array) {
       before == 0 ? array.resize(slots_ * field.width) : array.resizeKeeping(slots_ * field.width);
       base::setZero(exec_, array.data() + before * field.width, fresh * field.width * sizeof(T));
@@ -100,7 +100,7 @@ void GrainArrays::permute(const std::uint32_t* order) {
     gather(order, field, field.next.data());
     field.now.swap(field.next);
   });
-  // By way of one place for all, and back: an array that changed its memory at each rebuild would ask for more of it.
+  // Through one temporary buffer for all of them and back, so that each array keeps its memory from rebuild to rebuild.
   base::Array<std::byte> place = base::Array<std::byte>::unset(exec_, most);
   forEach([&]<class T>(GrainField<T>& field) {
     if (!field.has(kSorted) || field.has(kBuffered) || field.now.empty()) return;

@@ -10,8 +10,8 @@ namespace grouser::terrain {
 
 struct GrainKernelData;
 
-/// The fields of the grains. Each is declared once, here, with what becomes of it; growth, sorting, migration, ghosts,
-/// checkpoints and the count of memory walk all of them.
+/// The fields of the grains. Each is declared once, here, with what happens to it; growth, sorting, migration, ghosts,
+/// checkpoints and the count of memory loop over all of them.
 struct GrainFields {
   GrainField<base::Position> position{kBuffered | kSorted | kMigrates | kGhosted | kUpdated, &GrainState::position};
   /// [m/s]; w: radius [m], where radii differ
@@ -73,11 +73,11 @@ public:
   void permute(const std::uint32_t* order);
   /// The neighbours are listed where the grains are now.
   void setReference();
-  /// What a step wrote is the state from now on.
+  /// After a step: what it wrote to `next` becomes `now`; the state before it stays in `next`.
   void swapBuffers();
 
-  /// The fields that some use is made of, for exchanges between ranks. `written`: what a step has written, before the
-  /// buffers are swapped.
+  /// The fields of one use (kMigrates, kGhosted, kUpdated), for an exchange between ranks. `written`: the `next` of
+  /// each, which the step just launched writes, since the buffers are not swapped yet.
   std::vector<contact::ExchangeField> exchanged(FieldUse use, bool written = false);
   /// Slot to[k] takes what slot from[k] held, for k < count (device arrays); nothing moves from any of `to`.
   void move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count);

@@ -33,7 +33,8 @@ struct MarkNearBoundary {
     for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
     for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
     mark[i] = near ? 1u : 0u;
-    // A surface that jumps away leaves nothing to go on with.
+    // Grains off the list are not looked at in a step: the bit of a contact whose surface has jumped away would stay
+    // set, and its old spring would be taken up when the surface comes back.
     if (d.surfaceCount > 0 && !near) d.boundaryContactMask[i] = 0;
   }
 
@@ -117,7 +118,8 @@ void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, Gr
   base::Array<std::uint32_t> mark(exec_, slots), before(exec_, slots);
   base::Array<std::uint32_t>& boundaryOf = arrays.fields().boundaryOf.now;
   boundaryOf.resize(slots);
-  // Between rebuilds, when surfaces ask for a list, a grain may have moved half the skin already and come back.
+  // A list made between rebuilds, on account of surfaces, starts from grains that may be half the skin from their
+  // reference already, and may end half the skin on its other side.
   const double skin = (hasSurfaces() ? 1.0 : 0.5) * c.model.skin * c.smallestRadius;
   const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + d.unitLength;
   base::forEach(exec_, "mark grains near boundaries", n,

@@ -12,8 +12,7 @@
 
 namespace grouser::terrain {
 
-/// Walls, floor and surfaces on the device, the list of the grains near them, and what they and the grains do to each
-/// other in a step.
+/// Walls, floor and surfaces on the device, the list of the grains near them, and the loads between both in a step.
 class GrainBoundaries {
 public:
   GrainBoundaries(const base::Exec& exec, const GrainConstants& constants, const Boundaries& boundaries);
@@ -26,19 +25,20 @@ public:
   /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
   const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
 
-  /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so alike on all ranks.
+  /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so the same on all
+  /// ranks.
   bool surfacesHaveLeft() const;
   /// Lists the grains that may touch a boundary before the next list. `d`: of the grains in their present slots;
   /// `ghosts`: not 0 for those that need no list, null where there are none.
   void list(const GrainConstants& constants, const GrainKernelData& d, GrainArrays& arrays,
             const std::uint32_t* ghosts);
   std::size_t grainsListed() const { return near_.size(); }
-  std::int64_t listings() const { return listings_; } ///< on account of surfaces, made so far
+  std::int64_t listings() const { return listings_; } ///< made so far in scenes with surfaces
 
   // The loads of a step.
   void clearSurfaceLoads();                         ///< before the step, on the device
   void downloadSurfaceLoads();                      ///< after it, without waiting
-  void collectSurfaceLoads(const base::Comm& comm); ///< on the host, once the device has ended; on all ranks
+  void collectSurfaceLoads(const base::Comm& comm); ///< sums over the ranks, after synchronize(); all ranks call it
   /// By place in the list: what walls, floor and surfaces do to a grain.
   template <class Real> BoundaryLoad<Real>* loads() {
     if constexpr (std::is_same_v<Real, float>)

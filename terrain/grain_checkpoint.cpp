@@ -129,7 +129,7 @@ void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& s
   }
 }
 
-/// What a snapshot shows of a grain, on its way to the rank whose block of ids it is in.
+/// What a snapshot shows of each grain, as rows that are sent to the rank whose block of ids they are in.
 struct SnapshotRows {
   bool manyRadii{}, contactForces{};
   std::vector<std::uint32_t> id;
@@ -210,7 +210,7 @@ Position GrainCheckpoint::placeAtList(const GrainState& s, std::size_t k) const 
 }
 
 void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
-  system.finishGhostUpdate(); // what is under way is of the grains that go
+  system.finishGhostUpdate(); // else it would overwrite loaded grains with the ghosts of the old ones
   system.count = static_cast<std::size_t>(own_.total);
   system.arrays.setSlots(own_.rows());
   GrainFields& f = system.arrays.fields();
@@ -238,7 +238,7 @@ bool GrainCheckpoint::loadAsSaved(GrainSystem& system) const {
   const bool listHasEnded = asThen_ && system.comm.maximumOf(beyond ? 1 : 0) > 0;
   loadContacts(system, id);
   system.rebuilds = own_.rebuilds;
-  return !listHasEnded && own_.rebuilds > 0; // at 0 the first list of the run is still to come
+  return !listHasEnded && own_.rebuilds > 0; // at 0 the saved run had made no list yet
 }
 
 /// The row of a grain; rows() for a ghost.

@@ -5,20 +5,20 @@
 
 namespace grouser::terrain {
 
-/// The state of the grains on the host, free of slots, devices and lists: taken from them, and given back. On several
-/// ranks all of them call everything here.
+/// Saves and restores the state of the grains on the host, free of slots, devices and lists. On several ranks all of
+/// them call everything here.
 class GrainCheckpoint {
 public:
   /// On several ranks this rank's block of ids.
   static GrainState state(const GrainSystem& system);
   static GrainSnapshot snapshot(const GrainSystem& system, const SnapshotOptions& options);
 
-  /// Gives the rows to the ranks that their grains belong to. Throws InputError when they are of other grains.
+  /// Sends each row to the rank that owns its grain. Throws InputError when they are of other grains.
   /// `grows`: there may be more than the scene has.
   GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows);
 
-  // A list is built where the saved run built it, so that it stays valid for as long. So the state is loaded in two
-  // parts, and the neighbours are listed in between.
+  // The neighbour list is built at the places where the saved run built its last one, so that it ends at the same step.
+  // So the state is loaded in two parts, and the neighbours are listed in between.
   void loadAsListed(GrainSystem& system) const;
   /// Returns whether the list is valid for the next step. Throws InputError where it lacks contacts that were saved.
   bool loadAsSaved(GrainSystem& system) const;
@@ -29,7 +29,7 @@ private:
   void loadContacts(GrainSystem& system, const std::vector<std::uint32_t>& id) const;
   std::size_t rowOf(std::uint32_t id) const;
 
-  bool asThen_;    ///< the list can be built where it was; with another skin that would say nothing
+  bool asThen_;    ///< same skin as the saved run: the list is built at the places of its last rebuild
   GrainState own_; ///< rows of this rank's grains, in the order of their ids
 };
 

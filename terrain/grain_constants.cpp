@@ -34,7 +34,7 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   if (manyRadii) features |= kManyRadii;
   if (model.materials.count() > 0) features |= kManyMaterials;
   if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
-  if (boundaries.joined[0] || boundaries.joined[1]) features |= kPeriodic;
+  if (boundaries.periodic[0] || boundaries.periodic[1]) features |= kPeriodic;
   if (!boundaries.surfaces.empty()) features |= kBoundaries | kSurfaces;
   if (model.ledger) features |= kLedger;
   return features;
@@ -56,11 +56,12 @@ float nearestStored(double radius, const base::PositionScale& scale) {
   return static_cast<float>(std::floor(static_cast<double>(nearest) * scale.perMetre + 0.5) * scale.unit);
 }
 
-/// Joined sides in whole units. A grain must not touch two images of another: three cells of the search fit in between.
+/// Periodic boundaries in whole units. A grain must not touch two images of another: three cells of the search fit in
+/// between.
 base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& scale, std::int64_t reach) {
   base::Period period;
   for (int a = 0; a < 2; ++a) {
-    const auto& sides = boundaries.joined[static_cast<std::size_t>(a)];
+    const auto& sides = boundaries.periodic[static_cast<std::size_t>(a)];
     if (!sides) continue;
     const auto [from, to] = *sides;
     if (!(std::fabs(from) < scale.limit() && std::fabs(to) < scale.limit()))
@@ -87,7 +88,7 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
       historyWidth(historyWidthOf(features)), boundaryCount(boundaries.count()),
       period(periodOf(boundaries, scale, listRange())) {
-  // Overlaps are whole units: a grain a thousand times smaller would see its own in steps of 1e-5 of its size.
+  // Overlaps are whole units: those of a grain a thousand times smaller would be resolved to 1e-5 of its size only.
   if (smallestRadius < 1e-3 * model.radius)
     throw base::InputError(fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be 1000 times the "
                                        "smallest",

@@ -17,7 +17,8 @@ using contact::TravellingRows;
 
 namespace {
 
-/// Where the row of each grain is found after the migration, before sorting, as if none had moved.
+/// For each slot after the migration, before sorting: the row of the former neighbour list (or of those that arrived)
+/// that belongs to its grain, as if all that stay had kept their slots.
 struct NoteOrigins {
   std::uint32_t kept, owned, former;
   std::uint32_t* origin;
@@ -30,7 +31,7 @@ struct NoteOrigins {
   }
 };
 
-/// The same of those that have moved.
+/// The same of grains that were moved to another slot to close a gap.
 struct NoteMovedOrigins {
   const std::uint32_t *from, *to;
   std::uint32_t former;
@@ -38,7 +39,7 @@ struct NoteMovedOrigins {
   GROUSER_HD void operator()(int k) const { origin[to[k]] = from[k] < former ? from[k] : contact::RowOrigins::kNone; }
 };
 
-constexpr double kImbalance = 1.15;         // the dearest rank over the mean, above which cuts are moved [-]
+constexpr double kImbalance = 1.15; // busy time of the busiest rank over the mean, above which cuts are moved [-]
 constexpr std::int64_t kBalanceEvery = 200; // steps, at least
 
 /// The first cuts: as many grains in each slab of an axis as in the others.
@@ -89,7 +90,7 @@ GrainDistribution::GrainDistribution(const base::Exec& exec, const PartitionOpti
 }
 
 void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step) {
-  finishGhostUpdate(exec_, arrays); // an exchange under way would fill slots that are about to change hands
+  finishGhostUpdate(exec_, arrays); // else it would be unpacked into slots that get other grains below
   if (rebalances_) rebalance(arrays, step);
   subdomain_.findLeaving(arrays.fields().position.now.data(), arrays.slots());
   if (onMigrate_) onMigrate_(subdomain_.destination());
@@ -108,7 +109,7 @@ void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& nei
   origins_ = {nullptr, nullptr, rows};
 }
 
-/// The rows of the neighbour list travel with their grains, as ids and springs.
+/// Packs the contacts of the grains that leave, as ids and springs, to be sent with them.
 TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neighbours,
                                              base::Array<std::uint32_t>& leaving) {
   const Exchange& exchange = subdomain_.migration();
@@ -121,7 +122,8 @@ TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neigh
   return rows;
 }
 
-/// Sends the grains that leave, closes the gaps, and puts those that come behind the rest.
+/// Sends the grains that leave, closes the gaps, and puts those that come behind the rest. The gaps may be filled while
+/// the messages travel: start() returns when all that leaves has been packed into buffers of its own.
 void GrainDistribution::moveFields(GrainArrays& arrays, const TravellingRows& leaving) {
   Exchange& exchange = subdomain_.migration();
   std::vector<ExchangeField> fields = arrays.exchanged(kMigrates);
@@ -167,8 +169,9 @@ void GrainDistribution::finishGhostUpdate(const base::Exec& exec, GrainArrays& a
 
 void GrainDistribution::updateGhosts(GrainArrays& arrays) { subdomain_.haloExchange().run(arrays.exchanged(kUpdated)); }
 
-/// Moves the cuts where one rank has had clearly more to do than the mean. Time is only measured, so no two runs cut
-/// alike; no bit of the answer depends on it.
+/// Moves the cuts where the busiest rank exceeds the mean by kImbalance. Busy is the wall time since the last look,
+/// less waiting for other ranks and less work that all ranks repeat. Measured times differ from run to run, and so do
+/// the cuts; no bit of the answer depends on them.
 void GrainDistribution::rebalance(const GrainArrays& arrays, std::int64_t step) {
   const base::Comm& comm = subdomain_.comm();
   const Clock::time_point now = Clock::now();

@@ -14,36 +14,38 @@ namespace grouser::terrain {
 /// follow the work. One rank has none of it. All ranks call everything here that is not marked `local`, in one order.
 class GrainDistribution {
 public:
-  /// `start`: where the grains of the scene are; the first cuts share them out evenly. Throws InputError where cuts and
+  /// `start`: where the grains of the scene are; the first cuts divide them evenly. Throws InputError where cuts and
   /// subdomains that are wanted disagree.
   GrainDistribution(const base::Exec& exec, const PartitionOptions& options, const GrainConstants& constants,
                     const std::vector<base::Position>& start);
 
   const Subdomain& subdomain() const { return subdomain_; }
   Subdomain& subdomain() { return subdomain_; }
-  /// Cuts that the next migration takes up; local, but for all ranks the same.
+  /// Cuts for the next migration; local, but the same on all ranks.
   void setPartition(const Partition& partition) { subdomain_.setPartition(partition); }
-  /// Called when grains go to other ranks, before they do: with the rank that the grain of each slot now belongs to
+  /// Called before grains migrate, in their old slots: with the rank that the grain of each slot now belongs to
   /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after.
   using OnMigrate = std::function<void(const std::uint32_t* destination)>;
   void onMigrate(OnMigrate onMigrate) { onMigrate_ = std::move(onMigrate); }
-  /// Time that this rank spent on work that all ranks do alike [s]: no cut can shift it. Local.
+  /// Adds time [s] that this rank spent on work that every rank repeats (the vehicle): the load balance leaves it out,
+  /// since no cut could move it to another rank. Local.
   void noteReplicated(double seconds) { replicatedSeconds_ += seconds; }
   std::int64_t rebalancings() const { return rebalancings_; }
 
-  /// Every grain goes to the rank that its centre lies with, and ghosts are made of those near the borders. Afterwards
-  /// the slots hold the grains that stayed, those that came, and the ghosts, in this order, and wait to be sorted.
+  /// Sends every grain to the rank whose subdomain holds its centre, and makes ghosts of those near the borders.
+  /// Afterwards the slots hold the grains that stayed, those that came, and the ghosts, in this order, not yet sorted.
   void migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step);
   /// After migrate(), once the arrays are sorted by `order`: where the rows of the next neighbour list come from.
   const contact::RowOrigins* sorted(const std::uint32_t* order, GrainArrays& arrays);
 
-  // Ghosts follow their masters. What masters send after a step arrives while the next one computes the uniques; until
-  // then a ghost is a step behind.
-  void packGhosts(const base::Exec& exec, GrainArrays& arrays); ///< what a step has written, without waiting
-  void sendGhosts();                                            ///< what was packed: that work has ended
-  /// Where something is under way: waits for it and gives it to the ghosts, without waiting for the device.
+  // The halo exchange. The masters' states after step n are packed and sent at its end, and unpacked into the ghosts
+  // during step n + 1, while the uniques are computed. Until then a ghost is a step behind its master.
+  void packGhosts(const base::Exec& exec,
+                  GrainArrays& arrays); ///< queues it behind the masters' step; before swapBuffers()
+  void sendGhosts();                    ///< after the device has packed: call synchronize() first
+  /// If an exchange is under way: waits for its messages and queues its unpacking into the ghosts on `exec`.
   void finishGhostUpdate(const base::Exec& exec, GrainArrays& arrays);
-  /// The ghosts are made what their masters are now.
+  /// A whole halo exchange of the masters' present states.
   void updateGhosts(GrainArrays& arrays);
 
   std::size_t bytes() const { return subdomain_.bytes() + arrivedRows_.bytes(); }

@@ -10,7 +10,7 @@
 
 namespace grouser::terrain {
 
-/// What becomes of a field of the grains, beyond growing with them. A field without any is made anew with each list of
+/// What happens to a field of the grains, beyond growing with them. A field without any is made anew with each list of
 /// neighbours or boundaries.
 enum FieldUse : unsigned {
   kSorted = 1u << 0,   ///< goes along when the grains are sorted in space
@@ -34,7 +34,8 @@ template <class T> struct GrainField {
   base::Array<T> next; ///< of kBuffered: what the step writes; between steps, the state before the last step
 
   bool has(FieldUse which) const { return width > 0 && (use & which) != 0; }
-  /// As an exchange between ranks takes it; without waiting, for it is `next` that a step has just written.
+  /// For an exchange between ranks, of `now`, or of `next` where `written`. The step that writes `next` may still be
+  /// running: the exchange packs behind it in stream order.
   contact::ExchangeField exchanged(bool written = false) {
     contact::ExchangeField field = contact::fieldOf(written ? next : now);
     field.words *= static_cast<std::uint32_t>(width);

@@ -11,7 +11,7 @@ double forceRatio(const GrainSystem& system);
 
 /// Resultant of all contact forces on each grain in the last step, by slot [N]: m (v after - v before) / dt - m g. Of
 /// the velocity before only the float is known, not its remainder, so the error is at most m ulp(v) / (2 dt). That of a
-/// ghost says nothing; of a grain that has entered since it is 0. Throws std::logic_error where something else than a
+/// ghost is undefined; of a grain that has entered since it is 0. Throws std::logic_error where something else than a
 /// step came last.
 std::vector<base::Vec3f> contactForces(const GrainSystem& system);
 

@@ -57,7 +57,7 @@ struct GrainKernelData {
   double* dissipated;
   contact::GrainLoadsView loads;
   StepFlags* flags;        ///< of this step
-  const StepFlags* former; ///< of the step before, where several go at once: what it raises, ends them; else null
+  const StepFlags* former; ///< of the step before in a batch: has it raised one, this step does nothing; else null
 };
 
 /// Constants in the precision of the forces, by value.
@@ -95,7 +95,8 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   GROUSER_HD base::Vec3i apart(const base::Position& i, const base::Position& j) const {
     return has(kPeriodic) ? d.period.apart(i, j).template as<std::int32_t>() : base::difference(i, j);
   }
-  /// Whether an earlier one of the steps that go at once is the last.
+  /// Whether this step of a batch must do nothing: the step before it, on this rank or (after their reduction) on
+  /// another, has raised a flag. Those flags are final: its kernels have ended in the stream before this one starts.
   GROUSER_HD bool ended() const { return d.former && (d.former->stale || d.former->fault != kNoFault); }
   GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction); }
   GROUSER_HD int historyWidth() const { return has(contact::kRollingFriction) ? 6 : 3; }

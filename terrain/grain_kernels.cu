@@ -35,7 +35,7 @@ using BoundaryKernels =
 /// In double all scenes take the general kernels.
 using NoKernels = KernelList<>;
 
-/// Features that the kernel of walls and floor asks for.
+/// Features that the kernel of walls and floor depends on.
 constexpr unsigned kAtBoundaries =
     kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kSurfaces | kFloor | kGeneral;
 

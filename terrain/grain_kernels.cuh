@@ -5,8 +5,8 @@
 
 namespace grouser::terrain {
 
-/// One step of `count` grains, by the leanest kernel there is for the features of `d`: the one made for just these, or
-/// the general one. `Real` is float or double.
+/// One step of `count` grains, by the kernel that was compiled for just the features of `d`, or the general one. `Real`
+/// is float or double.
 template <class Real> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<Real>& f,
                                         std::int64_t count, bool specialised);
 

@@ -44,7 +44,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
     add(0, energy.quantise(0.5 * m * dot(v, v)));
     add(1, energy.quantise(0.5 * inertia * dot(w, w)));
-    // Along periodic boundaries the way counts, not the place: a grain that has crossed has fallen on.
+    // Potential energy follows the unwrapped position: a grain that has crossed a periodic boundary has fallen farther.
     Vec3d way = x;
     if (has(kPeriodic)) {
       way.x += d.crossings[i].x * (static_cast<double>(d.period.length.x) * d.unitLength);

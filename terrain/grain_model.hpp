@@ -18,7 +18,7 @@ inline constexpr unsigned kManyMaterials = 1u << 8; ///< each grain its own mate
 inline constexpr unsigned kBoundaries = 1u << 9;    ///< walls or floor
 inline constexpr unsigned kLoads = 1u << 10;        ///< loads from rigid parts
 inline constexpr unsigned kLedger = 1u << 11;       ///< dissipation is summed
-inline constexpr unsigned kPeriodic = 1u << 12;     ///< sides that are joined to each other
+inline constexpr unsigned kPeriodic = 1u << 12;     ///< periodic boundaries along x or y
 inline constexpr unsigned kSurfaces = 1u << 13;     ///< rigid surfaces that may move; implies kBoundaries
 inline constexpr unsigned kFloor = 1u << 14;        ///< a height-field floor; implies kBoundaries
 

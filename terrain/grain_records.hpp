@@ -17,7 +17,7 @@ template <class Real> struct BoundaryLoad {
 };
 
 /// How often a grain has left through the upper side along x and y and entered through the lower one, less the reverse:
-/// its way is that many periods longer than its place tells.
+/// its total displacement is that many periods more than its position shows.
 struct Crossings {
   std::int32_t x, y;
 };
@@ -26,14 +26,14 @@ struct Crossings {
 enum class Fault : std::uint64_t { notANumber = 1, overlap = 2, speed = 3, range = 4, none = 255 };
 inline constexpr std::uint64_t kNoFault = ~std::uint64_t{0}; ///< in StepFlags
 
-/// Written by the step, read by the host once a step.
+/// Raised by the kernels of a step, read by the next step of a batch and by the host after the last one.
 struct StepFlags {
   std::uint64_t fault; ///< Fault << 56 | grain id
   std::uint32_t stale; ///< a grain has used up its half of the skin
   std::uint32_t padding;
   bool raised() const { return stale != 0 || fault != kNoFault; }
 };
-// Ranks agree on two words of 64 bits: the least fault, and the bits of what follows it.
+// PeerReduction works on two words of 64 bits: the minimum of `fault`, and the bits of what follows it.
 static_assert(sizeof(StepFlags) == 16 && offsetof(StepFlags, fault) == 0 && offsetof(StepFlags, stale) == 8);
 inline constexpr StepFlags kNoFlags{kNoFault, 0, 0};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of the grains' state: the words of their hash, and their way from the ranks that own the grains to those that
-// write them, and back.
+// Rows of the grains' state: the words of their hash, and moving them between the ranks that own the grains and those
+// that write them to files.
 #include "terrain/grain_state.hpp"
 #include "terrain/row_exchange.hpp"
 
@@ -10,7 +10,7 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Visitor that puts what the next step depends on: of boundaries only springs that are held.
+/// Visitor that appends what the next step depends on: of boundaries only the springs of those in contact.
 class HashedWords {
 public:
   explicit HashedWords(std::vector<std::uint32_t>& words) : words_(words) {}
@@ -54,7 +54,7 @@ GrainState redistribute(const base::Comm& comm, const GrainState& rows, const st
   return comm.alone() ? rows : redistributeRows(comm, rows, destination);
 }
 
-/// The hash goes from rank to rank.
+/// Each rank continues the hash that the rank before it has sent.
 base::StateHash hashOf(const GrainState& grains, const base::Comm& comm) {
   const std::vector<std::uint32_t> words = grains.words();
   std::uint64_t value = 0;

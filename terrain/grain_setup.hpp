@@ -20,8 +20,8 @@ struct GrainSpec {
   int material{0};      ///< among the model's
 };
 
-/// Along x and y: the places [m] of two sides that are joined, where they are. What leaves through one enters through
-/// the other, and grains touch across them.
+/// Along x and y: the places [m] of the lower and the upper boundary where they are periodic. What leaves through one
+/// enters through the other, and grains touch across them.
 using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
 
 /// Rigid surroundings of the grains: plane walls, a height-field floor, and surfaces that may move; at most 32
@@ -29,7 +29,7 @@ using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
 struct Boundaries {
   std::vector<Wall> walls;
   std::optional<HeightField> floor;
-  PeriodicBoundaries joined{}; ///< walls, floor and surfaces do not know of it: they must look alike at both sides
+  PeriodicBoundaries periodic{}; ///< walls, floor and surfaces have no images: they must look alike at both
   std::vector<RigidSurface> surfaces{};
 
   int count() const { return static_cast<int>(walls.size() + surfaces.size()) + (floor ? 1 : 0); }

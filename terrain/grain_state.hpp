@@ -19,7 +19,7 @@ struct GrainLayout {
   std::int64_t rolling{};    ///< 1: contacts have rolling angles too
   std::int64_t radii{};      ///< 1: each grain has its own
   std::int64_t materials{};  ///< of the grains; 0: one
-  std::int64_t periodic{};   ///< 1: some sides are joined
+  std::int64_t periodic{};   ///< 1: some boundaries are periodic
   bool operator==(const GrainLayout&) const = default;
 };
 
@@ -74,7 +74,7 @@ struct GrainState {
   }
 };
 
-/// The grains of a scene on the host, by id, to look at: all of them, or on several ranks this rank's block of ids.
+/// The grains of a scene on the host, by id, for output: all of them, or on several ranks this rank's block of ids.
 struct GrainSnapshot {
   std::uint64_t first{}, total{};    ///< id of the first; grains of the scene
   std::vector<base::Vec3d> position; ///< [m]
@@ -94,7 +94,7 @@ struct SnapshotOptions {
 GrainState redistribute(const base::Comm& comm, const GrainState& rows, const std::vector<int>& destination);
 /// Hash over the words of all rows, as if one rank had them; rows lie in blocks of ids. All ranks call it.
 base::StateHash hashOf(const GrainState& rows, const base::Comm& comm);
-/// The rank that holds grain `id` of `total` where rows are shared out by id, in blocks: for files.
+/// The rank that holds grain `id` of `total` where rows are distributed by id, in blocks: for files.
 int blockOf(const base::Comm& comm, std::int64_t total, std::uint32_t id);
 /// First id of a rank's block; that of rank `size` is `total`.
 std::uint64_t blockStart(const base::Comm& comm, std::int64_t total, int rank);

@@ -22,7 +22,9 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   GROUSER_HD void operator()(int k) const {
     if (Kernel::ended()) {
       if (k == 0)
-        base::raise(&d.flags->stale); // so that the next step of the batch, which looks only at this one, ends too
+        // Each step of a batch reads only the flags of the step before it: one that is skipped raises its own, so that
+        // all behind it are skipped too.
+        base::raise(&d.flags->stale);
       return;
     }
     const int i = d.active ? static_cast<int>(d.active[k]) : k;
@@ -32,7 +34,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (d.role && d.role[i] != 0) return;
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, v.xyz().template as<Real>(), w.xyz().template as<Real>(), size, sum);
-    // Asked for together, since none can be moved before another's stores.
+    // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
     if (has(kBoundaries)) addBoundaries(i, sum);
@@ -74,7 +76,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   /// Which of `count` listed neighbours touch, a bit each.
   GROUSER_HD std::uint64_t findTouching(const base::Position& p, std::int64_t row, std::uint32_t count,
                                         const GrainSize<Real>& own, Sum& sum) const {
-    constexpr std::uint32_t kTogether = 4; // asked for before the first of them is looked at
+    constexpr std::uint32_t kTogether = 4; // loads issued before the first result is used
     std::uint64_t touching = 0;
     for (std::uint32_t first = 0; first < count; first += kTogether) {
       base::Position there[kTogether];
@@ -198,8 +200,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
-  /// A grain that has left through a periodic boundary enters through the opposite one. What the lists hold of it moves
-  /// along, so that they stay valid.
+  /// Wraps a grain that has left through a periodic boundary to the opposite one. Its reference place (where it was
+  /// listed) is shifted by the same period, so that the way it has gone since, and the neighbour list, stay valid.
   GROUSER_HD void crossSides(int i, base::Vec3l& place, base::Vec3<std::uint32_t>& reference) const {
     for (int a = 0; a < 2; ++a) {
       const int periods = d.period.periodsBack(a, place[a]);

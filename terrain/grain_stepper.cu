@@ -30,7 +30,8 @@ void GrainStepper::advanceGrains(const base::Exec& exec, const Launch& step, con
   runGrainStep(exec, d, step.system.forceData<Real>(), count, step.system.constants.model.specialised);
 }
 
-/// On a CPU by their list, in lanes. A GPU's threads would wait for the list before they could ask for anything.
+/// On a CPU over the list of uniques, in SIMD. On a GPU over all slots, where threads of masters and slaves return
+/// early: a slot read from the list first would put one more wait for memory before every other load.
 template <class Real> void GrainStepper::advanceUniques(const Launch& step) {
   const Subdomain& subdomain = step.system.distribution->subdomain();
   if (exec_.onCpu()) return advanceGrains<Real>(exec_, step, &subdomain.uniques());
@@ -65,8 +66,9 @@ template <class Real> void GrainStepper::launchIn(const Launch& step) {
   else
     computeBoundaryContacts(exec_, step);
   if (!s.distribution) return advanceGrains<Real>(exec_, step, nullptr);
-  // Uniques need no ghost, and go while the ghosts' new states are on their way. Beside them, and first where both
-  // could go, the masters, whose own new states others will need.
+  // Main stream: the uniques, which have no ghost among their neighbours. Side stream, of higher priority: wait for the
+  // ghosts' states and unpack them into their slots, advance the masters, which read them, and pack the masters' new
+  // states for other ranks. The two streams write different slots.
   side_.fork();
   advanceUniques<Real>(step);
   s.distribution->finishGhostUpdate(side_.exec(), s.arrays);
@@ -98,8 +100,9 @@ StepOutcome GrainStepper::end(GrainSystem& system) {
   return outcome;
 }
 
-/// A CPU gains nothing by it, and its lanes do not ask whether an earlier step was the last; without them it can, for
-/// tests. Surfaces need their poses from the host. The first step after a rebuild has no ghosts under way.
+/// Not with SIMD on a CPU, whose kernel does not look at the flags of the step before (the scalar one does, for tests).
+/// Not with surfaces, whose poses the host uploads for every step. On several ranks not in the first step after a
+/// rebuild: a recorded batch begins by unpacking a halo exchange, and none is under way then.
 bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
   const bool lanes = exec_.onCpu() && s.constants.model.mostSimdLanes > 1;
   if (lanes || s.boundaries.hasSurfaces()) return false;
@@ -107,7 +110,8 @@ bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
          (s.distribution->subdomain().stepsTogether() && s.distribution->subdomain().haloExchange().underWay());
 }
 
-/// It is the GPUs that agree after each step whether that was the last.
+/// On several ranks the GPUs reduce the flags after each step (base::PeerReduction), so that all of them skip what is
+/// behind the same step.
 StepOutcome GrainStepper::runBatch(GrainSystem& system) {
   Subdomain* const subdomain = system.distribution ? &system.distribution->subdomain() : nullptr;
   if (subdomain) subdomain->haloExchange().arrive();
@@ -122,7 +126,8 @@ StepOutcome GrainStepper::runBatch(GrainSystem& system) {
     flags_.download();
   });
   const StepOutcome outcome = readFlags(kStepsPerGraph);
-  // The buffers were swapped for all of the steps; those that were not taken have written nothing.
+  // A batch swaps the buffers an even number of times, but skipped steps have advanced no grain: after an odd number of
+  // steps taken the newest state is in `next`.
   if ((kStepsPerGraph - outcome.taken) % 2 != 0) system.arrays.swapBuffers();
   if (subdomain) {
     subdomain->haloExchange().countRuns(outcome.taken - (outcome.listEnded ? 1 : 0));
@@ -131,7 +136,8 @@ StepOutcome GrainStepper::runBatch(GrainSystem& system) {
   return outcome;
 }
 
-/// Waits for the steps given to the device. A list that is no longer valid, or a fault, ends them early.
+/// Waits for the steps launched and counts those taken: up to the first that has raised a flag (its list has ended, or
+/// a fault). Raised flags are cleared on the device for the next launch.
 StepOutcome GrainStepper::readFlags(int steps) {
   base::synchronize(exec_);
   const StepFlags* const flag = flags_.host();

@@ -7,39 +7,40 @@
 
 namespace grouser::terrain {
 
-/// What came of steps given to the device, alike on all ranks.
+/// Outcome of the steps launched, the same on all ranks.
 struct StepOutcome {
   int taken{};           ///< steps, at least one
   bool listEnded{};      ///< a grain has used up its half of the skin: the next step needs a new list
   std::uint64_t fault{}; ///< as StepFlags has it; kNoFault where there is none
 };
 
-/// Takes steps: launches the kernels in an order that lets communication and boundaries go beside the grains, and reads
-/// what the kernels have raised.
+/// Takes steps: launches the kernels on two streams, so that communication and boundaries overlap with the grains, and
+/// reads the flags that the kernels have raised.
 class GrainStepper {
 public:
   explicit GrainStepper(const base::Exec& exec);
 
   static constexpr int kStepsPerGraph = 16;
 
-  /// Walls and floor, on a side stream; begin() waits for it there. Not with surfaces, whose poses for this step may
-  /// not be known yet: then begin() does it.
+  /// Launches contacts with walls and floor on a side stream that begin() joins. They read the grains' present state
+  /// and write loads, masks and springs by slot, so slots must not change in between. Does nothing with surfaces, whose
+  /// poses for this step may not be known yet: then begin() computes the contacts.
   void beginBoundaries(GrainSystem& system);
   bool boundariesBegun() const { return boundariesBegun_; }
-  /// Gives one step to the device, without waiting. `loads`: of rigid parts; null without them.
+  /// Launches one step, without waiting. `loads`: of rigid parts; null without them.
   void begin(GrainSystem& system, const contact::GrainLoadsView* loads);
-  /// Waits for it.
+  /// Waits for it, and reduces its flags over the ranks.
   StepOutcome end(GrainSystem& system);
 
-  /// Whether kStepsPerGraph steps can go as one, without the host in between.
+  /// Whether kStepsPerGraph steps can be launched as one graph, without the host in between.
   bool canBatchSteps(const GrainSystem& system) const;
-  /// Takes so many steps as one graph; fewer where a list ends or a fault is raised.
+  /// Launches so many steps as one graph; fewer are taken where a list ends or a fault is raised.
   StepOutcome runBatch(GrainSystem& system);
-  /// Pointers or counts have changed: the next batch is recorded anew.
+  /// To be called when slots or lists change: the graph holds their pointers and counts, so it is recorded anew.
   void forgetGraph() { stepGraph_.forget(); }
 
 private:
-  /// One step among those that go as one. Kernels of `place` > 0 do nothing where an earlier one has raised a flag.
+  /// One step of a batch. Kernels of `place` > 0 do nothing where an earlier step of the batch has raised a flag.
   struct Launch {
     GrainSystem& system;
     const contact::GrainLoadsView* loads;

@@ -9,8 +9,8 @@
 
 namespace grouser::terrain {
 
-/// What the grains of a scene consist of on this rank. It acts on nothing itself: GrainStepper, GrainCheckpoint and the
-/// like do, and Grains says in what order.
+/// What the grains of a scene consist of on this rank. Data only: GrainStepper, GrainCheckpoint and the like work on
+/// it, in the order that Grains calls them.
 struct GrainSystem {
   /// `start`: all grains of the scene, on every rank. Throws InputError as Grains does.
   GrainSystem(const base::Exec& exec, const GrainModel& model, const Boundaries& boundaries,

@@ -23,7 +23,7 @@ contact::GrainsView Grains::view() const {
 }
 
 void Grains::add(const std::vector<GrainSpec>& more) {
-  system_.finishGhostUpdate(); // it would arrive at the slots of the list that ends here
+  system_.finishGhostUpdate(); // into the slots that it was sent for, before the list ends
   const std::vector<base::Position> places = placesOf(more, system_.count, system_.constants);
   if (insertionOverlapAlarm_)
     if (const std::optional<InsertionOverlap> overlap = insertionOverlapOf(more, system_))
@@ -66,7 +66,7 @@ void Grains::listNearBoundaries() {
   system_.boundaries.list(system_.constants, system_.kernelData(), system_.arrays, system_.ghosts());
 }
 
-/// Notes what came of steps. Throws where one raised a fault.
+/// Counts the steps taken and notes whether the list has ended. Throws at a fault.
 void Grains::take(const StepOutcome& outcome) {
   system_.steps += outcome.taken;
   if (outcome.listEnded) listEnded_ = true;
@@ -76,11 +76,11 @@ void Grains::take(const StepOutcome& outcome) {
 void Grains::endStep() {
   take(stepper_.end(system_));
   system_.boundaries.collectSurfaceLoads(system_.comm);
-  if (system_.distribution && !listEnded_) system_.distribution->sendGhosts(); // a rebuild would fetch them anew
+  if (system_.distribution && !listEnded_) system_.distribution->sendGhosts(); // a rebuild makes the ghosts anew
 }
 
 std::int64_t Grains::advance(std::int64_t most) {
-  // Only who calls refreshNeighbours() learns that slots have changed: what this call took from it is given back.
+  // refreshNeighbours() reports a change of slots once: keep it for the caller's own next call.
   if (refreshNeighbours()) slotsChanged_ = true;
   if (most < GrainStepper::kStepsPerGraph || !stepper_.canBatchSteps(system_)) {
     step();

@@ -24,13 +24,13 @@ public:
   const base::PositionScale& scale() const { return system_.constants.scale; }
   /// What the grains consist of, to read: constants, fields, boundaries, neighbours as last listed. Local.
   const GrainSystem& system() const { return system_; }
-  /// The grains in their present slots on the device, ghosts among them: for those who compute loads on grains; valid
-  /// until the next refresh. Local.
+  /// The grains in their present slots on the device, ghosts among them: for code that computes loads on grains;
+  /// valid until the next refresh. Local.
   contact::GrainsView view() const;
   /// Migration and cuts; null on one rank. Local.
   GrainDistribution* distribution() const { return system_.distribution.get(); }
 
-  /// Makes the neighbour list valid for the next step. True when slots have changed since it was last asked.
+  /// Makes the neighbour list valid for the next step. True when slots have changed since the last call.
   bool refreshNeighbours();
   /// Asks for a rebuild at the next refresh; for tests and for callers that rely on slots.
   void invalidateNeighbours() { listEnded_ = true; }
@@ -51,14 +51,15 @@ public:
     beginStep(loads);
     endStep();
   }
-  /// Walls and floor, beside other work that the device is given before beginStep(); else they are part of that.
+  /// Launches contacts with walls and floor, to run beside whatever is launched before beginStep(), which waits for
+  /// them; without this call beginStep() computes them. Slots must not change in between.
   void beginBoundaries() { stepper_.beginBoundaries(system_); }
-  /// The step in two halves: the device works between them.
+  /// The step in two halves: launch, and wait. In between the host may work on anything but the grains.
   void beginStep(const contact::GrainLoadsView* loads) { stepper_.begin(system_, loads); }
   void endStep();
   /// Steps of grains that nothing else acts on, each as refreshNeighbours() and step(): at least one, at most `most`.
-  /// On GPUs, one or those that see each other's memory, sixteen go as one where `most` allows, without the host in
-  /// between; where a list ends, fewer. Returns how many were taken.
+  /// On GPUs, one or those that see each other's memory, sixteen are launched as one CUDA graph where `most` allows;
+  /// where a list ends, fewer are taken. Returns how many were taken.
   std::int64_t advance(std::int64_t most);
   std::int64_t steps() const { return system_.steps; } ///< taken; local
   void setSteps(std::int64_t steps) { system_.steps = steps; }

@@ -22,12 +22,12 @@ GroundContacts::Target GroundContacts::target() const {
 }
 
 void GroundContacts::refresh(const base::Array<contact::PartMotion>& motion) {
-  contact::listProbes(buffers_, target(), motion, model_.margin);
+  contact::listSamples(buffers_, target(), motion, model_.margin);
 }
 
 void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, const double* travelled,
                              contact::PartLoad* loads) {
-  contact::pressAndRub(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
+  contact::computePatches(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
 }
 
 } // namespace grouser::terrain

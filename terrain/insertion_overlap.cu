@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether grains that enter find room among those that are there.
+// Whether entering grains would overlap those that are there.
 #include "base/for_each.cuh"
 #include "terrain/grain_entry.hpp"
 #include "terrain/grain_system.hpp"
@@ -23,7 +23,7 @@ struct Entering {
 };
 
 /// Looks for the grain that the entering ones would overlap most.
-struct FindCrowded {
+struct FindInsertionOverlap {
   const base::Position* position;
   const Vec4f* velocity; ///< with the radius [m] in w, where they differ
   const std::uint32_t *id, *ghost;
@@ -70,7 +70,8 @@ std::optional<InsertionOverlap> overlapWithSurface(const std::vector<GrainSpec>&
 
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
 
-/// The key of the deepest overlap, as FindCrowded has it; kNobody where none is too deep. On all ranks the same.
+/// The key of the deepest overlap, as FindInsertionOverlap has it; kNobody where none is too deep. On all ranks the
+/// same.
 std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                              const GrainSystem& system) {
   const GrainConstants& c = system.constants;
@@ -87,10 +88,11 @@ std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::
   base::Array<std::uint64_t> deepest(system.exec, std::vector<std::uint64_t>{kNobody});
   const GrainFields& f = system.arrays.fields();
   base::forEach(system.exec, "find room", static_cast<std::int64_t>(system.arrays.slots()),
-                FindCrowded{f.position.now.data(), f.velocity.now.data(), f.id.now.data(), system.ghosts(), c.period,
-                            device.data(), static_cast<std::int64_t>(all.size()), scale.fromMetres((low + high) * 0.5),
-                            reach * scale.perMetre * (1 + 1e-6), c.manyRadii() ? 0.0 : c.model.radius * scale.perMetre,
-                            scale.perMetre, c.model.maxOverlap, deepest.data()});
+                FindInsertionOverlap{f.position.now.data(), f.velocity.now.data(), f.id.now.data(), system.ghosts(),
+                                     c.period, device.data(), static_cast<std::int64_t>(all.size()),
+                                     scale.fromMetres((low + high) * 0.5), reach * scale.perMetre * (1 + 1e-6),
+                                     c.manyRadii() ? 0.0 : c.model.radius * scale.perMetre, scale.perMetre,
+                                     c.model.maxOverlap, deepest.data()});
   std::uint64_t key = deepest.toHost().front();
   system.comm.minimum(&key, 1);
   return key;
@@ -101,7 +103,7 @@ void describeOverlap(const std::vector<GrainSpec>& entering, const std::vector<E
                      const GrainSystem& system, InsertionOverlap& overlap) {
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();
-  // Only the rank that integrates the other grain knows where it is.
+  // Only the rank that owns the other grain fills in its place; the maximum over the ranks brings it to all.
   const std::vector<std::uint32_t> id = f.id.now.toHost(), ghost = system.ghostsOnHost();
   double found[] = {-1e300, -1e300, -1e300};
   double nearest = 1e300; // to the overlap that was found [m]

@@ -75,7 +75,7 @@ public:
     walls_ = {a.xMin + o.wallMargin, a.xMax - o.wallMargin, a.yMin + o.wallMargin, a.yMax - o.wallMargin};
     const double inset = o.radius * (1 + kFloorGap) + jitter_;
     const auto axis = [&](std::size_t which, double from, double to) {
-      if (o.joined[which]) return ring(from, to - from, spacing_);
+      if (o.periodic[which]) return ring(from, to - from, spacing_);
       return to - from < 2 * inset ? Axis{} : fit(from + inset, to - from - 2 * inset, spacing_);
     };
     x_ = axis(0, walls_.xMin, walls_.xMax), y_ = axis(1, walls_.yMin, walls_.yMax);

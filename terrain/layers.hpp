@@ -32,8 +32,8 @@ struct LayerOptions {
   double jitter{0.9};         ///< share of the free gap that a grain may use, [0, 1] [-]
   double packing{0.6};        ///< solid fraction expected once settled [-], in [0.3, 0.74]
   FloorShape floor{FloorShape::follow};
-  double wallMargin{0};         ///< walls stand this far inside the height-map's border [m], >= 0
-  std::array<bool, 2> joined{}; ///< along x, y: no walls; the border's sides are joined and the lattice closes there
+  double wallMargin{0};           ///< walls stand this far inside the height-map's border [m], >= 0
+  std::array<bool, 2> periodic{}; ///< along x, y: no walls; the borders are periodic and the lattice closes there
   std::uint64_t seed{1};
 };
 

@@ -35,7 +35,7 @@ public:
   /// All of space is one subdomain.
   Partition() = default;
   /// `weights` [axis][bin] say how much work lies where, in equal bins from `low` to `high` on each axis; the cuts
-  /// share it out evenly among the slabs of each axis.
+  /// divide it evenly among the slabs of each axis.
   Partition(const std::array<int, 3>& shape, const base::Vec3l& low, const base::Vec3l& high,
             const std::array<std::vector<std::int64_t>, 3>& weights);
 

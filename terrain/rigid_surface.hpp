@@ -14,7 +14,8 @@ enum class SurfaceShape : std::int32_t {
   plane,    ///< solid below z = 0, without end
   box,      ///< solid, |x|, |y|, |z| <= half
   cylinder, ///< solid about the z axis, with flat ends
-  tube,     ///< a wall without thickness, rho = radius and |z| <= half: felt from inside and outside, open at both ends
+  tube, ///< a wall without thickness, rho = radius and |z| <= half: in contact from inside and outside, open at both
+        ///< ends
 };
 
 /// Shape and size, the same for ever.
@@ -35,7 +36,7 @@ struct SurfacePose {
   }
 };
 
-/// One of the surfaces that grains meet.
+/// One of the surfaces of a scene.
 struct RigidSurface {
   SurfaceGeometry geometry;
   contact::ContactLaw law; ///< between grain and surface

@@ -9,12 +9,12 @@
 #include <type_traits>
 #include <vector>
 
-/// Rows of several columns as words, and their way between ranks.
+/// Rows of several columns: packing them into words, and moving them between ranks.
 ///
 /// A type of rows has a column `id` [rows], a function withoutRows(), and a static visitRow(self, visitor), which calls
 /// for each of the other columns, in the order of a row's words:
 ///   visitor.column(values)                     one value a row
-///   visitor.unhashed(values)                   the same, of no concern to the state hash
+///   visitor.unhashed(values)                   the same, left out of the state hash
 ///   visitor.contacts(counts, column*...)       counts[row] values a row of each; a null pointer: there is no such
 ///   visitor.boundaries(bits, width, column*...)  a word of bits and `width` values a row of each
 namespace grouser::terrain {
@@ -26,12 +26,12 @@ template <class T> void putWords(std::vector<std::uint32_t>& words, const T& val
   words.insert(words.end(), raw, raw + sizeof value / 4);
 }
 
-/// Where a walk over rows has come to.
+/// Position of a loop over rows and their contacts.
 struct RowCursor {
   std::size_t row = 0, contact = 0; ///< the first contact of that row
 };
 
-/// Visitor that puts all of one row into words and moves on to the next.
+/// Visitor that appends one row's values to words and advances the cursor.
 class RowPacker {
 public:
   RowPacker(RowCursor& at, std::vector<std::uint32_t>& words) : at_(at), words_(words) {}

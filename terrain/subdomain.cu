@@ -35,7 +35,7 @@ struct FindOwner {
   }
 };
 
-/// Pairs the places that are left, among the first `kept`, with the grains that stay behind them.
+/// Closes the gaps: pairs each slot below `kept` whose grain leaves with a grain at or above `kept` that stays.
 struct PairMoves {
   const std::uint32_t *stays, *staysBefore; ///< by slot: whether it stays; how many before it do
   std::uint32_t kept;
@@ -106,7 +106,7 @@ private:
   }
 };
 
-/// Roles in the order before sorting: owned grains by who needs them, then ghosts.
+/// Roles by slot before sorting: owned grains are masters where another rank needs them, else uniques; then ghosts.
 struct AssignRoles {
   const std::uint32_t* ghostTargets;
   std::uint32_t owned;
@@ -209,12 +209,12 @@ void Subdomain::findMasters(const Position* position, std::size_t owned) {
   base::Array<std::uint32_t> count(exec_, owned), first(exec_, owned);
   FindGhostTargets find{partition_.view(), period_, position, range_, comm_.rank(),
                         count.data(),      nullptr, nullptr,  nullptr};
-  base::forEach(exec_, "count who needs a grain", n, find);
+  base::forEach(exec_, "count ghost targets", n, find);
   const std::uint32_t total = base::exclusiveScan(exec_, count.data(), first.data(), owned);
   base::Array<std::uint64_t> ranks(exec_, total);
   base::Array<std::uint32_t> slots(exec_, total);
   find.first = first.data(), find.ranks = ranks.data(), find.slots = slots.data();
-  if (total > 0) base::forEach(exec_, "list who needs a grain", n, find);
+  if (total > 0) base::forEach(exec_, "list ghost targets", n, find);
   haloExchange_.setPlan(ranks, slots, total);
   haloExchange_.setImportSlots(owned);
   role_.resize(owned + ghosts());

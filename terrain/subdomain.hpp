@@ -20,7 +20,7 @@ enum class Role : std::uint32_t {
   slave,  ///< a copy of a grain mastered elsewhere: used for forces, never integrated (a ghost)
 };
 
-/// How the grains are shared out among ranks.
+/// How space is divided among the ranks.
 struct PartitionOptions {
   base::Comm comm;                         ///< alone: one subdomain, and none of what follows
   std::array<int, 3> subdomains{0, 0, 0};  ///< wanted along x, y, z; 0: automatic
@@ -30,7 +30,7 @@ struct PartitionOptions {
 };
 
 /// One rank's subdomain of a bed on several ranks: which grains are its own, which of them others need, and the ghosts
-/// it needs itself. Knows slots and positions; what a grain carries is the owner's affair.
+/// it needs itself. It sees slots and positions only; other fields of a grain are named by the caller of an exchange.
 class Subdomain {
 public:
   /// `range` [units]: two grains farther apart than this never touch before the next rebuild.
@@ -41,7 +41,8 @@ public:
   const Partition& partition() const { return partition_; }
   void setPartition(const Partition& partition) { partition_ = partition; }
 
-  /// Grains whose centre now lies in another subdomain: fills the plan of the migration, and what is kept.
+  /// Finds the grains whose centre now lies in another subdomain: sets destination(), staying() and the plan of
+  /// migration().
   void findLeaving(const base::Position* position, std::size_t slots);
   /// By slot, until the next migration: the rank that the grain of this slot now belongs to, or kNobody for a slave.
   static constexpr std::uint32_t kNobody = ~0u;
@@ -55,13 +56,13 @@ public:
   Staying staying() const { return {kept_, movesFrom_.size(), movesFrom_.data(), movesTo_.data()}; }
   contact::Exchange& migration() { return migration_; }
 
-  /// Masters among the first `owned` grains: fills the plan of the ghost updates; ghosts go to the slots from `owned`
-  /// on, `ghosts()` of them.
+  /// Finds the masters among the first `owned` grains: sets the plan of haloExchange(), whose ghosts() ghosts go to the
+  /// slots from `owned` on.
   void findMasters(const base::Position* position, std::size_t owned);
   std::size_t ghosts() const { return haloExchange_.importCount(); }
   contact::Exchange& haloExchange() { return haloExchange_; }
   base::PeerReduction& agreement() { return reduction_; }
-  /// GPUs can go through steps together, without their hosts.
+  /// Whether the GPUs of all ranks can take steps without their hosts: halo and flags go through each other's memory.
   bool stepsTogether() const { return reduction_.possible() && haloExchange_.peersOnly(); }
 
   /// The grains were sorted: slot i now holds what was in slot order[i].
@@ -75,12 +76,12 @@ public:
   const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending; on a CPU
   const base::Array<std::uint32_t>& masters() const { return masters_; }
 
-  /// Cuts that share out `costPerGrain` (of this rank, any unit) evenly.
+  /// Cuts that balance the load, where each grain of this rank costs `costPerGrain` (any unit).
   Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
   std::size_t bytes() const;
   /// Time that this rank or its GPU has spent waiting for others since the start [s]. Waits for the GPU's work.
   double waited() const { return comm_.waited() + reduction_.waited(); }
-  /// How elements travel, for the reader.
+  /// How elements are moved between ranks, in words for the user.
   const char* way() const;
   std::int64_t bytesSent() const { return migration_.bytesSent() + haloExchange_.bytesSent(); }
 

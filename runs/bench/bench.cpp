@@ -221,7 +221,7 @@ Json printContacts(const Contacts& contacts) {
                {"grain on part, patches", "grain_part_patches", contacts.grainPart},
                {"part on part and ground, patches", "part_patches", contacts.partPart},
                {"grain-part pairs listed", "grain_part_pairs_listed", contacts.pairsListed},
-               {"probes listed", "probes_listed", contacts.samplesListed}};
+               {"samples listed", "probes_listed", contacts.samplesListed}};
   fmt::print("\ncontacts a step (mean of {} counts)\n", contacts.counts);
   for (const auto& kind : kinds) {
     fmt::print("  {:<34} {:10.1f}\n", kind.text, contacts.mean(kind.sum));

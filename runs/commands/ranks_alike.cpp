@@ -17,7 +17,7 @@ void requireSameCommand(const std::string& command, const base::Comm& comm) {
   for (std::size_t r = 1; r < all.size(); ++r)
     if (all[r] != all[0])
       throw base::InputError(
-          fmt::format("rank {} was told to do \"{}\", rank 0 \"{}\"; start all ranks with the same words", r,
+          fmt::format("rank {} was started with \"{}\", rank 0 with \"{}\"; start all with one command line", r,
                       std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
 }
 

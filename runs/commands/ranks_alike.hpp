@@ -8,12 +8,12 @@
 
 namespace grouser::commands {
 
-/// Throws base::InputError where a rank was told another command than the first one: some of them would wait for ever
-/// for what the others never do. `command`: "run", or "bench bed".
+/// Throws base::InputError where a rank was started with another command than the first one: some of them would wait
+/// for ever for what the others never do. `command`: "run", or "bench bed".
 void requireSameCommand(const std::string& command, const base::Comm& comm);
 
 /// Throws base::InputError, naming the rank and what differs, where the ranks run other programs or other scenes than
-/// the first one, or were told to do something else with them: the promise of one answer holds for one program and one
+/// the first one, or another command line: the promise of one answer holds for one program and one
 /// scene. `commandLine`: the program, and all its words behind the first space.
 void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm);
 

@@ -51,7 +51,7 @@ private:
   Clock::time_point asked_ = Clock::now();
 };
 
-/// How the grains are shared out.
+/// How the grains are divided among the ranks.
 void describeRanks(const simulation::Simulation& simulation) {
   const auto& grains = simulation.ground().grains;
   if (!grains || !grains->distribution()) return;

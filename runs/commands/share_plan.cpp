@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a scene would be shared out among ranks, before it is run.
+// How a scene would be divided among ranks, before it is run.
 #include "runs/commands/plan.hpp"
 
 #include "runs/setup/grain_count.hpp"

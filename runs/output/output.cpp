@@ -224,7 +224,7 @@ RunWriter::RunWriter(fs::path folder, const setup::Provenance& provenance, std::
   } catch (const base::InputError&) {
     throw; // before anything was touched
   } catch (...) {
-    takeBack(); // the disk is full: what was begun is of no use
+    takeBack(); // the disk is full: incomplete files are of no use
     throw;
   }
   if (const std::optional<int> rank = support::rankNotSeeing(folder, impl_->options.comm); rank && *rank > 0) {
@@ -289,7 +289,7 @@ void RunWriter::abandon(const std::string& reason) {
   try {
     impl_->series->manifest.write("failed");
   } catch (const std::exception&) {
-    // The disk may be full. What is told is why the run ended.
+    // The disk may be full. The user gets the error that ended the run, not this one.
   }
 }
 

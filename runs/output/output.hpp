@@ -30,7 +30,7 @@ void claimFolder(support::FileLock& lock, const std::filesystem::path& folder);
 /// What a resumed run keeps of the folder it goes on with; what came later is cut off.
 struct FormerOutput {
   std::vector<Row> rows;   ///< to begin the new files with
-  std::int64_t frames = 0; ///< kept of frames.h5; 0: it is begun anew
+  std::int64_t frames = 0; ///< kept of frames.h5; 0: it is made anew
 };
 
 /// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.

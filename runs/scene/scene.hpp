@@ -200,7 +200,7 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// [parallel]: how a run on several ranks shares out its grains. No bit of the answer depends on it.
+/// [parallel]: how a run on several ranks divides its grains among them. No bit of the answer depends on it.
 struct Parallel {
   std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
   std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen

@@ -28,7 +28,7 @@ terrain::LayerOptions layerOptions(const scene::Scene& scene) {
   options.spacingInRadii = t.spacing, options.jitter = t.jitter, options.packing = t.packing;
   options.floor = t.floor;
   options.seed = static_cast<std::uint64_t>(scene.run.seed);
-  options.joined = scene.run.periodic;
+  options.periodic = scene.run.periodic;
   return options;
 }
 

@@ -28,7 +28,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   for (const Surroundings::Wall& w : surroundings.walls)
     boundaries.walls.push_back({w.normal, w.offset, pairLaw(scene, first, w.material, mass(1))});
   boundaries.floor = surroundings.floor;
-  boundaries.joined = periodicBoundaries(scene);
+  boundaries.periodic = periodicBoundaries(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
   for (const SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)

@@ -61,8 +61,9 @@ public:
       };
       if (!(std::fabs(from) < limit_ && std::fabs(to) < limit_)) fail(tooFar());
       if (to - from < least)
-        fail(fmt::format(" joins sides along {} that are too near: a grain could touch another from both; set them at "
-                         "least {:.6g} m apart, three times a diameter with run.skin, or use smaller grains",
+        fail(fmt::format(" sets periodic boundaries along {} that are too near: a grain could touch two images of "
+                         "another; set them at least {:.6g} m apart, three times a diameter with run.skin, or use "
+                         "smaller grains",
                          "xy"[a], least));
     }
   }

@@ -16,7 +16,7 @@ base::Vec3d toNearestImage(const terrain::PeriodicBoundaries& sides, base::Vec3d
 /// Grains and sources must lie between the sides. Throws InputError that names the first that does not.
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains);
 
-/// `surface` must be as high at one joined side as at the other, all along: level in that direction.
+/// `surface` must be as high at one periodic boundary as at the other, all along: level in that direction.
 void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface);
 
 } // namespace grouser::setup

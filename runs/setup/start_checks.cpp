@@ -26,10 +26,10 @@ struct CellsAlong {
   double from = 0, width;
   std::int64_t ring = 0; ///< cells between periodic boundaries; 0: walls or nothing
 
-  CellsAlong(double diameter, const std::optional<std::array<double, 2>>& joined) : width(diameter) {
-    if (!joined) return;
-    from = (*joined)[0];
-    const double period = (*joined)[1] - from;
+  CellsAlong(double diameter, const std::optional<std::array<double, 2>>& periodic) : width(diameter) {
+    if (!periodic) return;
+    from = (*periodic)[0];
+    const double period = (*periodic)[1] - from;
     ring = std::max<std::int64_t>(1, static_cast<std::int64_t>(period / diameter));
     width = period / static_cast<double>(ring);
   }
@@ -54,9 +54,9 @@ struct Ball {
 class Placing {
 public:
   Placing(const scene::Scene& scene, const Surroundings& around)
-      : scene_(scene), around_(around), joined_(periodicBoundaries(scene)),
-        largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, joined_[0]),
-                                                    CellsAlong(2 * largest_, joined_[1]),
+      : scene_(scene), around_(around), periodic_(periodicBoundaries(scene)),
+        largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, periodic_[0]),
+                                                    CellsAlong(2 * largest_, periodic_[1]),
                                                     CellsAlong(2 * largest_, {})} {}
 
   /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
@@ -100,7 +100,8 @@ private:
       if (found == cells_.end()) continue;
       for (const std::size_t j : found->second) {
         const Ball& other = balls_[j];
-        const double depth = ball.radius + other.radius - norm(toNearestImage(joined_, ball.position - other.position));
+        const double depth =
+            ball.radius + other.radius - norm(toNearestImage(periodic_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
           refuse(ball, depth,
                  (other.list == "source" ? fmt::format("one of source.{} ", other.number)
@@ -129,7 +130,7 @@ private:
 
   const scene::Scene& scene_;
   const Surroundings& around_;
-  terrain::PeriodicBoundaries joined_;
+  terrain::PeriodicBoundaries periodic_;
   double largest_;
   std::array<CellsAlong, 3> along_;
   std::vector<Ball> balls_;

@@ -152,14 +152,14 @@ bool BedCache::keep(const fs::path& file, const std::string& made, const terrain
   bed.scene = made, bed.timeStep = grains.model().timeStep;
   bed.state.settled = report, bed.state.energyAtStart = {0, 0, 0, 0};
   bed.state.grains = grains.state();
-  // Made under a name of its own, so that another machine that shares the folder does no harm.
+  // Written under a name of its own and renamed: another machine that shares the folder may write the same bed.
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   const fs::path fresh = comm.broadcast(fmt::format("{}.{}.{}", file.string(), host.data(), ::getpid()));
   try {
     writeState(fresh, kBedFile, bed, comm);
   } catch (const std::exception& e) {
-    if (!comm.alone()) throw; // the ranks are out of step: nothing can be mended here
+    if (!comm.alone()) throw; // the other ranks may wait within writeState(): only an error ends them
     warn(comm, e.what());
     return false;
   }

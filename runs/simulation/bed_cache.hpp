@@ -14,7 +14,7 @@
 /// the same bed again and again. A run that begins on a kept bed gives the same bits as one that settled it.
 namespace grouser::simulation {
 
-/// A folder of settled beds, and what became of the one that was asked for.
+/// A folder of settled beds, and where the last one came from.
 class BedCache {
 public:
   static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30; ///< [bytes]

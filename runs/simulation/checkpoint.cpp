@@ -315,7 +315,7 @@ void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const b
 }
 
 Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
-  // Only what has every bit as it was written is handed to HDF5.
+  // HDF5 opens only files whose checksum is right.
   if (comm.first()) checkStateFile(path, kCheckpointFile);
   comm.wait();
   return readState(support::Hdf5File::open(path), comm);

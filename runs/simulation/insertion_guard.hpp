@@ -9,8 +9,9 @@
 
 namespace grouser::simulation {
 
-/// Lets `grains` refuse what sources would set upon others of them, which only shows when they enter: InputError before
-/// the first step, SimulationError later, both naming the source. `surfaces`: names of those that the grains know.
+/// Makes `grains` refuse entering grains that would overlap others, which is known only when they enter: InputError
+/// before the first step, SimulationError later, both naming the source. `surfaces`: names of those that the grains
+/// know.
 void guardInsertion(terrain::Grains& grains, const setup::Sources& sources, const std::vector<std::string>& surfaces);
 
 } // namespace grouser::simulation

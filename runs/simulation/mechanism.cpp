@@ -16,9 +16,9 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A stable step is inverse to the root of the tension. It is checked again when this share of what the step bears is
-/// reached, but not before the tension has grown by the second, which a swing beyond it needs to make itself felt, and
-/// when it has grown by the third: poses change too [-].
+/// The longest stable step goes as the inverse root of the tension. It is computed again when the largest force reaches
+/// kTensionShare of what the present step bears, but not before it has grown kLeastGrowth times (an unstable
+/// oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
 constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
 } // namespace
@@ -42,8 +42,9 @@ void Mechanism::advance() {
   if (tensionStepWarning_.empty()) watchTension();
 }
 
-/// Forces that grow ask for shorter steps. Nothing is done about it here: a peak may pass before any swing has grown.
-/// The first that the step does not bear is kept, not the worst: what comes later holds the forces of the swing itself.
+/// Growing forces in joints and springs lower the longest stable step. That is only noted here: a peak may pass before
+/// any oscillation has grown. The first tension that the step does not bear is kept, not the largest: later ones
+/// contain the forces of the oscillation itself.
 void Mechanism::watchTension() {
   double force = 0;
   for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
@@ -54,7 +55,7 @@ void Mechanism::watchTension() {
       force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
 }
 
-/// The longest step that bears the tension of now [s].
+/// The longest step that is stable under the present tension [s].
 double Mechanism::checkTension() {
   std::string part;
   const double most = stableStepUnderTension(&part);

@@ -51,8 +51,7 @@ public:
   double stableStepUnderTension(std::string* part = nullptr) {
     return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
-  /// When and where the tension of joints and springs first asked for a shorter step, and for which; empty: nowhere,
-  /// nor does it now.
+  /// When and where the tension of joints and springs first needed a shorter step, and which; empty: never, nor now.
   const std::string& tensionStepWarning();
 
   /// How well the joints are closed.

@@ -34,7 +34,7 @@ MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& ex
   loads_.resize(sets_.size());
 }
 
-/// Decided from the motions alone, so alike on all ranks.
+/// Decided from the motions alone, so the same on all ranks.
 bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) const {
   if (listedAt_.empty()) return true;
   for (std::size_t k = 0; k < motions.size(); ++k) {

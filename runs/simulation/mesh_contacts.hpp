@@ -15,7 +15,7 @@ namespace grouser::simulation {
 /// material.
 class MeshContacts {
 public:
-  /// Tells the grains that history must follow those that go to other ranks; so it outlives their steps.
+  /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
   MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;

@@ -7,8 +7,8 @@
 
 namespace grouser::simulation {
 
-/// Runs work that every rank does alike, and tells the grains how long it took: where they compare the ranks' times to
-/// move the cuts between subdomains, they leave it out, since no cut could shift it. On one rank it just runs it.
+/// Runs work that every rank repeats (bodies and track of the vehicle) and reports its duration, which the load balance
+/// subtracts from the rank's busy time: no cut between subdomains could move such work. On one rank it just runs it.
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;

@@ -10,9 +10,9 @@
 namespace grouser::simulation {
 
 namespace {
-constexpr double kMostCreated = 2;     // energy that may be left over, as a share of what was put in [-]
-constexpr double kEnergyFloor = 1e-6;  // [J] below which nothing is judged
-constexpr double kVehicleFloor = 1e-3; // [J/kg] the same for a vehicle
+constexpr double kMostCreated = 2;     // largest energy residual, as a share of the energy available [-]
+constexpr double kEnergyFloor = 1e-6;  // [J] residuals below this are never an error
+constexpr double kVehicleFloor = 1e-3; // [J/kg] the same, of a vehicle's mass
 } // namespace
 
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
@@ -84,8 +84,8 @@ const contact::GrainLoadsView* Simulation::partLoads() const {
   return surfaces_ ? surfaces_->grainLoads() : nullptr;
 }
 
-/// The surfaces of a scene, at the poses of this step. The grains have been made with them where they start: a run that
-/// goes on must not compute a contact before they stand where they were.
+/// Makes the surfaces and gives the grains their poses of this step. The grains were built with the poses of t = 0, so
+/// in a resumed run this comes before any contact is computed.
 void Simulation::makeSurfaces(const SurfaceStates* former) {
   if (!ground_.grains || setup_.ground.surfaces.empty()) return;
   surfaces_ = std::make_unique<Surfaces>(setup_.ground, setup_.gravity, setup_.timeStep);
@@ -93,7 +93,8 @@ void Simulation::makeSurfaces(const SurfaceStates* former) {
   surfaces_->place(*ground_.grains, steps_);
 }
 
-/// Grains of the sources that enter now, before the next step. What they bring with them is no change of energy.
+/// Adds the grains of the sources that enter before the next step. Their energy goes to the ledger's start, so that it
+/// does not count as a change.
 void Simulation::addGrains() {
   if (!ground_.grains || setup_.ground.grains->sources.empty()) return;
   const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
@@ -152,7 +153,7 @@ Simulation::Ledger Simulation::ledger() {
 void Simulation::checkEnergy(const Ledger& now) {
   mostPutIn_ = std::max(mostPutIn_, std::max(0.0, now.driveWork) + std::max(0.0, -now.potential));
   const double available = start_.kinetic + std::max(start_.elastic, -now.elastic) + mostPutIn_;
-  // A vehicle is set down with small overlaps between its parts, whose energy nobody put in.
+  // A vehicle starts with small overlaps between its parts, whose elastic energy is in no other term.
   const double floor = kEnergyFloor + (vehicle_ ? kVehicleFloor * vehicle_->assembly().mass : 0.0);
   if (now.residual <= kMostCreated * available + floor) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";

@@ -30,7 +30,7 @@ public:
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
   void step(StepObserver* observer = nullptr);
-  /// At least one step, at most `most`: as many as can be given to the device at once. Returns how many were taken.
+  /// At least one step, at most `most`: as many as can be launched as one graph. Returns how many were taken.
   std::int64_t advance(std::int64_t most);
 
   const setup::SimulationSetup& setup() const { return setup_; }
@@ -43,7 +43,7 @@ public:
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
-  /// Means of the observers begin anew: after every row.
+  /// Restarts the means of the observers: called after every row.
   void restartMeans() {
     if (surfaces_) surfaces_->restartMeans();
     if (vehicle_) vehicle_->restartMeans();

@@ -13,15 +13,15 @@ enum class Stage {
   trackContacts,  ///< shoes with wheels and sprockets
   groundContacts, ///< parts with grains or rigid ground
   partLoads,      ///< to the host, summed over the ranks
-  grainStep,      ///< forces on grains and their advance are given to the device; grains with meshes before that
+  grainStep,      ///< forces on grains and their advance are launched; grains with meshes before that
   multibody,      ///< vehicle or mechanism, on the host, while the device works
   grainStepEnded, ///< the host waits for the grains; surfaces that forces move
   checks,         ///< grains that enter, alarms
 };
 inline constexpr int kStages = static_cast<int>(Stage::checks) + 1;
 
-/// Is told after each stage of a step: for who measures where the time goes. A step that is observed gives the same
-/// bits; it gives the device its work piece by piece instead of as one graph.
+/// Called after each stage of a step, to measure where the time goes. An observed step gives the same bits, but
+/// launches its work piece by piece instead of as one graph.
 class StepObserver {
 public:
   StepObserver() = default;

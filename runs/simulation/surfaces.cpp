@@ -59,7 +59,7 @@ void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
   grains.setSurfacePoses(placements);
 }
 
-/// What goes farther in a step than half a radius could pass through a grain unfelt.
+/// A surface that moves more than half a radius in a step could pass through a grain without contact.
 void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const {
   const bool plane = surfaces_[i].geometry.shape == terrain::SurfaceShape::plane;
   const double across = plane ? std::fabs(dot(freeAxis(i), placement(i, step).normal())) : 1;

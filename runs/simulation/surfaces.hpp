@@ -29,7 +29,7 @@ public:
   /// Where they are at step `step`, to the grains.
   void place(terrain::Grains& grains, std::int64_t step) const;
   /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step. Throws
-  /// SimulationError where forces have made a surface so quick that grains might not feel it.
+  /// SimulationError where a surface moves so fast that it could pass through a grain in one step.
   void advance(terrain::Grains& grains, std::int64_t step);
 
   std::size_t count() const { return surfaces_.size(); }

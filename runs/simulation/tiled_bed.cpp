@@ -8,14 +8,14 @@ namespace grouser::simulation {
 
 TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface,
                    double radius)
-    : joined_(tile.periodic), copies_(tile.copies), scale_(settled.scale()), period_(settled.system().constants.period),
-      tile_(settled.state()) {
+    : periodic_(tile.periodic), copies_(tile.copies), scale_(settled.scale()),
+      period_(settled.system().constants.period), tile_(settled.state()) {
   // The tile lies in [0, size x] and [-size y / 2, size y / 2], as every terrain does.
   lift_ = base::toUnits(scale_.fromMetres(
       {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - tile.ground->rigid->bounds().lowest}));
 
   const auto clear = [&](std::size_t a, double x, double low, double high) {
-    return joined_[a] || (x >= low + radius && x <= high - radius);
+    return periodic_[a] || (x >= low + radius && x <= high - radius);
   };
   const terrain::HeightFieldBounds top = surface.bounds();
   const bool level = top.highest - top.lowest <= 1e-6 * radius;
@@ -40,7 +40,7 @@ base::Vec3l TiledBed::place(const Copy& copy) const {
 
 std::int64_t TiledBed::idOf(std::array<std::int64_t, 2> tile, std::size_t grain) const {
   for (std::size_t a = 0; a < 2; ++a) {
-    if (joined_[a]) tile[a] = (tile[a] + copies_[a]) % copies_[a];
+    if (periodic_[a]) tile[a] = (tile[a] + copies_[a]) % copies_[a];
     if (tile[a] < 0 || tile[a] >= copies_[a]) return -1;
   }
   return id_[static_cast<std::size_t>(tile[0] * copies_[1] + tile[1]) * tile_.rows() + grain];

@@ -36,7 +36,7 @@ private:
   base::Vec3l place(const Copy& copy) const;
   std::int64_t idOf(std::array<std::int64_t, 2> tile, std::size_t grain) const;
 
-  std::array<bool, 2> joined_{};
+  std::array<bool, 2> periodic_{};
   std::array<std::int64_t, 2> copies_{};
   base::PositionScale scale_;
   base::Period period_; ///< of the tile

@@ -31,7 +31,7 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   const double largest = 1e4 * assembly_.mass * 9.81;
   quanta_.force = base::fixedPointFor(largest, 46);
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
-  quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums begin anew every step
+  quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums are of one step only
   quanta_.area = base::fixedPointFor(1, 40);
   groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
   makeTrack();
@@ -107,6 +107,7 @@ void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* obser
   if (observer) return computeInParts(grains, *observer);
   graph_.from(grains ? grains->view().position : nullptr).run([this, grains] {
     uploadPoses();
+    // Side by side: the two write different halves of loadSums_, and read the same poses.
     side_.fork();
     computeGround(grains, side_.exec());
     computeTrack();
@@ -115,7 +116,7 @@ void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* obser
   });
 }
 
-/// The same one after another, for who wants to know how long each takes.
+/// The same one after another, without graph and side stream, so that an observer can time each.
 void VehicleContacts::computeInParts(const terrain::Grains* grains, StepObserver& observer) {
   uploadPoses();
   observer.after(Stage::posesUploaded);
@@ -126,7 +127,8 @@ void VehicleContacts::computeInParts(const terrain::Grains* grains, StepObserver
   downloadLoads();
 }
 
-/// On the host and outside the graph, which records what the device does and nothing else.
+/// Writes the travel into the pinned memory that uploadPoses() copies from. Not within the graph, whose host code runs
+/// only when it is recorded.
 void VehicleContacts::noteTravel() {
   travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_;
 }
@@ -153,7 +155,7 @@ void VehicleContacts::collect(multibody::Loads& loads) {
   base::synchronize(exec_);
   const std::size_t n = parts_.contactParts();
   const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
-  // Whole quanta, so that every order of ranks gives the same bits: all ranks move the vehicle alike.
+  // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
   constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
   static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
   if (bed_) comm_.sum(&(loadSums_.host() + n)->force.x, n * kNumbers);

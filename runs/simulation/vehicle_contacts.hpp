@@ -30,7 +30,7 @@ public:
   // One step, in this order.
   void setPoses(const multibody::State& state);
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
-  /// The device works, the host does not wait. `observer`: told of each kind of contacts.
+  /// Queues the contacts on the device, without waiting. `observer`: called after each kind of contacts.
   void compute(const terrain::Grains* grains, StepObserver* observer);
   /// Waits for the sums of loads of all ranks and puts them on the bodies.
   void collect(multibody::Loads& loads);
@@ -60,7 +60,7 @@ public:
   std::size_t grainPairsListed() const { return bed_ ? bed_->pairs() : 0; }
 
   void save(VehicleState& state) const;
-  /// The lists belong to another place: the next step makes them anew.
+  /// Marks the lists as outdated: the next step makes them anew.
   void restore(const VehicleState& state);
 
 private:

@@ -19,7 +19,7 @@ struct VehicleState {
   // Sums for output and alarm, in quanta of force.
   std::vector<base::Vec3l> groundForces; ///< by part, since the last row
   std::int64_t meanSteps{};              ///< of that sum
-  std::vector<base::Vec3l> alarmForces;  ///< by part, since the last look at the track
+  std::vector<base::Vec3l> alarmForces;  ///< by part, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
 

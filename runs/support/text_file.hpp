@@ -6,7 +6,7 @@
 
 namespace grouser::support {
 
-/// Writes a whole text file. Throws base::InputError where it cannot be begun, naming `option` as the way to another
+/// Writes a whole text file. Throws base::InputError where it cannot be opened, naming `option` as the way to another
 /// place, and std::runtime_error where it cannot be ended, as on a full disk: no part of it is left then.
 void writeTextFile(const std::filesystem::path& path, const std::string& text, const std::string& option);
 

@@ -57,15 +57,15 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
     }
 }
 
-TEST(GrainsOnRanks, EqualBitsAcrossJoinedSides) {
+TEST(GrainsOnRanks, EqualBitsAcrossPeriodicBoundaries) {
   const int n = test::comm().size();
   const GrainModel m = gravel();
   const auto ring = [&](bool x, bool y) {
     Boundaries b{{{{0, 0, 1}, 0, m.law}}, {}};
     if (!x) b.walls.insert(b.walls.end(), {{{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}});
     if (!y) b.walls.push_back({{0, -1, 0}, -0.5, m.law});
-    if (x) b.joined[0] = {-0.05, 0.75};
-    if (y) b.joined[1] = {-0.05, 0.36};
+    if (x) b.periodic[0] = {-0.05, 0.75};
+    if (y) b.periodic[1] = {-0.05, 0.36};
     return b;
   };
   for (int which = 1; which <= 3; ++which) {
@@ -82,8 +82,9 @@ TEST(GrainsOnRanks, EqualBitsAcrossJoinedSides) {
       Grains resumed(base::cpuExec(1), m, boundaries, thrownBlock(), shared({n / x, x, 1}));
       resumed.restore(grains.state());
       advance(grains, 900), advance(resumed, 900);
-      EXPECT_EQ(allWords(grains), alone.state().words()) << x << " x " << n / x << ", joined " << which;
-      EXPECT_EQ(allWords(resumed), alone.state().words()) << "resumed, " << x << " x " << n / x << ", joined " << which;
+      EXPECT_EQ(allWords(grains), alone.state().words()) << x << " x " << n / x << ", periodic " << which;
+      EXPECT_EQ(allWords(resumed), alone.state().words())
+          << "resumed, " << x << " x " << n / x << ", periodic " << which;
       EXPECT_EQ(grains.ledger().potential, alone.ledger().potential);
     }
   }

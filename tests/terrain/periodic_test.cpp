@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joined sides: a scene does not know where they stand.
+// Periodic boundaries: no bit depends on where they stand.
 #include "base/error.hpp"
 #include "grain_fixture.hpp"
 
@@ -20,10 +20,10 @@ GrainModel rubbing(double skin = 0.3) {
   return m;
 }
 
-Boundaries joined(const GrainModel& m, bool x = true, bool y = true) {
+Boundaries periodic(const GrainModel& m, bool x = true, bool y = true) {
   Boundaries b{{{{0, 0, 1}, 0, m.law}}, {}};
-  if (x) b.joined[0] = {0.0, kLengthX};
-  if (y) b.joined[1] = {-0.01, kLengthY - 0.01};
+  if (x) b.periodic[0] = {0.0, kLengthX};
+  if (y) b.periodic[1] = {-0.01, kLengthY - 0.01};
   return b;
 }
 
@@ -72,7 +72,7 @@ std::int64_t crossed(const GrainState& s) {
 }
 
 GrainState end(const GrainModel& m, const base::Vec3l& shift, int threads = 1, bool manyRadii = false) {
-  Grains grains(base::cpuExec(threads), m, joined(m), thrown(shift, manyRadii));
+  Grains grains(base::cpuExec(threads), m, periodic(m), thrown(shift, manyRadii));
   advance(grains, 4000);
   return grains.state();
 }
@@ -110,7 +110,7 @@ TEST(PeriodicBoundaries, ListFindsEveryImageThatTouches) {
     GrainModel m = ball(1e-5);
     m.radius = 0.004;
     Boundaries b;
-    b.joined = {std::array{0.0, length}, std::array{0.0, length}};
+    b.periodic = {std::array{0.0, length}, std::array{0.0, length}};
     std::vector<GrainSpec> start;
     for (int i = 0; i < 60; ++i)
       start.push_back(
@@ -135,7 +135,7 @@ TEST(PeriodicBoundaries, FallAlongThemKeepsTheEnergy) {
   GrainModel m = ball(1e-5);
   m.gravity = {6, -4, 0};
   Boundaries b;
-  b.joined = {std::array{0.0, 0.05}, std::array{-0.02, 0.03}};
+  b.periodic = {std::array{0.0, 0.05}, std::array{-0.02, 0.03}};
   Grains grains(base::cpuExec(1), m, b, {{{0.01, 0.0, 0.1}, {}, {}}});
   const GrainLedger before = grains.ledger();
   constexpr int kSteps = 100000;
@@ -150,7 +150,7 @@ TEST(PeriodicBoundaries, FallAlongThemKeepsTheEnergy) {
 TEST(PeriodicBoundaries, MomentumOfAGasIsKept) {
   GrainModel m = ball(1e-5);
   Boundaries b;
-  b.joined = {std::array{0.0, kLengthX}, std::array{0.0, kLengthX}};
+  b.periodic = {std::array{0.0, kLengthX}, std::array{0.0, kLengthX}};
   std::vector<GrainSpec> start;
   for (int i = 0; i < 100; ++i)
     start.push_back({{0.006 + 0.0125 * (i % 5), 0.006 + 0.0125 * (i / 5 % 5), 0.0105 * (i / 25)},
@@ -165,13 +165,13 @@ TEST(PeriodicBoundaries, MomentumOfAGasIsKept) {
 
 TEST(PeriodicBoundaries, ResumedRunsGoOnToTheSameBits) {
   const GrainModel m = rubbing();
-  Grains straight(base::cpuExec(1), m, joined(m), thrown({}));
+  Grains straight(base::cpuExec(1), m, periodic(m), thrown({}));
   advance(straight, 4000);
   for (const int step : {1, 777, 2500}) {
-    Grains first(base::cpuExec(1), m, joined(m), thrown({}));
+    Grains first(base::cpuExec(1), m, periodic(m), thrown({}));
     advance(first, step);
     const GrainState saved = first.state();
-    Grains second(base::cpuExec(2), m, joined(m), thrown({}));
+    Grains second(base::cpuExec(2), m, periodic(m), thrown({}));
     second.restore(saved);
     EXPECT_EQ(second.state().words(), saved.words());
     EXPECT_EQ(second.state().travelled, saved.travelled);
@@ -184,11 +184,11 @@ TEST(PeriodicBoundaries, ResumedRunsGoOnToTheSameBits) {
 
 TEST(PeriodicBoundaries, TooNearOrGrainsOutsideAreRefused) {
   const GrainModel m = rubbing();
-  Boundaries near = joined(m);
-  near.joined[1] = {0.0, 0.034};
+  Boundaries near = periodic(m);
+  near.periodic[1] = {0.0, 0.034};
   EXPECT_THROW(Grains(base::cpuExec(1), m, near, thrown({})), base::InputError);
-  EXPECT_THROW(Grains(base::cpuExec(1), m, joined(m), {{{-0.001, 0, 0.01}, {}, {}}}), base::InputError);
-  EXPECT_THROW(Grains(base::cpuExec(1), m, joined(m), {{{0.001, kLengthY, 0.01}, {}, {}}}), base::InputError);
+  EXPECT_THROW(Grains(base::cpuExec(1), m, periodic(m), {{{-0.001, 0, 0.01}, {}, {}}}), base::InputError);
+  EXPECT_THROW(Grains(base::cpuExec(1), m, periodic(m), {{{0.001, kLengthY, 0.01}, {}, {}}}), base::InputError);
 }
 
 } // namespace

@@ -34,7 +34,7 @@ double lastOf(const std::string& csv, const std::string& column) {
   return 0;
 }
 
-TEST_F(OnRanks, JoinedSidesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
+TEST_F(OnRanks, PeriodicBoundariesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
   for (const char* scene : {"chute", "moving", "rain"}) {
     const std::string words = "run '" GROUSER_SOURCE_DIR "/tests/scenes/" + std::string(scene) +
                               ".toml' --steps 2500 --hash --force --set output.frames=false --set output.picture=false "
@@ -284,12 +284,13 @@ TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
 TEST_F(OnRanks, RanksThatAreToldOtherCommandsAreRefusedByName) {
   const std::string plan = "-np 1 \"$grouser\" plan bed.toml", go = "-np 1 \"$grouser\" run bed.toml --out a",
                     bench = "-np 1 \"$grouser\" bench bed --grains 1000";
-  for (const auto& [first, other, told] : {std::tuple{plan, go, "rank 1 was told to do \"run\", rank 0 \"plan\""},
-                                           {go, plan, "rank 1 was told to do \"plan\", rank 0 \"run\""},
-                                           {bench, go, "rank 1 was told to do \"run\", rank 0 \"bench bed\""}}) {
+  for (const auto& [first, other, message] :
+       {std::tuple{plan, go, "rank 1 was started with \"run\", rank 0 with \"plan\""},
+        {go, plan, "rank 1 was started with \"plan\", rank 0 with \"run\""},
+        {bench, go, "rank 1 was started with \"run\", rank 0 with \"bench bed\""}}) {
     const Outcome o = shell("timeout 60 mpirun " + first + " : " + other);
-    EXPECT_EQ(o.code, 2) << told;
-    EXPECT_NE(o.errors.find(told), std::string::npos) << o.errors;
+    EXPECT_EQ(o.code, 2) << message;
+    EXPECT_NE(o.errors.find(message), std::string::npos) << o.errors;
     EXPECT_FALSE(fs::exists(folder_ / "a"));
   }
 }

@@ -107,7 +107,7 @@ TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
 }
 
 TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
-  // In joined tiles, as without the surface; one that stands in the bed is refused.
+  // In periodic tiles, as without the surface; one that stands in the bed is refused.
   const auto ledgerWith = [](const std::string& box) {
     const std::string text =
         "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\nperiodic = [true, true]\n[material.soil]\nstiffness = "

@@ -140,7 +140,7 @@ TEST(Sources, TheDeepestOfManyInTheWayIsNamed) {
               {"crowd.toml:25: source.2", "0.011 m deep in grain 1 at (0.481, 0, 1)"});
 }
 
-TEST(Sources, AnImageAcrossJoinedSidesLiesInTheWayToo) {
+TEST(Sources, AnImageAcrossPeriodicBoundariesLiesInTheWayToo) {
   // Not 1 m apart, which is 2^32 units of length: differences of the low words alone would find that image.
   const std::string two = dropAt("[-0.59, 0, 1]", "0.0") + dropAt("[0.59, 0, 1]", "0.01");
   expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.6, 0.6]"}),
