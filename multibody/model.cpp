@@ -4,6 +4,8 @@
 #include "base/error.hpp"
 #include "multibody/detail/rotation.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
 #include <sstream>
 
@@ -42,6 +44,16 @@ void checkPose(const std::string& what, const char* key, const Pose& X) {
                      "); normalise it");
 }
 
+/// "1, 2, 3": the principal moments of a symmetric inertia, for messages.
+std::string principalMoments(const Mat3d& I) {
+  Eigen::Matrix3d matrix;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) matrix(i, j) = I.m[i][j];
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  return text(moments[0]) + ", " + text(moments[1]) + ", " + text(moments[2]);
+}
+
 /// Leading minors: all positive exactly for a positive definite symmetric matrix (Sylvester).
 bool positiveDefinite(const Mat3d& a) {
   const double d1 = a.m[0][0];
@@ -62,7 +74,8 @@ void checkInertia(const std::string& what, const Mat3d& I) {
         refuse(what, "inertia [kg m2] is not symmetric: entries (" + std::to_string(i) + ", " + std::to_string(j) +
                          ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
   if (!positiveDefinite(I))
-    refuse(what, "inertia [kg m2] is not positive definite; every principal moment must be > 0");
+    refuse(what, "inertia [kg m2] is not positive definite; every principal moment must be > 0, and they are " +
+                     principalMoments(I));
   // Triangle inequality in any axes: the second moment of mass, tr(I)/2 - I, has no negative eigenvalue. A flat plate
   // has a zero one: the allowance is for its round-off.
   Mat3d second;
@@ -70,8 +83,8 @@ void checkInertia(const std::string& what, const Mat3d& I) {
     for (int j = 0; j < 3; ++j) second.m[i][j] = (i == j ? (0.5 + 1e-9) * trace : 0) - I.m[i][j];
   if (!positiveDefinite(second))
     refuse(what, "inertia [kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
-                 "two (diagonal " +
-                     text(I.m[0][0]) + ", " + text(I.m[1][1]) + ", " + text(I.m[2][2]) + "); correct the entries");
+                 "two, and they are " +
+                     principalMoments(I) + "; correct the entries");
 }
 
 Vec3d perpendicularTo(const Vec3d& z) {

@@ -8,6 +8,7 @@
 #include "runs/bench/report.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/line_fit.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -140,18 +141,6 @@ void checkBullet(const Point& p) {
 
 } // namespace
 
-double growthExponent(const std::vector<double>& contacts, const std::vector<double>& seconds) {
-  const std::size_t n = contacts.size();
-  if (n < 2) return std::numeric_limits<double>::quiet_NaN();
-  double x = 0, y = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double a = std::log(contacts[i]), b = std::log(seconds[i]);
-    x += a, y += b, xx += a * a, xy += a * b;
-  }
-  const double m = static_cast<double>(n);
-  return (m * xy - x * y) / (m * xx - x * x);
-}
-
 void benchContactsCommand(const ContactsBench& bench) {
   const base::Exec exec = support::chooseDevice(support::deviceChoice(bench.device), bench.threads, bench.ranks);
   if (!bench.plot.empty() && !bench.plot.ends_with(".png"))
@@ -191,10 +180,13 @@ void benchContactsCommand(const ContactsBench& bench) {
     if (static_cast<double>(p.contacts) < 0.9 * kLinearFrom) continue;
     contacts.push_back(static_cast<double>(p.contacts)), seconds.push_back(p.median.total);
   }
-  if (const double exponent = growthExponent(contacts, seconds); std::isfinite(exponent)) {
-    fmt::print("\ngrowth    time ~ contacts^{:.3f} from {:.2g} to {:.2g} contacts\n", exponent, contacts.front(),
-               contacts.back());
-    json["growth_exponent"] = exponent;
+  if (const support::LineFit growth = support::fitPower(contacts, seconds); growth.points >= 2) {
+    fmt::print("\ngrowth    time ~ contacts^{} from {:.2g} to {:.2g} contacts{}\n",
+               growth.hasError() ? fmt::format("({:.3f} +- {:.3f})", growth.slope, growth.slopeEstimate().halfWidth)
+                                 : fmt::format("{:.3f}", growth.slope),
+               contacts.front(), contacts.back(), growth.hasError() ? " (95 %)" : "");
+    json["growth_exponent"] = growth.slope;
+    if (growth.hasError()) json["growth_exponent_half_width"] = growth.slopeEstimate().halfWidth;
   }
   const base::Comm comm = bench.ranks ? bench.ranks->comm() : base::Comm();
   writeBench(json, bench.json, comm);

@@ -27,8 +27,4 @@ struct ContactsBench {
 /// rank holds.
 void benchContactsCommand(const ContactsBench& bench);
 
-/// The exponent p of seconds ~ contacts^p through the points, by least squares of the logarithms; NaN for less than
-/// two.
-double growthExponent(const std::vector<double>& contacts, const std::vector<double>& seconds);
-
 } // namespace grouser::bench

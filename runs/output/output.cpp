@@ -247,7 +247,7 @@ void RunWriter::constant(const std::string& path, const std::string& unit, doubl
   impl_->series->results.attribute("/" + path, "unit", unit);
 }
 
-void RunWriter::setParts(std::vector<FramePart> parts, base::TriangleMesh ground) {
+void RunWriter::setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground) {
   Impl& w = *impl_;
   if (!w.options.frames) return;
   if (w.options.former && w.options.former->frames > 0) {

@@ -56,7 +56,7 @@ public:
   void constant(const std::string& path, const std::string& unit, double value);
 
   /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
-  void setParts(std::vector<FramePart> parts, base::TriangleMesh ground);
+  void setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground);
 
   void row(const Row& row);
   void frame(const Frame& frame);

@@ -167,7 +167,7 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::BedPlan& plan, dou
   for (std::size_t a = 0; a < 2; ++a) {
     const double wanted = std::min((*t.tile)[a], t.size[a]);
     if (tile.periodic[a]) {
-      tile.copies[a] = std::max<std::int64_t>(1, static_cast<std::int64_t>(t.size[a] / wanted + 0.5));
+      tile.copies[a] = std::max<std::int64_t>(1, std::llround(t.size[a] / wanted));
       tile.size[a] = t.size[a] / static_cast<double>(tile.copies[a]);
     } else {
       tile.size[a] = std::floor(wanted / cell + 0.5) * cell;

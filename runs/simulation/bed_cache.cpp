@@ -109,7 +109,7 @@ SettleReport BedCache::settle(const setup::BedSetup& bed, terrain::Grains& grain
   return report;
 }
 
-bool BedCache::reuse(const fs::path& file, const std::string& made, terrain::Grains& grains, SettleReport& report,
+bool BedCache::reuse(const fs::path& file, const std::string& origin, terrain::Grains& grains, SettleReport& report,
                      const base::Comm& comm) const {
   std::error_code error;
   if (!allOf(comm, fs::is_regular_file(file, error))) return false;
@@ -133,7 +133,8 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, terrain::Gra
     }
     if (!allOf(comm, good)) return false;
     bed = readState(*open, comm);
-    if (bed.scene != made || !bed.state.grains || bed.state.grains->total != static_cast<std::int64_t>(grains.count()))
+    if (bed.scene != origin || !bed.state.grains ||
+        bed.state.grains->total != static_cast<std::int64_t>(grains.count()))
       damage = fmt::format("{}: holds another bed than its name says", file.string());
   }
   if (!damage.empty()) {
@@ -146,10 +147,10 @@ bool BedCache::reuse(const fs::path& file, const std::string& made, terrain::Gra
   return true;
 }
 
-bool BedCache::keep(const fs::path& file, const std::string& made, const terrain::Grains& grains,
+bool BedCache::keep(const fs::path& file, const std::string& origin, const terrain::Grains& grains,
                     const SettleReport& report, const base::Comm& comm) const {
   Checkpoint bed;
-  bed.scene = made, bed.timeStep = grains.model().timeStep;
+  bed.scene = origin, bed.timeStep = grains.model().timeStep;
   bed.state.settled = report, bed.state.energyAtStart = {0, 0, 0, 0};
   bed.state.grains = grains.state();
   // Written under a name of its own and renamed: another machine that shares the folder may write the same bed.

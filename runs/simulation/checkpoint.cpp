@@ -100,8 +100,9 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
 
 template <class T> constexpr std::size_t widthOf() {
   using Number = typename Layout<T>::Number;
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(Number) == 0);
-  return sizeof(T) / sizeof(Number);
+  constexpr std::size_t kRecord = sizeof(T), kNumber = sizeof(Number);
+  static_assert(std::is_trivially_copyable_v<T> && kRecord % kNumber == 0);
+  return kRecord / kNumber;
 }
 
 template <class T> auto numbersOf(const std::vector<T>& records) {

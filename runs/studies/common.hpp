@@ -24,18 +24,6 @@ std::filesystem::path beginStudy(const std::string& name, const StudyPlace& plac
 void writeStudyOrigin(const std::filesystem::path& folder, const std::string& name, double seconds,
                       const nlohmann::ordered_json& more);
 
-/// Slope of log y over log x by least squares, with the half width of its 95 % confidence interval (Student).
-struct Slope {
-  double value = 0, halfWidth = 0;
-  int points = 0; ///< fewer than three: no slope
-  bool exists() const { return points >= 3; }
-  /// "1.02 +- 0.03", or "-".
-  std::string text() const;
-};
-Slope logSlope(const std::vector<double>& x, const std::vector<double>& y);
-/// The same of y over x as they are.
-Slope linearSlope(const std::vector<double>& x, const std::vector<double>& y);
-
 /// Mean of values, and its standard error from their scatter.
 struct MeanError {
   double mean = 0, error = 0;

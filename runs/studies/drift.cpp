@@ -94,7 +94,7 @@ Drift runPair(const std::string& scene, const std::string& pair, const StudyBox&
     if (drift.rmsToDiameter < 0 && s.rms >= kDiameter) drift.rmsToDiameter = s.time;
     stopStudyIfAsked();
   }
-  drift.growth = linearSlope(time, logRms);
+  drift.growth = support::fitLine(time, logRms);
   return drift;
 }
 
@@ -186,11 +186,11 @@ std::string driftTable(const std::vector<Drift>& drifts) {
                   "", "", "growth [1/s]", "a collision [-]", "farthest at D", "rms at D", "rms at end [m]");
   for (const Drift& d : drifts) {
     const auto moment = [](double t) { return t < 0 ? std::string("-") : fmt::format("{:.3f} s", t); };
-    text += fmt::format("  {:<12} {:<32} {:>17} {:>15} {:>14} {:>16} {:>14.2e}\n", d.scene, d.pair, d.growth.text(),
-                        d.collisionTime > 0 && d.growth.exists()
-                            ? fmt::format("x {:.2f}", std::exp(d.growth.value * d.collisionTime))
-                            : "-",
-                        moment(d.toDiameter), moment(d.rmsToDiameter), d.samples.back().rms);
+    text += fmt::format(
+        "  {:<12} {:<32} {:>17} {:>15} {:>14} {:>16} {:>14.2e}\n", d.scene, d.pair, d.growth.slopeText(),
+        d.collisionTime > 0 && d.growth.hasError() ? fmt::format("x {:.2f}", std::exp(d.growth.slope * d.collisionTime))
+                                                   : "-",
+        moment(d.toDiameter), moment(d.rmsToDiameter), d.samples.back().rms);
   }
   if (!drifts.empty() && drifts.front().collisionTime > 0)
     text += fmt::format("  a grain of the gas collides every {:.4f} s; D is a diameter, {:g} m; a unit of length is "

@@ -3,6 +3,7 @@
 
 #include "runs/studies/box.hpp"
 #include "runs/studies/common.hpp"
+#include "runs/support/line_fit.hpp"
 
 #include <functional>
 #include <string>
@@ -23,7 +24,7 @@ struct Drift {
   std::string scene, pair; ///< "gas", "single - double"
   std::vector<DriftSample> samples;
   double collisionTime = 0; ///< mean time between the collisions of a grain [s]; 0: not known
-  Slope growth;             ///< of ln rms while it is small [1/s]
+  support::LineFit growth;  ///< of ln rms while it is small [1/s]
   double toDiameter = -1;   ///< time until the farthest grain is a diameter away [s]; negative: not within the run
   double rmsToDiameter = -1;
 };

@@ -274,14 +274,14 @@ void timeImpact(const ImpactCase& c, terrain::Precision precision, int collision
   point.least = 1e6 * *std::min_element(seconds.begin(), seconds.end());
 }
 
-Slope measuredOrder(const ImpactSeries& series, int quantity) {
+support::LineFit measuredOrder(const ImpactSeries& series, int quantity) {
   std::vector<double> step, error;
   for (const ImpactPoint& p : series.points) {
     const double worst = p.error[static_cast<std::size_t>(quantity)].worst;
     if (!p.stable || p.steps < kFitFrom || worst < kRoundOffFloor || !std::isfinite(worst)) continue;
     step.push_back(p.timeStep), error.push_back(worst);
   }
-  return logSlope(step, error);
+  return support::fitPower(step, error);
 }
 
 const ImpactPoint* cheapestImpact(const ImpactSeries& series, int quantity, double tolerance) {

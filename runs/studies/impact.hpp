@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/studies/common.hpp"
+#include "runs/support/line_fit.hpp"
 #include "terrain/grain_model.hpp"
 
 #include <array>
@@ -83,7 +84,7 @@ struct ImpactSeries {
 const char* precisionName(terrain::Precision precision);
 
 /// Order measured over the points from kFitFrom steps a contact on whose worst error is above the round-off floor.
-Slope measuredOrder(const ImpactSeries& series, int quantity);
+support::LineFit measuredOrder(const ImpactSeries& series, int quantity);
 inline constexpr double kFitFrom = 12, kRoundOffFloor = 5e-6;
 
 /// The coarsest point that keeps the error of `quantity` (or of all that are known: kImpactQuantities) below

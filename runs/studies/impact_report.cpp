@@ -59,9 +59,9 @@ std::string orderTable(const std::vector<ImpactSeries>& all) {
   for (const ImpactSeries& s : all) {
     text += fmt::format("  {:<36} {:<7}", s.study.name(), precisionName(s.precision));
     for (int q = 0; q < kImpactQuantities; ++q) {
-      const Slope slope = measuredOrder(s, q);
-      text += fmt::format(" {:>19}", known(s, q) && slope.exists()
-                                         ? fmt::format("{} ({})", slope.text(), expectedOrder(s.study, q))
+      const support::LineFit fit = measuredOrder(s, q);
+      text += fmt::format(" {:>19}", known(s, q) && fit.hasError()
+                                         ? fmt::format("{} ({})", fit.slopeText(), expectedOrder(s.study, q))
                                          : "-");
     }
     text += "\n";
@@ -118,10 +118,10 @@ std::string orderCsv(const std::vector<ImpactSeries>& all) {
   std::string text = "case,precision,quantity,order,half width of 95 % confidence,points,expected\n";
   for (const ImpactSeries& s : all)
     for (int q = 0; q < kImpactQuantities; ++q)
-      if (const Slope slope = measuredOrder(s, q); known(s, q) && slope.exists())
+      if (const support::LineFit fit = measuredOrder(s, q); known(s, q) && fit.hasError())
         text +=
             fmt::format("\"{}\",{},{},{},{},{},{}\n", s.study.name(), precisionName(s.precision), impactQuantityName(q),
-                        slope.value, slope.halfWidth, slope.points, expectedOrder(s.study, q));
+                        fit.slope, fit.slopeEstimate().halfWidth, fit.points, expectedOrder(s.study, q));
   return text;
 }
 

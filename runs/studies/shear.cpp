@@ -5,6 +5,7 @@
 #include "base/math.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "runs/support/line_fit.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
@@ -65,7 +66,7 @@ double degrees(double t) { return std::atan(t) * 180 / base::kPi; }
 std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& box, double stress, std::int64_t seed) {
   const scene::Scene scene = setup::parseScene(shearScene(material, box, stress, seed), "shear.toml");
   simulation::Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
-  const auto steps = [&](double seconds) { return static_cast<std::int64_t>(seconds / simulation.timeStep() + 0.5); };
+  const auto steps = [&](double seconds) { return std::int64_t{std::llround(seconds / simulation.timeStep())}; };
   const std::int64_t every = std::max<std::int64_t>(1, steps(kRow)), all = steps(scene.run.duration);
   std::vector<ShearRow> rows;
   for (std::int64_t step = 1; step <= all; ++step) {
@@ -160,9 +161,9 @@ void studyShearCommand(const ShearCommand& command) {
   }
   progress.finish(fmt::format("{} samples", done));
   fmt::print("{}\n  friction angle of the bed: {} deg\n", table, both(angles, 1));
-  if (const Slope line = linearSlope(sigma, tau); line.exists() && stresses.size() > 1)
-    fmt::print("  straight line through all: slope {} (95 %), {:.1f} deg; cohesion {:.0f} Pa\n", line.text(),
-               degrees(line.value), meanOf(tau).mean - line.value * meanOf(sigma).mean);
+  if (const support::LineFit line = support::fitLine(sigma, tau); line.hasError() && stresses.size() > 1)
+    fmt::print("  straight line through all: slope {} (95 %), {:.1f} deg; cohesion {:.0f} +- {:.0f} Pa (95 %)\n",
+               line.slopeText(), degrees(line.slope), line.intercept, line.interceptEstimate().halfWidth);
   fmt::print("  T, N: forces on the upper half, and across the plane between the halves; residual: second half of the "
              "travel\n");
   support::writeTextFile(folder / "shear.csv", csv, "--out");

@@ -56,9 +56,9 @@ template <unsigned kFeatures, int kWidth, class T> void expectLanesAsAlone(const
       sliding += norm(tangential) > T(0.999) * law.friction * alone.pressing;
     }
   }
-  if (law.friction > 0) {
-    EXPECT_GT(sliding, 200 * kWidth / 10);
-    EXPECT_LT(sliding, 200 * kWidth * 9 / 10);
+  if (law.friction > 0) { // both kinds are there, often side by side
+    EXPECT_GT(sliding, 100);
+    EXPECT_LT(sliding, 200 * kWidth - 100);
   }
 }
 

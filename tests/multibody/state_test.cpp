@@ -142,8 +142,13 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   const auto body = [&](double mass, const Mat3d& I) { model.addBody(makeBody("shoe 3", mass, I, {})); };
   expectMessage([&] { body(0, kInertia); }, "shoe 3", "mass");
   expectMessage([&] { body(std::numeric_limits<double>::quiet_NaN(), kInertia); }, "shoe 3", "mass");
-  expectMessage([&] { body(1, Mat3d::diagonal({1, -1, 1})); }, "shoe 3", "positive definite");
+  expectMessage(
+      [&] {
+        body(1, Mat3d::diagonal({1, -1, 1}));
+      },
+      "shoe 3", "positive definite; every principal moment must be > 0, and they are -1, 1, 1");
   expectMessage([&] { body(1, Mat3d::diagonal({1, 1, 2.1})); }, "shoe 3", "triangle");
+  expectMessage([&] { body(1, {{{1, 0.6, 0}, {0.6, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "they are 0.4, 1, 1.6");
   expectMessage([&] { body(1, {{{1, 0.1, 0}, {0, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "symmetric");
   body(1, Mat3d::diagonal({1, 1, 2})); // a flat plate is allowed
   expectMessage([&] { body(1, kInertia); }, "shoe 3", "taken");

@@ -60,12 +60,6 @@ TEST(ContactSpheres, InsideTheBlockASphereTouchesSixOthers) {
   EXPECT_NEAR(contacts / count, 6.0, 0.02);
 }
 
-TEST(BenchContacts, GrowthExponentOfAPowerIsThatPower) {
-  EXPECT_NEAR(growthExponent({1e6, 1e7, 1e9}, {3e-3, 3e-2, 3}), 1.0, 1e-12);
-  EXPECT_NEAR(growthExponent({1e6, 4e6, 9e6}, {1, 8, 27}), 1.5, 1e-12);
-  EXPECT_TRUE(std::isnan(growthExponent({1e6}, {1})));
-}
-
 TEST(BenchContacts, FiguresHoldContactsTimesAndBullet) {
   const fs::path file = fs::path(testing::TempDir()) / "grouser_bench_contacts.json";
   ContactsBench bench;

@@ -65,7 +65,6 @@ settle_time_limit = 1
 plots = false
 picture = false
 )";
-constexpr std::int64_t kEnd = 2000;
 
 class ResumedRun : public FolderTest {
 protected:

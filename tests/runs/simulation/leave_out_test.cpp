@@ -45,8 +45,8 @@ std::string planLine(const scene::Scene& scene, const std::string& what) {
   return text.substr(begin, text.find('\n', at) - begin);
 }
 
-bool isOn(const scene::Scene& scene, const std::string& what) { return planLine(scene, "on   " + what) != ""; }
-bool isOff(const scene::Scene& scene, const std::string& what) { return planLine(scene, "off  " + what) != ""; }
+bool isOn(const scene::Scene& scene, const std::string& what) { return !planLine(scene, "on   " + what).empty(); }
+bool isOff(const scene::Scene& scene, const std::string& what) { return !planLine(scene, "off  " + what).empty(); }
 
 TEST(LeaveOut, FrictionlessSceneHasNoHistory) {
   const scene::Scene rough = bed(), smooth = bed({"material.soil.friction=0"});

@@ -183,7 +183,7 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
       "free = \"z\"\nmass = 0.02\nload = -3\n";
   for (int k = 0; k < 16; ++k)
     text += "[[grain]]\nmaterial = \"soil\"\nradius = 0.01\nposition = [" + std::to_string(0.03 * (k % 4)) + ", " +
-            std::to_string(0.03 * (k / 4)) + ", 0.01]\n";
+            std::to_string(0.03 * static_cast<int>(k / 4)) + ", 0.01]\n";
   Simulation simulation(setup::simulationSetup(setup::parseScene(text, "lid.toml")), base::cpuExec(1),
                         [](double, double) {});
   // Sixteen springs on the lid: omega^2 = k (1 / m + 16 / M); undamped limit 2 / omega.

@@ -98,7 +98,7 @@ TEST(StudyDrift, NeighbouringRunsOfAGasPartAtTheRateOfItsCollisions) {
     EXPECT_GT(d.samples.back().rms, 1e3 * d.samples.front().rms) << "spheres scatter what they are given";
     // A collision multiplies a distance by about the free path over the radius: some times, not once, not a hundred
     // times.
-    const double factor = std::exp(d.growth.value * d.collisionTime);
+    const double factor = std::exp(d.growth.slope * d.collisionTime);
     EXPECT_GT(factor, 1.5) << d.pair;
     EXPECT_LT(factor, 20) << d.pair;
   }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace grouser::support {
+
+/// A number with the half width of its 95 % confidence interval.
+struct Estimate {
+  double value = 0, halfWidth = 0;
+};
+
+/// y = intercept + slope x by least squares, with the covariance of both: s^2 (X^T X)^-1, where s^2 is the sum of the
+/// squared residuals over the degrees of freedom.
+struct LineFit {
+  int points = 0; ///< 0 where there is no line; two give one, and tell nothing of their scatter
+  double intercept = 0, slope = 0;
+  double interceptVariance = 0, slopeVariance = 0, covariance = 0;
+
+  bool hasError() const { return points >= 3; }
+  /// By Student's distribution of points - 2 degrees of freedom; for lines that have an error.
+  Estimate slopeEstimate() const;
+  Estimate interceptEstimate() const;
+  /// Of the line at `x`.
+  Estimate at(double x) const;
+  /// The slope as "1.02 +- 0.03", or "-".
+  std::string slopeText() const;
+
+private:
+  Estimate withConfidence(double value, double variance) const;
+};
+
+/// Both of one length. Where all x are equal, or there are fewer than two, there is no line.
+LineFit fitLine(std::span<const double> x, std::span<const double> y);
+/// Of the logarithms; points with a number that is not positive are left out. The slope is the exponent of a power law.
+LineFit fitPower(std::span<const double> x, std::span<const double> y);
+
+/// Two-sided 95 % quantile of Student's distribution, `freedom` >= 1.
+double student95(int freedom);
+
+} // namespace grouser::support
