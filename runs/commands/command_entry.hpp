@@ -29,7 +29,7 @@ struct CommandEntry {
   /// Adds the subcommand; its callback does the work, and keeps alive what the options fill.
   void (*add)(CLI::App& app, const Invocation& invocation);
   RankUse ranks = RankUse::firstRank;
-  std::string insteadOfRanks; ///< where they are refused: the rest of that message
+  std::string insteadOfRanks{}; ///< where they are refused: the rest of that message
 };
 
 /// In the order of `grouser --help`.
