@@ -18,6 +18,11 @@ inline constexpr unsigned kManyMasses =
     16; ///< damping follows the effective mass of each contact, not one of the whole scene
 inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
 
+/// Numbers that a contact with these features keeps from step to step: the tangential spring, then the rolling angle.
+GROUSER_HD constexpr int historyWidth(unsigned features) {
+  return features & kRollingFriction ? 6 : features & kFriction ? 3 : 0;
+}
+
 /// A contact law between two surfaces, in float or double. All of them are a normal spring and dashpot, and a
 /// tangential spring with history and dashpot that slips at Coulomb's limit (Cundall and Strack 1979,
 /// Geotechnique 29:47):

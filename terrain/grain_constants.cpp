@@ -40,10 +40,6 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   return features;
 }
 
-int historyWidthOf(unsigned features) {
-  return features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
-}
-
 double smallestOf(const GrainModel& model, const std::vector<GrainSpec>& start) {
   double least = model.smallestRadius > 0 ? model.smallestRadius : model.radius;
   for (const GrainSpec& g : start) least = g.radius > 0 ? std::min(least, g.radius) : least;
@@ -86,7 +82,7 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
     : model(grainModel), scale(base::positionScale(2 * model.radius)), smallestRadius(smallestOf(model, start)),
       diameterUnits(unitsOf(2 * model.radius, scale)), skinUnits(unitsOf(model.skin * smallestRadius, scale)),
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
-      historyWidth(historyWidthOf(features)), boundaryCount(boundaries.count()),
+      historyWidth(contact::historyWidth(features)), boundaryCount(boundaries.count()),
       period(periodOf(boundaries, scale, listRange())) {
   // Overlaps are whole units: those of a grain a thousand times smaller would be resolved to 1e-5 of its size only.
   if (smallestRadius < 1e-3 * model.radius)

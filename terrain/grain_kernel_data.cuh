@@ -99,7 +99,9 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   /// another, has raised a flag. Those flags are final: its kernels have ended in the stream before this one starts.
   GROUSER_HD bool ended() const { return d.former && (d.former->stale || d.former->fault != kNoFault); }
   GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction); }
-  GROUSER_HD int historyWidth() const { return has(contact::kRollingFriction) ? 6 : 3; }
+  GROUSER_HD int historyWidth() const {
+    return contact::historyWidth(kFeatures & contact::kGeneral ? d.features : kFeatures);
+  }
 
   GROUSER_HD GrainSize<Real> sizeOf(float radius, float material) const {
     if (!has(kManyRadii)) return {f.radius, f.mass, 0, 0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/bits.hpp"
+#include "contact/sphere_pair.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 namespace grouser::terrain {
@@ -19,6 +20,19 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     float deepest = 0;
   };
 
+  /// Of one of two grains in touch.
+  struct Side {
+    GrainSize<Real> size;
+    Vec velocity, spin;
+  };
+
+  /// What a contact keeps from step to step.
+  struct History {
+    float* at;          ///< null where the laws need none
+    bool held;          ///< whether it is that of this contact, and not of an earlier one
+    base::Vec3f spring; ///< its first three numbers, or 0
+  };
+
   GROUSER_HD void operator()(int k) const {
     if (Kernel::ended()) {
       if (k == 0)
@@ -33,7 +47,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Vec4f v = d.velocity[i], w = d.spin[i];
     if (d.role && d.role[i] != 0) return;
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
-    gatherGrains(i, p, v.xyz().template as<Real>(), w.xyz().template as<Real>(), size, sum);
+    gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
     // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
@@ -55,18 +69,17 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// First which of the listed neighbours touch, then the contacts: the threads of a warp rarely touch at the same
   /// places of their lists, and would each wait for the contacts of all others.
-  GROUSER_HD void gatherGrains(int i, const base::Position& p, const Vec& v, const Vec& w, const GrainSize<Real>& own,
-                               Sum& sum) const {
+  GROUSER_HD void gatherGrains(int i, const base::Position& p, const Side& own, Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
     // 64 neighbours a word; of equal spheres no more can be near.
     std::uint64_t* touching = d.neighbours.touching + (has(kManyRadii) ? i * d.neighbours.maskWords : i);
     for (std::uint32_t first = 0; first == 0 || first < n; first += 64) {
       const std::uint32_t count = has(kManyRadii) && n - first > 64 ? 64 : n - first;
       const std::int64_t row = d.neighbours.at(i, first);
-      const std::uint64_t before = *touching, now = findTouching(p, row, count, own, sum);
+      const std::uint64_t before = *touching, now = findTouching(p, row, count, own.size, sum);
       for (std::uint64_t rest = now; rest != 0; rest &= rest - 1) {
         const int k = base::lowestBit(rest);
-        touchNeighbour(row + k * d.neighbours.stride, before >> k & 1, p, v, w, own, sum);
+        touchNeighbour(row + k * d.neighbours.stride, before >> k & 1, p, own, sum);
       }
       *touching++ = now;
       if (!has(kManyRadii)) break;
@@ -101,65 +114,66 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     return touching;
   }
 
-  /// The contact with the neighbour at place `at` of the list. `held`: its history is that of this contact.
-  GROUSER_HD void touchNeighbour(std::int64_t at, bool heldBefore, const base::Position& p, const Vec& v, const Vec& w,
-                                 const GrainSize<Real>& own, Sum& sum) const {
+  /// The contact with the neighbour at place `at` of the list. `heldBefore`: it was there in the last step.
+  GROUSER_HD void touchNeighbour(std::int64_t at, bool heldBefore, const base::Position& p, const Side& own,
+                                 Sum& sum) const {
     const std::uint32_t j = d.neighbours.slot[at];
-    float* const history = Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
-    const bool held = Kernel::hasHistory() && heldBefore;
-    const base::Vec3f spring = held ? loadVector(history) : base::Vec3f{};
+    History history{Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr,
+                    Kernel::hasHistory() && heldBefore,
+                    {}};
+    if (history.held) history.spring = loadVector(history.at);
     const Vec4f velocity = d.velocity[j], spin = d.spin[j];
     const base::Vec3i apart = Kernel::apart(p, d.position[j]);
-    GrainSize<Real> other{};
+    Side other{{}, velocity.xyz().template as<Real>(), spin.xyz().template as<Real>()};
     std::int64_t reach2 = d.diameterUnits2;
     Real reach = f.diameterUnits;
     if (has(kManyRadii)) {
-      other = Kernel::sizeOf(velocity.w, spin.w);
-      const std::int64_t units = own.units + other.units;
+      other.size = Kernel::sizeOf(velocity.w, spin.w);
+      const std::int64_t units = own.size.units + other.size.units;
       reach2 = units * units, reach = static_cast<Real>(units);
     }
     const std::int64_t distance2 = base::squaredNorm(apart);
-    // (D^2 - d^2) / (D + d) from exact integers: no cancellation.
-    const Real distance = contact::squareRoot(static_cast<Real>(distance2));
-    const Real overlap = static_cast<Real>(reach2 - distance2) / (reach + distance) * f.unit;
-    const Vec normal = apart.as<Real>() * (Real(1) / distance);
-    touchGrain(history, held, spring, normal, overlap, distance * f.unit, own, other,
-               v - velocity.xyz().template as<Real>(), w, spin.xyz().template as<Real>(), sum);
+    touchGrain(history,
+               contact::spherePair(apart.as<Real>(), static_cast<Real>(distance2),
+                                   static_cast<Real>(reach2 - distance2), reach, f.unit),
+               own, other, sum);
   }
 
-  /// `held`: the history is that of this contact; `spring`: its first three numbers, or 0. `relative`: velocity of the
-  /// centres.
-  GROUSER_HD void touchGrain(float* history, bool held, const base::Vec3f& spring, const Vec& normal, Real overlap,
-                             Real distance, const GrainSize<Real>& own, const GrainSize<Real>& other,
-                             const Vec& relative, const Vec& w, const Vec& wj, Sum& sum) const {
-    contact::BasicContactGeometry<Real> touch{normal, overlap, relative, f.halfMass, Real(0.5) * f.radius};
+  GROUSER_HD void touchGrain(const History& history, const contact::SpherePair<Real>& pair, const Side& own,
+                             const Side& other, Sum& sum) const {
+    const Vec& normal = pair.normal;
+    const Real overlap = pair.overlap;
+    contact::BasicContactGeometry<Real> touch{normal, overlap, own.velocity - other.velocity, f.halfMass,
+                                              Real(0.5) * f.radius};
     // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
-    Real arm = Real(0.5) * distance;
+    Real arm = Real(0.5) * pair.distance;
     if (has(kManyRadii)) {
-      arm = own.radius - Real(0.5) * overlap;
-      touch.velocity += cross(w * arm + wj * (other.radius - Real(0.5) * overlap), normal);
-      touch.effectiveMass = own.mass * other.mass / (own.mass + other.mass);
-      touch.effectiveRadius = own.radius * other.radius / (own.radius + other.radius);
+      const GrainSize<Real>&a = own.size, &b = other.size;
+      arm = a.radius - Real(0.5) * overlap;
+      touch.velocity += cross(own.spin * arm + other.spin * (b.radius - Real(0.5) * overlap), normal);
+      touch.effectiveMass = a.mass * b.mass / (a.mass + b.mass);
+      touch.effectiveRadius = a.radius * b.radius / (a.radius + b.radius);
     } else {
-      touch.velocity += cross(w + wj, normal * arm);
+      touch.velocity += cross(own.spin + other.spin, normal * arm);
     }
     const contact::BasicLaw<Real>& law =
-        has(kManyMaterials) ? f.pairLaws[own.material * d.materials + other.material] : f.law;
-    Vec shear = spring.template as<Real>();
+        has(kManyMaterials) ? f.pairLaws[own.size.material * d.materials + other.size.material] : f.law;
+    Vec shear = history.spring.template as<Real>();
     const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
-    if (Kernel::hasHistory()) storeVector(history, shear.template as<float>());
+    if (Kernel::hasHistory()) storeVector(history.at, shear.template as<float>());
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(normal * arm, reaction.force);
     Real dissipated = reaction.dissipated;
     if (has(contact::kRollingFriction)) {
       Vec angle{};
-      if (held) angle = loadVector(history + 3).template as<Real>();
-      const Real inertia = has(kManyRadii) ? contact::rollingInertia(own.mass, own.radius, other.mass, other.radius)
-                                           : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
-      const contact::RollingMotion<Real> motion{normal, w - wj, touch.effectiveRadius, inertia};
+      if (history.held) angle = loadVector(history.at + 3).template as<Real>();
+      const Real inertia =
+          has(kManyRadii) ? contact::rollingInertia(own.size.mass, own.size.radius, other.size.mass, other.size.radius)
+                          : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
+      const contact::RollingMotion<Real> motion{normal, own.spin - other.spin, touch.effectiveRadius, inertia};
       sum.torque += contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle,
                                            dissipated);
-      storeVector(history + 3, angle.template as<float>());
+      storeVector(history.at + 3, angle.template as<float>());
     }
     sum.dissipated += Real(0.5) * dissipated; // the other half is the neighbour's
     if (static_cast<float>(overlap) > sum.deepest) sum.deepest = static_cast<float>(overlap);

@@ -65,6 +65,8 @@ constexpr ShoeField kShoeFields[] = {
 
 } // namespace
 
+std::string firstQuantity() { return std::string("vehicle/") + kVectorFields[0].name; }
+
 std::vector<Quantity> quantities(const Assembly& vehicle) {
   std::vector<Quantity> list;
   for (const VectorField& f : kVectorFields)

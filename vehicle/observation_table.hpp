@@ -19,6 +19,8 @@ struct Quantity {
 
 /// What an observation of this vehicle holds, in the order of flatten().
 std::vector<Quantity> quantities(const Assembly& vehicle);
+/// Path of the first of them.
+std::string firstQuantity();
 
 /// The numbers of an observation, each quantity's `width` numbers in turn.
 std::vector<double> flatten(const Observation& observation);

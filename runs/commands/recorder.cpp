@@ -174,7 +174,7 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
 void Recorder::row() {
   row_.begin(simulation_.steps(), simulation_.time());
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
-    row_.setFrom("vehicle/position", vehicle::flatten(rig->observe()));
+    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(rig->observe()));
   const simulation::Simulation::Ledger l = simulation_.ledger();
   simulation_.checkEnergy(l);
   if (const auto& grains = simulation_.ground().grains) {

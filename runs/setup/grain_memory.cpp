@@ -31,7 +31,7 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   constexpr double kPlaces = 8, kContacts = 4;
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
   const unsigned features = grainFeatures(scene, grainKinds(scene));
-  const double width = features & contact::kRollingFriction ? 6 : features & contact::kFriction ? 3 : 0;
+  const double width = contact::historyWidth(features);
   const bool walls = scene.terrain && scene.terrain->granular() && scene.terrain->walls;
   const auto boundaries = static_cast<double>(scene.planes.size() + scene.boxes.size() + scene.cylinders.size() +
                                               (scene.terrain ? 1 : 0) + (walls ? 4 : 0));

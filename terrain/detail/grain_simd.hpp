@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/simd_rows.hpp"
+#include "contact/sphere_pair.hpp"
 #include "terrain/grain_simd.hpp"
 
 namespace grouser::terrain::detail {
@@ -44,7 +45,7 @@ public:
       for (int c = 0; c < contacts_; ++c) collect(c);
       for (int c = 0; c < contacts_; c += kWidth) computeContacts(c, f);
       if (kWithFriction)
-        for (int c = 0; c < contacts_; ++c) base::store3(d.neighbours.history + 3 * std::size_t{entry_[c]}, spring_[c]);
+        for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]), spring_[c]);
       for (int g = 0; g < grains_; ++g) advance(g, slotOf(from + g));
     }
   }
@@ -54,12 +55,18 @@ private:
   using Int = Simd<std::int32_t, kWidth>;
   using Long = Simd<std::int64_t, kWidth>;
   using Vec = base::Vec3<Float>;
+  static constexpr unsigned kLaw = kWithFriction ? contact::kFriction : 0u;
   static constexpr int kGrains = 64, kContacts = 192; ///< of a block
   static constexpr int kFound = kWidth < 8 ? 4 : 8;   ///< candidates that are tried side by side
   using Found = Simd<std::int32_t, kFound>;
 
   GROUSER_SIMD int slotOf(int k) const { return d.active ? static_cast<int>(d.active[k]) : k; }
   GROUSER_SIMD int candidatesOf(int k) const { return static_cast<int>(d.neighbours.count[slotOf(k)]); }
+
+  /// History of a place of the neighbour list.
+  GROUSER_SIMD float* springOf(std::uint32_t entry) const {
+    return d.neighbours.history + contact::historyWidth(contact::kFriction) * std::size_t{entry};
+  }
 
   /// Appends the contacts of the k-th grain to the block.
   GROUSER_SIMD void find(int k) {
@@ -98,7 +105,7 @@ private:
     std::uint64_t& before = d.neighbours.touching[i];
     if (kWithFriction) // springs of contacts that begin are not stretched yet
       for (std::uint64_t begun = now & ~before; begun != 0; begun &= begun - 1)
-        base::store3(d.neighbours.history + 3 * (row + __builtin_ctzll(begun)), Float4{});
+        base::store3(springOf(row + static_cast<std::uint32_t>(__builtin_ctzll(begun))), Float4{});
     before = now;
     contacts_ = c;
     ++grains_;
@@ -129,7 +136,7 @@ private:
     store(apart_ + c, load<Int4>(d.position + j) - load<Int4>(d.position + i));
     store(moving_ + c, load<Float4>(d.velocity + i) - load<Float4>(d.velocity + j));
     store(turning_ + c, load<Float4>(d.spin + i) + load<Float4>(d.spin + j));
-    if (kWithFriction) spring_[c] = base::load3(d.neighbours.history + 3 * std::size_t{entry_[c]});
+    if (kWithFriction) spring_[c] = base::load3(springOf(entry_[c]));
   }
 
   GROUSER_SIMD static Vec firstThree(const Float (&r)[4]) { return {r[0], r[1], r[2]}; }
@@ -146,24 +153,22 @@ private:
     const Long x = base::convert<std::int64_t>(apart.x), y = base::convert<std::int64_t>(apart.y),
                z = base::convert<std::int64_t>(apart.z);
     const Long distance2 = x * x + y * y + z * z;
-    const Float distance = base::squareRoot(base::convert<float>(distance2));
-    const Float overlap = base::convert<float>(d.diameterUnits2 - distance2) / (f.diameterUnits + distance) * f.unit;
-    const Vec normal =
-        Vec{base::convert<float>(apart.x), base::convert<float>(apart.y), base::convert<float>(apart.z)} *
-        (1.0f / distance);
-    const Vec arm = normal * (0.5f * (distance * f.unit));
+    const auto pair = contact::spherePair<Float>(
+        {base::convert<float>(apart.x), base::convert<float>(apart.y), base::convert<float>(apart.z)},
+        base::convert<float>(distance2), base::convert<float>(d.diameterUnits2 - distance2), f.diameterUnits, f.unit);
+    const Vec arm = pair.normal * (0.5f * pair.distance);
 
     const Vec velocity = firstThree(relative) + cross(firstThree(turning), arm);
-    const contact::BasicContactGeometry<Float> touch{normal, overlap, velocity, base::broadcast<Float>(f.halfMass)};
-    const auto reaction =
-        contact::contactForce < kWithFriction ? contact::kFriction : 0u > (f.law, touch, f.timeStep, shear);
+    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity,
+                                                     base::broadcast<Float>(f.halfMass)};
+    const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
     if (kWithFriction) {
       spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z;
       base::storeRows(spring_ + c, spring);
     }
     const Vec torque = cross(arm, reaction.force);
     Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z, 0.5f * reaction.dissipated};
-    Float torques[4] = {torque.x, torque.y, torque.z, overlap};
+    Float torques[4] = {torque.x, torque.y, torque.z, pair.overlap};
     base::storeRows(moving_ + c, forces), base::storeRows(turning_ + c, torques);
   }
 
