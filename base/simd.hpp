@@ -7,7 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+#if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
 /// Numbers side by side in one register, a lane each: the compiler's own vectors, on which its operators, comparisons
 /// and `mask ? a : b` work lane by lane. A wide vector on a processor with narrow registers is split into several; the
@@ -20,14 +23,15 @@
 ///   - of the width that the processor has (grains: 4, 8 or 16 floats): a source file for each, compiled with its
 ///     options, and a choice at run time. Such a file must leave nothing behind that other files have too: the linker
 ///     might take that copy for the whole program. So all that it calls is inlined (GROUSER_SIMD here, `flatten` on its
-///     one function), and the test simd.alone looks into the objects.
+///     one function), and the test simd.alone looks into the objects. That holds for optimised builds only.
 ///
 /// Not Highway or std::experimental::simd: their vectors do not go where float goes (members of structs and arrays, the
 /// operators of base::Vec3 with scalars), so the laws would stand a second time, written in their functions.
 namespace grouser::base {
 
 #define GROUSER_SIMD inline __attribute__((always_inline))
-#if !defined(GROUSER_SIMD_CLONES) // tests choose for themselves
+#if !defined(                                                                                                          \
+    GROUSER_SIMD_CLONES) // tests choose for themselves; the address sanitizer is not up yet when clones are chosen
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
 #define GROUSER_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))
 #else
@@ -69,10 +73,10 @@ template <SimdVector V> GROUSER_SIMD void store(void* to, const V& v) { std::mem
 template <SimdVector V> GROUSER_SIMD V absolute(const V& x) { return x < V{} ? -x : x; }
 
 /// One bit for each lane of a mask, lane 0 lowest.
-template <SimdVector Mask> GROUSER_SIMD unsigned bitsSet(const Mask& mask) {
+template <SimdVector Mask> GROUSER_SIMD unsigned laneBits(const Mask& mask) {
   constexpr int kLane = sizeof(mask[0]), kBytes = sizeof mask;
   static_assert(kLane == 4 || kLane == 8);
-#if defined(__AVX512F__)
+#if defined(__AVX512DQ__)
   if constexpr (kBytes == 64 && kLane == 4) return _mm512_movepi32_mask(bitsAs<__m512i>(mask));
 #endif
 #if defined(__AVX__)
@@ -81,7 +85,9 @@ template <SimdVector Mask> GROUSER_SIMD unsigned bitsSet(const Mask& mask) {
   else if constexpr (kBytes == 32)
     return static_cast<unsigned>(_mm256_movemask_pd(bitsAs<__m256d>(mask)));
 #endif
+#if defined(__x86_64__)
   if constexpr (kBytes == 16 && kLane == 4) return static_cast<unsigned>(_mm_movemask_ps(bitsAs<__m128>(mask)));
+#endif
   unsigned bits = 0;
   for (int l = 0; l < kWidthOf<Mask>; ++l) bits |= static_cast<unsigned>(mask[l] & 1) << l;
   return bits;
@@ -97,8 +103,9 @@ template <SimdVector V> struct NumberTraits<V> {
     return r;
   }
   GROUSER_SIMD static bool any(const V& mask) {
+    // GROUSER_SIMD_CLONES compile this where no __AVX__ is defined, and the compiler then finds its own instruction.
     if constexpr (sizeof mask == 32 && sizeof(Scalar) == 8) return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
-    return bitsSet(mask) != 0;
+    return laneBits(mask) != 0;
   }
 };
 

@@ -14,8 +14,8 @@ inline constexpr unsigned kHertz = 1; ///< Hertz' normal and Mindlin's tangentia
 inline constexpr unsigned kFriction = 2;        ///< tangential spring with Coulomb's limit
 inline constexpr unsigned kRollingFriction = 4; ///< rolling resistance with history
 inline constexpr unsigned kCohesion = 8;        ///< constant attraction while in touch
-inline constexpr unsigned kManyMasses =
-    16; ///< damping follows the effective mass of each contact, not one of the whole scene
+/// Damping follows the effective mass of each contact, not one of the whole scene.
+inline constexpr unsigned kManyMasses = 16;
 inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
 
 /// Numbers that a contact with these features keeps from step to step: the tangential spring, then the rolling angle.

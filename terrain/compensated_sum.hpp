@@ -17,15 +17,25 @@ struct alignas(16) Remainders {
   std::uint32_t position;
 };
 
+/// A velocity's remainder counts in this part of the power of two below |v|.
+inline constexpr double kRemainderOfBinade = 0x1p-39;
+/// As the bits of a float: 2^-100; below that nothing matters.
+inline constexpr std::int32_t kLeastBinade = 27 << 23;
+inline constexpr int kLeastRemainder = -32768, kMostRemainder = 32767;
+/// A position's remainder counts in this part of a unit.
+inline constexpr int kPlacesPerUnit = 1024, kLeastPlace = -512, kMostPlace = 511;
+/// Units of one step beyond which a speed is a fault, and no integer is made of it.
+inline constexpr double kMostUnitsPerStep = 1e9;
+
 /// Quantum of a velocity's remainder: 2^-39 of the power of two below |v|, which is 2^-16 of the float's last place.
 GROUSER_HD double remainderQuantum(float v) {
   std::uint32_t bits;
   memcpy(&bits, &v, sizeof bits);
   bits &= 0x7F800000u;
-  if (bits < 27u << 23) bits = 27u << 23; // 2^-100: below that nothing matters
+  if (bits < std::uint32_t{kLeastBinade}) bits = kLeastBinade;
   float binade;
   memcpy(&binade, &bits, sizeof binade);
-  return static_cast<double>(binade) * 0x1p-39;
+  return static_cast<double>(binade) * kRemainderOfBinade;
 }
 
 /// value + remainder += increment. Returns the new sum in double.
@@ -33,7 +43,7 @@ GROUSER_HD double addCompensated(float& value, std::int16_t& remainder, double i
   const double sum = static_cast<double>(value) + remainder * remainderQuantum(value) + increment;
   value = static_cast<float>(sum);
   double r = floor((sum - static_cast<double>(value)) / remainderQuantum(value) + 0.5);
-  r = r > 32767 ? 32767 : r < -32768 ? -32768 : r;
+  r = r > kMostRemainder ? kMostRemainder : r < kLeastRemainder ? kLeastRemainder : r;
   remainder = static_cast<std::int16_t>(r);
   return sum;
 }
@@ -48,10 +58,10 @@ GROUSER_HD std::uint32_t packRemainders(std::int16_t low, std::int16_t high) {
 /// Whole units of a displacement given in units; the rest, in 1/1024 units, stays in 10 bits of `word`.
 GROUSER_HD std::int64_t advanceKeeping(double displacement, std::uint32_t& word, int axis) {
   const int kept = static_cast<std::int32_t>(word << (22 - 10 * axis)) >> 22;
-  const double wanted = displacement + kept * (1.0 / 1024);
+  const double wanted = displacement + kept * (1.0 / kPlacesPerUnit);
   const double whole = floor(wanted + 0.5);
-  double r = floor((wanted - whole) * 1024 + 0.5);
-  r = r > 511 ? 511 : r < -512 ? -512 : r;
+  double r = floor((wanted - whole) * kPlacesPerUnit + 0.5);
+  r = r > kMostPlace ? kMostPlace : r < kLeastPlace ? kLeastPlace : r;
   word &= ~(0x3FFu << 10 * axis);
   word |= (static_cast<std::uint32_t>(static_cast<std::int32_t>(r)) & 0x3FFu) << 10 * axis;
   return static_cast<std::int64_t>(whole);

@@ -250,7 +250,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.
-      if (displacement > -1e9 && displacement < 1e9) moved[a] += advanceKeeping(displacement, kept.position, a);
+      if (displacement > -kMostUnitsPerStep && displacement < kMostUnitsPerStep)
+        moved[a] += advanceKeeping(displacement, kept.position, a);
     }
     if (has(kPeriodic)) crossSides(i, moved, r);
     const base::Position q = base::fromUnits(moved);

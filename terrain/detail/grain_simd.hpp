@@ -31,7 +31,7 @@ using base::store;
 /// wide registers serve the whole program.
 template <int kWidth, bool kWithFriction, bool kWithLedger> class GrainSimd {
 public:
-  GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces) : d(data), forces_(forces) {}
+  GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces) : data_(data), forces_(forces) {}
 
   GROUSER_SIMD void run(int first, int last) {
     // A copy that no store can change: what follows from it alone is worked out once, not for each contact.
@@ -43,6 +43,8 @@ public:
       while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts);
       begin_[grains_] = contacts_;
       for (int c = 0; c < contacts_; ++c) collect(c);
+      for (int c = contacts_; c % kWidth != 0; ++c) // lanes of the last group that no contact takes
+        apart_[c] = moving_[c] = turning_[c] = spring_[c] = Float4{};
       for (int c = 0; c < contacts_; c += kWidth) computeContacts(c, f);
       if (kWithFriction)
         for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]), spring_[c]);
@@ -60,22 +62,22 @@ private:
   static constexpr int kFound = kWidth < 8 ? 4 : 8;   ///< candidates that are tried side by side
   using Found = Simd<std::int32_t, kFound>;
 
-  GROUSER_SIMD int slotOf(int k) const { return d.active ? static_cast<int>(d.active[k]) : k; }
-  GROUSER_SIMD int candidatesOf(int k) const { return static_cast<int>(d.neighbours.count[slotOf(k)]); }
+  GROUSER_SIMD int slotOf(int k) const { return data_.active ? static_cast<int>(data_.active[k]) : k; }
+  GROUSER_SIMD int candidatesOf(int k) const { return static_cast<int>(data_.neighbours.count[slotOf(k)]); }
 
   /// History of a place of the neighbour list.
   GROUSER_SIMD float* springOf(std::uint32_t entry) const {
-    return d.neighbours.history + contact::historyWidth(contact::kFriction) * std::size_t{entry};
+    return data_.neighbours.history + contact::historyWidth(contact::kFriction) * std::size_t{entry};
   }
 
   /// Appends the contacts of the k-th grain to the block.
   GROUSER_SIMD void find(int k) {
     const int i = slotOf(k), n = candidatesOf(k);
-    const std::uint32_t row = d.neighbours.start[i]; // its places follow each other
-    const std::uint32_t* const slot = d.neighbours.slot + row;
-    const Int4 p = load<Int4>(d.position + i);
+    const std::uint32_t row = data_.neighbours.start[i]; // its places follow each other
+    const std::uint32_t* const slot = data_.neighbours.slot + row;
+    const Int4 p = load<Int4>(data_.position + i);
     // Squares of distances in float are right to 5 roundings, 3e-7: beyond this margin they decide.
-    const auto reach2 = static_cast<float>(d.diameterUnits2);
+    const auto reach2 = static_cast<float>(data_.diameterUnits2);
     const float surely2 = reach2 * (1 - 2e-6f), perhaps2 = reach2 * (1 + 2e-6f);
     Found lane;
     for (int l = 0; l < kFound; ++l) lane[l] = l;
@@ -86,15 +88,15 @@ private:
     samePlace_[grains_] = false;
     for (int m = 0; m < n; m += kFound) {
       Found other[4];
-      base::gatherRows<kFound>(d.position, slot + m, other);
+      base::gatherRows<kFound>(data_.position, slot + m, other);
       const auto x = base::convert<float>(other[0] - p[0]);
       const auto y = base::convert<float>(other[1] - p[1]);
       const auto z = base::convert<float>(other[2] - p[2]);
       const auto distance2 = x * x + y * y + z * z;
       const unsigned inRow = n - m < kFound ? (1u << (n - m)) - 1 : (1u << kFound) - 1;
       const auto open = ((distance2 < perhaps2) & (distance2 >= surely2)) | (distance2 == 0.0f);
-      unsigned touching = base::bitsSet(distance2 < surely2) & inRow;
-      if (const unsigned undecided = base::bitsSet(open) & inRow) [[unlikely]]
+      unsigned touching = base::laneBits(distance2 < surely2) & inRow;
+      if (const unsigned undecided = base::laneBits(open) & inRow) [[unlikely]]
         touching = decide(i, slot + m, touching, undecided);
       base::storeMarked(other_ + c, load<Found>(slot + m), touching);
       base::storeMarked(entry_ + c, lane + static_cast<std::int32_t>(row + m), touching);
@@ -102,7 +104,7 @@ private:
       now |= std::uint64_t{touching} << m;
       c += __builtin_popcount(touching);
     }
-    std::uint64_t& before = d.neighbours.touching[i];
+    std::uint64_t& before = data_.neighbours.touching[i];
     if (kWithFriction) // springs of contacts that begin are not stretched yet
       for (std::uint64_t begun = now & ~before; begun != 0; begun &= begun - 1)
         base::store3(springOf(row + static_cast<std::uint32_t>(__builtin_ctzll(begun))), Float4{});
@@ -113,14 +115,14 @@ private:
 
   /// Corrects those bits of `touching` that are set in `open`, by exact squares.
   GROUSER_SIMD unsigned decide(int i, const std::uint32_t* slot, unsigned touching, unsigned open) {
-    const Int4 p = load<Int4>(d.position + i);
+    const Int4 p = load<Int4>(data_.position + i);
     for (; open != 0; open &= open - 1) {
       const int l = __builtin_ctz(open);
-      const std::int64_t distance2 = squareOf(load<Int4>(d.position + slot[l]) - p);
+      const std::int64_t distance2 = squareOf(load<Int4>(data_.position + slot[l]) - p);
       touching &= ~(1u << l);
       if (distance2 == 0)
         samePlace_[grains_] = true;
-      else if (distance2 < d.diameterUnits2)
+      else if (distance2 < data_.diameterUnits2)
         touching |= 1u << l;
     }
     return touching;
@@ -133,9 +135,9 @@ private:
   /// The rows of contact c: what tells the two grains apart.
   GROUSER_SIMD void collect(int c) {
     const std::uint32_t i = grain_[c], j = other_[c];
-    store(apart_ + c, load<Int4>(d.position + j) - load<Int4>(d.position + i));
-    store(moving_ + c, load<Float4>(d.velocity + i) - load<Float4>(d.velocity + j));
-    store(turning_ + c, load<Float4>(d.spin + i) + load<Float4>(d.spin + j));
+    store(apart_ + c, load<Int4>(data_.position + j) - load<Int4>(data_.position + i));
+    store(moving_ + c, load<Float4>(data_.velocity + i) - load<Float4>(data_.velocity + j));
+    store(turning_ + c, load<Float4>(data_.spin + i) + load<Float4>(data_.spin + j));
     if (kWithFriction) spring_[c] = base::load3(springOf(entry_[c]));
   }
 
@@ -155,12 +157,14 @@ private:
     const Long distance2 = x * x + y * y + z * z;
     const auto pair = contact::spherePair<Float>(
         {base::convert<float>(apart.x), base::convert<float>(apart.y), base::convert<float>(apart.z)},
-        base::convert<float>(distance2), base::convert<float>(d.diameterUnits2 - distance2), f.diameterUnits, f.unit);
+        base::convert<float>(distance2), base::convert<float>(data_.diameterUnits2 - distance2), f.diameterUnits,
+        f.unit);
     const Vec arm = pair.normal * (0.5f * pair.distance);
 
     const Vec velocity = firstThree(relative) + cross(firstThree(turning), arm);
     const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity,
-                                                     base::broadcast<Float>(f.halfMass)};
+                                                     base::broadcast<Float>(f.halfMass),
+                                                     base::broadcast<Float>(0.5f * f.radius)};
     const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
     if (kWithFriction) {
       spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z;
@@ -179,8 +183,8 @@ private:
       torque += turning_[c];
       most = turning_[c] > most ? turning_[c] : most;
     }
-    float dissipated = force[3], deepest = samePlace_[g] ? d.diameter : most[3];
-    if (const std::uint32_t place = d.features & kBoundaries ? d.boundaryOf[i] : 0) {
+    float dissipated = force[3], deepest = samePlace_[g] ? data_.diameter : most[3];
+    if (const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
       dissipated += load.dissipated;
@@ -188,71 +192,75 @@ private:
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};
-    if (d.features & kLoads && d.loads.range[i] != 0) {
+    if (data_.features & kLoads && data_.loads.range[i] != 0) {
       base::Vec3d f3{f4[0], f4[1], f4[2]}, t3{t4[0], t4[1], t4[2]};
-      addLoadsOf(d, forces_, i, f3, t3, dissipated, deepest);
+      addLoadsOf(data_, forces_, i, f3, t3, dissipated, deepest);
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
-    if (kWithLedger) d.dissipated[i] += static_cast<double>(dissipated);
+    if (kWithLedger) data_.dissipated[i] += static_cast<double>(dissipated);
     if (!advanceSimd(i, f4, t4, deepest))
-      advanceGrain(d, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest);
+      advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest);
   }
 
   /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing
   /// by one is multiplying by its inverse, to the last bit.
   GROUSER_SIMD static Double4 addCompensatedAxes(Float4& value, Int4& remainder, const Double4& increment) {
-    const Double4 sum = base::toDouble(value) +
-                        base::toDouble(remainder) * (base::toDouble(base::bitsAs<Float4>(binadeOf(value))) * 0x1p-39) +
-                        increment;
+    const Double4 sum =
+        base::toDouble(value) +
+        base::toDouble(remainder) * (base::toDouble(base::bitsAs<Float4>(binadeOf(value))) * kRemainderOfBinade) +
+        increment;
     value = base::toFloat(sum);
     const Float4 perBinade = base::bitsAs<Float4>((254 << 23) - binadeOf(value));
-    const Double4 rest = (sum - base::toDouble(value)) * (base::toDouble(perBinade) * 0x1p39);
-    remainder = base::clamped(base::toInt(base::roundedDown(rest + 0.5)), -32768, 32767);
+    const Double4 rest = (sum - base::toDouble(value)) * (base::toDouble(perBinade) * (1 / kRemainderOfBinade));
+    remainder = base::clamped(base::toInt(base::roundedDown(rest + 0.5)), kLeastRemainder, kMostRemainder);
     return sum;
   }
   GROUSER_SIMD static Int4 binadeOf(const Float4& v) {
-    const Int4 bits = base::bitsAs<Int4>(v) & 0x7F800000, least = Int4{} + (27 << 23);
+    const Int4 bits = base::bitsAs<Int4>(v) & 0x7F800000, least = base::broadcast<Int4>(kLeastBinade);
     return bits < least ? least : bits;
   }
 
   /// GrainStep::advance() where nothing is out of the ordinary; else false, and nothing is done.
   GROUSER_SIMD bool advanceSimd(int i, const Double4& force, const Double4& torque, float deepest) {
-    Float4 v = load<Float4>(d.velocity + i), w = load<Float4>(d.spin + i);
-    const Int4 kept = load<Int4>(d.remainders + i);
+    Float4 v = load<Float4>(data_.velocity + i), w = load<Float4>(data_.spin + i);
+    const Int4 kept = load<Int4>(data_.remainders + i);
     Int4 rv = kept << 16 >> 16, rw = kept >> 16;
-    const Double4 gravity{d.gravityStep.x, d.gravityStep.y, d.gravityStep.z, 0};
-    const Double4 speed = addCompensatedAxes(v, rv, force * d.stepPerMass + gravity);
-    if (kWithFriction || d.features & kLoads) addCompensatedAxes(w, rw, torque * d.stepPerInertia);
-    const Double4 displacement = speed * d.unitsPerSpeed;
+    const Double4 gravity{data_.gravityStep.x, data_.gravityStep.y, data_.gravityStep.z, 0};
+    const Double4 speed = addCompensatedAxes(v, rv, force * data_.stepPerMass + gravity);
+    if (kWithFriction || data_.features & kLoads) addCompensatedAxes(w, rw, torque * data_.stepPerInertia);
+    Double4 displacement = speed * data_.unitsPerSpeed;
+    const auto near = (displacement > -kMostUnitsPerStep) & (displacement < kMostUnitsPerStep);
+    displacement = near ? displacement : Double4{}; // a speed that is no number must not reach the integer conversion
 
     const float speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     // advanceKeeping()
     const Int4 places = Int4{kept[3], kept[3], kept[3], 0} << Int4{22, 12, 2, 0} >> 22; // ten bits each
-    const Double4 wanted = displacement + base::toDouble(places) * (1.0 / 1024);
+    const Double4 wanted = displacement + base::toDouble(places) * (1.0 / kPlacesPerUnit);
     const Double4 whole = base::roundedDown(wanted + 0.5);
-    const Int4 r = base::clamped(base::toInt(base::roundedDown((wanted - whole) * 1024.0 + 0.5)), -512, 511) & 0x3FF;
-    const Int4 p = load<Int4>(d.position + i);
+    const Int4 r = base::clamped(base::toInt(base::roundedDown((wanted - whole) * double{kPlacesPerUnit} + 0.5)),
+                                 kLeastPlace, kMostPlace) &
+                   0x3FF;
+    const Int4 p = load<Int4>(data_.position + i);
     const Int4 units = base::toInt(whole) & Int4{-1, -1, -1, 0};
     const Int4 q = p + units;
     // The high words change where a low word passes its end.
     const Int4 passes =
         (base::bitsAs<Simd<std::uint32_t, 4>>(q) < base::bitsAs<Simd<std::uint32_t, 4>>(p)) ^ (units < 0);
-    const auto near = (displacement > -1e9) & (displacement < 1e9);
-    const bool ordinary = speed2 <= d.maxSpeed2 && speed2 < 1e30f && !(deepest > d.maxOverlap) &&
-                          base::bitsSet(passes) == 0 && (base::bitsSet(near) & 7) == 7;
+    const bool ordinary = speed2 <= data_.maxSpeed2 && speed2 < 1e30f && !(deepest > data_.maxOverlap) &&
+                          base::laneBits(passes) == 0 && (base::laneBits(near) & 7) == 7;
     if (!ordinary) return false;
 
     Int4 keep = (rv & 0xFFFF) | rw << 16;
     keep[3] = (kept[3] & ~0x3FFFFFFF) | r[0] | r[1] << 10 | r[2] << 20;
     v[3] = 0, w[3] = 0;
-    store(d.nextPosition + i, q), store(d.nextVelocity + i, v), store(d.nextSpin + i, w);
-    store(d.remainders + i, keep);
-    if (squareOf(q - base::bitsAs<Int4>(base::load3(d.reference + i))) > d.halfSkinUnits2)
-      __atomic_store_n(&d.flags->stale, 1u, __ATOMIC_RELAXED);
+    store(data_.nextPosition + i, q), store(data_.nextVelocity + i, v), store(data_.nextSpin + i, w);
+    store(data_.remainders + i, keep);
+    if (squareOf(q - base::bitsAs<Int4>(base::load3(data_.reference + i))) > data_.halfSkinUnits2)
+      __atomic_store_n(&data_.flags->stale, 1u, __ATOMIC_RELAXED);
     return true;
   }
 
-  const GrainKernelData& d;
+  const GrainKernelData& data_;
   const ForceData<float>& forces_;
   int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];

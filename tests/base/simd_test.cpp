@@ -36,12 +36,12 @@ TEST(Simd, SquareRootIsThatOfTheNumberAlone) {
 template <class V> void expectMasks() {
   for (int l = 0; l < kWidthOf<V>; ++l) {
     const auto mask = counted<V>(0) == broadcast<V>(static_cast<ScalarOf<V>>(l));
-    EXPECT_EQ(bitsSet(mask), 1u << l);
+    EXPECT_EQ(laneBits(mask), 1u << l);
     EXPECT_TRUE(any(mask));
-    EXPECT_EQ(bitsSet(!mask), ((1u << kWidthOf<V>)-1) ^ 1u << l);
+    EXPECT_EQ(laneBits(!mask), ((1u << kWidthOf<V>)-1) ^ 1u << l);
   }
   EXPECT_FALSE(any(counted<V>(0) < V{}));
-  EXPECT_EQ(bitsSet(counted<V>(0) < V{}), 0u);
+  EXPECT_EQ(laneBits(counted<V>(0) < V{}), 0u);
 }
 TEST(Simd, MasksHaveABitForEachLane) {
   expectMasks<Simd<float, 4>>();
