@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <sstream>
 
 namespace grouser::base {
 
@@ -312,10 +313,26 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
   return best;
 }
 
+namespace {
+
+/// The words of `text` in lines of at most 120 columns.
+std::string wrapped(const std::string& text) {
+  std::string lines, line;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!line.empty() && line.size() + 1 + word.size() > 120) lines += line + '\n', line.clear();
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return lines + line;
+}
+
+} // namespace
+
 std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
                            const std::vector<FieldValue>& defaults) {
-  std::string text = fmt::format(
-      "### `[{}]`\n\n{}.\n\n| key | unit | default | range | what it is |\n|---|---|---|---|---|\n", name, help);
+  std::string text =
+      fmt::format("### `[{}]`\n\n{}\n\n| key | unit | default | range | what it is |\n|---|---|---|---|---|\n", name,
+                  wrapped(help + "."));
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const Field& f = fields[i];
     std::string fallback = toToml(defaults[i]);

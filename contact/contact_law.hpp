@@ -31,7 +31,8 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
 ///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; when it slips the spring is shortened to fit:
 ///                                               linear, to all of the force; Hertz, to no more than the limit
 ///
-/// Linear:  elastic = k overlap,  c_n = gamma m_eff,  k_t constant.
+/// Linear:  elastic = k overlap,  k_t constant,  c_n = gamma m_eff;  among grains of many masses, where a restitution
+/// is given, c_n = 2 zeta sqrt(k m_eff), so that it is the same for all of them.
 ///
 /// Hertz-Mindlin, with the contact radius a = sqrt(R_eff overlap):
 ///   elastic = (4/3) E_eff a overlap,  k_t = 8 G_eff a (Mindlin 1949, no slip),  c_n = 2 beta sqrt(2 E_eff a m_eff), so

@@ -52,4 +52,27 @@ VehicleSpec readVehicleSpec(const std::string& path) {
   return spec;
 }
 
+std::string specFieldHelp() {
+  std::string text = R"(## Keys of a vehicle file
+
+The file that `vehicle.spec` of a scene names. It begins with `version = 1`; all sections and keys are required. SI
+units, angles in radians. Axes: x forward, y left, z up; origin: the middle of the sprockets' axle line. The two tracks
+are alike. Inertia is about a part's centre of mass, along the axes of its frame.
+
+A mesh is closed, its triangles face outward, its vertices are in metres in the frame of its part:
+
+- chassis: the vehicle's frame, origin in the middle of the sprockets' axle line;
+- shoe: origin in the middle between its two pin axes, x along the track, forward on the ground run, z towards the
+  inside of the loop: its pins lie at x = +- pitch / 2, z = 0;
+- sprocket, road wheel, roller, idler: origin on the axle, y along it; gap k of the sprocket at the angle
+  2 pi k / teeth from +x towards +z, so deep that pins seat at the radius pitch / (2 sin(pi / teeth)).
+)";
+  const std::string tables[] = {
+      base::describe(vehicleTable()),  base::describe(chassisTable()),   base::describe(shoeTable()),
+      base::describe(sprocketTable()), base::describe(roadWheelTable()), base::describe(armTable()),
+      base::describe(rollerTable()),   base::describe(idlerTable()),     base::describe(contactTable())};
+  for (const std::string& table : tables) text.append("\n").append(table);
+  return text;
+}
+
 } // namespace grouser::vehicle

@@ -11,4 +11,7 @@ namespace grouser::vehicle {
 /// out of range.
 VehicleSpec readVehicleSpec(const std::string& path);
 
+/// All keys of a vehicle spec file with unit, range and meaning, as Markdown.
+std::string specFieldHelp();
+
 } // namespace grouser::vehicle

@@ -16,7 +16,10 @@ template <class S> void addMass(Table<S>& table) {
 }
 template <class S> void addSurface(Table<S>& table) {
   addMass(table);
-  table.add("mesh", static_cast<std::string S::*>(&SurfaceSpec::mesh), "", "mesh file in the mesh folder").required();
+  table
+      .add("mesh", static_cast<std::string S::*>(&SurfaceSpec::mesh), "",
+           "mesh file in mesh_folder: closed, outward, in metres, in the part's frame")
+      .required();
 }
 
 } // namespace
@@ -50,7 +53,7 @@ Table<ShoeSpec> shoeTable() {
       .atMost(0.2)
       .required();
   t.add("half_length", &ShoeSpec::halfLength, "m", "half length of plate and pad").above(0).atMost(0.5).required();
-  t.add("pad_half_width", &ShoeSpec::padHalfWidth, "m", "pads reach to this |y|").above(0).atMost(1).required();
+  t.add("pad_half_width", &ShoeSpec::padHalfWidth, "m", "pads reach to y = +- this").above(0).atMost(1).required();
   t.add("horn_height", &ShoeSpec::hornHeight, "m", "guide horn above the plate").above(0).atMost(0.3).required();
   t.add("maximum_fold", &ShoeSpec::maximumFold, "rad", "largest angle between neighbours that the plates clear")
       .above(0)

@@ -68,4 +68,10 @@ struct SpheresCommand {
 };
 void spheresCommand(const SpheresCommand& command);
 
+struct FieldsCommand {
+  bool vehicle = false;  ///< the keys of a vehicle file, not of a scene
+  bool markdown = false; ///< both, as docs/keys.md has them
+};
+void fieldsCommand(const FieldsCommand& command);
+
 } // namespace grouser::commands

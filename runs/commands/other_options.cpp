@@ -2,10 +2,7 @@
 #include "runs/commands/command_entry.hpp"
 
 #include "runs/commands/commands.hpp"
-#include "runs/scene/scene_file.hpp"
 #include "runs/support/option_checks.hpp"
-
-#include <fmt/format.h>
 
 #include <memory>
 
@@ -30,9 +27,12 @@ void addSpheres(CLI::App& app, const Invocation&) {
 }
 
 void addFields(CLI::App& app, const Invocation&) {
-  app.add_subcommand("fields", "All keys of a scene file with unit, default, range and meaning")->callback([] {
-    fmt::print("{}", scene::fieldHelp());
-  });
+  const auto command = std::make_shared<FieldsCommand>();
+  CLI::App* fields = app.add_subcommand("fields", "All keys of a scene file with unit, default, range and meaning");
+  CLI::Option* vehicle = fields->add_flag("--vehicle", command->vehicle, "those of a vehicle file instead");
+  CLI::Option* markdown = fields->add_flag("--markdown", command->markdown, "of both files, as docs/keys.md has them");
+  markdown->excludes(vehicle);
+  fields->callback([=] { fieldsCommand(*command); });
 }
 
 } // namespace grouser::commands

@@ -16,7 +16,7 @@ namespace grouser::output {
 /// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
 /// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
 struct Channel {
-  std::string path; ///< "vehicle/shoes/sinkage"
+  std::string path; ///< "vehicle/left/sinkage"
   std::string unit; ///< "m"; "-" where dimensionless
   std::string help;
   int width = 1;

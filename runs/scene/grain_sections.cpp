@@ -37,7 +37,8 @@ Table<GrainFill> fillTable() {
   t.add("spacing", &S::spacing, "-", "of a lattice, in largest radii").atLeast(2).atMost(100);
   t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a share of its free gap").atLeast(0).atMost(1);
   t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
-  t.add("file", &S::file, "", "text with a grain a line, relative to the scene");
+  t.add("file", &S::file, "",
+        "text with a grain a line; looked for in the scene's folder, the working folder, the assets folder");
   t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
   t.add("spin", &S::spin, "rad/s", "at the start").atLeast(-1e6).atMost(1e6);
   t.add("material", &S::material, "", "name of their material").required();

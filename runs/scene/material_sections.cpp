@@ -39,10 +39,13 @@ Table<Material> materialTable() {
         fmt::format("rebound over impact speed; {} where damping is not given either", brief(S::kRestitution)))
       .atLeast(1e-6)
       .atMost(1);
-  t.add("damping", &S::damping, "1/s", "linear: gamma of F_n = k overlap - gamma m_eff v_n, instead of restitution")
+  t.add("damping", &S::damping, "1/s",
+        "linear: gamma of F_n = k overlap + gamma m_eff v_n (v_n: approach speed), instead of restitution")
       .atLeast(0)
       .atMost(1e9);
-  t.add("attraction", &S::attraction, "", "whether the damping force may pull two parting surfaces together");
+  t.add("attraction", &S::attraction, "",
+        "whether the dashpot may pull where surfaces part; else it may at most cancel the spring; not cohesion, which "
+        "is a key of its own");
   t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
         fmt::format("linear: tangential over normal stiffness; {}/{} where not given",
@@ -57,14 +60,16 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(2);
   t.add("rolling_friction", &S::rollingFriction, "-",
-        "torque of rolling resistance over R F_n, with an elastic-plastic spring (type C); 0 leaves it out")
+        "largest torque of rolling resistance over R_r F_n, by an elastic-plastic spring (type C); R_r = R_i R_j / "
+        "(R_i + R_j): half the radius of equal grains, all of it against a wall; 0 leaves it out")
       .atLeast(0)
       .atMost(2);
   t.add("rolling_damping_ratio", &S::rollingDampingRatio, "-", "of the rolling spring's critical damping")
       .atLeast(0)
       .atMost(1);
   t.add("cohesion", &S::cohesion, "J/m2",
-        "energy of adhesion w: touching surfaces pull with 2 pi w R_eff (DMT); 0 leaves it out")
+        "energy of adhesion w (twice the surface energy between like surfaces): touching surfaces pull with 2 pi w "
+        "R_eff (DMT); 0 leaves it out")
       .atLeast(0)
       .atMost(1e6);
   return t;
@@ -72,7 +77,10 @@ Table<Material> materialTable() {
 
 Table<ContactPair> contactTable() {
   using S = ContactPair;
-  Table<S> t("contact.\"a|b\"", "What materials a and b have against each other, otherwise than the mixing rule gives");
+  Table<S> t(
+      "contact.\"a|b\"",
+      "What materials a and b have against each other, otherwise than the mixing rule gives: stiffness in series, "
+      "doubled; the smaller of frictions and restitutions; the geometric mean of cohesions (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
   t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(1e-6).atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);

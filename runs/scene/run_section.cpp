@@ -20,7 +20,10 @@ Table<RunSettings> runTable() {
       .atLeast(1e-12)
       .atMost(1e5)
       .required();
-  t.add("time_step", &S::timeStep, "s", "\"auto\" is the largest step the stability rule allows")
+  t.add("time_step", &S::timeStep, "s",
+        "\"auto\": 1/20 of the shortest contact (1e-4 s without grains), but at most half the limit of stability, 0.2 "
+        "of a hertz grain's Rayleigh time, 0.1 s and the duration; of a mechanism from its swings; a step that is "
+        "given may reach the limit")
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");

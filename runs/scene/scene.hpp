@@ -33,7 +33,7 @@ struct Fraction {
 /// [run]
 struct RunSettings {
   double duration = 0;            ///< [s] after the bed has settled
-  std::optional<double> timeStep; ///< [s]; empty: the largest step the stability rule allows
+  std::optional<double> timeStep; ///< [s]; empty: chosen by setup::chooseTimeStep()
   base::Vec3d gravity{0, 0, -9.81};
   double outputInterval = 0.02;
   double frameInterval = 0.1;
@@ -70,7 +70,7 @@ struct Material {
   std::optional<double> stiffness;             ///< [N/m] linear
   std::optional<double> young, poisson;        ///< [Pa], [-] hertz
   std::optional<double> restitution;           ///< one of these two has a value after loading
-  std::optional<double> damping;               ///< [1/s] linear: gamma of F_n = k overlap - gamma m_eff v_n
+  std::optional<double> damping; ///< [1/s] linear: gamma of F_n = k overlap + gamma m_eff v_n (v_n: approach speed)
   bool attraction = false;
   double friction = 0.5;
   std::optional<double> tangentialStiffnessRatio; ///< linear
@@ -161,7 +161,7 @@ struct Vehicle {
   double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
-  std::string material; ///< of the parts against the ground; empty: the contact data of the spec
+  std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   ChassisMount chassis = ChassisMount::free;
   bool operator==(const Vehicle&) const = default;
 };

@@ -93,7 +93,8 @@ Table<CylinderSection> cylinderTable() {
 Table<MeshSection> meshTable() {
   using S = MeshSection;
   Table<S> t("[mesh]", "A rigid body from a file that grains touch, fixed or moved, cut into spheres");
-  t.add("file", &S::file, "", "OBJ, STL, PLY...: closed, outward; relative to the scene or to the assets folder")
+  t.add("file", &S::file, "",
+        "OBJ, STL, PLY...: closed, outward; looked for in the scene's folder, the working folder, the assets folder")
       .required();
   t.add("scale", &S::scale, "m", "of one unit of the file").above(0).atMost(1e6);
   t.add("position", &S::position, "m", "of the file's origin, about which loads are taken");

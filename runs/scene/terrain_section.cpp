@@ -20,7 +20,9 @@ constexpr double kLeastPeriod = 12; // of a tile, in radii [-]
 Table<Terrain> terrainTable() {
   using S = Terrain;
   Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
-  t.add("heightmap", &S::heightmap, "", "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points")
+  t.add("heightmap", &S::heightmap, "",
+        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points; looked for in the scene's folder, the "
+        "working folder, the assets folder")
       .required();
   t.add("size", &S::size, "m", "extent in x, from 0, and in y, to both sides of 0").above(0).atMost(1e5).required();
   t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();

@@ -16,7 +16,10 @@ using base::Table;
 Table<Vehicle> vehicleTable() {
   using S = Vehicle;
   Table<S> t("vehicle", "A tracked vehicle");
-  t.add("spec", &S::spec, "", "vehicle file, relative to the scene or to the assets folder").required();
+  t.add("spec", &S::spec, "",
+        "vehicle file (its keys: grouser fields --vehicle); looked for in the scene's folder, the working folder, the "
+        "assets folder")
+      .required();
   t.add("position", &S::position, "m",
         "x and y of the point between the sprockets; \"auto\" is on the terrain's near end")
       .atLeast(-1e6)
@@ -27,7 +30,9 @@ Table<Vehicle> vehicleTable() {
       .atLeast(0)
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
-  t.add("material", &S::material, "", "of the parts against the ground; the contact data of the spec where not given");
+  t.add("material", &S::material, "",
+        "of the parts against grains; where not given they are of the grains' own material, but with friction_ground "
+        "of the vehicle file; on rigid ground all contact data are the vehicle file's");
   t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
   return t;
 }
@@ -35,7 +40,8 @@ Table<Vehicle> vehicleTable() {
 Table<Driver> driverTable() {
   using S = Driver;
   Table<S> t("driver", "Sprocket speeds and the order of the start: tension, weight, drive");
-  t.add("sprocket_speed", &S::sprocketSpeed, "rad/s", "of both sprockets; positive drives forward")
+  t.add("sprocket_speed", &S::sprocketSpeed, "rad/s",
+        "of both sprockets; positive drives forward; 0 where no speed is given")
       .atLeast(-100)
       .atMost(100);
   t.add("left", &S::left, "rad/s", "of the left sprocket, together with right").atLeast(-100).atMost(100);
