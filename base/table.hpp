@@ -147,8 +147,8 @@ template <HasWords E> struct FieldTypeOf<std::vector<E>> : FieldTypeOf<std::vect
 template <class T> struct FieldTypeOf<std::optional<T>> : FieldTypeOf<T> {};
 
 /// The enum of a member that holds one, several or none; void where there are no words to choose from.
-template <class T> struct EnumOf { using type = void; };
-template <HasWords E> struct EnumOf<E> { using type = E; };
+template <class T> struct EnumOf { using Type = void; };
+template <HasWords E> struct EnumOf<E> { using Type = E; };
 template <class T> struct EnumOf<std::vector<T>> : EnumOf<T> {};
 template <class T> struct EnumOf<std::optional<T>> : EnumOf<T> {};
 
@@ -198,7 +198,7 @@ public:
     Field field;
     field.key = std::move(key), field.unit = std::move(unit), field.help = std::move(help);
     field.type = detail::FieldTypeOf<T>::type;
-    using Enum = typename detail::EnumOf<T>::type;
+    using Enum = typename detail::EnumOf<T>::Type;
     if constexpr (!std::is_void_v<Enum>) field.choices = wordsOf<Enum>();
     entries_.push_back({std::move(field), std::move(set), std::move(get)});
     return entries_.back().field;

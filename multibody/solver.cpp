@@ -71,7 +71,7 @@ struct Solver::Impl {
     return options.integrator == Integrator::kRattle ? detail::stabilityLimit(options.order) : 2;
   }
   double stableStep(const State& state, const Loads& loads, std::string* spring);
-  double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part);
+  double geometricStiffnessRate(const State& state, const Loads& loads, std::string* name);
   void checkDampers(double dt);
   void checkStable(const State& state, const Loads& loads, double dt);
 
@@ -118,8 +118,7 @@ void Solver::Impl::countFreedom() {
 void Solver::Impl::describe() {
   std::ostringstream out;
   int rows = 0;
-  for (std::size_t k = 0; k < system.constraints().size(); ++k)
-    rows += __builtin_popcount(hardRows(system.constraints()[k].kind));
+  for (const Constraint& c : system.constraints()) rows += __builtin_popcount(hardRows(c.kind));
   rows -= static_cast<int>(redundancy.rows.size());
   out << "multibody: " << system.movableBodies() << " bodies, " << model.joints().size() << " joints, "
       << model.pointSprings().size() << " point springs, " << rows << " constraint rows, "
@@ -274,8 +273,7 @@ double Solver::velocityError(const State& state) const {
   std::vector<Frame> frames;
   s.system.place(state.pose, frames);
   double largest = 0;
-  for (std::size_t k = 0; k < s.system.constraints().size(); ++k) {
-    const Constraint& c = s.system.constraints()[k];
+  for (const Constraint& c : s.system.constraints()) {
     const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
     const RowDirections rows = rowDirections(c, f);
     for (int r = 0; r < 6; ++r)

@@ -41,8 +41,7 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
 void findAxes(const ConstraintGraph& graph, State& state) {
   std::vector<Frame> frames;
   graph.place(state.pose, frames);
-  for (std::size_t k = 0; k < graph.constraints().size(); ++k) {
-    const Constraint& c = graph.constraints()[k];
+  for (const auto& c : graph.constraints()) {
     const std::size_t source = at(c.source);
     const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
     const RowDirections rows = rowDirections(c, f);

@@ -13,7 +13,7 @@ struct GrainSystem;
 
 /// Where the grains lie; the first of them has the id `first`. Throws InputError where one lies outside the range of
 /// the integer positions or beyond periodic boundaries.
-std::vector<base::Position> placesOf(const std::vector<GrainSpec>& grains, std::size_t first, const GrainConstants& c);
+std::vector<base::Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c);
 
 /// Throws InputError when two grains have the same place: no direction would push them apart.
 void checkDistinct(const std::vector<base::Position>& position, const std::vector<std::uint32_t>& id);

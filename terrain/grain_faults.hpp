@@ -8,6 +8,6 @@ namespace grouser::terrain {
 struct GrainSystem;
 
 /// Throws SimulationError with step, time, grain, place and remedy. `fault`: as StepFlags has it. All ranks call it.
-[[noreturn]] void stopFor(std::uint64_t fault, const GrainSystem& system);
+[[noreturn]] void stopFor(std::uint64_t key, const GrainSystem& system);
 
 } // namespace grouser::terrain

@@ -211,8 +211,8 @@ std::vector<double> Observer::save() const {
 void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
   if (flat.size() != each * travel_.size()) throw base::InputError("observers: the checkpoint is of another vehicle");
-  for (std::size_t i = 0; i < travel_.size(); ++i)
-    travel_[i].restore({flat.begin() + i * each, flat.begin() + (i + 1) * each});
+  const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
+  for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});
 }
 
 } // namespace grouser::vehicle

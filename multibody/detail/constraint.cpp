@@ -68,7 +68,7 @@ void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& 
       Vec3d e;
       e[i] = 1;
       const Vec3d first = cross(phi, e), t = e + 0.5 * first + beta * cross(phi, first);
-      rows.torque[static_cast<std::size_t>(3 + i)] = t.x * f.x_A + t.y * f.y_A + t.z * f.z_A;
+      rows.torque[3 + static_cast<std::size_t>(i)] = t.x * f.x_A + t.y * f.y_A + t.z * f.z_A;
     }
     rows.force[0] = f.x_A, rows.force[1] = f.y_A, rows.force[2] = f.z_A;
     return;

@@ -59,7 +59,7 @@ void ConstraintSystem::factorCouplings(const Part& part) {
       }
       const double alone =
           size_[at(two.constraint)][at(two.row)] + row.ratio * row.ratio * size_[at(one.constraint)][at(one.row)];
-      couplingKept_[at(c)] = s > Elimination::kPivotTolerance * alone;
+      couplingKept_[at(c)] = s > Elimination::kPivotTolerance * alone ? 1 : 0;
       L[i] = couplingKept_[at(c)] ? std::sqrt(s) : 1;
     }
   }

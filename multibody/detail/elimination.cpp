@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <ranges>
 
 namespace grouser::multibody::detail {
 
@@ -238,11 +239,6 @@ GROUSER_SIMD void passOn(Elimination::Links& b, Elimination::Column* columns, st
   }
 }
 
-int Elimination::factor() {
-  startLoops();
-  return sweep();
-}
-
 GROUSER_SIMD_CLONES int Elimination::sweep() {
   int leftOut = 0;
   for (Links& b : links_) {
@@ -263,6 +259,11 @@ GROUSER_SIMD_CLONES int Elimination::sweep() {
     passOn(b, columns, links_);
   }
   return leftOut;
+}
+
+int Elimination::factor() {
+  startLoops();
+  return sweep();
 }
 
 int Elimination::factorLoop(Loop& z) {
@@ -424,11 +425,11 @@ GROUSER_SIMD_CLONES void Elimination::sweepForward(Vector6* x) const {
 }
 
 GROUSER_SIMD_CLONES void Elimination::sweepBackward(Vector6* x) const {
-  for (auto operation = program_.rbegin(); operation != program_.rend(); ++operation) {
-    if (operation->closes) {
-      backwardLoop(loops_[at(operation->index)], x);
+  for (const Operation& operation : std::views::reverse(program_)) {
+    if (operation.closes) {
+      backwardLoop(loops_[at(operation.index)], x);
     } else {
-      const Links& b = links_[at(operation->index)];
+      const Links& b = links_[at(operation.index)];
       backwardBatch(b, columns_.data() + b.firstColumn, x, bodies_);
     }
   }

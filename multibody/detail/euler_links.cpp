@@ -96,10 +96,10 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
   static_assert(sizeof(Wrench) == 6 * sizeof(double) && sizeof(Pose) == 7 * sizeof(double));
   const Vec3L gravity = all(loads.gravity);
   const Lanes h = all(dt);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    LinkStep& s = steps[i];
-    const Lanes(&I)[6] = system.inertiaOf(i);
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    LinkStep& s = steps_[i];
+    const Lanes(&I)[6] = system_.inertiaOf(i);
     const double* row[kLanes];
     for (std::size_t l = 0; l < kWidth; ++l) row[l] = &loads.external[at(b.body[l])].force.x;
     Vec3L force, torque;
@@ -118,16 +118,16 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
     s.gyro = gyroscopicMomentum(I, s.w, dt);
     const Vec3L f = h * (force + b.mass * gravity);
     const Vec3L m = (spin - timesInertia(I, s.w)) - s.gyro + h * torque;
-    scatterNode(x, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
+    scatterNode(x_, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
     for (Lanes& lambda : s.impulse) lambda = all(0);
   }
 }
 
 /// Angles and rates of the axes before the step, and the known forces along them.
 GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt) {
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    LinkStep& s = steps[i];
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    LinkStep& s = steps_[i];
     if (b.axes == 0) continue;
     s.startCos = dot(b.frames.x_A, b.frames.x_B), s.startSin = dot(b.frames.y_A, b.frames.x_B);
     Vec3L parentV, parentW;
@@ -136,15 +136,15 @@ GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt)
       s.oldRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
       // The known force of a spring acts along its row.
       for (int l = 0; l < b.count; ++l) {
-        const double known = laws[at(b.axis[at(a)][at(l)])].force;
+        const double known = laws_[at(b.axis[at(a)][at(l)])].force;
         if (known == 0) continue;
         const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
         const double impulse_B = b.side[l] * dt * known;
         const Vec3d along = impulse_B * get(axisForce(b, a)), about = impulse_B * get(axisTorque(b, a));
         const Vec3d p = get(b.frames.p_B);
-        add(x[at(b.node[at(l)])], along, cross(p - get(b.com), along) + about);
+        add(x_[at(b.node[at(l)])], along, cross(p - get(b.com), along) + about);
         if (const int parent = b.parentNode[at(l)]; parent >= 0)
-          add(x[at(parent)], -along, -(cross(p - get(b.parentCom), along) + about));
+          add(x_[at(parent)], -along, -(cross(p - get(b.parentCom), along) + about));
       }
     }
   }
@@ -163,41 +163,41 @@ void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int
 
 /// Takes the corrections into twists and impulses.
 GROUSER_SIMD_CLONES void EulerStep::correctLinks(double dt) {
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    LinkStep& s = steps[i];
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    LinkStep& s = steps_[i];
     Lanes d[6];
-    gatherNode(x, b.node, 0, d);
+    gatherNode(x_, b.node, 0, d);
     s.v += Vec3L{d[0], d[1], d[2]};
     s.w += Vec3L{d[3], d[4], d[5]};
     const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > kFastSpin;
     if (__builtin_expect(base::any(fast), 0))
       for (int l = 0; l < kLanes; ++l)
-        if (fast[l] && !relinearised) solveAngularVelocity(system.inertiaOf(i), s, l, dt);
+        if (fast[l] && !relinearised_) solveAngularVelocity(system_.inertiaOf(i), s, l, dt);
     if (!b.joint) continue;
-    gatherNode(x, b.constraint, system.movableBodies(), d);
+    gatherNode(x_, b.constraint, system_.movableBodies(), d);
     for (int r = 0; r < 6; ++r) s.impulse[r] += d[r];
   }
 }
 
 /// The iterate body by body and joint by joint, for who needs it so.
 void EulerStep::unpackIterate() {
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    const LinkStep& s = steps[i];
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    const LinkStep& s = steps_[i];
     for (int l = 0; l < b.count; ++l) {
-      newTwist[at(b.body[at(l)])] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
+      newTwist_[at(b.body[at(l)])] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
       if (!b.joint) continue;
-      for (std::size_t r = 0; r < 6; ++r) impulse[at(b.constraint[at(l)])][r] = s.impulse[r][l];
+      for (std::size_t r = 0; r < 6; ++r) impulse_[at(b.constraint[at(l)])][r] = s.impulse[r][l];
     }
   }
 }
 
 void EulerStep::packTwists() {
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  for (std::size_t i = 0; i < steps_.size(); ++i)
     for (std::size_t l = 0; l < kWidth; ++l) {
-      LinkStep& s = steps[i];
-      const Twist& V = newTwist[at(system.links()[i].body[l])];
+      LinkStep& s = steps_[i];
+      const Twist& V = newTwist_[at(system_.links()[i].body[l])];
       s.v.x[l] = V.v.x, s.v.y[l] = V.v.y, s.v.z[l] = V.v.z;
       s.w.x[l] = V.w.x, s.w.y[l] = V.w.y, s.w.z[l] = V.w.z;
     }
@@ -205,9 +205,9 @@ void EulerStep::packTwists() {
 
 GROUSER_SIMD_CLONES void EulerStep::moveLinks(double dt) {
   const Lanes h = all(dt);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    LinkStep& s = steps[i];
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    LinkStep& s = steps_[i];
     s.trial.p = s.position + h * s.v;
     s.newOrientation = turned(rotationBy(h * s.w), s.orientation);
     s.trial.R = matrixOf(s.newOrientation);
@@ -218,7 +218,7 @@ GROUSER_SIMD_CLONES void EulerStep::moveLinks(double dt) {
     for (int part = 0; part < 3; ++part) {
       base::transpose(c[part]);
       for (std::size_t l = 0; l < kWidth; ++l)
-        base::store(reinterpret_cast<double*>(&trial[at(b.body[l])]) + 4 * part, c[part][l]);
+        base::store(reinterpret_cast<double*>(&trial_[at(b.body[l])]) + 4 * part, c[part][l]);
     }
   }
 }
@@ -227,12 +227,12 @@ GROUSER_SIMD_CLONES void EulerStep::moveLinks(double dt) {
 GROUSER_SIMD_CLONES double EulerStep::setLinkGaps(double dt, bool first) {
   Lanes largest = all(0);
   const Lanes scale = all(-1 / dt);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    LinkStep& s = steps[i];
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    LinkStep& s = steps_[i];
     if (!b.joint) continue;
     FrameL parent, A, B;
-    gatherFrames(trial, b.parent, parent);
+    gatherFrames(trial_, b.parent, parent);
     b.sort(s.trial, parent, A, B);
     placeFrames(b.places, A, B, s.joint);
     Lanes error[6] = {};
@@ -246,25 +246,25 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGaps(double dt, bool first) {
       for (int a = 0; a < b.axes; ++a) {
         Lanes wanted;
         for (std::size_t l = 0; l < kWidth; ++l) {
-          const AxisLaw& law = laws[at(b.axis[at(a)][l])];
+          const AxisLaw& law = laws_[at(b.axis[at(a)][l])];
           wanted[l] = law.driven ? law.speed : 0;
         }
         residual[b.axisRow[at(a)]] = wanted - s.oldRate[a];
       }
-    scatterNode(x, b.constraint, system.movableBodies(), residual);
+    scatterNode(x_, b.constraint, system_.movableBodies(), residual);
   }
   return largestLane(largest);
 }
 
 GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
   Lanes largest = all(0);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const LinkLanes& b = system.links()[i];
-    LinkStep& s = steps[i];
-    const Lanes(&I)[6] = system.inertiaOf(i);
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& b = system_.links()[i];
+    LinkStep& s = steps_[i];
+    const Lanes(&I)[6] = system_.inertiaOf(i);
     const Vec3L g = gyroscopicMomentum(I, s.w, dt), residual = s.gyro - g;
     s.gyro = g;
-    scatterNode(x, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
+    scatterNode(x_, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
     largest = largestOf(largest, all(3 * dt) / (I[0] + I[3] + I[5]) * squareRoot(norm2(residual)));
   }
   return largestLane(largest);
@@ -273,9 +273,9 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
 /// Work, momenta, readings and poses, once the impulses are known.
 GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads, double dt) {
   LinkWork work{};
-  for (std::size_t i = 0; i < steps.size(); ++i) finishBodies(system.links()[i], steps[i], state, loads, dt, work);
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    if (system.links()[i].joint) finishJoints(system.links()[i], steps[i], state, dt, work);
+  for (std::size_t i = 0; i < steps_.size(); ++i) finishBodies(system_.links()[i], steps_[i], state, loads, dt, work);
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    if (system_.links()[i].joint) finishJoints(system_.links()[i], steps_[i], state, dt, work);
   state.ledger.gravityWork += sumOf(work.gravity);
   state.ledger.externalWork += sumOf(work.external);
   state.ledger.driveWork += sumOf(work.drive);
@@ -291,11 +291,11 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
   work.gravity += b.real * (b.mass * dot(all(loads.gravity), path));
   work.external += b.real * (dot(s.force, path) + dot(s.torque, turn));
   const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
-  const LaneMask sound = (v2 - v2 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
+  const LaneMask sound = (v2 * 0.0 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
   for (int l = 0; l < b.count; ++l) {
     const std::size_t body = at(b.body[at(l)]);
     if (!sound[l])
-      checkTwist(model.bodies()[body], {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}}, state.time,
+      checkTwist(model_.bodies()[body], {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}}, state.time,
                  dt);
     state.angularMomentum[body] += Vec3d{dt * s.torque.x[l], dt * s.torque.y[l], dt * s.torque.z[l]};
     state.twist[body] = {{s.v.x[l], s.v.y[l], s.v.z[l]}, {s.w.x[l], s.w.y[l], s.w.z[l]}};
@@ -331,7 +331,7 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
     if (b.parentNode[at(l)] >= 0)
       state.angularMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
     const int k = b.constraint[at(l)];
-    JointReading& reading = state.joint[at(system.constraints()[at(k)].source)];
+    JointReading& reading = state.joint[at(system_.constraints()[at(k)].source)];
     reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
     reading.torque = Vec3d{torque.x[l], torque.y[l], torque.z[l]} * (1 / dt);
   }
@@ -345,7 +345,7 @@ GROUSER_SIMD void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int 
   const double* row[kLanes];
   Lanes known[4], damping[4], driven;
   for (std::size_t l = 0; l < kWidth; ++l) {
-    const AxisLaw& law = laws[at(b.axis[at(a)][l])];
+    const AxisLaw& law = laws_[at(b.axis[at(a)][l])];
     row[l] = &law.force;
     driven[l] = law.driven ? 1 : 0;
   }
@@ -378,10 +378,10 @@ GROUSER_SIMD void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int
     const Lanes sine = s1 * c0 - c1 * s0, cosine = c1 * c0 + s1 * s0;
     position = angleIncrement(sine, cosine);
     for (std::size_t l = 0; l < kWidth; ++l)
-      position[l] = state.joint[at(system.constraints()[at(b.constraint[l])].source)].position + position[l];
+      position[l] = state.joint[at(system_.constraints()[at(b.constraint[l])].source)].position + position[l];
   }
   for (int l = 0; l < b.count; ++l) {
-    const AxisLaw& law = laws[at(b.axis[at(a)][at(l)])];
+    const AxisLaw& law = laws_[at(b.axis[at(a)][at(l)])];
     const auto read = [&](auto& axis) {
       axis.position = position[l];
       axis.rate = newRate[l];
@@ -389,7 +389,7 @@ GROUSER_SIMD void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int
       axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
       axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRate[l];
     };
-    const std::size_t source = at(system.constraints()[at(b.constraint[at(l)])].source);
+    const std::size_t source = at(system_.constraints()[at(b.constraint[at(l)])].source);
     if (slide)
       read(state.slide[source]);
     else

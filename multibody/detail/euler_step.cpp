@@ -42,16 +42,16 @@ void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State
                                  double dt) {
   startLinks(state, loads, dt);
   startLinkAxes(state, dt);
-  for (const int k : system.offTree()) {
-    impulse[at(k)] = {};
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      oldRate[at(a)] = system.rate(k, row, state.twist);
+  for (const int k : system_.offTree()) {
+    impulse_[at(k)] = {};
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+      const int row = system_.axes()[at(a)].row;
+      oldRate_[at(a)] = system_.rate(k, row, state.twist);
       // The known force of a spring acts along its row.
-      system.addImpulse(k, row, dt * laws[at(a)].force, x);
+      system_.addImpulse(k, row, dt * laws_[at(a)].force, x_);
     }
   }
-  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
+  for (const int c : part.couplings) couplingImpulse_[at(c)] = 0;
 }
 
 /// Gaps of all joints and couplings over -dt. `first`: also what soft and driven axes ask for.
@@ -62,43 +62,43 @@ double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State
   const auto meet = [&](double gap) {
     if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap);
   };
-  for (const int k : system.offTree()) {
+  for (const int k : system_.offTree()) {
     double error[6];
-    positionError(system.constraints()[at(k)], trialFramesOf(k), error);
-    Vector6& residual = x[at(rowNode(k))];
-    const unsigned hard = system.hardRowsOf(k);
+    positionError(system_.constraints()[at(k)], trialFramesOf(k), error);
+    Vector6& residual = x_[at(rowNode(k))];
+    const unsigned hard = system_.hardRowsOf(k);
     for (int r = 0; r < 6; ++r) {
       const double gap = hard >> r & 1u ? error[r] : 0;
       residual[at(r)] = scale * gap;
       meet(gap);
     }
     if (first)
-      for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-        residual[at(system.axes()[at(a)].row)] = (laws[at(a)].driven ? laws[at(a)].speed : 0) - oldRate[at(a)];
+      for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a)
+        residual[at(system_.axes()[at(a)].row)] = (laws_[at(a)].driven ? laws_[at(a)].speed : 0) - oldRate_[at(a)];
   }
   for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
+    const CouplingRow& row = system_.couplings()[at(c)];
     const double gap = trialPosition(state, row.axis2) - row.ratio * trialPosition(state, row.axis1) - row.offset;
-    x[at(system.couplingNode(c))][0] = scale * gap;
-    if (system.couplingKept(c)) meet(gap);
+    x_[at(system_.couplingNode(c))][0] = scale * gap;
+    if (system_.couplingKept(c)) meet(gap);
   }
   return largest;
 }
 
 JointFrames EulerStep::trialFramesOf(int k) const {
-  const Constraint& c = system.constraints()[at(k)];
-  return framesOf(c, trial[at(c.bodyA)], trial[at(c.bodyB)]);
+  const Constraint& c = system_.constraints()[at(k)];
+  return framesOf(c, trial_[at(c.bodyA)], trial_[at(c.bodyB)]);
 }
 
 /// The row with the widest gap at the end of the step as the current iterate has it; no constraint if there are only
 /// couplings.
 EulerStep::OpenRow EulerStep::widestGap() const {
   OpenRow widest;
-  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
+  for (std::size_t k = 0; k < system_.constraints().size(); ++k) {
     double error[6];
-    positionError(system.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
+    positionError(system_.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
     for (int r = 0; r < 6; ++r)
-      if ((system.hardRowsOf(static_cast<int>(k)) >> r & 1u) && !(std::fabs(error[r]) <= widest.gap))
+      if ((system_.hardRowsOf(static_cast<int>(k)) >> r & 1u) && !(std::fabs(error[r]) <= widest.gap))
         widest = {static_cast<int>(k), r, std::fabs(error[r])};
   }
   return widest;
@@ -106,21 +106,21 @@ EulerStep::OpenRow EulerStep::widestGap() const {
 
 /// Position of an axis at the end of the step as the current iterate has it.
 double EulerStep::trialPosition(const State& state, int axis) const {
-  const Axis& a = system.axes()[at(axis)];
-  return axisPositionAfter(system.constraints()[at(a.constraint)], system.jointFrames(a.constraint),
-                           trialFramesOf(a.constraint), a.row, axisPositionIn(state, system, axis));
+  const Axis& a = system_.axes()[at(axis)];
+  return axisPositionAfter(system_.constraints()[at(a.constraint)], system_.jointFrames(a.constraint),
+                           trialFramesOf(a.constraint), a.row, axisPositionIn(state, system_, axis));
 }
 
 void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
-  system.solve(part, x);
-  if (mixing.on() && !relinearised) {
+  system_.solve(part, x_);
+  if (mixing_.on() && !relinearised_) {
     unpackIterate();
-    mixing.improve(part, {newTwist, impulse, couplingImpulse}, x);
+    mixing_.improve(part, {newTwist_, impulse_, couplingImpulse_}, x_);
   }
   correctLinks(dt);
-  for (const int k : system.offTree())
-    for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
-  for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
+  for (const int k : system_.offTree())
+    for (std::size_t r = 0; r < 6; ++r) impulse_[at(k)][r] += x_[at(rowNode(k))][r];
+  for (const int c : part.couplings) couplingImpulse_[at(c)] += x_[at(system_.couplingNode(c))][0];
 }
 
 /// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero. Returns
@@ -128,40 +128,40 @@ void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
 bool EulerStep::startWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                      double dt) {
   double turn = 0;
-  for (const int node : part.bodies) turn = std::max(turn, dt * norm(state.twist[at(system.bodyOf(node))].w));
-  system.scalePivotThreshold(weakPivotScale(turn));
-  const int weak = system.linearise(part, frames, laws);
-  system.scalePivotThreshold(1);
+  for (const int node : part.bodies) turn = std::max(turn, dt * norm(state.twist[at(system_.bodyOf(node))].w));
+  system_.scalePivotThreshold(weakPivotScale(turn));
+  const int weak = system_.linearise(part, frames_, laws_);
+  system_.scalePivotThreshold(1);
   if (weak == 0) {
-    system.linearise(part, frames, laws);
+    system_.linearise(part, frames_, laws_);
     return false;
   }
   setFirstResidual(part, state, loads, dt);
   moveLinks(dt);
   setGapResidual(part, state, dt, true);
-  mixing.reset();
+  mixing_.reset();
   return true;
 }
 
 void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
   PositionSolve solve;
-  solve.lost = system.linearise(part, frames, laws);
-  last.singularRows += solve.lost;
+  solve.lost = system_.linearise(part, frames_, laws_);
+  last_.singularRows += solve.lost;
 
   // First solve from the old twist: the gap it would open already holds the curvature of the constraints.
   setFirstResidual(part, state, loads, dt);
   moveLinks(dt);
   setGapResidual(part, state, dt, true);
 
-  mixing.reset();
-  relinearised = false;
+  mixing_.reset();
+  relinearised_ = false;
   for (bool solved = false; !solved;) {
     iterate(part, state, dt, solve);
     solved = advance(part, state, loads, dt, solve);
     if (!solved && solve.phase == Phase::kEachIterate) relinearise(part, state, dt, solve);
   }
-  last.iterations = std::max(last.iterations, solve.iterations);
-  last.maxPositionError = std::max(last.maxPositionError, solve.gap);
+  last_.iterations = std::max(last_.iterations, solve.iterations);
+  last_.maxPositionError = std::max(last_.maxPositionError, solve.gap);
   finish(part, state, loads, dt);
 }
 
@@ -171,8 +171,8 @@ void EulerStep::iterate(const ConstraintSystem::Part& part, const State& state, 
   moveLinks(dt);
   ++solve.iterations, ++solve.since;
   solve.gap = setGapResidual(part, state, dt, false);
-  const double turn = relinearised ? 0 : setLinkGyro(dt);
-  solve.done = solve.gap <= options.positionTolerance && turn <= options.positionTolerance;
+  const double turn = relinearised_ ? 0 : setLinkGyro(dt);
+  solve.done = solve.gap <= options_.positionTolerance && turn <= options_.positionTolerance;
   solve.slow = !(solve.gap <= kSlowConvergence * solve.before);
   solve.before = solve.gap;
 }
@@ -188,13 +188,13 @@ bool EulerStep::advance(const ConstraintSystem::Part& part, const State& state, 
     return false;
   case Phase::kMixed:
     if (solve.done && openGap() <= kGapFailure) return true;
-    if (solve.done || solve.since >= 2 * options.maxIterations || !std::isfinite(solve.gap))
+    if (solve.done || solve.since >= 2 * options_.maxIterations || !std::isfinite(solve.gap))
       solve.enter(Phase::kEachIterate);
     return false;
   case Phase::kEachIterate:
     break;
   }
-  const bool exhausted = solve.since >= 3 * options.maxIterations;
+  const bool exhausted = solve.since >= 3 * options_.maxIterations;
   if (!solve.done && exhausted && !(solve.gap <= kGapFailure)) fail(state, solve.gap, solve.iterations, dt);
   return solve.done || exhausted;
 }
@@ -205,15 +205,15 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
   if (solve.done && (solve.lost == 0 || openGap() <= kGapFailure)) return true;
   if (solve.since >= kPatience) {
     unpackIterate();
-    mixing.remember(part, solve.gap, newTwist);
+    mixing_.remember(part, solve.gap, newTwist_);
   }
   // Slow: a singular position is near, or the bodies turn far in a step.
   if (solve.since == kPatience && solve.slow) {
     if (startWithoutWeakRows(part, state, loads, dt))
       solve.enter(Phase::kWithoutWeakRows);
     else
-      mixing.switchOn();
-  } else if (solve.since >= (mixing.on() ? 3 : 1) * options.maxIterations) {
+      mixing_.switchOn();
+  } else if (solve.since >= (mixing_.on() ? 3 : 1) * options_.maxIterations) {
     solve.enter(Phase::kEachIterate);
   }
   return false;
@@ -223,28 +223,28 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
 /// to go, and to the solution that inertia leads to.
 void EulerStep::advanceWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, double dt,
                                        PositionSolve& solve) {
-  if (!solve.done && solve.since < options.maxIterations && !(solve.since > 2 && solve.slow)) return;
+  if (!solve.done && solve.since < options_.maxIterations && !(solve.since > 2 && solve.slow)) return;
   unpackIterate();
-  mixing.remember(part, solve.gap, newTwist);
-  system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
-  system.linearise(part, frames, laws);
-  system.scalePivotThreshold(1);
+  mixing_.remember(part, solve.gap, newTwist_);
+  system_.scalePivotThreshold(firmPivotScale(options_.positionTolerance));
+  system_.linearise(part, frames_, laws_);
+  system_.scalePivotThreshold(1);
   setGapResidual(part, state, dt, false);
-  mixing.switchOn();
+  mixing_.switchOn();
   solve.enter(Phase::kMixed);
 }
 
 /// Takes the matrix of the iterate, first of the best one so far.
 void EulerStep::relinearise(const ConstraintSystem::Part& part, const State& state, double dt,
                             const PositionSolve& solve) {
-  if (solve.since == 0 && std::isfinite(mixing.bestGap())) {
-    mixing.takeBest(part, newTwist);
+  if (solve.since == 0 && std::isfinite(mixing_.bestGap())) {
+    mixing_.takeBest(part, newTwist_);
     packTwists();
     moveLinks(dt);
   }
-  relinearised = true;
-  system.linearise(part, trial, laws);
-  for (const int node : part.bodies) x[at(node)] = {};
+  relinearised_ = true;
+  system_.linearise(part, trial_, laws_);
+  for (const int node : part.bodies) x_[at(node)] = {};
   setGapResidual(part, state, dt, false);
 }
 
@@ -253,7 +253,7 @@ void EulerStep::fail(const State& state, double gap, int iterations, double dt) 
   std::ostringstream message;
   message << "multibody step from t = " << state.time << " s";
   if (widest.constraint >= 0)
-    message << ": " << system.describe(widest.constraint, widest.row) << " stays open by " << widest.gap
+    message << ": " << system_.describe(widest.constraint, widest.row) << " stays open by " << widest.gap
             << " [m or rad]";
   message << " (largest residual " << gap << ") after " << iterations
           << " iterations; the motion is too fast for dt = " << dt << " s: reduce the step, or check the loads";
@@ -263,11 +263,11 @@ void EulerStep::fail(const State& state, double gap, int iterations, double dt) 
 /// Of all rows that should hold, those without a pivot too.
 double EulerStep::openGap() const {
   double largest = 0;
-  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
+  for (std::size_t k = 0; k < system_.constraints().size(); ++k) {
     double error[6];
-    positionError(system.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
+    positionError(system_.constraints()[k], trialFramesOf(static_cast<int>(k)), error);
     for (int r = 0; r < 6; ++r)
-      if ((hardRows(system.constraints()[k].kind) >> r & 1u) && !(std::fabs(error[r]) <= largest))
+      if ((hardRows(system_.constraints()[k].kind) >> r & 1u) && !(std::fabs(error[r]) <= largest))
         largest = std::fabs(error[r]);
   }
   return largest;
@@ -277,52 +277,52 @@ double EulerStep::openGap() const {
 void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const Loads& loads, double dt) {
   finishLinks(state, loads, dt);
   for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
+    const CouplingRow& row = system_.couplings()[at(c)];
     for (const auto& [axis, share] : {std::pair{row.axis2, 1.0}, std::pair{row.axis1, -row.ratio}}) {
-      const Axis& a = system.axes()[at(axis)];
-      addAngularMomentum(a.constraint, share * couplingImpulse[at(c)] * system.rows(a.constraint).force[at(a.row)],
-                         share * couplingImpulse[at(c)] * system.rows(a.constraint).torque[at(a.row)], state);
+      const Axis& a = system_.axes()[at(axis)];
+      addAngularMomentum(a.constraint, share * couplingImpulse_[at(c)] * system_.rows(a.constraint).force[at(a.row)],
+                         share * couplingImpulse_[at(c)] * system_.rows(a.constraint).torque[at(a.row)], state);
     }
-    state.coupling[at(c)].force = couplingImpulse[at(c)] / dt;
+    state.coupling[at(c)].force = couplingImpulse_[at(c)] / dt;
   }
-  for (const int k : system.offTree()) readConstraint(k, state, dt);
-  if (relinearised)
+  for (const int k : system_.offTree()) readConstraint(k, state, dt);
+  if (relinearised_)
     for (const int node : part.bodies) {
       // The impulses belong to rows of several positions: the momentum is what the twist says.
-      const std::size_t b = at(system.bodyOf(node));
-      const Mat3d I = rotatedInertia(frames[b].R, model.bodies()[b].inertia_B);
+      const std::size_t b = at(system_.bodyOf(node));
+      const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
       state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
 }
 
 void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
-  const Constraint& c = system.constraints()[at(k)];
-  const Vec3d& p = system.jointFrames(k).p_B;
-  if (c.nodeB >= 0) state.angularMomentum[at(c.bodyB)] += cross(p - frames[at(c.bodyB)].p, force) + torque;
-  if (c.nodeA >= 0) state.angularMomentum[at(c.bodyA)] -= cross(p - frames[at(c.bodyA)].p, force) + torque;
+  const Constraint& c = system_.constraints()[at(k)];
+  const Vec3d& p = system_.jointFrames(k).p_B;
+  if (c.nodeB >= 0) state.angularMomentum[at(c.bodyB)] += cross(p - frames_[at(c.bodyB)].p, force) + torque;
+  if (c.nodeA >= 0) state.angularMomentum[at(c.bodyA)] -= cross(p - frames_[at(c.bodyA)].p, force) + torque;
 }
 
 /// Adds what is known along the axes of one constraint to the impulses of its rows, and their work.
 void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, double dt) {
-  for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-    const std::size_t row = at(system.axes()[at(a)].row);
-    const AxisLaw& law = laws[at(a)];
-    const double newRate = system.rate(k, static_cast<int>(row), state.twist);
+  for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+    const std::size_t row = at(system_.axes()[at(a)].row);
+    const AxisLaw& law = laws_[at(a)];
+    const double newRate = system_.rate(k, static_cast<int>(row), state.twist);
     total[row] += dt * law.force;
-    const double path = 0.5 * dt * (oldRate[at(a)] + newRate);
-    const AxisWork work = axisLaws.work(law, impulse[at(k)][row] / dt, newRate, path, dt);
+    const double path = 0.5 * dt * (oldRate_[at(a)] + newRate);
+    const AxisWork work = axisLaws_.work(law, impulse_[at(k)][row] / dt, newRate, path, dt);
     state.ledger.driveWork += work.drive;
     state.ledger.springWork += work.spring;
     state.ledger.dissipated += work.dissipated;
-    newRates[at(a)] = newRate;
+    newRates_[at(a)] = newRate;
   }
 }
 
 void EulerStep::readConstraint(int k, State& state, double dt) {
-  const Constraint& c = system.constraints()[at(k)];
-  const RowDirections& rows = system.rows(k);
+  const Constraint& c = system_.constraints()[at(k)];
+  const RowDirections& rows = system_.rows(k);
   const JointFrames after = trialFramesOf(k);
-  std::array<double, 6> total = impulse[at(k)];
+  std::array<double, 6> total = impulse_[at(k)];
   addAxes(k, total, state, dt);
 
   Vec3d force, torque;
@@ -350,43 +350,43 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
 
 /// What the axes of a joint did, `total` being the impulses of its rows.
 void EulerStep::readAxes(int k, const std::array<double, 6>& total, State& state, double dt) const {
-  const Constraint& c = system.constraints()[at(k)];
+  const Constraint& c = system_.constraints()[at(k)];
   const auto read = [&](int a, auto& axis) {
-    const std::size_t row = at(system.axes()[at(a)].row);
-    const AxisLaw& law = laws[at(a)];
+    const std::size_t row = at(system_.axes()[at(a)].row);
+    const AxisLaw& law = laws_[at(a)];
     axis.position = trialPosition(state, a);
-    axis.rate = newRates[at(a)];
+    axis.rate = newRates_[at(a)];
     axis.axisForce = total[row] / dt;
-    axis.driveForce = law.driven ? impulse[at(k)][row] / dt : 0;
+    axis.driveForce = law.driven ? impulse_[at(k)][row] / dt : 0;
     if (law.driveForce != 0) axis.driveForce += law.driveForce;
-    axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRates[at(a)];
+    axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRates_[at(a)];
   };
-  for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-    if (c.kind == ConstraintKind::kCylindrical && system.axes()[at(a)].row == kSlideRow)
+  for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a)
+    if (c.kind == ConstraintKind::kCylindrical && system_.axes()[at(a)].row == kSlideRow)
       read(a, state.slide[at(c.source)]);
     else
       read(a, state.joint[at(c.source)]);
 }
 
 EulerStep::EulerStep(const Problem& problem)
-    : model(problem.model), options(problem.options), system(problem.system), driveStart(problem.driveStart),
-      last(problem.last), axisLaws(model), laws(system.axes().size()), x(at(system.nodes())),
-      steps(system.links().size()), impulse(system.constraints().size()), couplingImpulse(system.couplings().size()),
-      oldRate(system.axes().size(), 0.0), newRates(system.axes().size(), 0.0), mixing(system, model),
-      newTwist(model.bodies().size()) {
+    : model_(problem.model), options_(problem.options), system_(problem.system), driveStart_(problem.driveStart),
+      last_(problem.last), axisLaws_(model_), laws_(system_.axes().size()), x_(at(system_.nodes())),
+      steps_(system_.links().size()), impulse_(system_.constraints().size()),
+      couplingImpulse_(system_.couplings().size()), oldRate_(system_.axes().size(), 0.0),
+      newRates_(system_.axes().size(), 0.0), mixing_(system_, model_), newTwist_(model_.bodies().size()) {
   std::vector<Pose> poses;
-  for (const Body& body : model.bodies()) poses.push_back(body.pose);
-  system.place(poses, frames);
-  trial = frames;
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  for (const Body& body : model_.bodies()) poses.push_back(body.pose);
+  system_.place(poses, frames_);
+  trial_ = frames_;
+  for (std::size_t i = 0; i < steps_.size(); ++i)
     for (std::size_t l = 0; l < kLanes; ++l)
-      steps[i].spread[l] = spreadOf(model.bodies()[at(system.links()[i].body[l])].inertia_B);
+      steps_[i].spread[l] = spreadOf(model_.bodies()[at(system_.links()[i].body[l])].inertia_B);
 }
 
 void EulerStep::step(State& state, const Loads& loads, double dt) {
-  system.place(state.pose, frames);
-  axisLaws.evaluate(system, state, loads, dt, frames, driveStart, laws);
-  for (const ConstraintSystem::Part& part : system.parts()) solvePart(part, state, loads, dt);
+  system_.place(state.pose, frames_);
+  axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
+  for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
   state.time += dt;
 }
 

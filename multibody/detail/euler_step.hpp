@@ -93,26 +93,26 @@ private:
                LinkWork& work) const;
   void readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total, const Lanes& newRate, State& state,
                 double dt) const;
-  int rowNode(int k) const { return system.movableBodies() + k; }
+  int rowNode(int k) const { return system_.movableBodies() + k; }
 
-  const Model& model;
-  const SolverOptions& options;
-  ConstraintSystem& system;
-  const std::vector<double>& driveStart;
-  StepReport& last;
-  AxisLaws axisLaws;
+  const Model& model_;
+  const SolverOptions& options_;
+  ConstraintSystem& system_;
+  const std::vector<double>& driveStart_;
+  StepReport& last_;
+  AxisLaws axisLaws_;
 
-  std::vector<AxisLaw> laws;   ///< one an axis
-  std::vector<Vector6> x;      ///< residuals in, corrections out; one a node
-  std::vector<LinkStep> steps; ///< one a batch of links
+  std::vector<AxisLaw> laws_;   ///< one an axis
+  std::vector<Vector6> x_;      ///< residuals in, corrections out; one a node
+  std::vector<LinkStep> steps_; ///< one a batch of links
   std::vector<std::array<double, 6>>
-      impulse;                           ///< Lambda, one a constraint; of joints that bodies hang by where asked for
-  std::vector<double> couplingImpulse;   ///< one a coupling
-  std::vector<double> oldRate, newRates; ///< before and after the step, one an axis
-  Mixing mixing;
-  bool relinearised = false;        ///< the position solve had to leave J(q)
-  std::vector<Twist> newTwist;      ///< current iterate, one a body, where mixing asks for it
-  std::vector<Frame> frames, trial; ///< bodies' frames at the start and at the end of the step
+      impulse_;                            ///< Lambda, one a constraint; of joints that bodies hang by where asked for
+  std::vector<double> couplingImpulse_;    ///< one a coupling
+  std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
+  Mixing mixing_;
+  bool relinearised_ = false;         ///< the position solve had to leave J(q)
+  std::vector<Twist> newTwist_;       ///< current iterate, one a body, where mixing asks for it
+  std::vector<Frame> frames_, trial_; ///< bodies' frames at the start and at the end of the step
 };
 
 } // namespace grouser::multibody::detail

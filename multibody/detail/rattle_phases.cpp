@@ -33,24 +33,24 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   PositionSolve solve;
   solve.tolerance = gapTolerance(part, state);
   startAxes(part, state, h);
-  solve.lost = positionsFactored(part) ? 0 : linearise(part, frames);
-  factored[at(part.index)] = -1;
-  relinearised[at(part.index)] = 0;
+  solve.lost = positionsFactored(part) ? 0 : linearise(part, frames_);
+  factored_[at(part.index)] = -1;
+  relinearised_[at(part.index)] = 0;
   predictSoftRows(part, h);
   setFirstResidual(part, state, loads, h);
   setResiduals(part, h);
 
-  mixing.reset();
+  mixing_.reset();
   for (bool solved = false; !solved;) {
     iterate(part, state, h, solve);
     solved = advance(part, state, loads, h, solve);
     if (solved || solve.phase != Phase::kEachIterate) continue;
-    const int lostHere = solve.since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial);
+    const int lostHere = solve.since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial_);
     solve.lost = std::max(solve.lost, lostHere);
   }
   // Also of rows that had no pivot.
-  if (!(gapOf[at(part.index)] <= kGapFailure)) fail(part, state, gapOf[at(part.index)], h);
-  last.maxPositionError = std::max(last.maxPositionError, gapOf[at(part.index)]);
+  if (!(gapOf_[at(part.index)] <= kGapFailure)) fail(part, state, gapOf_[at(part.index)], h);
+  last_.maxPositionError = std::max(last_.maxPositionError, gapOf_[at(part.index)]);
   collectMomentum(part, state, loads, h);
 }
 
@@ -58,23 +58,23 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
 double RattleStep::gapTolerance(const Part& part, const State& state) const {
   double scale = 0;
   for (const int node : part.bodies) {
-    const Vec3d& p = state.pose[at(system.bodyOf(node))].position;
+    const Vec3d& p = state.pose[at(system_.bodyOf(node))].position;
     scale = std::max({scale, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   }
-  return std::max(options.positionTolerance, kRoundOff * scale);
+  return std::max(options_.positionTolerance, kRoundOff * scale);
 }
 
 /// One iteration of Newton's method, and how it went.
 void RattleStep::iterate(const Part& part, const State& state, double h, PositionSolve& solve) {
-  system.solve(part, x);
-  if (mixing.on() && !relinearised[at(part.index)]) mixing.improve(part, {mean, impulse, couplingImpulse}, x);
+  system_.solve(part, x_);
+  if (mixing_.on() && !relinearised_[at(part.index)]) mixing_.improve(part, {mean_, impulse_, couplingImpulse_}, x_);
   applyCorrection(part, h);
   moveTrial(part, state, h);
   solve.follow = updateAxes(part, h);
   solve.gap = setResiduals(part, h);
-  solve.open = gapOf[at(part.index)];
+  solve.open = gapOf_[at(part.index)];
   ++solve.iterations, ++solve.since;
-  last.iterations = std::max(last.iterations, solve.iterations);
+  last_.iterations = std::max(last_.iterations, solve.iterations);
 
   // A little above the tolerance and not getting better is round-off.
   const bool atRoundOff =
@@ -95,14 +95,14 @@ bool RattleStep::advance(const Part& part, const State& state, const Loads& load
     return false;
   case Phase::kMixed:
     if (solve.done && solve.open <= kNearTolerance * solve.tolerance) return true;
-    if (solve.done || solve.since >= 2 * options.maxIterations || !std::isfinite(solve.gap))
+    if (solve.done || solve.since >= 2 * options_.maxIterations || !std::isfinite(solve.gap))
       solve.enter(Phase::kEachIterate);
     return false;
   case Phase::kEachIterate:
     break;
   }
   if (solve.done) return true;
-  if (solve.since < 2 * options.maxIterations) return false;
+  if (solve.since < 2 * options_.maxIterations) return false;
   // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
   if (!(solve.gap <= (solve.lost > 0 ? kGapFailure : kAcceptable * solve.tolerance))) fail(part, state, solve.gap, h);
   return true;
@@ -113,18 +113,18 @@ bool RattleStep::advanceAllRows(const Part& part, const State& state, const Load
                                 PositionSolve& solve) {
   const bool closed = solve.lost == 0 || solve.open <= kNearTolerance * solve.tolerance;
   if (solve.done && closed) return true;
-  mixing.remember(part, solve.gap, mean);
-  if ((solve.done || solve.slow) && !mixing.on() && startWithoutWeakRows(part, state, loads, h)) {
+  mixing_.remember(part, solve.gap, mean_);
+  if ((solve.done || solve.slow) && !mixing_.on() && startWithoutWeakRows(part, state, loads, h)) {
     solve.enter(Phase::kWithoutWeakRows);
   } else if (solve.done) {
     return true;
-  } else if (solve.since >= options.maxIterations) {
+  } else if (solve.since >= options_.maxIterations) {
     solve.enter(Phase::kEachIterate);
   } else if (solve.follow) {
-    solve.lost = std::max(solve.lost, linearise(part, frames));
-    mixing.forget();
-  } else if (solve.slow && !mixing.on()) {
-    mixing.switchOn();
+    solve.lost = std::max(solve.lost, linearise(part, frames_));
+    mixing_.forget();
+  } else if (solve.slow && !mixing_.on()) {
+    mixing_.switchOn();
   }
   return false;
 }
@@ -132,13 +132,13 @@ bool RattleStep::advanceAllRows(const Part& part, const State& state, const Load
 /// Without the weak rows until that has led to where inertia takes the bodies; from there the others have a short way
 /// to go, and to the solution that inertia leads to.
 void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) {
-  if (!solve.done && solve.since < options.maxIterations && !(solve.since > 2 && solve.slow)) return;
-  mixing.reset();
-  mixing.remember(part, solve.gap, mean);
-  system.scalePivotThreshold(firmPivotScale(options.positionTolerance));
-  linearise(part, frames);
-  system.scalePivotThreshold(1);
-  mixing.switchOn();
+  if (!solve.done && solve.since < options_.maxIterations && !(solve.since > 2 && solve.slow)) return;
+  mixing_.reset();
+  mixing_.remember(part, solve.gap, mean_);
+  system_.scalePivotThreshold(firmPivotScale(options_.positionTolerance));
+  linearise(part, frames_);
+  system_.scalePivotThreshold(1);
+  mixing_.switchOn();
   solve.enter(Phase::kMixed);
 }
 
@@ -148,33 +148,34 @@ void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) 
 /// changed.
 bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
   double turn = 0;
-  for (const int node : part.bodies) turn = std::max(turn, std::fabs(h) * norm(state.twist[at(system.bodyOf(node))].w));
-  system.scalePivotThreshold(weakPivotScale(turn));
-  const int weak = system.linearise(part, frames, laws);
-  system.scalePivotThreshold(1);
+  for (const int node : part.bodies)
+    turn = std::max(turn, std::fabs(h) * norm(state.twist[at(system_.bodyOf(node))].w));
+  system_.scalePivotThreshold(weakPivotScale(turn));
+  const int weak = system_.linearise(part, frames_, laws_);
+  system_.scalePivotThreshold(1);
   if (weak == 0) {
-    system.linearise(part, frames, laws);
+    system_.linearise(part, frames_, laws_);
     return false;
   }
-  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
+  for (const int node : part.bodies) mean_[at(system_.bodyOf(node))] = state.twist[at(system_.bodyOf(node))];
   moveTrial(part, state, h);
   updateAxes(part, h);
   setFirstResidual(part, state, loads, h);
   setResiduals(part, h);
-  mixing.reset();
+  mixing_.reset();
   return true;
 }
 
 /// Closes what is left with the matrix of each iterate. Returns the rows without a pivot in the first.
 int RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
-  relinearised[at(part.index)] = 1;
-  mixing.takeBest(part, mean);
-  mixing.reset();
+  relinearised_[at(part.index)] = 1;
+  mixing_.takeBest(part, mean_);
+  mixing_.reset();
   moveTrial(part, state, h);
   updateAxes(part, h);
-  const int lost = linearise(part, trial);
+  const int lost = linearise(part, trial_);
   setResiduals(part, h);
-  for (const int node : part.bodies) x[at(node)] = {};
+  for (const int node : part.bodies) x_[at(node)] = {};
   return lost;
 }
 
@@ -183,15 +184,15 @@ void RattleStep::fail(const Part& part, const State& state, double gap, double h
   double most = 0;
   for (const int k : part.constraints) {
     double error[6];
-    positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
+    positionError(system_.constraints()[at(k)], trialFrames_[at(k)], error);
     for (int r = 0; r < 6; ++r)
-      if ((hardRows(system.constraints()[at(k)].kind) >> r & 1u) && !(std::fabs(error[r]) <= most))
+      if ((hardRows(system_.constraints()[at(k)].kind) >> r & 1u) && !(std::fabs(error[r]) <= most))
         most = std::fabs(error[r]), worst = k, worstRow = r;
   }
   std::ostringstream message;
   message << "multibody step from t = " << state.time << " s";
-  if (worst >= 0) message << ": " << system.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
-  message << " (largest residual " << gap << ") after " << options.maxIterations
+  if (worst >= 0) message << ": " << system_.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
+  message << " (largest residual " << gap << ") after " << options_.maxIterations
           << " iterations; the motion is too fast for a stage of " << h
           << " s: reduce the step, or check loads, drives and whether the mechanism can reach where it is driven";
   throw base::SimulationError(message.str());

@@ -29,10 +29,10 @@ constexpr double kFastSpin = 1e-7;
 
 /// Mean force of an axis' implicit part, and its slope D.
 ForceAndSlope RattleStep::meanForce(int axis, double h) const {
-  const SoftRow& row = soft[at(axis)];
-  const double a = x0[at(axis)], b = x1[at(axis)];
+  const SoftRow& row = soft_[at(axis)];
+  const double a = x0_[at(axis)], b = x1_[at(axis)];
   ForceAndSlope f;
-  if (implicitSprings) {
+  if (implicitSprings_) {
     f.force = row.constant - 0.5 * row.stiffness * (a + b);
     f.slope = 0.5 * row.stiffness;
   }
@@ -41,7 +41,7 @@ ForceAndSlope RattleStep::meanForce(int axis, double h) const {
     f.slope += row.damping / h;
   }
   if (row.stops) {
-    const ForceAndSlope s = softRows.stops(axis, a, b, h);
+    const ForceAndSlope s = softRows_.stops(axis, a, b, h);
     f.force += s.force;
     f.slope += s.slope;
   }
@@ -54,14 +54,14 @@ ForceAndSlope RattleStep::meanForce(int axis, double h) const {
 bool RattleStep::updateAxes(const Part& part, double h) {
   bool follow = false;
   for (const int k : part.constraints) {
-    const Constraint& c = system.constraints()[at(k)];
-    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
-      if (soft[at(a)].driven || !soft[at(a)].stops) continue; // all else is linear
-      AxisLaw& law = laws[at(a)];
-      const double size = system.rowSize(k, row);
+    const Constraint& c = system_.constraints()[at(k)];
+    placeFrames(c, trial_[at(c.bodyA)], trial_[at(c.bodyB)], trialFrames_[at(k)]);
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+      const int row = system_.axes()[at(a)].row;
+      x1_[at(a)] = axisPositionAfter(c, startFrames_[at(k)], trialFrames_[at(k)], row, x0_[at(a)]);
+      if (soft_[at(a)].driven || !soft_[at(a)].stops) continue; // all else is linear
+      AxisLaw& law = laws_[at(a)];
+      const double size = system_.rowSize(k, row);
       double now = 0.5 * h * h * meanForce(a, h).slope;
       if (law.inverseCompliance != 0 && std::fabs(now) * size < kLeastInverseCompliance)
         now = kLeastInverseCompliance / size;
@@ -77,19 +77,19 @@ bool RattleStep::updateAxes(const Part& part, double h) {
 
 /// First iterate: the twists of the node; where axes are then, and how soft.
 void RattleStep::startAxes(const Part& part, const State& state, double h) {
-  for (const int node : part.bodies) mean[at(system.bodyOf(node))] = state.twist[at(system.bodyOf(node))];
+  for (const int node : part.bodies) mean_[at(system_.bodyOf(node))] = state.twist[at(system_.bodyOf(node))];
   moveTrial(part, state, h);
   for (const int k : part.constraints) {
-    const Constraint& c = system.constraints()[at(k)];
-    placeFrames(c, frames[at(c.bodyA)], frames[at(c.bodyB)], startFrames[at(k)]);
-    placeFrames(c, trial[at(c.bodyA)], trial[at(c.bodyB)], trialFrames[at(k)]);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const int row = system.axes()[at(a)].row;
-      x0[at(a)] = isJoint(c.kind) ? axisPositionIn(state, system, a) : axisPosition(c, startFrames[at(k)], row);
-      x1[at(a)] = axisPositionAfter(c, startFrames[at(k)], trialFrames[at(k)], row, x0[at(a)]);
-      laws[at(a)] = {};
-      laws[at(a)].driven = soft[at(a)].driven;
-      laws[at(a)].inverseCompliance = soft[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
+    const Constraint& c = system_.constraints()[at(k)];
+    placeFrames(c, frames_[at(c.bodyA)], frames_[at(c.bodyB)], startFrames_[at(k)]);
+    placeFrames(c, trial_[at(c.bodyA)], trial_[at(c.bodyB)], trialFrames_[at(k)]);
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+      const int row = system_.axes()[at(a)].row;
+      x0_[at(a)] = isJoint(c.kind) ? axisPositionIn(state, system_, a) : axisPosition(c, startFrames_[at(k)], row);
+      x1_[at(a)] = axisPositionAfter(c, startFrames_[at(k)], trialFrames_[at(k)], row, x0_[at(a)]);
+      laws_[at(a)] = {};
+      laws_[at(a)].driven = soft_[at(a)].driven;
+      laws_[at(a)].inverseCompliance = soft_[at(a)].driven ? 0 : 0.5 * h * h * meanForce(a, h).slope;
     }
   }
 }
@@ -98,43 +98,44 @@ void RattleStep::startAxes(const Part& part, const State& state, double h) {
 /// node alone would take it.
 void RattleStep::predictSoftRows(const Part& part, double h) {
   for (const int k : part.constraints)
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      if (laws[at(a)].inverseCompliance != 0) x1[at(a)] = x0[at(a)] + h * system.rateOfAxis(a, mean);
-      if (soft[at(a)].driven) startRate[at(a)] = system.rateOfAxis(a, mean);
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+      if (laws_[at(a)].inverseCompliance != 0) x1_[at(a)] = x0_[at(a)] + h * system_.rateOfAxis(a, mean_);
+      if (soft_[at(a)].driven) startRate_[at(a)] = system_.rateOfAxis(a, mean_);
     }
 }
 
 void RattleStep::setFirstResidual(const Part& part, const State& state, const Loads& loads, double h) {
   for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
+    const int b = system_.bodyOf(node);
     const Wrench& wrench = loads.external[at(b)];
-    const Mat3d& I = system.inertia(node);
-    const Vec3d& w = mean[at(b)].w;
-    gyro[at(node)] = gyroscopicMomentum(I, w, h);
-    set(x[at(node)], 0.5 * h * (wrench.force + model.bodies()[at(b)].mass * loads.gravity),
-        (state.angularMomentum[at(b)] - I * w) - gyro[at(node)] + 0.5 * h * wrench.torque);
+    const Mat3d& I = system_.inertia(node);
+    const Vec3d& w = mean_[at(b)].w;
+    gyro_[at(node)] = gyroscopicMomentum(I, w, h);
+    set(x_[at(node)], 0.5 * h * (wrench.force + model_.bodies()[at(b)].mass * loads.gravity),
+        (state.angularMomentum[at(b)] - I * w) - gyro_[at(node)] + 0.5 * h * wrench.torque);
   }
   for (const int k : part.constraints) {
-    impulse[at(k)] = {};
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const std::size_t row = at(system.axes()[at(a)].row);
-      softImpulse[at(a)] = 0.5 * h * meanForce(a, h).force;
-      const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
+    impulse_[at(k)] = {};
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+      const std::size_t row = at(system_.axes()[at(a)].row);
+      softImpulse_[at(a)] = 0.5 * h * meanForce(a, h).force;
+      const double known = 0.5 * h * (nodeForce(soft_[at(a)], x0_[at(a)]) + soft_[at(a)].applied0);
       // A soft row's impulse is an unknown of the system; without compliance it is known.
-      impulse[at(k)][row] = softImpulse[at(a)];
-      if (known + softImpulse[at(a)] != 0) system.addImpulse(k, static_cast<int>(row), known + softImpulse[at(a)], x);
+      impulse_[at(k)][row] = softImpulse_[at(a)];
+      if (known + softImpulse_[at(a)] != 0)
+        system_.addImpulse(k, static_cast<int>(row), known + softImpulse_[at(a)], x_);
     }
   }
-  for (const int c : part.couplings) couplingImpulse[at(c)] = 0;
+  for (const int c : part.couplings) couplingImpulse_[at(c)] = 0;
 }
 
 void RattleStep::moveTrial(const Part& part, const State& state, double h) {
   for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
+    const int b = system_.bodyOf(node);
     const Pose& X = state.pose[at(b)];
-    trialPose[at(b)].position = X.position + h * mean[at(b)].v;
-    trialPose[at(b)].orientation = (rotationBy(h * mean[at(b)].w) * X.orientation).normalized();
-    system.placeBody(b, trialPose[at(b)], trial);
+    trialPose_[at(b)].position = X.position + h * mean_[at(b)].v;
+    trialPose_[at(b)].orientation = (rotationBy(h * mean_[at(b)].w) * X.orientation).normalized();
+    system_.placeBody(b, trialPose_[at(b)], trial_);
   }
 }
 
@@ -142,20 +143,20 @@ double RattleStep::setResiduals(const Part& part, double h) {
   Gaps gaps;
   for (const int k : part.constraints) setResidual(k, h, gaps);
   for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
-    const double gap = x1[at(row.axis2)] - row.ratio * x1[at(row.axis1)] - row.offset;
-    x[at(system.couplingNode(c))] = {};
-    x[at(system.couplingNode(c))][0] = -gap / h;
-    gaps.take(gap, system.couplingKept(c));
+    const CouplingRow& row = system_.couplings()[at(c)];
+    const double gap = x1_[at(row.axis2)] - row.ratio * x1_[at(row.axis1)] - row.offset;
+    x_[at(system_.couplingNode(c))] = {};
+    x_[at(system_.couplingNode(c))][0] = -gap / h;
+    gaps.take(gap, system_.couplingKept(c));
   }
-  gapOf[at(part.index)] = gaps.open;
-  if (relinearised[at(part.index)]) return gaps.largest;
+  gapOf_[at(part.index)] = gaps.open;
+  if (relinearised_[at(part.index)]) return gaps.largest;
   for (const int node : part.bodies) {
-    const Mat3d& I = system.inertia(node);
-    const Vec3d g = gyroscopicMomentum(I, mean[at(system.bodyOf(node))].w, h);
-    const Vec3d residual = gyro[at(node)] - g;
-    gyro[at(node)] = g;
-    add(x[at(node)], {}, residual);
+    const Mat3d& I = system_.inertia(node);
+    const Vec3d g = gyroscopicMomentum(I, mean_[at(system_.bodyOf(node))].w, h);
+    const Vec3d residual = gyro_[at(node)] - g;
+    gyro_[at(node)] = g;
+    add(x_[at(node)], {}, residual);
     Gaps::takeLarger(gaps.largest, h * 3 / (I.m[0][0] + I.m[1][1] + I.m[2][2]) * norm(residual));
   }
   return gaps.largest;
@@ -164,26 +165,26 @@ double RattleStep::setResiduals(const Part& part, double h) {
 /// Residuals of the rows of one constraint.
 void RattleStep::setResidual(int k, double h, Gaps& gaps) {
   double error[6];
-  positionError(system.constraints()[at(k)], trialFrames[at(k)], error);
-  Vector6& residual = x[at(rowNode(k))];
+  positionError(system_.constraints()[at(k)], trialFrames_[at(k)], error);
+  Vector6& residual = x_[at(rowNode(k))];
   residual = {};
-  const unsigned hard = hardRows(system.constraints()[at(k)].kind), kept = system.elimination().keptRows(k);
+  const unsigned hard = hardRows(system_.constraints()[at(k)].kind), kept = system_.elimination().keptRows(k);
   for (int r = 0; r < 6; ++r) {
     if (!(hard >> r & 1u)) continue;
     residual[at(r)] = -error[r] / h;
     gaps.take(error[r], kept >> r & 1u);
   }
-  for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-    const int row = system.axes()[at(a)].row;
-    const SoftRow& s = soft[at(a)];
+  for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+    const int row = system_.axes()[at(a)].row;
+    const SoftRow& s = soft_[at(a)];
     if (s.driven) {
-      const double gap = x1[at(a)] - (s.relative ? x0[at(a)] + s.target : s.target);
+      const double gap = x1_[at(a)] - (s.relative ? x0_[at(a)] + s.target : s.target);
       residual[at(row)] = -gap / h;
       gaps.take(gap, kept >> row & 1u);
-    } else if (laws[at(a)].inverseCompliance != 0) {
-      residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse[at(k)][at(row)]) / laws[at(a)].inverseCompliance;
+    } else if (laws_[at(a)].inverseCompliance != 0) {
+      residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse_[at(k)][at(row)]) / laws_[at(a)].inverseCompliance;
       // In terms of position: what the soft row and the masses behind it would still move.
-      const double inverseCompliance = std::fabs(laws[at(a)].inverseCompliance) * system.rowSize(k, row);
+      const double inverseCompliance = std::fabs(laws_[at(a)].inverseCompliance) * system_.rowSize(k, row);
       Gaps::takeLarger(gaps.largest, residual[at(row)] * h * inverseCompliance / (1 + inverseCompliance));
     }
   }
@@ -191,54 +192,54 @@ void RattleStep::setResidual(int k, double h, Gaps& gaps) {
 
 void RattleStep::applyCorrection(const Part& part, double h) {
   for (const int node : part.bodies) {
-    Twist& V = mean[at(system.bodyOf(node))];
-    V.v += linear(x[at(node)]);
-    V.w += angular(x[at(node)]);
-    x[at(node)] = {};
-    if (relinearised[at(part.index)]) continue;
+    Twist& V = mean_[at(system_.bodyOf(node))];
+    V.v += linear(x_[at(node)]);
+    V.w += angular(x_[at(node)]);
+    x_[at(node)] = {};
+    if (relinearised_[at(part.index)]) continue;
     // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
-    const Mat3d& I = system.inertia(node);
-    if (std::fabs(h) * norm(V.w) * inertiaSpread[at(node)] > kFastSpin) {
-      V.w = angularVelocityOf(I, I * V.w + gyro[at(node)], V.w, h);
-      gyro[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
+    const Mat3d& I = system_.inertia(node);
+    if (std::fabs(h) * norm(V.w) * inertiaSpread_[at(node)] > kFastSpin) {
+      V.w = angularVelocityOf(I, I * V.w + gyro_[at(node)], V.w, h);
+      gyro_[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
     }
   }
   for (const int k : part.constraints)
-    for (std::size_t r = 0; r < 6; ++r) impulse[at(k)][r] += x[at(rowNode(k))][r];
-  for (const int c : part.couplings) couplingImpulse[at(c)] += x[at(system.couplingNode(c))][0];
+    for (std::size_t r = 0; r < 6; ++r) impulse_[at(k)][r] += x_[at(rowNode(k))][r];
+  for (const int c : part.couplings) couplingImpulse_[at(c)] += x_[at(system_.couplingNode(c))][0];
 }
 
 /// Spin after the first half kick: the sum of the impulses, so that it is conserved to the last digits; where the rows
 /// were taken anew, what the mean twist says.
 void RattleStep::collectMomentum(const Part& part, const State& state, const Loads& loads, double h) {
-  if (relinearised[at(part.index)]) {
+  if (relinearised_[at(part.index)]) {
     for (const int node : part.bodies) {
-      const int b = system.bodyOf(node);
-      const Mat3d I = rotatedInertia(frames[at(b)].R, model.bodies()[at(b)].inertia_B);
-      spin[at(node)] = I * mean[at(b)].w + gyroscopicMomentum(I, mean[at(b)].w, h);
+      const int b = system_.bodyOf(node);
+      const Mat3d I = rotatedInertia(frames_[at(b)].R, model_.bodies()[at(b)].inertia_B);
+      spin_[at(node)] = I * mean_[at(b)].w + gyroscopicMomentum(I, mean_[at(b)].w, h);
     }
     return;
   }
   for (const int node : part.bodies) {
-    const int b = system.bodyOf(node);
-    spin[at(node)] = state.angularMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
-    x[at(node)] = {};
+    const int b = system_.bodyOf(node);
+    spin_[at(node)] = state.angularMomentum[at(b)] + 0.5 * h * loads.external[at(b)].torque;
+    x_[at(node)] = {};
   }
   for (const int k : part.constraints) {
     for (int r = 0; r < 6; ++r)
-      if (const double total = impulse[at(k)][at(r)]; total != 0) system.addImpulse(k, r, total, x);
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a) {
-      const double known = 0.5 * h * (nodeForce(soft[at(a)], x0[at(a)]) + soft[at(a)].applied0);
-      if (known != 0) system.addImpulse(k, system.axes()[at(a)].row, known, x);
+      if (const double total = impulse_[at(k)][at(r)]; total != 0) system_.addImpulse(k, r, total, x_);
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
+      const double known = 0.5 * h * (nodeForce(soft_[at(a)], x0_[at(a)]) + soft_[at(a)].applied0);
+      if (known != 0) system_.addImpulse(k, system_.axes()[at(a)].row, known, x_);
     }
   }
   for (const int c : part.couplings) {
-    const CouplingRow& row = system.couplings()[at(c)];
-    const Axis &one = system.axes()[at(row.axis1)], &two = system.axes()[at(row.axis2)];
-    system.addImpulse(two.constraint, two.row, couplingImpulse[at(c)], x);
-    system.addImpulse(one.constraint, one.row, -row.ratio * couplingImpulse[at(c)], x);
+    const CouplingRow& row = system_.couplings()[at(c)];
+    const Axis &one = system_.axes()[at(row.axis1)], &two = system_.axes()[at(row.axis2)];
+    system_.addImpulse(two.constraint, two.row, couplingImpulse_[at(c)], x_);
+    system_.addImpulse(one.constraint, one.row, -row.ratio * couplingImpulse_[at(c)], x_);
   }
-  for (const int node : part.bodies) spin[at(node)] += angular(x[at(node)]);
+  for (const int node : part.bodies) spin_[at(node)] += angular(x_[at(node)]);
 }
 
 } // namespace grouser::multibody::detail

@@ -68,48 +68,49 @@ const std::vector<double>& halfComposition(int order) {
 double stabilityLimit(int order) { return order == 2 ? 2 : order == 4 ? 2.7209 : order == 6 ? 2.5326 : 3.0964; }
 
 RattleStep::RattleStep(const Problem& problem)
-    : model(problem.model), options(problem.options), system(problem.system), last(problem.last),
-      softRows(model, system, problem.driveStart), implicitSprings(options.springs == Springs::kImplicit),
-      soft(system.axes().size()), x0(system.axes().size(), 0.0), x1(x0), softImpulse(x0), startRate(x0), axisRate(x0),
-      springForce(x0), axisForce(x0), laws(system.axes().size()), x(at(system.nodes())),
-      impulse(system.constraints().size()), endImpulse(impulse), couplingImpulse(system.couplings().size(), 0.0),
-      couplingEndImpulse(couplingImpulse), gyro(at(system.movableBodies())), spin(gyro), mean(model.bodies().size()),
-      twist(mean), trialPose(model.bodies().size()), startFrames(system.constraints().size()), trialFrames(startFrames),
-      relinearised(system.parts().size(), 0), factored(system.parts().size(), -1), gapOf(system.parts().size(), 0.0),
-      mixing(system, model), drivenThen(system.axes().size(), 0) {
-  for (std::size_t b = 0; b < model.bodies().size(); ++b) trialPose[b] = model.bodies()[b].pose;
-  system.place(trialPose, frames);
-  trial = frames;
-  for (int node = 0; node < system.movableBodies(); ++node)
-    inertiaSpread.push_back(spreadOf(model.bodies()[at(system.bodyOf(node))].inertia_B));
+    : model_(problem.model), options_(problem.options), system_(problem.system), last_(problem.last),
+      softRows_(model_, system_, problem.driveStart), implicitSprings_(options_.springs == Springs::kImplicit),
+      soft_(system_.axes().size()), x0_(system_.axes().size(), 0.0), x1_(x0_), softImpulse_(x0_), startRate_(x0_),
+      axisRate_(x0_), springForce_(x0_), axisForce_(x0_), laws_(system_.axes().size()), x_(at(system_.nodes())),
+      impulse_(system_.constraints().size()), endImpulse_(impulse_), couplingImpulse_(system_.couplings().size(), 0.0),
+      couplingEndImpulse_(couplingImpulse_), gyro_(at(system_.movableBodies())), spin_(gyro_),
+      mean_(model_.bodies().size()), twist_(mean_), trialPose_(model_.bodies().size()),
+      startFrames_(system_.constraints().size()), trialFrames_(startFrames_), relinearised_(system_.parts().size(), 0),
+      factored_(system_.parts().size(), -1), gapOf_(system_.parts().size(), 0.0), mixing_(system_, model_),
+      drivenThen_(system_.axes().size(), 0) {
+  for (std::size_t b = 0; b < model_.bodies().size(); ++b) trialPose_[b] = model_.bodies()[b].pose;
+  system_.place(trialPose_, frames_);
+  trial_ = frames_;
+  for (int node = 0; node < system_.movableBodies(); ++node)
+    inertiaSpread_.push_back(spreadOf(model_.bodies()[at(system_.bodyOf(node))].inertia_B));
 }
 
 void RattleStep::step(State& state, const Loads& loads, double dt) {
   const double start = state.time;
   // Whoever moved a body in between made the kept factors useless.
   for (std::size_t b = 0; b < state.pose.size(); ++b) {
-    const Pose &a = state.pose[b], &c = trialPose[b];
+    const Pose &a = state.pose[b], &c = trialPose_[b];
     if (!(a.position == c.position) || a.orientation.w != c.orientation.w || a.orientation.x != c.orientation.x ||
         a.orientation.y != c.orientation.y || a.orientation.z != c.orientation.z)
-      std::fill(factored.begin(), factored.end(), -1);
+      std::fill(factored_.begin(), factored_.end(), -1);
   }
-  system.place(state.pose, frames);
-  const std::vector<double>& half = halfComposition(options.order);
+  system_.place(state.pose, frames_);
+  const std::vector<double>& half = halfComposition(options_.order);
   const int stages = 2 * static_cast<int>(half.size()) - 1;
   double done = 0;
   for (int i = 0; i < stages; ++i) {
     const double gamma = half[at(std::min(i, stages - 1 - i))];
-    stageTime = start + done * dt;
+    stageTime_ = start + done * dt;
     stage(state, loads, gamma * dt);
     done += gamma;
   }
   state.time = start + dt;
-  for (const Part& part : system.parts()) readReactions(part, state, loads);
+  for (const Part& part : system_.parts()) readReactions(part, state, loads);
 }
 
 void RattleStep::stage(State& state, const Loads& loads, double h) {
-  softRows.evaluate(loads, stageTime, h, soft);
-  for (const Part& part : system.parts()) {
+  softRows_.evaluate(loads, stageTime_, h, soft_);
+  for (const Part& part : system_.parts()) {
     solvePositions(part, state, loads, h);
     solveVelocities(part, loads, h);
     finish(part, state, loads, h);
@@ -117,17 +118,17 @@ void RattleStep::stage(State& state, const Loads& loads, double h) {
 }
 
 int RattleStep::linearise(const Part& part, const std::vector<Frame>& where) {
-  const int lost = system.linearise(part, where, laws);
-  last.singularRows = std::max(last.singularRows, lost);
+  const int lost = system_.linearise(part, where, laws_);
+  last_.singularRows = std::max(last_.singularRows, lost);
   return lost;
 }
 
 /// Whether the system still holds the matrix of the end of the stage before, and it is the one this stage needs.
 bool RattleStep::positionsFactored(const Part& part) const {
-  if (factored[at(part.index)] != system.linearisation(part)) return false;
+  if (factored_[at(part.index)] != system_.linearisation(part)) return false;
   for (const int k : part.constraints)
-    for (int a = system.firstAxis(k); a < system.firstAxis(k + 1); ++a)
-      if (laws[at(a)].inverseCompliance != 0 || laws[at(a)].driven != (drivenThen[at(a)] != 0)) return false;
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a)
+      if (laws_[at(a)].inverseCompliance != 0 || laws_[at(a)].driven != (drivenThen_[at(a)] != 0)) return false;
   return true;
 }
 

@@ -54,7 +54,7 @@ private:
 
   void stage(State& state, const Loads& loads, double h);
   /// Returns the rows without a pivot.
-  int linearise(const Part& part, const std::vector<Frame>& at);
+  int linearise(const Part& part, const std::vector<Frame>& where);
   bool positionsFactored(const Part& part) const;
 
   // Position solve: Newton's method and its phases (rattle_phases.cpp).
@@ -94,42 +94,42 @@ private:
 
   /// Spring force that acts at the nodes.
   double nodeForce(const SoftRow& row, double position) const {
-    return implicitSprings ? 0 : row.constant - row.stiffness * position;
+    return implicitSprings_ ? 0 : row.constant - row.stiffness * position;
   }
   ForceAndSlope meanForce(int axis, double h) const;
-  int rowNode(int k) const { return system.movableBodies() + k; }
+  int rowNode(int k) const { return system_.movableBodies() + k; }
 
-  const Model& model;
-  const SolverOptions& options;
-  ConstraintSystem& system;
-  StepReport& last;
-  SoftRows softRows;
-  bool implicitSprings;
-  double stageTime = 0; ///< at the beginning of the stage
+  const Model& model_;
+  const SolverOptions& options_;
+  ConstraintSystem& system_;
+  StepReport& last_;
+  SoftRows softRows_;
+  bool implicitSprings_;
+  double stageTime_ = 0; ///< at the beginning of the stage
 
-  std::vector<SoftRow> soft;                            ///< one an axis
-  std::vector<double> x0, x1;                           ///< axis positions at the beginning and at the end of the stage
-  std::vector<double> softImpulse;                      ///< h / 2 times the mean force of an axis' implicit part
-  std::vector<double> startRate;                        ///< of driven axes, at the beginning of the stage
-  std::vector<double> axisRate, springForce, axisForce; ///< at the end of the step
-  std::vector<AxisLaw> laws;                            ///< what linearise() is given, one an axis
-  std::vector<Vector6> x;                               ///< residuals in, corrections out; one a node
-  std::vector<std::array<double, 6>> impulse;           ///< of the rows, in the position and then in the velocity stage
-  std::vector<std::array<double, 6>> endImpulse;
-  std::vector<double> couplingImpulse, couplingEndImpulse;
-  std::vector<Vec3d> gyro;           ///< gyroscopic momentum at the current iterate, one a movable body
-  std::vector<double> inertiaSpread; ///< one a movable body
-  std::vector<Vec3d> spin;           ///< angular momentum after the first half kick, one a movable body
-  std::vector<Twist> mean;           ///< twist over the stage, one a body
-  std::vector<Twist> twist;          ///< at the end of the stage, one a body
-  std::vector<Pose> trialPose;
-  std::vector<Frame> frames, trial;
-  std::vector<JointFrames> startFrames, trialFrames; ///< one a constraint
-  std::vector<char> relinearised;                    ///< of each part: the position stage had to leave J(q_n)
-  std::vector<long long> factored;                   ///< of each part: linearisation that holds the last end, or -1
-  std::vector<double> gapOf;                         ///< of each part: largest gap at the current iterate
-  Mixing mixing;
-  std::vector<char> drivenThen; ///< of each axis, in that linearisation
+  std::vector<SoftRow> soft_;       ///< one an axis
+  std::vector<double> x0_, x1_;     ///< axis positions at the beginning and at the end of the stage
+  std::vector<double> softImpulse_; ///< h / 2 times the mean force of an axis' implicit part
+  std::vector<double> startRate_;   ///< of driven axes, at the beginning of the stage
+  std::vector<double> axisRate_, springForce_, axisForce_; ///< at the end of the step
+  std::vector<AxisLaw> laws_;                              ///< what linearise() is given, one an axis
+  std::vector<Vector6> x_;                                 ///< residuals in, corrections out; one a node
+  std::vector<std::array<double, 6>> impulse_; ///< of the rows, in the position and then in the velocity stage
+  std::vector<std::array<double, 6>> endImpulse_;
+  std::vector<double> couplingImpulse_, couplingEndImpulse_;
+  std::vector<Vec3d> gyro_;           ///< gyroscopic momentum at the current iterate, one a movable body
+  std::vector<double> inertiaSpread_; ///< one a movable body
+  std::vector<Vec3d> spin_;           ///< angular momentum after the first half kick, one a movable body
+  std::vector<Twist> mean_;           ///< twist over the stage, one a body
+  std::vector<Twist> twist_;          ///< at the end of the stage, one a body
+  std::vector<Pose> trialPose_;
+  std::vector<Frame> frames_, trial_;
+  std::vector<JointFrames> startFrames_, trialFrames_; ///< one a constraint
+  std::vector<char> relinearised_;                     ///< of each part: the position stage had to leave J(q_n)
+  std::vector<long long> factored_;                    ///< of each part: linearisation that holds the last end, or -1
+  std::vector<double> gapOf_;                          ///< of each part: largest gap at the current iterate
+  Mixing mixing_;
+  std::vector<char> drivenThen_; ///< of each axis, in that linearisation
 };
 
 /// Largest omega dt [rad] for which the composition of an order is stable with explicit springs.

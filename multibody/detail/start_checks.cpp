@@ -64,7 +64,7 @@ std::optional<Train> trainBetween(const std::vector<CouplingRow>& couplings, int
       if (row.axis1 != axis && row.axis2 != axis) continue;
       const bool forwards = row.axis1 == axis;
       const int other = forwards ? row.axis2 : row.axis1;
-      if (reached.count(other)) continue;
+      if (reached.contains(other)) continue;
       Train train = reached[axis];
       train.ratio *= forwards ? row.ratio : 1 / row.ratio;
       train.couplings.push_back(c);

@@ -233,7 +233,7 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   std::vector<std::string> header = {"run"};
   for (const std::string& key : plan.keys) header.push_back(quoted(key));
   for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
-    header.push_back(column);
+    header.emplace_back(column);
   for (const Figure& f : figuresOf(nullptr, kNone, columns)) header.push_back(f.column);
   header.insert(header.end(), {"state hash", "commit"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));

@@ -45,7 +45,7 @@ public:
   /// Throws base::InputError where the file cannot show what is asked for.
   FramePainter(const output::FramesReader& reader, const PaintOptions& options);
 
-  Image paint(std::size_t frame) const;
+  Image paint(std::size_t index) const;
 
 private:
   void placeCamera(const std::vector<output::StoredFrame>& samples);

@@ -114,7 +114,7 @@ struct GrainFill {
   bool operator==(const GrainFill&) const = default;
 };
 /// Grains of a text file with lines "x, y, z, r" [m]. Throws InputError with the line that is none.
-std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& block);
+std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill);
 
 /// [[source]]: grains that enter while the run goes.
 struct Source {

@@ -17,7 +17,6 @@ namespace grouser::setup {
 
 using base::Mat3d;
 using base::Pose;
-using base::Quat;
 using base::Vec3d;
 using multibody::JointAxis;
 using multibody::JointType;

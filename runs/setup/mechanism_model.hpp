@@ -33,8 +33,8 @@ private:
   int joint(const std::string& key, const std::string& name) const;
   std::pair<int, int> twoBodies(const std::vector<std::string>& names) const;
   /// The axis of a joint that is meant, by name or as its only one.
-  multibody::JointAxis axis(int joint, const std::string& key, std::optional<multibody::JointAxis> named) const;
-  base::Pose pose(int body) const;
+  multibody::JointAxis axis(int index, const std::string& key, std::optional<multibody::JointAxis> named) const;
+  base::Pose pose(int index) const;
   void checkName(const std::string& kind, const std::string& name);
   void addOnAxis(const scene::SpringSection& spring);
   void addBetweenPoints(const scene::SpringSection& spring);
@@ -46,8 +46,8 @@ private:
 
 multibody::Model buildModel(const scene::MechanismSections& sections);
 
-/// Throws SectionFault, for key "" of joint `joint`, where the velocities of its two bodies at the start do not go
+/// Throws SectionFault, for key "" of joint `index`, where the velocities of its two bodies at the start do not go
 /// together with it. Velocities must agree to 1e-5 of their size.
-void checkStartVelocity(const multibody::Model& model, int joint);
+void checkStartVelocity(const multibody::Model& model, int index);
 
 } // namespace grouser::setup

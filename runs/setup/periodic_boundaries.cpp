@@ -37,7 +37,7 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
   const terrain::PeriodicBoundaries sides = periodicBoundaries(scene);
   for (std::size_t a = 0; a < 2; ++a) {
     if (!sides[a]) continue;
-    const auto [from, to] = *sides[a];
+    const double from = (*sides[a])[0], to = (*sides[a])[1];
     const int axis = static_cast<int>(a);
     const auto outside = [&](double low, double high) {
       return fmt::format(

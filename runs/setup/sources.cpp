@@ -67,7 +67,8 @@ std::vector<terrain::GrainSpec> Sources::batch(const SourceSetup& s, std::int64_
                         s.place, s.number, s.radius));
       base::Vec3d place;
       for (int a = 0; a < 3; ++a) {
-        const double u = base::uniform(s.seed, kPurpose, id, static_cast<std::uint64_t>(3 * attempt + a));
+        const double u = base::uniform(s.seed, kPurpose, id,
+                                       3 * static_cast<std::uint64_t>(attempt) + static_cast<std::uint64_t>(a));
         place[a] = s.low[a] + u * (s.high[a] - s.low[a]);
       }
       const bool taken = std::any_of(grains.begin(), grains.end(), [&](const terrain::GrainSpec& g) {

@@ -140,9 +140,8 @@ Simulation::Ledger Simulation::ledger() {
   }
   if (mechanism_) {
     const Mechanism::Ledger m = mechanism_->ledger();
-    ledger.driveWork = m.driveWork;
-    ledger.kinetic = m.kinetic, ledger.potential = m.potential;
-    ledger.elastic = m.elastic, ledger.dissipated = m.dissipated;
+    ledger.driveWork += m.driveWork, ledger.kinetic += m.kinetic, ledger.potential += m.potential;
+    ledger.elastic += m.elastic, ledger.dissipated += m.dissipated;
   }
   ledger.kinetic -= start_.kinetic, ledger.potential -= start_.potential;
   ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;

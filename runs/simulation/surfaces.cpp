@@ -10,7 +10,6 @@
 namespace grouser::simulation {
 
 using base::Vec3d;
-using terrain::SurfaceShape;
 
 Surfaces::Surfaces(const setup::GroundSetup& setup, const Vec3d& gravity, double timeStep)
     : setup_(setup), surfaces_(setup.surfaces), gravity_(gravity), timeStep_(timeStep) {

@@ -85,7 +85,7 @@ void VehicleContacts::setPoses(const multibody::State& state) {
 void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
   // Two parts approach each other at most as fast as both move relative to the hull.
   const bool trackIsDue = 2 * relativeTravel_ > kTrackMargin;
-  const bool groundIsDue = onGround() ? absoluteTravel_ > kBedMargin || slotsChanged : absoluteTravel_ > 0;
+  const bool groundIsDue = onGround() && (absoluteTravel_ > kBedMargin || slotsChanged);
   if (!trackIsDue && !groundIsDue) return;
   motion_.upload();
   graph_.forget();

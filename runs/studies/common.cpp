@@ -17,7 +17,7 @@ namespace grouser::studies {
 namespace fs = std::filesystem;
 
 std::filesystem::path beginStudy(const std::string& name, const StudyPlace& place) {
-  const fs::path folder = place.folder.empty() ? fs::path("out") / ("study_" + name) : fs::path(place.folder);
+  fs::path folder = place.folder.empty() ? fs::path("out") / ("study_" + name) : fs::path(place.folder);
   output::checkOutputFolder(folder, place.force);
   fs::create_directories(folder);
   fmt::print("study     {}: commit {}, {}\n", name, support::buildInfo().commit, support::machineText());

@@ -148,7 +148,7 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
       StudyBox box = bedOf(study);
       box.precision = p == 0 ? Precision::single : Precision::double_;
       // Runs of one precision begin as no other does: the two means are independent.
-      box.shaken = kShaken, box.seed = static_cast<std::uint64_t>(2 * run + p + 1);
+      box.shaken = kShaken, box.seed = 2 * static_cast<std::uint64_t>(run) + static_cast<std::uint64_t>(p) + 1;
       progress((run + 0.5 * p) / study.runs, "dropped bed");
       Grains grains = fill(box, exec);
       for (std::size_t k = 0; k < kMacroTimes; ++k) {

@@ -55,7 +55,7 @@ double checkedLimit(const RestingGrains& grains, double stiffness, double zeta);
 
 /// Disturbs the rest, steps along; unstable when the kinetic energy passes kGrowth of the disturbance's, or when a
 /// guard stops the run.
-GrainStabilityCell tryCell(const RestingGrains& grains, double stiffness, double zeta, double timeStep);
+GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, double zeta, double timeStep);
 inline constexpr double kGrowth = 1e3;
 inline constexpr int kStabilitySteps = 600;
 

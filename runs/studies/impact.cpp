@@ -12,6 +12,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <ranges>
 
 namespace grouser::studies {
 
@@ -287,14 +288,14 @@ support::LineFit measuredOrder(const ImpactSeries& series, int quantity) {
 const ImpactPoint* cheapestImpact(const ImpactSeries& series, int quantity, double tolerance) {
   const ImpactReference reference = impactReference(series.study);
   const ImpactPoint* best = nullptr;
-  for (auto p = series.points.rbegin(); p != series.points.rend(); ++p) {
-    if (!p->stable) break;
+  for (const ImpactPoint& p : std::views::reverse(series.points)) {
+    if (!p.stable) break;
     for (int q = 0; q < kImpactQuantities; ++q) {
       const auto k = static_cast<std::size_t>(q);
-      if ((quantity == q || quantity == kImpactQuantities) && reference.value[k] && !(p->error[k].worst <= tolerance))
+      if ((quantity == q || quantity == kImpactQuantities) && reference.value[k] && !(p.error[k].worst <= tolerance))
         return best;
     }
-    best = &*p;
+    best = &p;
   }
   return best;
 }

@@ -100,8 +100,10 @@ void springs(std::vector<StabilityPoint>& points) {
 /// Highest frequency of a hanging chain's small swings [rad/s], by power iteration on M^-1 K: links of mass m, length l
 /// and inertia I about the centre, angles from the vertical as coordinates.
 double highestSwing(int n, double m, double l, double I, double tip, double g) {
-  const auto at = [n](int i, int j) { return static_cast<std::size_t>(i * n + j); };
-  std::vector<double> M(static_cast<std::size_t>(n * n)), K(static_cast<std::size_t>(n));
+  const auto at = [n](int i, int j) {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
+  };
+  std::vector<double> M(at(n, 0)), K(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     // What hangs below link i moves with l theta_i, its own centre with half of that.
     K[static_cast<std::size_t>(i)] = g * l * (0.5 * m + (n - 1 - i) * m + tip);

@@ -139,7 +139,7 @@ std::vector<TouchConfiguration> studyTouch(const TouchStudy& study,
   const base::Exec exec = base::cpuExec(study.threads);
   terrain::Grains run = fill(box, exec), single = fill(box, exec);
   box.precision = terrain::Precision::double_;
-  terrain::Grains double_ = fill(box, exec);
+  terrain::Grains twice = fill(box, exec);
   std::vector<TouchConfiguration> all;
   std::vector<std::uint64_t> former;
   for (int c = 0; c < study.configurations; ++c) {
@@ -153,7 +153,7 @@ std::vector<TouchConfiguration> studyTouch(const TouchStudy& study,
     now.counts = judgePairs(run, studyBoxDiameter());
     now.kineticPerGrain = run.ledger().kinetic / static_cast<double>(study.grains);
     const terrain::GrainState state = run.state();
-    const terrain::GrainState inSingle = listsOf(single, state), inDouble = listsOf(double_, state);
+    const terrain::GrainState inSingle = listsOf(single, state), inDouble = listsOf(twice, state);
     countDifferences(inSingle, inDouble, now);
     std::vector<std::uint64_t> keys = contactKeys(inSingle), change;
     std::set_symmetric_difference(keys.begin(), keys.end(), former.begin(), former.end(), std::back_inserter(change));

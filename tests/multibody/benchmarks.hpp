@@ -20,7 +20,7 @@ inline SolverOptions rattle(int order = 2, Springs springs = Springs::kExplicit)
 
 inline void run(Mechanism& m, const SolverOptions& options, double dt, double t) {
   Solver solver(m.model, options);
-  const int steps = static_cast<int>(t / dt + 0.5);
+  const int steps = static_cast<int>(std::lround(t / dt));
   for (int i = 0; i < steps; ++i) solver.step(m.state, m.loads, dt);
 }
 
@@ -81,12 +81,14 @@ inline Vec3d tipOf(const Mechanism& m) { return 2.0 * m.state.pose[0].position; 
 /// and in Hairer and Wanner 1996, VII.7), in the x-y plane, seven bodies in three loops, closed in the position q0 that
 /// the test set gives. A constant torque of 0.033 N m on K1; a stiff spring on K3.
 struct Andrews {
+  // NOLINTBEGIN(readability-identifier-naming): the names of the test set
   static constexpr double m[8] = {0, .04325, .00365, .02373, .00706, .07050, .00706, .05498};
   static constexpr double I[8] = {0, 2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5};
   static constexpr double q0[7] = {
       -.0617138900142764496, 0, .455279819163070380, .222668390165885885, .487364979543842550, -.222668390165885885,
       1.23054744454982119};
   static constexpr double torque = .033;
+  // NOLINTEND(readability-identifier-naming)
 
   static Mechanism make() {
     const double d = .028, da = .0115, e = .02, ea = .01421, rr = .007, ra = 9.2e-4, sa = .01874, sb = .01043,

@@ -148,7 +148,7 @@ TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
     // Every 300 steps all cuts jump: most grains change hands at once, some ranks are left with none.
     for (int k = 0; k < 10; ++k) {
       std::array<std::vector<std::int64_t>, 3> weights;
-      for (auto& w : weights) w.assign(kPartitionBins, 1), w[static_cast<std::size_t>(400 * k)] = 100000;
+      for (auto& w : weights) w.assign(kPartitionBins, 1), w[400 * static_cast<std::size_t>(k)] = 100000;
       const auto u = [&](double metres) { return static_cast<std::int64_t>(metres * grains.scale().perMetre); };
       ranks->setPartition(
           {ranks->subdomain().partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});

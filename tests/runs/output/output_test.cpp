@@ -196,7 +196,7 @@ TEST_F(Output, FilledFolderIsLeftAloneWithoutForce) {
   std::ofstream(folder_ / "results.h5") << "precious";
   std::ofstream(folder_ / "notes.txt") << "mine";
   try {
-    RunWriter(folder_, setup::provenanceOf(scene()), channels(), {});
+    const RunWriter refused(folder_, setup::provenanceOf(scene()), channels(), {});
     FAIL();
   } catch (const base::InputError& e) {
     EXPECT_NE(std::string(e.what()).find("--force"), std::string::npos);

@@ -108,6 +108,7 @@ struct Broken {
   const char* from;
   const char* to;
   std::vector<const char*> says;
+  // NOLINTNEXTLINE(readability-identifier-naming): GoogleTest calls it by this name.
   friend void PrintTo(const Broken& b, std::ostream* out) { *out << b.name; }
 };
 
