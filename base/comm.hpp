@@ -8,7 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-/// The ranks that run one scene together; the only place that calls MPI. A program that was started alone never does.
+/// The ranks that run one scene together; the only place that calls MPI, but for HDF5 where all ranks write one file. A
+/// program that was started alone never does.
 namespace grouser::base {
 
 using Bytes = std::vector<std::byte>;

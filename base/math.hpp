@@ -9,7 +9,7 @@
 
 /// Elementary functions that give the same bits on every processor: built from + - * / and sqrt only, in a fixed order.
 /// The C library's versions differ between processors (they pick fused multiply-add paths at run time).
-/// Accuracy: a few units in the last place over the ranges stated; measured in tests/base/math_test.cpp.
+/// Accuracy: a few units in the last place over the ranges stated; measured in tests/base/arithmetic_test.cu.
 namespace grouser::base {
 
 inline constexpr double kPi = 3.14159265358979323846;

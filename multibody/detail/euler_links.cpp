@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Euler step of the bodies and of the joints they hang by, four at a time (link_lanes.hpp). euler_step.cpp states
+// The Euler step of the bodies and of the joints they hang by, four at a time (link_simd.hpp). euler_step.cpp states
 // the scheme and treats what is left: constraints that close loops, springs between points, bushings, couplings.
 #include "multibody/detail/euler_step.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// The commands of the program: each adds itself, with its options, to the command line. A new command is a file
-/// x_options.cpp, and a line in allCommands().
+/// NAME_options.cpp, and a line in allCommands().
 namespace grouser::commands {
 
 /// What the program was started with.

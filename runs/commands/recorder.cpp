@@ -20,29 +20,31 @@ namespace grouser::commands {
 
 namespace {
 
-const char* kindName(vehicle::PartKind kind) {
+output::PartKind pictured(vehicle::PartKind kind) {
+  using From = vehicle::PartKind;
+  using To = output::PartKind;
   switch (kind) {
-  case vehicle::PartKind::kChassis:
-    return "chassis";
-  case vehicle::PartKind::kShoe:
-    return "shoe";
-  case vehicle::PartKind::kSprocket:
-    return "sprocket";
-  case vehicle::PartKind::kRoadWheel:
-    return "road_wheel";
-  case vehicle::PartKind::kRoller:
-    return "roller";
-  case vehicle::PartKind::kIdler:
-    return "idler";
+  case From::kChassis:
+    return To::chassis;
+  case From::kShoe:
+    return To::shoe;
+  case From::kSprocket:
+    return To::sprocket;
+  case From::kRoadWheel:
+    return To::roadWheel;
+  case From::kRoller:
+    return To::roller;
+  case From::kIdler:
+    return To::idler;
   }
-  return "part";
+  return To::other;
 }
 
 std::vector<output::FramePart> frameParts(const simulation::VehicleRig& rig) {
   std::vector<output::FramePart> parts;
   for (std::size_t p = 0; p < rig.assembly().parts.size(); ++p) {
     const vehicle::Part& part = rig.assembly().parts[p];
-    parts.push_back({part.name, kindName(part.kind), rig.parts().meshes()[rig.parts().meshOfPart(p)]});
+    parts.push_back({part.name, pictured(part.kind), rig.parts().meshes()[rig.parts().meshOfPart(p)]});
   }
   return parts;
 }
@@ -162,8 +164,8 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
   if (setup.mechanism) parts_ = output::mechanismParts(*setup.mechanism);
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
-      parts_.push_back(
-          {surfaces->surface(i).name, output::kSurfaceKind, output::surfaceMesh(setup.planes, surfaces->surface(i))});
+      parts_.push_back({surfaces->surface(i).name, output::PartKind::surface,
+                        output::surfaceMesh(setup.planes, surfaces->surface(i))});
   ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(setup.planes);
   writer_.setParts(parts_, ground_);
   if (const auto& grains = simulation_.ground().grains;

@@ -22,6 +22,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <thread>
 
 namespace grouser::commands {
@@ -29,6 +30,8 @@ namespace grouser::commands {
 namespace fs = std::filesystem;
 
 namespace {
+
+using output::RunStatus;
 
 constexpr const char* kLog = "log.txt"; // what a run printed
 
@@ -39,14 +42,14 @@ std::string identity(scene::Scene scene) {
   return scene::resolvedToml(scene);
 }
 
-std::string manifestStatus(const fs::path& folder) {
+std::optional<RunStatus> manifestStatus(const fs::path& folder) {
   std::ifstream file(folder / "manifest.json");
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  return json.is_object() ? json.value("status", "") : "";
+  return json.is_object() ? base::valueOf<RunStatus>(json.value("status", "")) : std::nullopt;
 }
 
 bool isFinished(const fs::path& folder, const scene::Scene& scene) {
-  if (manifestStatus(folder) != "finished") return false;
+  if (manifestStatus(folder) != RunStatus::finished) return false;
   try {
     return identity(setup::loadScene(folder / "scene.toml")) == identity(scene);
   } catch (const base::InputError&) {
@@ -116,7 +119,7 @@ public:
       : plan_(plan), options_(options), outcomes_(plan.runs.size()), progress_("sweep") {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       if (!options.force && isFinished(folder(i), plan.runs[i].scene)) {
-        outcomes_[i].status = "finished";
+        outcomes_[i].status = RunStatus::finished;
         progress_.note(fmt::format("{} finished already", title(i)));
       } else {
         waiting_.push_back(i);
@@ -134,8 +137,8 @@ public:
       reap();
       if (progress_.due()) report();
     }
-    const auto failed =
-        std::count_if(outcomes_.begin(), outcomes_.end(), [](const SweepOutcome& o) { return o.status == "failed"; });
+    const auto failed = std::count_if(outcomes_.begin(), outcomes_.end(),
+                                      [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
     if (todo_ > 0)
       progress_.finish(
           fmt::format("{} of {} runs finished", outcomes_.size() - static_cast<std::size_t>(failed), outcomes_.size()));
@@ -165,7 +168,7 @@ private:
       words.insert(words.end(), {"--threads", fmt::format("{}", std::max(1, base::cpuExec().threads / options_.jobs))});
     words.insert(words.end(), {"--out", folder(i).string(), "--force", "--hash"});
     running_[start(std::move(words), folder(i) / kLog)] = {i, Clock::now()};
-    outcomes_[i].status = "running";
+    outcomes_[i].status = RunStatus::running;
     summarise();
   }
 
@@ -187,10 +190,10 @@ private:
   void finish(std::size_t i, int status, double seconds) {
     ++ended_;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-      outcomes_[i].status = "finished";
+      outcomes_[i].status = RunStatus::finished;
       progress_.note(fmt::format("{} finished in {}", title(i), support::Progress::duration(seconds)));
     } else {
-      outcomes_[i] = {"failed", reason(status, folder(i) / kLog)};
+      outcomes_[i] = {RunStatus::failed, reason(status, folder(i) / kLog)};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
     }
     summarise();

@@ -204,9 +204,9 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
                              const Columns& columns) {
   std::vector<std::string> cells = {quoted(run.name)};
   for (const std::string& value : run.values) cells.push_back(quoted(value));
-  cells.push_back(outcome.status);
+  cells.emplace_back(base::wordOf(outcome.status));
   cells.push_back(quoted(outcome.message));
-  const bool isFinished = outcome.status == "finished";
+  const bool isFinished = outcome.status == output::RunStatus::finished;
   const nlohmann::json manifest = isFinished ? readManifest(folder / run.name) : nlohmann::json::object();
   for (const char* key : {"wall_time_s", "steps", "simulated_time_s"}) cells.push_back(cell(numberOf(manifest, key)));
   std::optional<support::Hdf5File> file;

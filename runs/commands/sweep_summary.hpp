@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/commands/sweep_plan.hpp"
+#include "runs/output/run_status.hpp"
 
 #include <filesystem>
 #include <string>
@@ -11,8 +12,8 @@ namespace grouser::commands {
 
 /// How one run of a sweep stands.
 struct SweepOutcome {
-  std::string status = "pending"; ///< pending | running | finished | failed
-  std::string message;            ///< of a failed run
+  output::RunStatus status = output::RunStatus::pending;
+  std::string message; ///< of a failed run
 };
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a

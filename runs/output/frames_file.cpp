@@ -111,8 +111,9 @@ FramesFile::FramesFile(const std::filesystem::path& folder, std::optional<suppor
   std::vector<std::string> names, kinds;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const FramePart& part = parts_[p];
-    const auto kind = std::find(kinds.begin(), kinds.end(), part.kind) - kinds.begin();
-    if (kind == static_cast<std::ptrdiff_t>(kinds.size())) kinds.push_back(part.kind);
+    const std::string_view word = base::wordOf(part.kind);
+    const auto kind = std::find(kinds.begin(), kinds.end(), word) - kinds.begin();
+    if (kind == static_cast<std::ptrdiff_t>(kinds.size())) kinds.emplace_back(word);
     names.push_back(part.name);
     for (const std::uint32_t i : part.mesh.indices) corners.push_back(static_cast<std::uint32_t>(partVertices_) + i);
     partOf.insert(partOf.end(), part.mesh.indices.size() / 3, static_cast<std::uint32_t>(p));

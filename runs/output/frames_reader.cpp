@@ -44,7 +44,7 @@ FramesReader::FramesReader(const std::filesystem::path& path) : file_(opened(pat
 }
 
 bool FramesReader::hasVehicle() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](const StoredPart& p) { return p.kind == kHullKind; });
+  return std::any_of(parts_.begin(), parts_.end(), [](const StoredPart& p) { return p.kind == PartKind::chassis; });
 }
 
 void FramesReader::damaged(const std::string& what) const {
@@ -84,7 +84,7 @@ void FramesReader::readParts() {
   for (std::size_t t = 0; t < partOf.size(); ++t) {
     if (partOf[t] >= names.size() || kindOf[t] >= kinds.size()) damaged("a triangle of /parts is of no part");
     StoredPart& part = parts_[partOf[t]];
-    part.name = names[partOf[t]], part.kind = kinds[kindOf[t]];
+    part.name = names[partOf[t]], part.kind = base::valueOf<PartKind>(kinds[kindOf[t]]).value_or(PartKind::other);
     part.triangles.insert(part.triangles.end(), &corners[3 * t], &corners[3 * t] + 3);
   }
   for (StoredPart& part : parts_) {

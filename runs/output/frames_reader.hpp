@@ -3,6 +3,7 @@
 
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
+#include "runs/output/part_kind.hpp"
 #include "runs/support/hdf5_file.hpp"
 
 #include <array>
@@ -13,12 +14,10 @@
 
 namespace grouser::output {
 
-/// Kind of the part that a vehicle is known by.
-inline constexpr const char* kHullKind = "chassis";
-
 /// A part of frames.h5: its triangles name vertices first ... first + count - 1 of each frame's part vertices.
 struct StoredPart {
-  std::string name, kind;
+  std::string name;
+  PartKind kind{};
   std::uint32_t first = 0, count = 0;
   std::vector<std::uint32_t> triangles; ///< 3 a triangle, counted from `first`
 };

@@ -40,10 +40,10 @@ Manifest::Manifest(const fs::path& folder, const setup::Provenance& provenance,
     : path_(folder / kName), scene_(fs::absolute(provenance.file).lexically_normal().string()), started_(now()),
       overrides_(provenance.overrides), notes_(metadata) {}
 
-void Manifest::write(const std::string& status) const {
+void Manifest::write(RunStatus status) const {
   const support::BuildInfo build = support::buildInfo();
   nlohmann::ordered_json json;
-  json["status"] = status;
+  json["status"] = base::wordOf(status);
   json["scene"] = scene_;
   json["overrides"] = overrides_;
   json["program"] = {{"name", "grouser"},
@@ -54,7 +54,7 @@ void Manifest::write(const std::string& status) const {
   json["machine"] = support::machineText();
   json["started"] = started_;
   for (const auto& [key, text] : notes_) json[key] = text;
-  if (status == "finished") {
+  if (status == RunStatus::finished) {
     json["ended"] = now();
     json["steps"] = summary_.steps;
     json["simulated_time_s"] = summary_.simulatedTime;

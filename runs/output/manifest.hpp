@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/output/records.hpp"
+#include "runs/output/run_status.hpp"
 #include "runs/setup/provenance.hpp"
 
 #include <filesystem>
@@ -19,8 +20,8 @@ public:
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }
   void add(const Summary& summary) { summary_ = summary; }
 
-  /// Writes the file with the folder's files of this moment, by renaming. `status`: running, finished or failed.
-  void write(const std::string& status) const;
+  /// Writes the file with the folder's files of this moment, by renaming.
+  void write(RunStatus status) const;
 
 private:
   std::filesystem::path path_;

@@ -65,7 +65,6 @@ constexpr std::size_t kRowsShown = 8;
 /// Shares of a mechanism's size: thickness of the bars from a centre to the joints, edge of the cube at the centre,
 /// least and greatest edge of a free body that gives no box [-].
 constexpr double kBar = 0.015, kCentre = 0.035, kLeastEdge = 0.02, kGreatestEdge = 0.5;
-constexpr std::size_t kBodyColours = 6; ///< kinds "body 0" to "body 5", for pictures
 
 /// Adds a box of edges `size` about `centre`, its axes the columns of `R`.
 void addBox(base::TriangleMesh& mesh, const Vec3d& centre, const base::Mat3d& R, const Vec3d& size) {
@@ -290,7 +289,7 @@ std::vector<FramePart> mechanismParts(const setup::MechanismSetup& setup) {
   std::vector<FramePart> parts;
   for (std::size_t b = 0; b < model.bodies().size(); ++b) {
     const multibody::Body& body = model.bodies()[b];
-    FramePart part{body.name, body.fixed ? "fixed" : fmt::format("body {}", b % kBodyColours), {}};
+    FramePart part{body.name, body.fixed ? PartKind::fixed : kBodyKinds[b % std::size(kBodyKinds)], {}};
     std::vector<Vec3d> ends;
     for (const multibody::Joint& j : model.joints()) {
       if (j.bodyA == static_cast<int>(b)) ends.push_back(j.frame_A.position);

@@ -120,7 +120,7 @@ struct RunWriter::Series {
     makeSeries();
     writeHeader();
     if (options.former) takeOver();
-    manifest.write("running");
+    manifest.write(RunStatus::running);
   }
 
   void takeOver() {
@@ -280,14 +280,14 @@ void RunWriter::finish(const Summary& summary) {
   w.series->results.attribute("/", "state_hash", summary.stateHash);
   w.series->results.flush();
   w.series->manifest.add(summary);
-  w.series->manifest.write("finished");
+  w.series->manifest.write(RunStatus::finished);
 }
 
 void RunWriter::abandon(const std::string& reason) {
   if (!impl_->series) return;
   impl_->series->manifest.note("error", reason);
   try {
-    impl_->series->manifest.write("failed");
+    impl_->series->manifest.write(RunStatus::failed);
   } catch (const std::exception&) {
     // The disk may be full. The user gets the error that ended the run, not this one.
   }
@@ -296,7 +296,7 @@ void RunWriter::abandon(const std::string& reason) {
 void RunWriter::stop(const std::string& reason) {
   if (!impl_->series) return;
   impl_->series->manifest.note("stopped", reason);
-  impl_->series->manifest.write("stopped");
+  impl_->series->manifest.write(RunStatus::stopped);
 }
 
 std::int64_t RunWriter::rows() const { return impl_->rows; }

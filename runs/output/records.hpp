@@ -3,6 +3,7 @@
 
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
+#include "runs/output/part_kind.hpp"
 
 #include <array>
 #include <cstdint>
@@ -34,7 +35,7 @@ struct Row {
 /// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
 struct FramePart {
   std::string name; ///< "left shoe 12"
-  std::string kind; ///< "chassis", "shoe", "sprocket", "road_wheel", "roller", "idler", "surface": decides the colour
+  PartKind kind{};
   base::TriangleMesh mesh; ///< body frame
 };
 

@@ -7,9 +7,6 @@
 
 namespace grouser::output {
 
-/// Kind of a frame's part that is a rigid surface of the scene.
-inline constexpr const char* kSurfaceKind = "surface";
-
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
 /// cylinder shows its inside.
 base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface);

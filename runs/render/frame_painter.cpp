@@ -47,7 +47,7 @@ Vec3d FramePainter::hull(const output::StoredFrame& frame) const {
   Vec3d sum;
   double count = 0;
   for (const output::StoredPart& part : reader_.parts()) {
-    if (part.kind != output::kHullKind) continue;
+    if (part.kind != output::PartKind::chassis) continue;
     for (std::uint32_t v = 0; v < part.count; ++v) sum += frame.partVertices[part.first + v].as<double>(), count += 1;
   }
   return count > 0 ? sum * (1 / count) : sum;
@@ -108,7 +108,7 @@ Image FramePainter::paint(std::size_t index) const {
   for (std::size_t i = 0; i < colours.size(); ++i)
     scene.spheres.push_back({frame.positions[i], frame.radii[i], colours[i]});
   for (const output::StoredPart& part : reader_.parts()) {
-    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), isSurface(part.kind)};
+    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), part.kind == output::PartKind::surface};
     for (std::uint32_t v = 0; v < part.count; ++v)
       mesh.mesh.vertices.push_back(frame.partVertices[part.first + v].as<double>());
     scene.meshes.push_back(std::move(mesh));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/render/picture.hpp"
 
-#include "runs/output/surface_mesh.hpp"
-
 #include <algorithm>
 
 namespace grouser::render {
@@ -27,20 +25,37 @@ struct Box {
 
 Colour groundColour() { return srgb(168, 152, 128); }
 
-bool isSurface(const std::string& kind) { return kind == output::kSurfaceKind; }
-
-Colour partColour(const std::string& kind) {
-  if (kind == "chassis") return srgb(112, 122, 92);
-  if (kind == "shoe") return srgb(66, 68, 72);
-  if (kind == "sprocket") return srgb(214, 138, 48);
-  if (kind == "road_wheel") return srgb(122, 146, 176);
-  if (kind == "roller") return srgb(150, 172, 150);
-  if (kind == "idler") return srgb(178, 96, 84);
-  // Bodies of a mechanism, in turn.
-  const Colour bodies[] = {srgb(78, 121, 167), srgb(214, 138, 48),  srgb(89, 161, 79),
-                           srgb(178, 96, 84),  srgb(140, 110, 160), srgb(118, 183, 178)};
-  if (isSurface(kind)) return groundColour();
-  if (kind.rfind("body ", 0) == 0) return bodies[static_cast<std::size_t>(kind.back() - '0') % std::size(bodies)];
+Colour partColour(output::PartKind kind) {
+  using Kind = output::PartKind;
+  switch (kind) {
+  case Kind::chassis:
+    return srgb(112, 122, 92);
+  case Kind::shoe:
+    return srgb(66, 68, 72);
+  case Kind::sprocket:
+  case Kind::body1:
+    return srgb(214, 138, 48);
+  case Kind::roadWheel:
+    return srgb(122, 146, 176);
+  case Kind::roller:
+    return srgb(150, 172, 150);
+  case Kind::idler:
+  case Kind::body3:
+    return srgb(178, 96, 84);
+  case Kind::surface:
+    return groundColour();
+  case Kind::body0:
+    return srgb(78, 121, 167);
+  case Kind::body2:
+    return srgb(89, 161, 79);
+  case Kind::body4:
+    return srgb(140, 110, 160);
+  case Kind::body5:
+    return srgb(118, 183, 178);
+  case Kind::fixed:
+  case Kind::other:
+    break;
+  }
   return srgb(150, 150, 150);
 }
 
@@ -102,7 +117,8 @@ Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const bool surface = isSurface(parts[i].kind);
+    // A rigid surface is drawn from the side of the grains alone.
+    const bool surface = parts[i].kind == output::PartKind::surface;
     scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface});
     for (const Vec3d& v : parts[i].mesh.vertices)
       (surface ? surfaces : vehicle).push_back(frame.partPoses[i].toWorld(v).as<float>());

@@ -10,10 +10,8 @@ namespace grouser::render {
 /// Elevation of the camera above a vehicle, above a bed alone, and above parts that lie flat [deg].
 inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
 
-Colour partColour(const std::string& kind);
+Colour partColour(output::PartKind kind);
 Colour groundColour();
-/// A rigid surface of a scene of grains: drawn from the side of the grains alone.
-bool isSurface(const std::string& kind);
 
 /// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
 /// grains, axis by axis, than these are wide; of less than 100 grains none.

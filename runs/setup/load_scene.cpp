@@ -70,9 +70,9 @@ void checkSurfaces(const Section& root, const scene::Scene& scene) {
   const GrainKinds kinds = grainKinds(scene);
   std::map<std::string, std::string> places; // of names
   for (const SceneSurface& s : surfacesOf(scene)) {
-    const Section section = root.list(s.kind)[s.number];
+    const Section section = root.list(s.list())[s.number];
     if (!kinds.any())
-      section.fail("", std::string(s.kind) == "plane"
+      section.fail("", s.kind == SurfaceKind::plane
                            ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
                            : "stands in a scene without grains, and nothing else touches it; remove it");
     const auto [other, fresh] = places.emplace(s.name, section.path());

@@ -35,9 +35,9 @@ std::optional<FreeSurface> freedomOf(const scene::SurfaceSection& s) {
 
 std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
   std::vector<SceneSurface> all;
-  const auto add = [&](const char* kind, std::size_t number, const scene::SurfaceSection& section, SurfaceShape shape,
+  const auto add = [&](SurfaceKind kind, std::size_t number, const scene::SurfaceSection& section, SurfaceShape shape,
                        const Vec3d& half, const base::Pose& pose) {
-    all.push_back({{.name = section.name.value_or(fmt::format("{}{}", kind, number)),
+    all.push_back({{.name = section.name.value_or(fmt::format("{}{}", base::wordOf(kind), number)),
                     .kind = kind,
                     .number = number,
                     .material = section.material,
@@ -50,22 +50,22 @@ std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
   };
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
     const scene::Plane& p = scene.planes[k];
-    if (!p.isWall()) add("plane", k, p, SurfaceShape::plane, {}, {p.point, support::turnFromZ(p.normal)});
+    if (!p.isWall()) add(SurfaceKind::plane, k, p, SurfaceShape::plane, {}, {p.point, support::turnFromZ(p.normal)});
   }
   for (std::size_t k = 0; k < scene.boxes.size(); ++k) {
     const scene::BoxSection& b = scene.boxes[k];
-    add("box", k, b, SurfaceShape::box, 0.5 * b.size,
+    add(SurfaceKind::box, k, b, SurfaceShape::box, 0.5 * b.size,
         {b.position, support::orientationOf(b.axis, b.angle, b.orientation.value_or(std::vector<double>{}))});
   }
   for (std::size_t k = 0; k < scene.cylinders.size(); ++k) {
     const scene::CylinderSection& c = scene.cylinders[k];
-    add("cylinder", k, c, c.hollow ? SurfaceShape::tube : SurfaceShape::cylinder, {c.radius, 0, 0.5 * c.length},
-        {c.position, support::turnFromZ(c.axis)});
+    add(SurfaceKind::cylinder, k, c, c.hollow ? SurfaceShape::tube : SurfaceShape::cylinder,
+        {c.radius, 0, 0.5 * c.length}, {c.position, support::turnFromZ(c.axis)});
   }
   for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
     const scene::MeshSection& m = scene.meshes[k];
     const auto [low, high] = spheredecomp::bounds(m.loaded.query->mesh());
-    add("mesh", k, m, SurfaceShape::box, 0.5 * (high - low),
+    add(SurfaceKind::mesh, k, m, SurfaceShape::box, 0.5 * (high - low),
         {m.position, support::orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
     all.back().mesh = m.loaded.query, all.back().sphereRadius = *m.sphereRadius;
   }

@@ -4,6 +4,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/surface_setup.hpp"
 
+#include <string>
 #include <vector>
 
 namespace grouser::setup {
@@ -11,6 +12,8 @@ namespace grouser::setup {
 /// A surface with the section that it stands in.
 struct SceneSurface : SurfaceSetup {
   scene::SurfaceSection section;
+
+  std::string list() const { return std::string(base::wordOf(kind)); } ///< "box" of [[box]]
 };
 /// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
 std::vector<SceneSurface> surfacesOf(const scene::Scene& scene);

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <string_view>
 #include <tuple>
 
 namespace grouser::setup {
@@ -40,14 +39,17 @@ struct CellsAlong {
 /// "at (1, 2, 3) m".
 std::string at(const Vec3d& p) { return fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
 
+/// Who sets balls into a scene: [[grain]], [[grains]], [[source]].
+enum class Setter { grain, grains, source };
+
 /// A ball that somebody sets into the scene, and who.
 struct Ball {
   Vec3d position;
   double radius;
-  std::string_view list; ///< "grain", "grains", "source"
-  std::size_t number{};  ///< of the section there
-  double time{};         ///< [s]
-  std::size_t id{};      ///< of a grain that is there from the start
+  Setter setter;
+  std::size_t number{}; ///< of the section there
+  double time{};        ///< [s]
+  std::size_t id{};     ///< of a grain that is there from the start
 };
 
 /// Sets balls into the scene one after the other, each where nothing may be yet.
@@ -74,7 +76,7 @@ public:
       if (s.free && ball.time > 0) continue;
       if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
           isTooDeep(depth, ball.radius))
-        refuse(ball, depth, fmt::format("{} {}", s.kind, s.number));
+        refuse(ball, depth, fmt::format("{} {}", s.list(), s.number));
     }
     placeAmongBalls(ball);
   }
@@ -104,8 +106,8 @@ private:
             ball.radius + other.radius - norm(toNearestImage(periodic_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
           refuse(ball, depth,
-                 (other.list == "source" ? fmt::format("one of source.{} ", other.number)
-                                         : fmt::format("grain {} ", other.id)) +
+                 (other.setter == Setter::source ? fmt::format("one of source.{} ", other.number)
+                                                 : fmt::format("grain {} ", other.id)) +
                      at(other.position));
       }
     }
@@ -119,8 +121,9 @@ private:
   [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
     const std::string how = fmt::format("overlaps {} by {:.3g} m, more than run.max_overlap = {:g} of its radius", with,
                                         overlap, scene_.run.maxOverlap);
-    if (ball.list == "grain") scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
-    if (ball.list == "grains")
+    if (ball.setter == Setter::grain)
+      scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
+    if (ball.setter == Setter::grains)
       scene_.fail("grains", ball.number, "",
                   fmt::format("sets grain {} {}, which {}; move the block", ball.id, at(ball.position), how));
     scene_.fail("source", ball.number, "low",
@@ -141,10 +144,10 @@ private:
 void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)
-    placing.place({grains[id].position, grains[id].radius, "grain", k, 0, id});
+    placing.place({grains[id].position, grains[id].radius, Setter::grain, k, 0, id});
   for (std::size_t k = 0; k < scene.fills.size(); ++k)
     for (std::int64_t left = placedCount(scene.fills[k]); left > 0; --left, ++id)
-      placing.place({grains[id].position, grains[id].radius, "grains", k, 0, id});
+      placing.place({grains[id].position, grains[id].radius, Setter::grains, k, 0, id});
 }
 
 } // namespace
@@ -163,7 +166,7 @@ void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grai
     if (*step > 0) placing.forgetBalls();
     for (const Sources::Batch& batch : sources.batchesAt(*step))
       for (const terrain::GrainSpec& g : batch.grains) {
-        placing.place({g.position, g.radius, "source", batch.source, time});
+        placing.place({g.position, g.radius, Setter::source, batch.source, time});
         ++checked;
       }
   }

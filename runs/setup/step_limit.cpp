@@ -103,7 +103,7 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Gra
       consider(
           limit, c.normalStiffness * (1 / mass + springs), c.damping * (1 / mass + springs),
           fmt::format("{} of {:g} kg on up to {:.0f} grains", s.name, *s.section.mass, mostTouching(scene, s, radius)),
-          fmt::format("raise {}.{}.mass", s.kind, s.number));
+          fmt::format("raise {}.{}.mass", s.list(), s.number));
     }
   }
 }
@@ -254,7 +254,7 @@ void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeS
     const double turns = s.section.spin && norm(*s.section.spin) > 0 ? norm(*s.section.spin) * leverOf(s) : 0;
     if (shifts + turns > most)
       scene.fail(
-          s.kind, s.number,
+          s.list(), s.number,
           turns > shifts       ? "spin"
           : s.section.velocity ? "velocity"
                                : "amplitude",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/enum_words.hpp"
 #include "runs/setup/surface_motion.hpp"
 #include "spheredecomp/mesh_query.hpp"
 #include "terrain/rigid_surface.hpp"
@@ -10,6 +11,9 @@
 #include <string>
 
 namespace grouser::setup {
+
+/// The lists of sections that surfaces stand in.
+enum class SurfaceKind { plane, box, cylinder, mesh };
 
 /// A surface that forces move along one axis.
 struct FreeSurface {
@@ -23,8 +27,8 @@ struct FreeSurface {
 
 /// One rigid surface of a scene as grains meet it, whatever section it stands in.
 struct SurfaceSetup {
-  std::string name;     ///< "lid"
-  const char* kind{};   ///< "box": the section's name
+  std::string name; ///< "lid"
+  SurfaceKind kind{};
   std::size_t number{}; ///< among those of its kind
   std::string material;
   terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
@@ -44,3 +48,9 @@ double startingOverlap(const SurfaceSetup& surface, const base::Vec3d& position,
 double overlapAt(const SurfaceSetup& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
 
 } // namespace grouser::setup
+
+template <> struct grouser::base::EnumWords<grouser::setup::SurfaceKind> {
+  using E = setup::SurfaceKind;
+  static constexpr EnumWord<E> list[] = {
+      {E::plane, "plane"}, {E::box, "box"}, {E::cylinder, "cylinder"}, {E::mesh, "mesh"}};
+};

@@ -2,6 +2,7 @@
 #include "runs/studies/shear.hpp"
 #include "runs/setup/load_scene.hpp"
 
+#include "base/enum_words.hpp"
 #include "base/math.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/simulation/simulation.hpp"
@@ -28,6 +29,24 @@ constexpr double kPlateau = 0.5;  // share of the travel behind which the streng
 constexpr double kSpacing = 2.1;  // of the lattice that the sample falls from, in largest radii
 constexpr double kSolid = 0.6;    // solid fraction expected of the sample, for its depth only
 
+/// The boxes of the scene: half of the box at rest, half of it drawn.
+enum class Side { floor, lowerLeft, lowerRight, upperLeft, upperRight, lid };
+
+constexpr bool rests(Side side) { return side == Side::floor || side == Side::lowerLeft || side == Side::lowerRight; }
+
+} // namespace
+} // namespace grouser::studies
+
+template <> struct grouser::base::EnumWords<grouser::studies::Side> {
+  using E = studies::Side;
+  static constexpr EnumWord<E> list[] = {
+      {E::floor, "floor"},          {E::lowerLeft, "lower_left"},   {E::lowerRight, "lower_right"},
+      {E::upperLeft, "upper_left"}, {E::upperRight, "upper_right"}, {E::lid, "lid"}};
+};
+
+namespace grouser::studies {
+namespace {
+
 std::string shearScene(const SampleGrains& material, const ShearBox& box, double stress, std::int64_t seed) {
   const double d = material.diameter(), l = box.length * d, w = box.width * d, depth = box.depth * d;
   const double wall = box.travel * l + 2 * d; // thick enough to close what it leaves open
@@ -40,19 +59,19 @@ std::string shearScene(const SampleGrains& material, const ShearBox& box, double
       "radius = {:.17g}\nradius_to = {:.17g}\nspacing = {}\njitter = 1.0\nmaterial = \"grain\"\n",
       kRest + box.travel * l / box.speed, seed, w, material.toml("grain"), -0.5 * l, -0.5 * depth, 0.5 * l, w, top - d,
       material.radius * (1 - box.spread), largest, kSpacing);
-  const auto put = [&](const char* name, double x, double z, double sizeX, double sizeZ, const std::string& more) {
+  const auto put = [&](Side side, double x, double z, double sizeX, double sizeZ, const std::string& more) {
     text += fmt::format("[[box]]\nname = \"{}\"\nmaterial = \"grain\"\nposition = [{:.17g}, {:.17g}, {:.17g}]\n"
                         "size = [{:.17g}, {:.17g}, {:.17g}]\n{}",
-                        name, x, 0.5 * w, z, sizeX, w + 4 * d, sizeZ, more);
+                        base::wordOf(side), x, 0.5 * w, z, sizeX, w + 4 * d, sizeZ, more);
   };
   const std::string drawn = fmt::format("velocity = [{:.17g}, 0, 0]\nstart = {:.17g}\n", box.speed, kRest);
   const double high = top + 2 * d;
-  put("floor", 0, -0.5 * depth - 0.5 * wall, l + 2 * wall, wall, "");
-  put("lower_left", -0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
-  put("lower_right", 0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
-  put("upper_left", -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
-  put("upper_right", 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
-  put("lid", 0, top + 0.5 * d, l, d,
+  put(Side::floor, 0, -0.5 * depth - 0.5 * wall, l + 2 * wall, wall, "");
+  put(Side::lowerLeft, -0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
+  put(Side::lowerRight, 0.5 * (l + wall), -0.25 * depth, wall, 0.5 * depth, "");
+  put(Side::upperLeft, -0.5 * (l + wall), 0.5 * high, wall, high, drawn);
+  put(Side::upperRight, 0.5 * (l + wall), 0.5 * high, wall, high, drawn);
+  put(Side::lid, 0, top + 0.5 * d, l, d,
       drawn + fmt::format("free = \"z\"\nmass = {}\nload = {:.17g}\nload_ramp = {:.17g}\n", kLidMass, -stress * l * w,
                           0.5 * kRest));
   return text;
@@ -86,13 +105,13 @@ std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& 
     }
     row.normal = -weightBelow;
     for (std::size_t i = 0; i < surfaces.count(); ++i) {
-      const std::string& name = surfaces.surface(i).name;
+      const Side side = base::valueOf<Side>(surfaces.surface(i).name).value();
       const simulation::Surfaces::Observation o = surfaces.observe(i, step);
-      if (name.starts_with("lower") || name == "floor")
+      if (rests(side))
         row.normal -= o.force.z;
       else
         row.shear -= o.force.x;
-      if (name == "lid") row.lid = o.position.z - 0.5 * material.diameter();
+      if (side == Side::lid) row.lid = o.position.z - 0.5 * material.diameter();
     }
     simulation.restartMeans();
     if (simulation.time() > kRest) rows.push_back(row);

@@ -38,6 +38,11 @@ def without_comments(text, keep_strings=False):
     return _QUIET.sub(blank, text)
 
 
+def comments(text):
+    """Matches of the comments of a text."""
+    return [match for match in _QUIET.finditer(text) if match[0][0] == '/']
+
+
 def _without_directives(text):
     """Preprocessor lines blanked out; of an #else whose braces do not match, the whole branch."""
     joined = _DIRECTIVE.sub(lambda m: m[0].replace('\\\n', ' ') + '\n' * m[0].count('\\\n'), text)
@@ -94,7 +99,7 @@ _CLASS = re.compile(r'\b(class|struct|union)\s+' + _ATTRIBUTES + r'([\w:]+)?')
 
 
 def _opens(head):
-    """What a brace behind this head opens: 'namespace', 'class', 'function' or 'value'; and a name."""
+    """What a brace behind this head opens ('namespace', 'class', 'function', 'lambda' or 'value'), and a name."""
     plain = re.sub(r'\s+', ' ', _without_angles(head)).strip()
     plain = re.sub(r'^template\s*', '', plain)
     if re.match(r'(inline )?namespace\b', plain) or re.fullmatch(r'extern ""', plain):
@@ -104,6 +109,9 @@ def _opens(head):
     named = _CLASS.match(re.sub(r'^typedef ', '', plain))
     if named and '(' not in plain[named.end():].split(':')[0] and '=' not in plain:
         return 'class', named[3] or '(unnamed)'
+    written = re.search(r'(\w+)\s*=\s*\[', head)  # a lambda with a name
+    if written:
+        return 'lambda', written[1]
     parenthesis = plain.find('(')
     if parenthesis < 0 or '=' in plain[:parenthesis]:
         return 'value', ''
@@ -121,7 +129,8 @@ def _inside_initialisers(head):
 
 
 def outline(text):
-    """(functions, classes) of a file's text. Functions inside functions (lambdas) are part of the outer one."""
+    """(functions, classes) of a file's text. A named lambda outside of functions is one; what stands inside a function
+    is part of it. What a class inherits is not among its functions."""
     text = _without_directives(without_comments(text))
     functions, classes = [], []
     _walk(text, 0, None, '', functions, classes)
@@ -163,7 +172,7 @@ def _walk(text, at, owner, access, functions, classes):
                 is_class = re.search(r'\bclass\b', _without_angles(head).split(name)[0])
                 at = _walk(text, at + 1, found, 'private' if is_class else 'public', functions, classes)
             else:
-                end = _skip(text, at)
+                end = _skip(text, at)  # of a lambda too
                 functions.append(Function(name, line, text.count('\n', 0, end - 1) + 1 - line + 1))
                 _declared(head, owner, access)
                 at = end

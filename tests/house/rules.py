@@ -5,7 +5,7 @@ from collections import deque
 from functools import cached_property
 from pathlib import Path
 
-from cpp_outline import outline, without_comments
+from cpp_outline import comments, outline, without_comments
 
 # A room, and the rooms beside itself that it may include.
 LIBRARIES = {
@@ -19,11 +19,13 @@ LIBRARIES = {
 }
 # The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.
 PROGRAM = [['support'], ['scene'], ['setup'], ['simulation'], ['output'], ['render', 'studies', 'bench'], ['commands']]
-# What only reads, keeps or draws needs no physics.
+# What only keeps or draws needs no physics.
 NARROW = {
     'runs/support': {'base'},
-    'runs/render': {'base'},
+    'runs/render': {'base', 'runs/support', 'runs/output'},
 }
+# Behind setup stands one SimulationSetup in a scene's place.
+BLIND = ['runs/simulation', 'runs/output', 'runs/render']
 GENERATED = {'grouser_commit.hpp'}  # written by the build
 
 MAX_FILE_LINES = 500
@@ -32,10 +34,20 @@ MAX_PUBLIC_FUNCTIONS = 25
 MAX_PROSE_COLUMNS = 120
 
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
+SCRIPTS = {'.py', '.sh', '.cmake'}  # and CMakeLists.txt, and what begins with #!
+OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj'}
+TOPS = [*LIBRARIES, 'runs', 'tests', 'docs', 'cmake']
+# Beside the tops a checkout may hold results, but nothing that one would compile or run.
+STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}
+# No part of the tree: what .gitignore names, and what tools keep for themselves.
+UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')
+
 # Rooms that have a part in what a state becomes: elementary functions there are those of base/math.hpp.
 STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/simulation']
 LIBM = ('sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p pow '
-        'cbrt hypot erf erfc tgamma lgamma')
+        'cbrt hypot erf erfc tgamma lgamma fma sincos exp10 sinpi cospi rsqrt').split()
+# Who may speak to MPI: the ranks, and the file that HDF5 writes from all of them.
+MPI_FILES = re.compile(r'base/comm[^/]*\.\w+|runs/support/hdf5_file\.cpp')
 
 
 def allowed_rooms():
@@ -44,7 +56,9 @@ def allowed_rooms():
     for line in PROGRAM:
         for name in line:
             room = 'runs/' + name
-            may[room] = NARROW.get(room, set(LIBRARIES) - {'assets'}) | before
+            may[room] = NARROW.get(room, (set(LIBRARIES) - {'assets'}) | before)
+            if room in BLIND:
+                may[room] = may[room] - {'runs/scene'}
         before = before | {'runs/' + name for name in line}
     return may
 
@@ -59,36 +73,85 @@ def room_of(path):
     return '/'.join(parts)
 
 
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*([^\s"<]*)(["<]?)([^">\n]*)', re.M)
+
+
 class House:
     """The files of a checkout, read once."""
 
     def __init__(self, root):
         self.root = Path(root)
-        tops = [*LIBRARIES, 'runs', 'tests']
-        self.code = sorted(str(path.relative_to(self.root)) for top in tops for path in (self.root / top).rglob('*')
-                           if path.suffix in SUFFIXES)
-        self.documents = sorted(str(path.relative_to(self.root)) for path in self.root.rglob('*.md')
-                                if not re.match(r'(build|out|\.)', str(path.relative_to(self.root))))
-        self.text = {path: (self.root / path).read_text() for path in self.code + self.documents}
+        self.files = sorted(str(path.relative_to(self.root)) for path in files_below(self.root))
+        self.code = [path for path in self.files if Path(path).suffix in SUFFIXES]
+        self.documents = [path for path in self.files if path.endswith('.md')]
+        self.scripts = [path for path in self.files if is_script(self.root / path)]
+        self.text = {path: (self.root / path).read_text() for path in self.code + self.documents + self.scripts}
+
+    @cached_property
+    def plain(self):
+        """{file of code: its text without comments and strings}; lines keep their numbers."""
+        return {path: without_comments(self.text[path]) for path in self.code}
+
+    @cached_property
+    def endings(self):
+        """All that a file may be called: of a/b/c.hpp also b/c.hpp and c.hpp."""
+        return {'/'.join(Path(path).parts[k:]) for path in self.files for k in range(len(Path(path).parts))}
 
     @cached_property
     def includes(self):
-        """{file: [(line, what stands between the quotes, the file it is or None)]}: quoted includes only."""
+        """{file: [(line, what it names, the file it is or None)]}, without those that lie outside the house."""
         found = {}
         for path in self.code:
             found[path] = []
             plain = without_comments(self.text[path], keep_strings=True)
-            for match in re.finditer(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', plain, re.M):
+            for match in INCLUDE.finditer(plain):
                 line = plain.count('\n', 0, match.start()) + 1
-                found[path].append((line, match[1], self._resolve(path, match[1])))
+                macro, opening, name = match.groups()
+                target = None if macro else self._resolve(path, name, beside=opening == '"')
+                if macro or target or opening == '"':
+                    found[path].append((line, macro or name, target))
         return found
 
-    def _resolve(self, path, name):
-        beside = str((self.root / path).parent.joinpath(name).resolve())
-        for candidate in (name, beside.removeprefix(str(self.root.resolve()) + '/')):
+    def _resolve(self, path, name, beside):
+        near = str((self.root / path).parent.joinpath(name).resolve()).removeprefix(str(self.root.resolve()) + '/')
+        for candidate in (name, near) if beside else (name,):
             if candidate in self.text:
                 return candidate
         return None
+
+
+def files_below(root, top=True):
+    for path in root.iterdir():
+        if UNREAD.fullmatch(path.name) or (top and UNREAD_AT_TOP.fullmatch(path.name) and path.is_dir()):
+            continue
+        if path.is_dir():
+            yield from files_below(path, top=False)
+        else:
+            yield path
+
+
+def is_script(path):
+    if path.suffix in SCRIPTS or path.name == 'CMakeLists.txt':
+        return True
+    if path.suffix:
+        return False
+    with path.open('rb') as file:
+        return file.read(2) == b'#!'
+
+
+def line_at(text, at):
+    return text.count('\n', 0, at) + 1
+
+
+def places(house):
+    """Files lie where the rules look, and have a suffix they know: nothing is exempt by its name."""
+    for path in house.files:
+        top, suffix = Path(path).parts[0], Path(path).suffix
+        if top in TOPS and top != path:
+            if suffix not in SUFFIXES | SCRIPTS | OTHERS and suffix:
+                yield f'{path}: a file of code ends in .hpp, .cpp, .cu or .cuh; others stand in tests/house/rules.py'
+        elif suffix in SUFFIXES | SCRIPTS | STRANGE_CODE:
+            yield f'{path}: lies in no room; the rooms stand in tests/house/rules.py'
 
 
 def order(house):
@@ -99,7 +162,7 @@ def order(house):
         for line, name, target in includes:
             if target is None:
                 if name not in GENERATED:
-                    yield f'{path}:{line}: there is no file {name}; name it from the top folder'
+                    yield f'{path}:{line}: there is no file {name}; name it itself, from the top folder'
                 continue
             other = room_of(target)
             if other == room or room.startswith('tests'):
@@ -108,6 +171,14 @@ def order(house):
                 yield f'{path}:{line}: {room or "the top folder"} is no room; the rooms stand in tests/house/rules.py'
             elif other not in may[room]:
                 yield f'{path}:{line}: {room} may not include {other} ({name})'
+
+
+def scenes(house):
+    """What lies behind setup knows one SimulationSetup and no scene, not even one that another header brought along."""
+    for path in house.code:
+        if room_of(path) in BLIND:
+            for match in re.finditer(r'\bscene\s*::', house.plain[path]):
+                yield f'{path}:{line_at(house.plain[path], match.start())}: {room_of(path)} may not see a scene'
 
 
 def privacy(house):
@@ -215,27 +286,109 @@ def thrust(house):
                 yield f'{path}:{house.text[path].count(chr(10), 0, match.start()) + 1}: {match[1]} outside base/*.cu'
 
 
-def libm(house):
-    """No transcendental function of libm where a state is made: its bits differ between machines."""
-    call = re.compile(r'(?:(\w*)\s*(::)|(\.|->))?\s*\b(' + '|'.join(LIBM.split()) + r')([fl]?)\s*\(')
+def mpi(house):
+    """MPI is called in base/comm, and named where HDF5 writes a file of all ranks; nowhere else."""
     for path in house.code:
-        if room_of(path) not in STATE_ROOMS or path == 'base/math.hpp':
+        if not MPI_FILES.fullmatch(path):
+            for text, words in ((house.plain[path], r'\bMPI_\w+'), (house.text[path], r'^[ \t]*#.*[<"](mpi\.h)[>"]')):
+                for match in re.finditer(words, text, re.M):
+                    yield f'{path}:{line_at(text, match.start())}: {match[0]} outside base/comm'
+
+
+def libm(house):
+    """No function where a state is made whose bits differ between machines: transcendental ones of libm, fused
+    multiply-adds, the processor's approximations."""
+    names = '(' + '|'.join(LIBM) + ')([fl]?)'
+    call = re.compile(r'(?:(\w*)\s*(::)|(\.|->))?\s*\b' + names + r'\s*(?:<[^<>;(){}]*>\s*)?\(')
+    # Of std:: and :: the mere name is enough: its address may be taken.
+    name = re.compile(r'(?:\bstd\s*::|(?<![\w>:\s])\s*::)\s*' + names + r'\b(?!\s*::)')
+    builtin = re.compile(r'\b(?:__builtin_|__nv_)' + names + r'\b|\b__' + names + r'(?:_r[nzud])?\s*\(|'
+                         r'\b_mm\d*_\w*(?:fn?m(?:add|sub)|rsqrt|rcp)\w*|\b__frcp_\w+|\b__frsqrt_\w+')
+    for path in house.code:
+        if room_of(path) not in STATE_ROOMS:
             continue
-        text = without_comments(house.text[path])
-        for match in call.finditer(text):
-            qualifier, scope, member = match[1], match[2], match[3]
-            if member or (scope and qualifier not in ('', 'std')):
+        text = house.plain[path]
+        found = {}  # line: what stands there
+        for match in [*name.finditer(text), *builtin.finditer(text)]:
+            word = re.sub(r'\s', '', match[0]).rstrip('(')
+            found.setdefault(line_at(text, match.end()), word)
+        if path != 'base/math.hpp':  # which defines and calls its own
+            for match in call.finditer(text):
+                qualifier, scope, member = match[1], match[2], match[3]
+                if not member and not (scope and qualifier not in ('', 'std')):
+                    found.setdefault(line_at(text, match.start(4)), match[4] + match[5])
+        for line, word in sorted(found.items()):
+            yield f'{path}:{line}: {word} of libm; take the one of base/math.hpp'
+
+
+def sums(house):
+    """No sum whose order could vary where a state is made: OpenMP reduces integers, or to a minimum or maximum."""
+    for path in house.code:
+        if room_of(path) not in STATE_ROOMS:
+            continue
+        text = house.plain[path]
+        for match in re.finditer(r'^[ \t]*#[ \t]*pragma[ \t]+omp\b((?:\\\n|[^\n])*)|'
+                                 r'\bstd\s*::\s*(?:transform_)?reduce\b', text, re.M):
+            line = line_at(text, match.start())
+            if match[1] is None:
+                yield f'{path}:{line}: {match[0]} adds in an order of its own; take a loop, or integers'
                 continue
-            line = text.count('\n', 0, match.start(4)) + 1
-            yield f'{path}:{line}: {match[4]}{match[5]} of libm; take the one of base/math.hpp'
+            for clause in re.finditer(r'\breduction\s*\(([^:]*):([^)]*)\)', match[1]):
+                kind = clause[1].split(',')[-1].strip()
+                if kind in ('min', 'max', '&', '|', '^', '&&', '||'):
+                    continue
+                for name in re.findall(r'\w+', clause[2]):
+                    if not is_integer(name, text[:match.start()]):
+                        yield (f'{path}:{line}: reduction({kind}:{name}) in the order of the threads; sum integers '
+                               '(base/fixed_point.hpp), declared as such')
+            if re.search(r'\b(atomic|declare\s+reduction)\b', match[1]):
+                yield f'{path}:{line}: omp{match[1]} in the order of the threads; take base::atomicAdd64'
+
+
+def is_integer(name, before):
+    """Is the last declaration of `name` in the text before one of an integer, as far as one sees?"""
+    words = (r'(?:std\s*::\s*)?(?:u?int\d+_t|size_t|ptrdiff_t)|(?:unsigned\s+|signed\s+)?(?:int|long(?:\s+long)?)|'
+             r'unsigned')
+    # Others of the same declaration may stand between: `std::int64_t a = 0, b = 0;`
+    declared = list(re.finditer(r'\b(' + words + r'|double|float|auto|[A-Z]\w*)\s+(?:[^;(){}]*[\s,])?' + name +
+                                r'\s*(?=[=;,{])', before))
+    return bool(declared) and bool(re.fullmatch(words, declared[-1][1]))
+
+
+def kernels(house):
+    """The body that base::forEach runs is a named functor: a lambda is none that nvcc would compile."""
+    for path in house.code:
+        text = house.plain[path]
+        lambdas = set(re.findall(r'\b(\w+)\s*=\s*\[', text))
+        for match in re.finditer(r'(?<![\w.>])(?:base\s*::\s*)?(forEach|forEachGroup)\s*(?:<[^<>;]*>\s*)?\(', text):
+            given = arguments(text, match.end() - 1)
+            if len(given) > 1 and (given[-1].startswith('[') or given[-1] in lambdas):
+                yield f'{path}:{line_at(text, match.start())}: a lambda as body of {match[1]}; make it a named functor'
+
+
+def arguments(text, at):
+    """Of the call whose parenthesis opens at `at`."""
+    depth, begin, given = 0, at + 1, []
+    for k in range(at, len(text)):
+        if text[k] in '([{':
+            depth += 1
+        elif text[k] in ')]}':
+            depth -= 1
+        if (text[k] == ',' and depth == 1) or depth == 0:
+            given.append(text[begin:k].strip())
+            begin = k + 1
+            if depth == 0:
+                break
+    return given
 
 
 def sizes(house):
     """Files, functions and classes that one can still read. Copying and ending are no functions of a class."""
-    for path in house.code:
+    for path in house.code + house.scripts:
         lines = house.text[path].count('\n')
         if lines > MAX_FILE_LINES:
             yield f'{path}: {lines} lines, at most {MAX_FILE_LINES}'
+    for path in house.code:
         functions, classes = outline(house.text[path])
         for function in functions:
             if function.lines > MAX_FUNCTION_LINES:
@@ -248,10 +401,12 @@ def sizes(house):
 
 
 def licence(house):
-    """Every file of code begins with its licence."""
-    for path in house.code:
-        if 'SPDX-License-Identifier: BSD-3-Clause' not in house.text[path].split('\n', 1)[0]:
-            yield f'{path}:1: the first line names the licence: // SPDX-License-Identifier: BSD-3-Clause'
+    """Every file of code begins with its licence, a script where the system reads #! in the second line."""
+    for path in house.code + house.scripts:
+        lines = house.text[path].split('\n', 2)
+        number = 1 if lines[0].startswith('#!') and len(lines) > 1 else 0
+        if 'SPDX-License-Identifier: BSD-3-Clause' not in lines[number]:
+            yield f'{path}:{number + 1}: here stands the licence: SPDX-License-Identifier: BSD-3-Clause'
 
 
 def prose(house):
@@ -281,8 +436,8 @@ def prose_lines(text):
 
 
 def links(house):
-    """Links of documents, and paths named as `room/file`, lead to files, folders and headings that are there."""
-    tops = '|'.join([*LIBRARIES, 'runs', 'tests', 'docs', 'cmake'])
+    """Links of documents, paths named as `room/file`, and files of code named in documents and comments are there."""
+    tops = '|'.join(TOPS)
     for path in house.documents:
         for number, line in prose_lines(house.text[path]):
             for target in re.findall(r'\]\(([^)\s]+)\)', re.sub(r'`[^`]*`', '', line)):
@@ -293,6 +448,22 @@ def links(house):
             for name in re.findall(rf'`((?:{tops})/[\w./]+)`', line):
                 if not (house.root / name).exists() and not list(house.root.glob(name + '.*')):
                     yield f'{path}:{number}: there is no {name}'
+            for span in re.findall(r'`([^`]*)`', line):
+                for name in code_named(span):
+                    if name not in house.endings and not re.match(rf'(?:{tops})/', name):
+                        yield f'{path}:{number}: there is no {name} anywhere'
+    for path in house.code:
+        for match in comments(house.text[path]):
+            for name in code_named(match[0]):
+                if name not in house.endings and name not in GENERATED:
+                    yield f'{path}:{line_at(house.text[path], match.start() + match[0].find(name))}: there is no {name}'
+
+
+def code_named(text):
+    """Names of files of code in a text; NAME.cpp and *_test.cpp are patterns."""
+    for name in re.findall(r'[\w./*<>{}-]*\.(?:hpp|cpp|cuh|cu|py)\b', text):
+        if not re.search(r'[*<>{}]|[A-Z]{2}|^\.', name) and not name.startswith('/'):
+            yield name
 
 
 def link_fault(house, path, target):
@@ -314,4 +485,4 @@ def headings(text):
     return {re.sub(r'[^\w\- ]', '', title).replace(' ', '-') for title in plain}
 
 
-RULES = [order, privacy, circles, thrust, libm, sizes, licence, prose, links]
+RULES = [places, order, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links]

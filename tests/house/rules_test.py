@@ -20,8 +20,30 @@ def faults(rule, files):
         for path, text in files.items():
             place = Path(folder, path)
             place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_text(text if path.endswith('.md') else LICENCE + text)
+            place.write_text(LICENCE + text if path.endswith(('.hpp', '.cpp', '.cu', '.cuh')) else text)
         return list(rule(rules.House(folder)))
+
+
+class Places(unittest.TestCase):
+    def test_code_lies_in_a_room(self):
+        for bad in ('tools/x.cpp', 'tools/deep/x.h', 'x.cpp', 'tools/x.py'):
+            told = faults(rules.places, {bad: ''})
+            self.assertEqual(told, [f'{bad}: lies in no room; the rooms stand in tests/house/rules.py'], bad)
+
+    def test_no_file_escapes_by_its_suffix(self):
+        for bad in ('base/x.h', 'base/x.inl', 'terrain/detail/x.ipp', 'runs/setup/x.cc', 'tests/base/x.hxx'):
+            self.assertEqual(len(faults(rules.places, {bad: ''})), 1, bad)
+
+    def test_what_is_right(self):
+        for good in ('base/x.cuh', 'base/CMakeLists.txt', 'CMakeLists.txt', 'LICENSE', 'tests/rooms', 'build/x.h',
+                     'build_cuda/x.h', 'out/x.h', '.git/x.h', 'tests/house/__pycache__/x.pyc', 'results/rows.csv',
+                     'runs/support/build_info.hpp', 'docs/a.png', 'cmake/options.cmake'):
+            self.assertEqual(faults(rules.places, {good: ''}), [], good)
+
+    def test_a_folder_like_a_build_is_read_below_the_top(self):
+        self.assertEqual(len(faults(rules.places, {'runs/build/x.h': ''})), 1)
+        files = {'runs/support/build_info.hpp': '#include "contact/b.hpp"\n', 'contact/b.hpp': ''}
+        self.assertEqual(len(faults(rules.order, files)), 1)
 
 
 class Order(unittest.TestCase):
@@ -46,6 +68,42 @@ class Order(unittest.TestCase):
                     self.assertEqual(len(faults(rules.order, {**files, **wrong})), 1)
                     right = {f'runs/commands/x.cpp': f'#include "runs/{above}/{above}.hpp"\n'}
                     self.assertEqual(faults(rules.order, {**files, **right}), [])
+
+    def test_every_way_to_write_an_include(self):
+        for line in ('#include <terrain/a.hpp>', '#  include\t<terrain/a.hpp>', '#include_next <terrain/a.hpp>',
+                     '#import "terrain/a.hpp"', '#include "../terrain/a.hpp"', '#include"terrain/a.hpp"'):
+            told = faults(rules.order, {'vehicle/x.cpp': line + '\n', 'terrain/a.hpp': ''})
+            self.assertEqual(len(told), 1, line)
+            self.assertIn('vehicle may not include terrain', told[0])
+
+    def test_an_include_by_a_macro(self):
+        files = {'vehicle/x.cpp': '#define X "terrain/a.hpp"\n#include X\n', 'terrain/a.hpp': ''}
+        self.assertEqual(faults(rules.order, files),
+                         ['vehicle/x.cpp:3: there is no file X; name it itself, from the top folder'])
+
+    def test_what_others_have_made(self):
+        self.assertEqual(faults(rules.order, {'base/a.hpp': '#include <fmt/format.h>\n#include <vector>\n'}), [])
+
+    def test_no_scene_behind_setup(self):
+        scene = {'runs/scene/scene.hpp': ''}
+        for room in ('simulation', 'output', 'render'):
+            direct = {f'runs/{room}/x.cpp': '#include "runs/scene/scene.hpp"\n', **scene}
+            self.assertEqual(len(faults(rules.order, direct)), 1, room)
+            brought_along = {f'runs/{room}/x.cpp': 'double of(const scene::Scene& s);\n'}
+            self.assertEqual(faults(rules.scenes, brought_along),
+                             [f'runs/{room}/x.cpp:2: runs/{room} may not see a scene'])
+        for room in ('setup', 'studies', 'bench', 'commands'):
+            files = {f'runs/{room}/x.cpp': '#include "runs/scene/scene.hpp"\nscene::Scene s;\n', **scene}
+            self.assertEqual(faults(rules.order, files) + faults(rules.scenes, files), [], room)
+        self.assertEqual(faults(rules.scenes, {'runs/simulation/x.cpp': '// scene::Scene\nmy_scene::A a;\n'}), [])
+
+    def test_render_needs_no_physics(self):
+        for other in ('contact', 'terrain', 'runs/simulation', 'runs/setup'):
+            files = {'runs/render/x.cpp': f'#include "{other}/y.hpp"\n', f'{other}/y.hpp': ''}
+            self.assertEqual(len(faults(rules.order, files)), 1, other)
+        for other in ('base', 'runs/support', 'runs/output'):
+            files = {'runs/render/x.cpp': f'#include "{other}/y.hpp"\n', f'{other}/y.hpp': ''}
+            self.assertEqual(faults(rules.order, files), [], other)
 
     def test_render_studies_and_bench_do_not_see_each_other(self):
         side = rules.PROGRAM[5]
@@ -76,6 +134,10 @@ class Privacy(unittest.TestCase):
                             ('tests/runs/commands/x.cpp', 'runs/render/detail/b.hpp')):
             self.assertEqual(len(faults(rules.privacy, {**self.FILES, place: f'#include "{name}"\n'})), 1, place)
 
+    def test_angles_open_no_door(self):
+        files = {**self.FILES, 'runs/setup/x.cpp': '#include <terrain/detail/a.hpp>\n'}
+        self.assertEqual(len(faults(rules.privacy, files)), 1)
+
     def test_the_room_and_its_tests_come_in(self):
         for place, name in (('terrain/x.cpp', 'terrain/detail/a.hpp'), ('terrain/detail/x.cpp', 'terrain/detail/a.hpp'),
                             ('tests/terrain/x.cpp', 'terrain/detail/a.hpp'),
@@ -87,6 +149,10 @@ class Circles(unittest.TestCase):
     def test_headers_in_a_circle(self):
         files = {'base/a.hpp': '#include "base/b.hpp"\n', 'base/b.hpp': '#include "base/c.hpp"\n',
                  'base/c.hpp': '#include "base/a.hpp"\n'}
+        self.assertEqual(len(faults(rules.circles, files)), 1)
+
+    def test_a_circle_in_angles(self):
+        files = {'base/a.hpp': '#include <base/b.hpp>\n', 'base/b.hpp': '#include "base/a.hpp"\n'}
         self.assertEqual(len(faults(rules.circles, files)), 1)
 
     def test_a_circle_through_a_source(self):
@@ -126,15 +192,80 @@ class Code(unittest.TestCase):
             self.assertEqual(faults(rules.libm, {'runs/setup/a.cpp': f'double y = {call};\n'}), [], call)
         self.assertEqual(faults(rules.libm, {'runs/render/a.cpp': 'double y = std::sin(x);\n'}), [])
 
+    def test_libm_by_other_ways(self):
+        for call in ('std::pow<double>(x, y)', 'std::pow<double, int> (x, y)', '(std::sin)(x)', '(::sin)(x)',
+                     '&std::sin', 'apply(std::sin, x)', '__builtin_sin(x)', '__builtin_sinf(x)', 'std::fma(a, b, c)',
+                     'fmaf(a, b, c)',
+                     '__builtin_fma(a, b, c)', '__fmaf_rn(a, b, c)', '__sinf(x)', '_mm256_fmadd_pd(a, b, c)',
+                     '_mm512_fnmsub_ps(a, b, c)', '_mm_rsqrt_ps(x)', 'rsqrt(x)', 'sincos(x, &s, &c)',
+                     'std :: sin (x)'):
+            self.assertEqual(len(faults(rules.libm, {'base/a.cpp': f'auto y = {call};\n'})), 1, call)
+        self.assertEqual(len(faults(rules.libm, {'base/a.cpp': 'using std::sin;\n'})), 1)
+        for call in ('base::pow<double>(x, y)', '&base::sin', 'std::fmax(x, y)', '__builtin_popcount(x)',
+                     'a.log<int>(x)', '_mm256_floor_pd(x)', 'std::log_of(x)', 'own::sin', 'std::fabs(x)'):
+            self.assertEqual(faults(rules.libm, {'base/a.cpp': f'auto y = {call};\n'}), [], call)
+
+    def test_the_file_of_functions_calls_its_own_only(self):
+        for good in ('double sin(double x);', 'y = cos(x);'):
+            self.assertEqual(faults(rules.libm, {'base/math.hpp': good + '\n'}), [], good)
+        for bad in ('y = std::cos(x);', 'y = __builtin_fma(a, b, c);'):
+            self.assertEqual(len(faults(rules.libm, {'base/math.hpp': bad + '\n'})), 1, bad)
+
+    def test_mpi(self):
+        for bad in ('#include <mpi.h>\n', '#include "mpi.h"\n', 'int n = MPI_Comm_size(MPI_COMM_WORLD, &n);\n'):
+            self.assertGreaterEqual(len(faults(rules.mpi, {'contact/a.cu': bad})), 1, bad)
+            self.assertEqual(faults(rules.mpi, {'base/comm.cpp': bad, 'runs/support/hdf5_file.cpp': bad}), [], bad)
+        self.assertEqual(faults(rules.mpi, {'contact/a.cu': '// MPI_Send\nf("MPI_Send");\n#include <my_mpi.h>\n'}), [])
+
+    def test_sums(self):
+        def said(text, place='spheredecomp/a.cpp'):
+            return faults(rules.sums, {place: text})
+        loop = '#pragma omp parallel for reduction({})\nfor (int i = 0; i < n; ++i) a += f(i);\n'
+        for kind in ('double a = 0;\n', 'float a = 0, b = 0;\n', 'auto a = f();\n', 'Real a{};\n', '',
+                     'std::int64_t a = 0;\n}\ndouble a = 0;\n'):
+            self.assertEqual(len(said(kind + loop.format('+ : a'))), 1, kind)
+        for kind in ('std::int64_t a = 0;\n', 'int b = 0, a = 0;\n', 'std::size_t a{};\n', 'unsigned a = 0;\n'):
+            self.assertEqual(said(kind + loop.format('+:a')), [], kind)
+        self.assertEqual(said('double a = 0;\n' + loop.format('max : a')), [])
+        self.assertEqual(len(said('std::int64_t a = 0;\ndouble b = 0;\n' + loop.format('+:a,b'))), 1)
+        self.assertEqual(len(said('double a = 0;\n#pragma omp parallel for \\\n  reduction(+:a)\n')), 1)
+        self.assertEqual(len(said('#pragma omp atomic\na += f(i);\n')), 1)
+        self.assertEqual(len(said('double a = std::reduce(v.begin(), v.end());\n')), 1)
+        self.assertEqual(said('double a = std::accumulate(v.begin(), v.end(), 0.0);\n#pragma omp parallel\n'), [])
+        self.assertEqual(said('double a = 0;\n' + loop.format('+:a'), 'runs/render/a.cpp'), [])
+
+    def test_kernels(self):
+        for bad in ('base::forEach(exec, "name", n, [=](int i) { p[i] = 0; });',
+                    'forEach(e, "n", f(1, 2), [&] (int) {});',
+                    'const auto body = [=](int i) { p[i] = 0; };\nbase::forEach(exec, "name", n, body);',
+                    'base::forEachGroup(exec, "n", n, [](int) {});'):
+            self.assertEqual(len(faults(rules.kernels, {'terrain/a.cu': bad + '\n'})), 1, bad)
+        for good in ('base::forEach(exec, "name", n, Body{p, q[1]});',
+                     'arrays.forEach([&](auto& field) { field = 0; });',
+                     'forEach([&](auto& a, auto& b) { f(a, b); });', 'base::forEach(exec, "name", a[1], body);'):
+            self.assertEqual(faults(rules.kernels, {'terrain/a.cu': good + '\n'}), [], good)
+
     def test_sizes_of_files(self):
         self.assertEqual(faults(rules.sizes, {'base/a.hpp': '\n' * (rules.MAX_FILE_LINES - 1)}), [])
-        self.assertEqual(len(faults(rules.sizes, {'base/a.hpp': '\n' * rules.MAX_FILE_LINES})), 1)
+        for path in ('base/a.hpp', 'tests/house/a.py', 'runs/a.sh', 'base/CMakeLists.txt'):
+            self.assertEqual(len(faults(rules.sizes, {path: '\n' * (rules.MAX_FILE_LINES + 1)})), 1, path)
+        self.assertEqual(len(faults(rules.sizes, {'tests/lint': '#!/bin/sh\n' + '\n' * rules.MAX_FILE_LINES})), 1)
+        self.assertEqual(faults(rules.sizes, {'LICENSE': '\n' * 900, 'runs/scenes/a.toml': '\n' * 900}), [])
 
     def test_sizes_of_functions(self):
         def body(lines):
             return 'template <class T = int>\nvoid f() {\n' + '  g();\n' * (lines - 3) + '}\n'
         self.assertEqual(faults(rules.sizes, {'base/a.hpp': body(rules.MAX_FUNCTION_LINES)}), [])
         self.assertIn(': f has', faults(rules.sizes, {'base/a.hpp': body(rules.MAX_FUNCTION_LINES + 1)})[0])
+
+    def test_sizes_of_lambdas_outside_functions(self):
+        for head in ('const auto f = [](int a) {', 'inline constexpr auto f = []<class T>(T a) -> int {',
+                     'const std::map<int, int> f = [] {'):
+            for end in ('};', '}();'):
+                text = 'namespace n {\n' + head + '\n' + '  g();\n' * rules.MAX_FUNCTION_LINES + end + '\n}\n'
+                told = faults(rules.sizes, {'base/a.cpp': text})
+                self.assertEqual(len(told), 1, text[:60])
+                self.assertIn(': f has', told[0])
 
     def test_sizes_of_classes(self):
         def house(count):
@@ -144,7 +275,11 @@ class Code(unittest.TestCase):
         self.assertEqual(len(faults(rules.sizes, {'base/a.hpp': house(rules.MAX_PUBLIC_FUNCTIONS + 1)})), 1)
 
     def test_licence(self):
-        self.assertEqual(faults(rules.licence, {'base/a.hpp': ''}), [])
+        script = {'tests/run': '#!/bin/sh\n# SPDX-License-Identifier: BSD-3-Clause\n', 'runs/a.toml': '',
+                  'base/CMakeLists.txt': '# SPDX-License-Identifier: BSD-3-Clause\n'}
+        self.assertEqual(faults(rules.licence, {'base/a.hpp': '', **script}), [])
+        for path in ('tests/a.py', 'tests/CMakeLists.txt', 'tests/run'):
+            self.assertEqual(len(faults(rules.licence, {path: '#!/bin/sh\n\n'})), 1, path)
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, 'base').mkdir()
             Path(folder, 'base/a.hpp').write_text('#pragma once\n')
@@ -172,10 +307,20 @@ class Documents(unittest.TestCase):
 
     def test_paths(self):
         files = {'base/comm.hpp': ''}
-        for good in ('base/comm.hpp', 'base/comm', 'base/', 'elsewhere/x.hpp', 'base/ROOM-NAME'):
+        for good in ('base/comm.hpp', 'base/comm', 'base/', 'comm.hpp', 'elsewhere/x.csv', 'base/ROOM-NAME'):
             self.assertEqual(faults(rules.links, {**files, 'README.md': f'`{good}`\n'}), [], good)
-        for bad in ('base/com', 'base/comm.cpp', 'contact/exchange'):
+        for bad in ('base/com', 'base/comm.cpp', 'contact/exchange', 'elsewhere/comm.hpp', 'com.hpp',
+                    'python3 gone.py'):
             self.assertEqual(len(faults(rules.links, {**files, 'README.md': f'`{bad}`\n'})), 1, bad)
+
+    def test_files_named_in_comments(self):
+        files = {'base/comm.hpp': '', 'tests/base/comm_test.cpp': ''}
+        for good in ('// see comm.hpp', '/* tests/base/comm_test.cpp */', '/// `base/comm_test.cpp`', '// *_test.cpp',
+                     '// NAME_options.cpp', 'f("gone.hpp");', '// grouser_commit.hpp', '// grain_step.{hpp,cu}'):
+            self.assertEqual(faults(rules.links, {**files, 'base/a.cpp': good + '\n'}), [], good)
+        for bad in ('// see gone.hpp', '/*\n gone.hpp */', '/// tests/comm_test.cpp', 'int a; // (plots/gone.py)'):
+            self.assertEqual(len(faults(rules.links, {**files, 'base/a.cpp': bad + '\n'})), 1, bad)
+        self.assertIn('base/a.cpp:4:', faults(rules.links, {'base/a.cpp': '/*\n\n gone.hpp */\n'})[0])
 
 
 class Outline(unittest.TestCase):
@@ -189,6 +334,7 @@ class Outline(unittest.TestCase):
                            ('TEST(Suite, Claim) {\n}\n', 'Suite.Claim'),
                            ('extern "C" void f() {\n}\n', 'f'),
                            ('template <class T>\n  requires(sizeof(T) > 1)\nvoid f() {}\n', None),
+                           ('const auto f = [](int a) {\n return a;\n};\n', 'f'),
                            ('void f() {\n  auto g = [] { return "}"; };\n}\n', 'f')):
             found = self.names('namespace n {\n' + text + '}\n')
             self.assertEqual(len(found), 1, text)
@@ -196,8 +342,7 @@ class Outline(unittest.TestCase):
                 self.assertEqual(found[0], (name, text.count('\n')), text)
 
     def test_values_are_no_functions(self):
-        for text in ('const int a[] = {f(1), f(2)};\n', 'const auto f = [](int a) {\n return a;\n};\n',
-                     'std::array<int, 2> a{1, 2};\n', 'enum class E { kA, kB };\n',
+        for text in ('const int a[] = {f(1), f(2)};\n', 'std::array<int, 2> a{1, 2};\n', 'enum class E { kA, kB };\n',
                      'INSTANTIATE(a, b, [](int a) { return a; });\n'):
             self.assertEqual(self.names(text), [], text)
 

@@ -46,7 +46,7 @@ protected:
         for (const double z : {-0.5, 0.5}) cube.vertices.push_back({x, y, z});
     cube.indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
                     2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-    output::FramesFile file(folder_, {{"hull", "chassis", cube}}, {});
+    output::FramesFile file(folder_, {{"hull", output::PartKind::chassis, cube}}, {});
     for (std::size_t k = 0; k < kFrames; ++k) file.add(frame(k));
   }
 
@@ -89,7 +89,7 @@ TEST_F(RenderFrames, ReaderGivesBackWhatTheFileWasGiven) {
   EXPECT_EQ(f.borders[0], frame(3).borders[0]);
   EXPECT_TRUE(reader.read(0).borders[0].empty());
   ASSERT_EQ(reader.parts().size(), 1u);
-  EXPECT_EQ(reader.parts()[0].kind, "chassis");
+  EXPECT_EQ(reader.parts()[0].kind, output::PartKind::chassis);
   EXPECT_EQ(f.partVertices[7], (base::Vec3f{3.5f, 0.5f, 0.5f}));
 }
 

@@ -302,7 +302,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
   writer.finish(summary);
 
-  const Csv csv(writeSummary(plan, {{"finished", ""}}, folder_));
+  const Csv csv(writeSummary(plan, {{output::RunStatus::finished, ""}}, folder_));
   const auto number = [&](const char* column) { return std::stod(csv.at(0, column)); };
   EXPECT_EQ(csv.at(0, "driver.sprocket_speed"), "2");
   EXPECT_EQ(number("wall time [s]"), 12.5);

@@ -113,7 +113,7 @@ TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
 TEST_F(Output, FramesHoldVelocitiesAndContactForcesAsVectors) {
   {
     RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
-    writer.setParts({{"hull", "chassis", triangle()}, {"shoe", "shoe", triangle()}}, {});
+    writer.setParts({{"hull", PartKind::chassis, triangle()}, {"shoe", PartKind::shoe, triangle()}}, {});
     for (int f = 0; f < 2; ++f) writer.frame(frame(f, 3));
     Frame without = frame(2, 3);
     without.withContactForces = false, without.contactForces.clear();
@@ -227,7 +227,8 @@ TEST_F(Output, WrongRowLengthIsACallersFault) {
 
 TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
   RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
-  writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
+  writer.setParts({{"left shoe 0", PartKind::shoe, triangle()}, {"chassis", PartKind::chassis, triangle()}},
+                  triangle());
   for (int f = 0; f < 3; ++f) writer.frame(frame(f, 4 + f));
   writer.finish({});
   const std::string xml = contents(folder_ / "frames.xdmf");
@@ -250,12 +251,14 @@ TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
   EXPECT_EQ(parts[2], 2.0);
   EXPECT_EQ(parts[9], 5.0);
   EXPECT_EQ(file.numbers("/parts/triangles"), (std::vector<double>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(file.texts("/parts/kind", "names"), (std::vector<std::string>{"shoe", "chassis"}));
   EXPECT_EQ(file.numbers("/000001/grains/id").size(), 5u);
 }
 
 TEST_F(Output, FramesOfAsManyGrainsShareTheirListOfVertices) {
   RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
-  writer.setParts({{"left shoe 0", "shoe", triangle()}, {"chassis", "chassis", triangle()}}, triangle());
+  writer.setParts({{"left shoe 0", PartKind::shoe, triangle()}, {"chassis", PartKind::chassis, triangle()}},
+                  triangle());
   for (const int grains : {4, 4, 6, 4}) writer.frame(frame(0, grains));
   writer.finish({});
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "frames.h5");

@@ -128,7 +128,7 @@ TEST(Picture, ShowsGrainsPartsAndGroundAndIsWritten) {
     frame.positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10), 0}), frame.radii.push_back(0.05f);
   const base::TriangleMesh plate = square(0, 0.3, {}).mesh;
   frame.partPoses = {{{0.5, 0.5, 0.4}, {}}};
-  const Image image = drawFrame(frame, {{"left shoe 0", "shoe", plate}}, {}, 320);
+  const Image image = drawFrame(frame, {{"left shoe 0", output::PartKind::shoe, plate}}, {}, 320);
   EXPECT_EQ(image.height, 180);
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "grouser_picture.png";
   writePng(image, file);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/enum_words.hpp"
+
+namespace grouser::output {
+
+/// How a run stands, as its manifest and the summary of a sweep say.
+enum class RunStatus {
+  pending, ///< of a sweep: not yet begun
+  running,
+  finished,
+  failed,
+  stopped ///< by a signal; can be resumed
+};
+
+} // namespace grouser::output
+
+template <> struct grouser::base::EnumWords<grouser::output::RunStatus> {
+  using E = output::RunStatus;
+  static constexpr EnumWord<E> list[] = {{E::pending, "pending"},
+                                         {E::running, "running"},
+                                         {E::finished, "finished"},
+                                         {E::failed, "failed"},
+                                         {E::stopped, "stopped"}};
+};
