@@ -97,7 +97,7 @@ GrainSnapshot Grains::snapshot(const SnapshotOptions& options) const {
 
 GrainState Grains::state() const { return GrainCheckpoint::state(system_); }
 
-void Grains::restore(const GrainState& state, bool grows) {
+void Grains::restore(const GrainState& saved, bool grows) {
   const GrainCheckpoint checkpoint(saved, system_, grows);
   checkpoint.loadAsListed(system_);
   invalidateNeighbours();
