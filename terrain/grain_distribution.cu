@@ -6,6 +6,7 @@
 #include "terrain/length_units.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace grouser::terrain {
@@ -87,6 +88,11 @@ GrainDistribution::GrainDistribution(const base::Exec& exec, const PartitionOpti
     : exec_(exec), rebalances_(options.rebalance), historyWidth_(c.historyWidth),
       subdomain_(exec, options, c.listRange(), c.period), arrivedRows_(exec) {
   setPartition(startingPartition(start, options, c.scale));
+}
+
+void GrainDistribution::onMigrate(OnMigrate onMigrate) {
+  if (onMigrate_) throw std::logic_error("the migration of grains has a listener already");
+  onMigrate_ = std::move(onMigrate);
 }
 
 void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step) {

@@ -28,7 +28,8 @@ public:
   /// valid until the next refresh. Local.
   contact::GrainsView view() const;
   /// Migration and cuts; null on one rank. Local.
-  GrainDistribution* distribution() const { return system_.distribution.get(); }
+  GrainDistribution* distribution() { return system_.distribution.get(); }
+  const GrainDistribution* distribution() const { return system_.distribution.get(); }
 
   /// Makes the neighbour list valid for the next step. True when slots have changed since the last call.
   bool refreshNeighbours();
