@@ -147,6 +147,7 @@ void GrainDistribution::moveFields(GrainArrays& arrays, const TravellingRows& le
 
 void GrainDistribution::noteOrigins(std::uint32_t owned, std::uint32_t former, GrainArrays& arrays) {
   const Subdomain::Staying staying = subdomain_.staying();
+  arrays.fields().rowOrigin.width = 1;
   base::Array<std::uint32_t>& origin = arrays.fields().rowOrigin.now;
   origin.resize(arrays.slots());
   base::forEach(exec_, "note origins", static_cast<std::int64_t>(arrays.slots()),
