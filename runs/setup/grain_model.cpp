@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_model.hpp"
 
+#include "base/sphere.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 
@@ -44,7 +45,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.radius = kinds.largest, model.smallestRadius = kinds.smallest;
   double density = 0;
   for (const std::string& name : kinds.material) density = std::max(density, scene.material(name).density);
-  model.mass = sphereMass(density, kinds.largest);
+  model.mass = base::sphereMass(density, kinds.largest);
   model.timeStep = timeStep;
   model.gravity = scene.run.gravity;
   model.skin = scene.run.skin;

@@ -2,7 +2,7 @@
 #include "runs/setup/ground_setup.hpp"
 
 #include "base/error.hpp"
-#include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/bed_layers.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/grain_model.hpp"
@@ -184,7 +184,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
     contact::ContactLaw law = pairLaw(scene, soil, part, mass);
     if (specFriction) law.friction = *specFriction;
     all.laws.push_back(law);
-    all.massPerCube.push_back(sphereMass(scene.material(soil).density, 1));
+    all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));
   }
   return all;
 }
