@@ -9,7 +9,8 @@ namespace grouser::base {
 
 enum class Device { Cpu, Cuda };
 
-/// Where work runs: CPU threads, or one CUDA device and its stream. Cheap to copy; owns nothing.
+/// Where work runs: CPU threads, or one CUDA device and its stream. Cheap to copy; owns nothing: the stream that
+/// cudaExec() makes lives as long as the program.
 struct Exec {
   Device device{Device::Cpu};
   int threads{1};        ///< CPU threads, >= 1

@@ -41,7 +41,7 @@ struct ExchangeOptions {
 /// it does not. All ranks call everything here, in the same order.
 class Exchange {
 public:
-  static constexpr std::size_t kMaxFields = 12;
+  static constexpr std::size_t kMaxFields = 16;
 
   Exchange(const base::Exec& exec, const base::Comm& comm, const ExchangeOptions& options);
 

@@ -29,24 +29,38 @@ template <class T> struct Move {
   }
 };
 
-/// A field that is missing in all() would be left out of growth, sorting, migration and checkpoints.
+/// A field that is missing in all() would be left out of growth, sorting and migration. That none is there twice, in
+/// the place of another, is for a test to see.
 template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&...>*) {
   return (sizeof(Fields) + ...);
 }
 using AllFields = decltype(GrainFields::all(std::declval<GrainFields&>()));
 static_assert(sizeof(GrainFields) == sizeOf(static_cast<AllFields*>(nullptr)),
               "every field of the grains stands in GrainFields::all()");
+static_assert(std::tuple_size_v<AllFields> + 1 <= contact::Exchange::kMaxFields,
+              "all fields of the grains may migrate, and the rows of their neighbour lists with them");
 
 } // namespace
 
+GrainFields::GrainFields(const GrainLayout& scene) {
+  boundaryHistory.width = static_cast<std::size_t>(scene.boundaries * scene.historyWidth());
+  boundaryContactMask.width = boundaryOf.width = scene.boundaries > 0;
+  dissipated.width = scene.ledger > 0;
+  crossings.width = scene.periodic > 0;
+  formerVelocity.width = rowOrigin.width = 0;
+}
+
+std::size_t GrainFields::bytesPerGrain() const {
+  std::size_t bytes = 0;
+  const auto add = [&]<class T>(const GrainField<T>& field) {
+    bytes += field.width * sizeof(T) * (field.has(kBuffered) ? 2 : 1);
+  };
+  std::apply([&](const auto&... field) { (add(field), ...); }, all(*this));
+  return bytes;
+}
+
 GrainArrays::GrainArrays(const base::Exec& exec, const GrainConstants& c)
-    : exec_(exec), gravityStep_(c.model.gravity * c.model.timeStep) {
-  const auto boundaries = static_cast<std::size_t>(c.boundaryCount);
-  fields_.boundaryHistory.width = boundaries * static_cast<std::size_t>(c.historyWidth);
-  fields_.boundaryContactMask.width = fields_.boundaryOf.width = boundaries > 0;
-  fields_.dissipated.width = c.has(kLedger);
-  fields_.crossings.width = c.period.any();
-  fields_.formerVelocity.width = 0;
+    : exec_(exec), gravityStep_(c.model.gravity * c.model.timeStep), fields_(c.layout()) {
   forEach([&]<class T>(GrainField<T>& field) { field.now = base::Array<T>(exec), field.next = base::Array<T>(exec); });
 }
 

@@ -10,9 +10,12 @@ namespace grouser::terrain {
 
 struct GrainKernelData;
 
-/// The fields of the grains. Each is declared once, here, with what happens to it; growth, sorting, migration, ghosts,
-/// checkpoints and the count of memory loop over all of them.
+/// The fields of the grains. Each is declared here, with what happens to it; growth, sorting, migration, ghosts and
+/// counts of memory loop over all of them, and checkpoints over those that are saved as they are.
 struct GrainFields {
+  /// With the widths that scenes of this layout need; nothing is allocated.
+  explicit GrainFields(const GrainLayout& scene);
+
   GrainField<base::Position> position{kBuffered | kSorted | kMigrates | kGhosted | kUpdated, &GrainState::position};
   /// [m/s]; w: radius [m], where radii differ
   GrainField<Vec4f> velocity{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
@@ -26,19 +29,23 @@ struct GrainFields {
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<double> dissipated{kSorted | kMigrates, &GrainState::dissipated}; ///< since the start [J]
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
-  /// Velocities before the last step while the grains are sorted between steps; else these are velocity.next.
+  /// Velocities before the last step while the grains are sorted between steps; else these are velocity.next, and the
+  /// width is 0.
   GrainField<Vec4f> formerVelocity{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
   /// 1 + place in the list of grains near boundaries; 0 for all others.
   GrainField<std::uint32_t> boundaryOf{0};
-  /// On several ranks, from migration to list: see contact::RowOrigins.
+  /// On several ranks, from migration to list: see contact::RowOrigins. Of width 0 before the first migration.
   GrainField<std::uint32_t> rowOrigin{kSorted};
 
   template <class Self> static auto all(Self& f) {
     return std::tie(f.position, f.velocity, f.spin, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask,
                     f.dissipated, f.crossings, f.formerVelocity, f.reference, f.boundaryOf, f.rowOrigin);
   }
+
+  /// On the device, of one grain.
+  std::size_t bytesPerGrain() const;
 };
 
 /// Grains that enter on this rank, one an element.

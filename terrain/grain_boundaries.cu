@@ -2,6 +2,7 @@
 #include "terrain/grain_boundaries.hpp"
 
 #include "base/algorithms.hpp"
+#include "contact/strongest_force.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<Ri
   // A contact as stiff as it gets takes 2^40 quanta: room for eight million of them on one surface.
   double pressed = 0;
   const auto consider = [&](const contact::ContactLaw& law) {
-    pressed = std::max(pressed, law.stiffness * model.radius * (law.hertz ? 0.1 * model.radius : 1.0));
+    pressed = std::max(pressed, contact::strongestForce(law, model.radius, contact::kForcePress));
   };
   for (const RigidSurface& surface : surfaces) {
     geometries_.push_back(surface.geometry), start.push_back(surface.start);

@@ -36,12 +36,6 @@ Vec3i signedUnits(const Words3& travelled) {
           static_cast<std::int32_t>(travelled.z)};
 }
 
-GrainLayout layoutOf(const GrainConstants& c) {
-  return {c.model.ledger,     c.boundaryCount,       c.historyWidth > 0,
-          c.historyWidth > 3, c.manyRadii() ? 1 : 0, static_cast<std::int64_t>(c.model.materials.count()),
-          c.period.any()};
-}
-
 /// Slots of the grains that this rank integrates, in the order of their ids.
 std::vector<std::uint32_t> ownSlots(const GrainSystem& system) {
   const std::vector<std::uint32_t> id = system.arrays.fields().id.now.toHost(), ghost = system.ghostsOnHost();
@@ -155,7 +149,7 @@ struct SnapshotRows {
 GrainState GrainCheckpoint::state(const GrainSystem& system) {
   const std::vector<std::uint32_t> slots = ownSlots(system);
   GrainState s;
-  s.layout = layoutOf(system.constants);
+  s.layout = system.constants.layout();
   s.total = static_cast<std::int64_t>(system.count);
   s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
   saveFields(system.arrays, slots, s);
@@ -195,7 +189,7 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const Snapsho
 GrainCheckpoint::GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows)
     : asThen_(saved.rebuilds > 0 && saved.skin == system.constants.model.skin) {
   const auto count = static_cast<std::int64_t>(system.count);
-  if (saved.total < count || (saved.total > count && !grows) || saved.layout != layoutOf(system.constants))
+  if (saved.total < count || (saved.total > count && !grows) || saved.layout != system.constants.layout())
     throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
                                        "resume with the scene that was run",
                                        saved.total, count));

@@ -19,8 +19,6 @@ std::vector<contact::ContactLaw> boundaryLaws(const GrainModel& model, const Bou
   return laws;
 }
 
-namespace {
-
 unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool manyRadii) {
   std::vector<contact::ContactLaw> laws = boundaryLaws(model, boundaries);
   if (model.materials.count() > 0)
@@ -39,6 +37,15 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   if (model.ledger) features |= kLedger;
   return features;
 }
+
+GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials) {
+  const auto has = [&](unsigned feature) -> std::int64_t { return (features & feature) != 0; };
+  const int history = contact::historyWidth(features);
+  return {has(kLedger),  boundaries, history > 0, history > 3, has(kManyRadii), static_cast<std::int64_t>(materials),
+          has(kPeriodic)};
+}
+
+namespace {
 
 double smallestOf(const GrainModel& model, const std::vector<GrainSpec>& start) {
   double least = model.smallestRadius > 0 ? model.smallestRadius : model.radius;

@@ -3,8 +3,15 @@
 
 #include "base/period.hpp"
 #include "terrain/grain_setup.hpp"
+#include "terrain/grain_state.hpp"
 
 namespace grouser::terrain {
+
+/// Features of the grains' step: of the laws, of `boundaries` and, as `manyRadii` says, of grains that are not all
+/// alike; without loads of rigid parts. Where the boundaries are does not matter.
+unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool manyRadii);
+/// The fields that grains of these features have. `materials`: GrainMaterials::count().
+GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials);
 
 /// What of the grains of a scene never changes once they are made; alike on all ranks.
 struct GrainConstants {
@@ -17,12 +24,13 @@ struct GrainConstants {
   double smallestRadius;      ///< of the scene [m]
   std::int64_t diameterUnits; ///< of the largest grain [units]
   std::int64_t skinUnits;     ///< of the neighbour list [units]
-  unsigned features;          ///< sum of features of laws and grains, without loads of rigid parts
+  unsigned features;          ///< see featuresOf()
   int historyWidth;           ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
   int boundaryCount;          ///< planes, floor and surfaces together
   base::Period period;        ///< of periodic boundaries
 
   bool has(unsigned feature) const { return (features & feature) != 0; }
+  GrainLayout layout() const { return layoutOf(features, boundaryCount, model.materials.count()); }
   bool manyRadii() const { return has(kManyRadii); }
   /// Two grains farther apart than this never touch before the neighbour list is built anew [units].
   std::int64_t listRange() const { return diameterUnits + skinUnits; }

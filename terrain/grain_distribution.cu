@@ -6,6 +6,7 @@
 #include "terrain/length_units.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace grouser::terrain {
@@ -89,6 +90,11 @@ GrainDistribution::GrainDistribution(const base::Exec& exec, const PartitionOpti
   setPartition(startingPartition(start, options, c.scale));
 }
 
+void GrainDistribution::onMigrate(OnMigrate onMigrate) {
+  if (onMigrate_) throw std::logic_error("the migration of grains has a listener already");
+  onMigrate_ = std::move(onMigrate);
+}
+
 void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step) {
   finishGhostUpdate(exec_, arrays); // else it would be unpacked into slots that get other grains below
   if (rebalances_) rebalance(arrays, step);
@@ -141,6 +147,7 @@ void GrainDistribution::moveFields(GrainArrays& arrays, const TravellingRows& le
 
 void GrainDistribution::noteOrigins(std::uint32_t owned, std::uint32_t former, GrainArrays& arrays) {
   const Subdomain::Staying staying = subdomain_.staying();
+  arrays.fields().rowOrigin.width = 1;
   base::Array<std::uint32_t>& origin = arrays.fields().rowOrigin.now;
   origin.resize(arrays.slots());
   base::forEach(exec_, "note origins", static_cast<std::int64_t>(arrays.slots()),

@@ -24,9 +24,10 @@ public:
   /// Cuts for the next migration; local, but the same on all ranks.
   void setPartition(const Partition& partition) { subdomain_.setPartition(partition); }
   /// Called before grains migrate, in their old slots: with the rank that the grain of each slot now belongs to
-  /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after.
+  /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after. One
+  /// listener: throws std::logic_error where there is one already.
   using OnMigrate = std::function<void(const std::uint32_t* destination)>;
-  void onMigrate(OnMigrate onMigrate) { onMigrate_ = std::move(onMigrate); }
+  void onMigrate(OnMigrate onMigrate);
   /// Adds time [s] that this rank spent on work that every rank repeats (the vehicle): the load balance leaves it out,
   /// since no cut could move it to another rank. Local.
   void noteReplicated(double seconds) { replicatedSeconds_ += seconds; }

@@ -16,7 +16,6 @@ namespace grouser::terrain {
 struct GrainKernelData {
   // Constants.
   unsigned features;
-  int mostSimdLanes; ///< GrainModel::mostSimdLanes
   std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
   double timeStep, stepPerMass, stepPerInertia, unitsPerSpeed; // dt, dt/m, dt/I, dt/unit
   double unitLength;

@@ -54,24 +54,24 @@ void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, c
 } // namespace
 
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
-                              std::int64_t count, bool specialised) {
-  const unsigned features = specialised ? d.features & ~kFloor : kGeneral;
-  if (const int width = exec.onCpu() ? simdWidth(features, f.law, d.mostSimdLanes) : 1; width > 1)
+                              std::int64_t count, const GrainModel& model) {
+  const unsigned features = model.specialised ? d.features & ~kFloor : kGeneral;
+  if (const int width = exec.onCpu() ? simdWidth(features, f.law, model.mostSimdLanes) : 1; width > 1)
     return runGrainSimd(exec, d, f, count, width);
   runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
-                              std::int64_t count, bool) {
+                              std::int64_t count, const GrainModel&) {
   runOneOf<GrainStep>(NoKernels{}, d.features, exec, "grain step", d, f, count);
 }
 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
-                                     std::int64_t near, bool specialised) {
-  const unsigned features = specialised ? d.features & kAtBoundaries : kGeneral;
+                                     std::int64_t near, const GrainModel& model) {
+  const unsigned features = model.specialised ? d.features & kAtBoundaries : kGeneral;
   runOneOf<BoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near);
 }
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
-                                     std::int64_t near, bool) {
+                                     std::int64_t near, const GrainModel&) {
   runOneOf<BoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts", d, f, near);
 }
 

@@ -2,6 +2,7 @@
 // Energies and counts of the grains, from state functions.
 #include "terrain/grain_ledger.hpp"
 
+#include "contact/strongest_force.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 #include <algorithm>
@@ -125,18 +126,15 @@ private:
   GROUSER_HD void add(int which, std::int64_t quanta) const { base::atomicAdd64(sums + which, quanta); }
 };
 
-/// Force of a contact pressed to the middle of a grain, or of a Hertz contact to a hundredth of that: the scale of
-/// energies [N].
-double strongest(const contact::ContactLaw& law, double radius) {
-  return law.stiffness * radius * (law.hertz ? 1e-3 * radius : 1.0);
-}
-
 } // namespace
 
 GrainLedger measureLedger(GrainSystem& system) {
   const GrainModel& model = system.constants.model;
-  double force = strongest(model.law, model.radius);
-  for (const contact::ContactLaw& law : model.materials.grains) force = std::max(force, strongest(law, model.radius));
+  const auto strongest = [&](const contact::ContactLaw& law) {
+    return contact::strongestForce(law, model.radius, contact::kEnergyPress);
+  };
+  double force = strongest(model.law);
+  for (const contact::ContactLaw& law : model.materials.grains) force = std::max(force, strongest(law));
   const base::FixedPoint energy = base::fixedPointFor(force * model.radius, 32);
   const base::FixedPoint momentum = base::fixedPointFor(model.mass * 10, 32);
   base::Array<std::int64_t> sums(system.exec, 10);

@@ -21,6 +21,7 @@ struct GrainLayout {
   std::int64_t materials{};  ///< of the grains; 0: one
   std::int64_t periodic{};   ///< 1: some boundaries are periodic
   bool operator==(const GrainLayout&) const = default;
+  std::int64_t historyWidth() const { return 3 * (friction + rolling); } ///< numbers of history of a contact
 };
 
 /// All of the grains on which later bits or later output depend, by id: what a checkpoint holds and a hash is taken of.
@@ -56,8 +57,9 @@ struct GrainState {
   std::vector<std::uint32_t> words() const;
   GrainState withoutRows() const;
 
-  /// The one list of the columns, in the order of a row's words in the state hash; see row_exchange.hpp for the
-  /// visitor.
+  // All columns but `id`, twice: in the order of the state hash and in that of files, neither of which may change.
+
+  /// Those that the layout has, in the order of a row's words in the state hash; see row_exchange.hpp for the visitor.
   template <class Self, class Visitor> static void visitRow(Self& s, Visitor& visitor) {
     const GrainLayout& l = s.layout;
     visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin), visitor.column(s.remainders);
@@ -71,6 +73,19 @@ struct GrainState {
     visitor.unhashed(s.travelled);
     if (l.ledger) visitor.unhashed(s.dissipated);
     if (l.periodic) visitor.unhashed(s.crossings);
+  }
+
+  /// Under the names and in the order that they have in files: perGrain(name, column), columns of boundaries with
+  /// several values a grain; then perContact(name, column). Those that the layout lacks are empty.
+  template <class Self, class PerGrain, class PerContact>
+  static void visitColumns(Self& s, const PerGrain& perGrain, const PerContact& perContact) {
+    perGrain("position", s.position), perGrain("velocity", s.velocity), perGrain("spin", s.spin);
+    perGrain("remainders", s.remainders), perGrain("radius", s.radius), perGrain("material", s.material);
+    perGrain("dissipated", s.dissipated), perGrain("crossings", s.crossings);
+    perGrain("wall_bits", s.wallBits), perGrain("wall_shear", s.wallShear), perGrain("wall_rolling", s.wallRolling);
+    perGrain("contacts", s.contacts), perGrain("travelled", s.travelled);
+    perContact("neighbour", s.neighbour), perContact("contact_shear", s.contactShear);
+    perContact("contact_rolling", s.contactRolling);
   }
 };
 

@@ -27,7 +27,7 @@ void GrainStepper::advanceGrains(const base::Exec& exec, const Launch& step, con
   GrainKernelData d = kernelData(step);
   const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
   if (active) d.active = active->data();
-  runGrainStep(exec, d, step.system.forceData<Real>(), count, step.system.constants.model.specialised);
+  runGrainStep(exec, d, step.system.forceData<Real>(), count, step.system.constants.model);
 }
 
 /// On a CPU over the list of uniques, in SIMD. On a GPU over all slots, where threads of masters and slaves return
@@ -37,7 +37,7 @@ template <class Real> void GrainStepper::advanceUniques(const Launch& step) {
   if (exec_.onCpu()) return advanceGrains<Real>(exec_, step, &subdomain.uniques());
   GrainKernelData d = kernelData(step);
   d.role = subdomain.roles();
-  runGrainStep(exec_, d, step.system.forceData<Real>(), d.count, step.system.constants.model.specialised);
+  runGrainStep(exec_, d, step.system.forceData<Real>(), d.count, step.system.constants.model);
 }
 
 void GrainStepper::computeBoundaryContacts(const base::Exec& exec, const Launch& step) {
@@ -47,9 +47,9 @@ void GrainStepper::computeBoundaryContacts(const base::Exec& exec, const Launch&
   const auto near = static_cast<std::int64_t>(s.boundaries.grainsListed());
   const GrainModel& model = s.constants.model;
   if (model.precision == Precision::single)
-    runBoundaryContacts(exec, kernelData(step), s.forceData<float>(), near, model.specialised);
+    runBoundaryContacts(exec, kernelData(step), s.forceData<float>(), near, model);
   else
-    runBoundaryContacts(exec, kernelData(step), s.forceData<double>(), near, model.specialised);
+    runBoundaryContacts(exec, kernelData(step), s.forceData<double>(), near, model);
 }
 
 void GrainStepper::beginBoundaries(GrainSystem& system) {

@@ -47,7 +47,6 @@ GrainKernelData GrainSystem::kernelData() {
   const GrainModel& model = constants.model;
   const double dt = model.timeStep, r = model.radius;
   d.features = constants.features;
-  d.mostSimdLanes = model.mostSimdLanes;
   d.timeStep = dt;
   d.diameter = static_cast<float>(2 * r);
   d.unitLength = constants.scale.unit, d.unitsPerLength = static_cast<float>(constants.scale.perMetre);

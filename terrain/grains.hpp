@@ -27,8 +27,8 @@ public:
   /// The grains in their present slots on the device, ghosts among them: for code that computes loads on grains;
   /// valid until the next refresh. Local.
   contact::GrainsView view() const;
-  /// Migration and cuts; null on one rank. Local.
-  GrainDistribution* distribution() const { return system_.distribution.get(); }
+  /// Migration and cuts, to change them; null on one rank. Local.
+  GrainDistribution* distribution() { return system_.distribution.get(); }
 
   /// Makes the neighbour list valid for the next step. True when slots have changed since the last call.
   bool refreshNeighbours();

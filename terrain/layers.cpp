@@ -2,8 +2,8 @@
 #include "terrain/layers.hpp"
 
 #include "base/error.hpp"
-#include "base/math.hpp"
 #include "base/random.hpp"
+#include "base/sphere.hpp"
 
 #include <fmt/format.h>
 
@@ -85,7 +85,7 @@ public:
                       "grains, a larger terrain or a smaller wall margin",
                       o.radius, walls_.width(), walls_.length()));
 
-    const double volume = 4.0 / 3.0 * base::kPi * o.radius * o.radius * o.radius;
+    const double volume = base::sphereVolume(o.radius);
     const double mean = 0.5 * (double(x_.count[0]) * y_.count[0] + double(x_.count[1]) * y_.count[1]);
     layerThickness_ = mean * volume / (o.packing * walls_.width() * walls_.length());
     const double wanted = o.layers > 0 ? o.layers : std::floor(o.depth / layerThickness_ + 0.5);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/sphere.hpp"
 #include "runs/bench/bench.hpp"
 
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "contact/restitution.hpp"
-#include "runs/setup/laws.hpp"
 #include "terrain/grains.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ double median(std::vector<double> values) {
 terrain::GrainModel modelOf(const BedBench& b) {
   terrain::GrainModel model;
   model.radius = b.radius;
-  model.mass = setup::sphereMass(b.density, b.radius);
+  model.mass = base::sphereMass(b.density, b.radius);
   model.timeStep = b.timeStep;
   model.gravity = {0, 0, -kGravity};
   model.skin = b.skin, model.mostSimdLanes = b.lanes;

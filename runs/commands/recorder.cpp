@@ -114,7 +114,7 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
 /// Where the cuts between subdomains cross the axes [m].
 std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
   std::array<std::vector<double>, 3> borders;
-  if (const terrain::GrainDistribution* ranks = grains.distribution())
+  if (const terrain::GrainDistribution* ranks = grains.system().distribution.get())
     for (int axis = 0; axis < 3; ++axis)
       for (const std::int64_t cut : ranks->subdomain().partition().cuts(axis))
         borders[static_cast<std::size_t>(axis)].push_back(static_cast<double>(cut) * grains.scale().unit);

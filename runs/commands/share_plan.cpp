@@ -2,6 +2,7 @@
 // How a scene would be divided among ranks, before it is run.
 #include "runs/commands/plan.hpp"
 
+#include "base/sphere.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
@@ -29,7 +30,7 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   const double radius = setup::grainKinds(scene).largest;
   std::array<double, 3> size{};
   if (bed) {
-    const double volume = grains * (4.0 / 3.0) * 3.14159265 * radius * radius * radius / scene.terrain->packing;
+    const double volume = grains * base::sphereVolume(radius) / scene.terrain->packing;
     size = {scene.terrain->size[0], scene.terrain->size[1], volume / (scene.terrain->size[0] * scene.terrain->size[1])};
   } else {
     base::Vec3d low{1e300, 1e300, 1e300}, high = -low;

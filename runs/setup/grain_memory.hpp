@@ -5,11 +5,11 @@
 
 namespace grouser::setup {
 
-/// Device memory that a grain of a scene will take, by what it is for [bytes]: sizes of the records times the places
-/// of a settled bed, before anything is allocated.
+/// Device memory that a grain of a scene will take, by what it is for [bytes]: of the fields that terrain::GrainFields
+/// declares, and of the lists for the places of a settled bed, before anything is allocated.
 struct GrainMemory {
-  double state{};      ///< places, velocities, spins of this step and the next, remainders, id
-  double lists{};      ///< neighbours, and where the grain was when they were listed
+  double state{};      ///< fields of grains alone: places, velocities, spins of this step and the next, and the like
+  double lists{};      ///< neighbours
   double history{};    ///< springs and rolling angles of contacts between grains
   double boundaries{}; ///< touch with planes and floor, and history there
   double ledger{};     ///< dissipated energy
@@ -18,7 +18,7 @@ struct GrainMemory {
   double most() const { return total() + rebuild; }
 };
 
-/// Features of the grains' step, as the model of the scene will have them.
+/// Features of the grains' step, loads of rigid parts among them, as the model of the scene will have them.
 unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds);
 
 /// Of the grains of `scene`. Those of very unlike radii have more neighbours, and take more.

@@ -1,12 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_model.hpp"
 
+#include "base/sphere.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace grouser::setup {
+
+using base::Vec3d;
+
+Surroundings surroundingsOf(const scene::Scene& scene, const std::optional<terrain::HeightField>& floor,
+                            const terrain::Rectangle& bedWalls) {
+  Surroundings around;
+  around.floor = floor;
+  if (scene.terrain && scene.terrain->granular()) {
+    const std::string& material = scene.terrain->groundMaterial;
+    const auto add = [&](const Vec3d& normal, double offset) {
+      around.walls.push_back({normal, offset, material, "a wall of the terrain"});
+    };
+    const terrain::Rectangle& w = bedWalls;
+    around.floorMaterial = material;
+    if (scene.terrain->walls && !scene.run.periodic[0]) add({1, 0, 0}, w.xMin), add({-1, 0, 0}, -w.xMax);
+    if (scene.terrain->walls && !scene.run.periodic[1]) add({0, 1, 0}, w.yMin), add({0, -1, 0}, -w.yMax);
+  } else if (scene.terrain) {
+    around.floorMaterial = scene.terrain->material;
+  }
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const scene::Plane& plane = scene.planes[k];
+    if (!plane.isWall()) continue;
+    const Vec3d normal = base::normalized(plane.normal);
+    around.walls.push_back({normal, dot(normal, plane.point), plane.material, fmt::format("plane {}", k)});
+  }
+  around.surfaces = surfacesOf(scene);
+  return around;
+}
 
 terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
                                const Surroundings& surroundings, terrain::Boundaries& boundaries) {
@@ -15,7 +45,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.radius = kinds.largest, model.smallestRadius = kinds.smallest;
   double density = 0;
   for (const std::string& name : kinds.material) density = std::max(density, scene.material(name).density);
-  model.mass = sphereMass(density, kinds.largest);
+  model.mass = base::sphereMass(density, kinds.largest);
   model.timeStep = timeStep;
   model.gravity = scene.run.gravity;
   model.skin = scene.run.skin;

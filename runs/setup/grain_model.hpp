@@ -27,6 +27,11 @@ struct Surroundings {
   std::vector<SceneSurface> surfaces{};
 };
 
+/// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them. `bedWalls`: where those
+/// of a bed stand.
+Surroundings surroundingsOf(const scene::Scene& scene, const std::optional<terrain::HeightField>& floor,
+                            const terrain::Rectangle& bedWalls);
+
 /// The grains' constants, and their walls, floor and surfaces with their laws.
 terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
                                const Surroundings& surroundings, terrain::Boundaries& boundaries);

@@ -2,7 +2,7 @@
 #include "runs/setup/ground_setup.hpp"
 
 #include "base/error.hpp"
-#include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/bed_layers.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/grain_model.hpp"
@@ -27,33 +27,6 @@ namespace grouser::setup {
 using base::Vec3d;
 
 namespace {
-
-/// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them.
-Surroundings surroundingsOf(const scene::Scene& scene, const GroundSetup& ground,
-                            const std::optional<terrain::BedPlan>& bed) {
-  Surroundings around;
-  around.floor = ground.rigid;
-  if (scene.terrain && scene.terrain->granular()) {
-    const std::string& material = scene.terrain->groundMaterial;
-    const terrain::Rectangle& w = bed->walls;
-    const auto add = [&](const Vec3d& normal, double offset) {
-      around.walls.push_back({normal, offset, material, "a wall of the terrain"});
-    };
-    around.floorMaterial = material;
-    if (scene.terrain->walls && !scene.run.periodic[0]) add({1, 0, 0}, w.xMin), add({-1, 0, 0}, -w.xMax);
-    if (scene.terrain->walls && !scene.run.periodic[1]) add({0, 1, 0}, w.yMin), add({0, -1, 0}, -w.yMax);
-  } else if (scene.terrain) {
-    around.floorMaterial = scene.terrain->material;
-  }
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const scene::Plane& plane = scene.planes[k];
-    if (!plane.isWall()) continue;
-    const Vec3d normal = base::normalized(plane.normal);
-    around.walls.push_back({normal, dot(normal, plane.point), plane.material, fmt::format("plane {}", k)});
-  }
-  around.surfaces = surfacesOf(scene);
-  return around;
-}
 
 constexpr double kGiB = 1073741824.0; // [bytes]
 
@@ -211,7 +184,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
     contact::ContactLaw law = pairLaw(scene, soil, part, mass);
     if (specFriction) law.friction = *specFriction;
     all.laws.push_back(law);
-    all.massPerCube.push_back(sphereMass(scene.material(soil).density, 1));
+    all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));
   }
   return all;
 }
@@ -241,7 +214,8 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
   GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
-  checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground, bed), timeStep);
+  checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{}),
+             timeStep);
 }
 
 GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
@@ -253,7 +227,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return ground;
   checkBlockSizes(scene);
-  const Surroundings around = surroundingsOf(scene, ground, bed);
+  const Surroundings around = surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{});
   const std::vector<scene::Grain> placed = placedGrains(scene);
   checkStart(scene, placed, around, timeStep);
   ground.surfaces.assign(around.surfaces.begin(), around.surfaces.end());

@@ -76,10 +76,6 @@ void setHertz(const scene::Material& a, const scene::Material& b, const scene::C
 
 } // namespace
 
-double sphereMass(double density, double radius) {
-  return density * (4.0 / 3.0) * base::kPi * radius * radius * radius;
-}
-
 ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const std::string& nameB,
                    std::optional<double> effectiveMass) {
   const scene::Material &a = scene.material(nameA), &b = scene.material(nameB);

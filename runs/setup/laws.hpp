@@ -9,9 +9,6 @@
 
 namespace grouser::setup {
 
-/// Mass of a sphere [kg].
-double sphereMass(double density, double radius);
-
 /// The law between two materials. Damping follows from the restitution by the formula of the clamped or the free law,
 /// for bodies of the given effective mass [kg], or where there is none for any (grains of many masses).
 ///

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "base/table.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
@@ -97,7 +98,7 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Gra
   for (const SceneSurface& s : surfacesOf(scene)) {
     if (!s.section.free) continue;
     for (const auto& [material, radius, largest] : kinds.kinds) {
-      const double mass = sphereMass(scene.material(material).density, radius);
+      const double mass = base::sphereMass(scene.material(material).density, radius);
       const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
       const double springs = mostTouching(scene, s, radius) / *s.section.mass;
       consider(
@@ -115,7 +116,7 @@ StepLimit stepLimit(const scene::Scene& scene) {
   const GrainKinds kinds = grainKinds(scene);
   // The smallest grains are the quickest.
   for (const auto& [material, radius, largest] : kinds.kinds) {
-    const double mass = sphereMass(scene.material(material).density, radius);
+    const double mass = base::sphereMass(scene.material(material).density, radius);
     for (const Partner& p : partnersOf(scene, kinds, material))
       considerGrain(limit, pairLaw(scene, material, p.material, p.share() * mass), mass, radius, p,
                     scene.run.impactSpeed);
@@ -136,7 +137,7 @@ double shortestContact(const scene::Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   const GrainKinds kinds = grainKinds(scene);
   for (const auto& [material, radius, largest] : kinds.kinds) {
-    const double mass = sphereMass(scene.material(material).density, radius);
+    const double mass = base::sphereMass(scene.material(material).density, radius);
     for (const Partner& p : partnersOf(scene, kinds, material))
       shortest = std::min(shortest, contactTime(pairLaw(scene, material, p.material, p.share() * mass),
                                                 p.share() * mass, p.share() * radius, scene.run.impactSpeed));
@@ -178,7 +179,7 @@ void checkSoftness(const scene::Scene& scene) {
   if (gravity == 0) return;
   const GrainKinds kinds = grainKinds(scene);
   for (const auto& [name, smallest, radius] : kinds.kinds) {
-    const double mass = sphereMass(scene.material(name).density, radius);
+    const double mass = base::sphereMass(scene.material(name).density, radius);
     for (const Partner& p : partnersOf(scene, kinds, name)) {
       const contact::ContactLaw law = pairLaw(scene, name, p.material, p.share() * mass);
       const double sinks = sinksBy(law, mass * gravity, p.share() * radius) / radius;

@@ -35,8 +35,8 @@ template <> struct Layout<SurfaceState> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
-/// The one list of what is stored, and under which name. `archive` writes or reads. On several ranks all have the same
-/// of everything but grains and contacts, of which each has its block of rows.
+/// The one list of what is stored, and under which name; the grains' columns say theirs. `archive` writes or reads. On
+/// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/energy_at_start", s.energyAtStart);
@@ -53,22 +53,10 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     auto& g = *s.grains;
     archive("/grains/total", g.total);
     archive("/grains/layout", g.layout);
-    archive.perGrain("/grains/position", g.position, g.total);
-    archive.perGrain("/grains/velocity", g.velocity, g.total);
-    archive.perGrain("/grains/spin", g.spin, g.total);
-    archive.perGrain("/grains/remainders", g.remainders, g.total);
-    archive.perGrain("/grains/radius", g.radius, g.total);
-    archive.perGrain("/grains/material", g.material, g.total);
-    archive.perGrain("/grains/dissipated", g.dissipated, g.total);
-    archive.perGrain("/grains/crossings", g.crossings, g.total);
-    archive.perGrain("/grains/wall_bits", g.wallBits, g.total);
-    archive.perGrain("/grains/wall_shear", g.wallShear, g.total);
-    archive.perGrain("/grains/wall_rolling", g.wallRolling, g.total);
-    archive.perGrain("/grains/contacts", g.contacts, g.total);
-    archive.perGrain("/grains/travelled", g.travelled, g.total);
-    archive.perContact("/grains/neighbour", g.neighbour, g.contacts);
-    archive.perContact("/grains/contact_shear", g.contactShear, g.contacts);
-    archive.perContact("/grains/contact_rolling", g.contactRolling, g.contacts);
+    const auto path = [](const char* column) { return std::string("/grains/") + column; };
+    terrain::GrainState::visitColumns(
+        g, [&](const char* name, auto& column) { archive.perGrain(path(name).c_str(), column, g.total); },
+        [&](const char* name, auto& column) { archive.perContact(path(name).c_str(), column, g.contacts); });
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/grain_part_model.hpp"
 
+#include "contact/strongest_force.hpp"
+
 #include <algorithm>
 
 namespace grouser::simulation {
@@ -16,7 +18,7 @@ contact::GrainPartModel grainPartModel(const setup::GrainsSetup& setup, const te
   model.scale = grains.scale();
   double pressed = 0;
   for (const contact::ContactLaw& law : setup.partLaws.laws)
-    pressed = std::max(pressed, law.stiffness * bed.radius * (law.hertz ? 0.1 * bed.radius : 1.0));
+    pressed = std::max(pressed, contact::strongestForce(law, bed.radius, contact::kForcePress));
   // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
   model.force = base::fixedPointFor(pressed, 36);
   model.torque = base::fixedPointFor(pressed, 36);

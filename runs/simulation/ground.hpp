@@ -13,13 +13,15 @@
 
 namespace grouser::simulation {
 
-/// The terrain as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone.
+/// The terrain as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone. A const Ground
+/// keeps what it has, but its grains can be stepped.
 struct Ground {
-  std::optional<terrain::HeightField> surface; ///< as the height-map says
-  std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
+  std::optional<terrain::HeightField> surface; ///< as the height-map says; empty without [terrain]
+  std::optional<terrain::HeightField> rigid;   ///< the ground itself, or the floor below a bed; empty without [terrain]
   std::unique_ptr<terrain::Grains> grains;     ///< null without grains
-  std::optional<terrain::Rectangle> walls;     ///< around a bed
-  std::shared_ptr<const terrain::BedSurface> undisturbed; ///< of a settled bed, before the vehicle touched it
+  std::optional<terrain::Rectangle> walls;     ///< around a bed; empty without one
+  /// Of a settled bed, before the vehicle touched it; null without a bed, and before keepSurface().
+  std::shared_ptr<const terrain::BedSurface> undisturbed;
 };
 
 /// Called now and then while a bed settles: simulated time [s], kinetic energy a grain over m g radius [-].
@@ -42,7 +44,7 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
 /// Throws SimulationError when the scene's time limit passes first.
 SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress);
 
-/// Takes the surface of a bed as it lies now for the undisturbed one, or `heights` of one taken earlier.
+/// Of a ground with a bed: takes its surface as it lies now for the undisturbed one, or `heights` of one taken earlier.
 void keepSurface(Ground& ground, const base::Exec& exec);
 void keepSurface(Ground& ground, const std::vector<double>& heights);
 

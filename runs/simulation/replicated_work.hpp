@@ -12,6 +12,7 @@ namespace grouser::simulation {
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;
+  /// `grains` outlive it; null without.
   explicit ReplicatedWork(terrain::Grains* grains) : ranks_(grains ? grains->distribution() : nullptr) {}
 
   template <class Work> void run(const Work& work) const {

@@ -26,6 +26,8 @@ public:
   /// InputError when the state is of another scene.
   Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
              const base::Comm& comm = {});
+  Simulation(const Simulation&) = delete; // its parts refer to setup_ and to each other
+  Simulation& operator=(const Simulation&) = delete;
   SimulationState save() const;
 
   /// One step of length timeStep(). Throws SimulationError at a fault.

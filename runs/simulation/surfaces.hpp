@@ -18,6 +18,8 @@ class Surfaces {
 public:
   /// `setup` outlives it.
   Surfaces(const setup::GroundSetup& setup, const base::Vec3d& gravity, double timeStep);
+  Surfaces(const Surfaces&) = delete;
+  Surfaces& operator=(const Surfaces&) = delete;
 
   /// The meshes' contacts; after grains have been restored, before the first computeContacts().
   void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains);

@@ -23,9 +23,12 @@ namespace grouser::simulation {
 /// device where there is one. On several ranks each computes the contacts with its own grains; all else is done alike.
 class VehicleContacts {
 public:
-  /// `parts` outlives it.
+  /// `assembly`, `parts` and the grains of `ground` outlive it, and it outlives the grains' steps: on several ranks it
+  /// registers with their migration, as MeshContacts does.
   VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const setup::GroundSetup& setup,
                   const base::Exec& exec, double timeStep, const Ground& ground);
+  VehicleContacts(const VehicleContacts&) = delete;
+  VehicleContacts& operator=(const VehicleContacts&) = delete;
 
   // One step, in this order.
   void setPoses(const multibody::State& state);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/grain_stability.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "contact/restitution.hpp"
 #include "runs/setup/grain_model.hpp"
-#include "runs/setup/laws.hpp"
 #include "runs/setup/step_limit.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ constexpr double kTangentialRatio = 2.0 / 7;
 constexpr double kSettleStiffness = 1e5, kSettleZeta = 0.3, kSettleStep = 0.3; // [N/m], [-], [1 / sqrt(k / m)]
 constexpr std::uint64_t kSeed = 1, kPurpose = base::purpose("study.stability");
 
-double rate(double stiffness) { return std::sqrt(stiffness / setup::sphereMass(kDensity, kRadius)); } // [1/s]
+double rate(double stiffness) { return std::sqrt(stiffness / base::sphereMass(kDensity, kRadius)); } // [1/s]
 
 /// The scene a user would write. Dashpots are to springs alike in all contacts: c = 2 zeta sqrt(k m), which is
 /// gamma m / 2 between grains and gamma m at a plane.

@@ -2,8 +2,8 @@
 #include "runs/studies/impact.hpp"
 
 #include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "contact/restitution.hpp"
-#include "runs/setup/laws.hpp"
 #include "terrain/grains.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ constexpr double kStiffness = 1e5, kEffectiveModulus = 1e9; // [N/m], [Pa]
 constexpr double kSpacing = 4 * kRadius;                    // between collisions side by side [m]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double mass() { return setup::sphereMass(kDensity, kRadius); }
+double mass() { return base::sphereMass(kDensity, kRadius); }
 double effectiveMass(const ImpactCase& c) { return c.binary ? 0.5 * mass() : mass(); }
 double effectiveRadius(const ImpactCase& c) { return c.binary ? 0.5 * kRadius : kRadius; }
 double omega0(const ImpactCase& c) { return std::sqrt(kStiffness / effectiveMass(c)); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/sample.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 
-#include "base/math.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/studies/common.hpp"
 
@@ -12,7 +12,7 @@
 
 namespace grouser::studies {
 
-double SampleGrains::mass() const { return density * 4.0 / 3.0 * base::kPi * radius * radius * radius; }
+double SampleGrains::mass() const { return base::sphereMass(density, radius); }
 
 std::string SampleGrains::toml(const std::string& name) const {
   return fmt::format(

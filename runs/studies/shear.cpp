@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/shear.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include "base/enum_words.hpp"
@@ -100,8 +101,7 @@ std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& 
     const auto snapshot = simulation.ground().grains->snapshot();
     for (std::size_t g = 0; g < snapshot.position.size(); ++g) {
       const double r = static_cast<double>(snapshot.radius[g]);
-      if (snapshot.position[g].z < 0)
-        weightBelow += material.density * 4.0 / 3.0 * base::kPi * r * r * r * norm(scene.run.gravity);
+      if (snapshot.position[g].z < 0) weightBelow += base::sphereMass(material.density, r) * norm(scene.run.gravity);
     }
     row.normal = -weightBelow;
     for (std::size_t i = 0; i < surfaces.count(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rigid surfaces of scenes: their laws of motion, platens under load, what they measure, checkpoints, and what is
 // refused.
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/surfaces.hpp"
 
@@ -9,7 +10,6 @@
 #include "runs/commands/plan.hpp"
 #include "runs/output/surface_mesh.hpp"
 #include "runs/scene/scene_file.hpp"
-#include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
@@ -95,7 +95,7 @@ TEST(FreeSurface, RestsWhereGrainsCarryLoadAndWeight) {
   const auto s = made(scene, 40000);
   const Surfaces& surfaces = *s->surfaces();
   ASSERT_EQ(surfaces.count(), 2u);
-  const double weight = setup::sphereMass(2500, 0.01) * 9.81, pressed = (50 + 2 * 9.81) / 4, k = 1e5;
+  const double weight = base::sphereMass(2500, 0.01) * 9.81, pressed = (50 + 2 * 9.81) / 4, k = 1e5;
   const double height = 0.02 - pressed / k - (pressed + weight) / k + 0.01;
   EXPECT_NEAR(surfaces.pose(1, s->steps()).position.z, height, 1e-3 * pressed / k) << "what is left of its swing";
   auto fresh = made(scene, 40000);
@@ -203,7 +203,7 @@ TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
               "amplitude = [0, 0, 1e-3]\nfrequency = 10\nphase = -90\n" +
               grainAt("[0, 0, 0.01]"));
   const auto s = made(scene, 5000);
-  const double mass = setup::sphereMass(2500, 0.01), omega = 20 * base::kPi;
+  const double mass = base::sphereMass(2500, 0.01), omega = 20 * base::kPi;
   for (int k = 0; k < 40; ++k) {
     s->restartMeans();
     const double from = s->time();

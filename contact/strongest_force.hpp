@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/contact_law.hpp"
+
+namespace grouser::contact {
+
+/// Force [N] of a linear contact pressed to the middle of a grain, or of a Hertz contact to the overlap d where
+/// (d / radius)^1.5 = `hertz`: the scale by which sums of forces and energies choose their quanta, on which the last
+/// bits of those sums depend.
+inline double strongestForce(const ContactLaw& law, double radius, double hertz) {
+  return law.stiffness * radius * (law.hertz ? hertz * radius : 1.0);
+}
+/// `hertz` of forces, a fifth of the radius, and of energies, a hundredth.
+inline constexpr double kForcePress = 0.1, kEnergyPress = 1e-3;
+
+} // namespace grouser::contact
