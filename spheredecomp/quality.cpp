@@ -101,7 +101,8 @@ SurfaceDistance measureSurface(const OuterSurface& outer, const std::vector<Surf
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(shape.set.surfaceCount); ++i) {
     const auto self = static_cast<std::uint32_t>(i);
     const SetSphere& s = shape.set.spheres[self];
-    auto& [in, out] = farthest[self];
+    auto& in = farthest[self].first;
+    auto& out = farthest[self].second;
     auto consider = [&](const Vec3d& p) {
       if (shape.coveredByOther(self, p, 1e-6 * s.radius)) return;
       const double d = outer.surface().closest(p).distance;

@@ -67,10 +67,10 @@ Axis ring(double from, double length, double spacing) {
 /// The sites of a bed: which lattice points bear a grain.
 class Lattice {
 public:
-  Lattice(const HeightField& surface, const LayerOptions& o) : options_(o) {
+  Lattice(const HeightField& surface, const LayerOptions& o)
+      : options_(o), spacing_(o.spacingInRadii * o.radius),
+        jitter_(o.jitter * kJitterReach * (spacing_ - 2 * o.radius)) {
     check(o);
-    spacing_ = o.spacingInRadii * o.radius;
-    jitter_ = o.jitter * kJitterReach * (spacing_ - 2 * o.radius);
     const Rectangle& a = surface.area();
     walls_ = {a.xMin + o.wallMargin, a.xMax - o.wallMargin, a.yMin + o.wallMargin, a.yMax - o.wallMargin};
     const double inset = o.radius * (1 + kFloorGap) + jitter_;

@@ -11,7 +11,6 @@ namespace {
 
 using base::Mat3d;
 using base::Pose;
-using base::Quat;
 using base::Vec3d;
 using multibody::JointType;
 

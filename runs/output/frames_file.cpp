@@ -159,7 +159,7 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
   }
   // Lists of vertices that removed frames alone have used; one that a kill has cut short is among them.
   for (const std::string& list : frames.file_->members("/vertices"))
-    if (!counts.count(list)) frames.file_->remove("/vertices/" + list);
+    if (!counts.contains(list)) frames.file_->remove("/vertices/" + list);
   if (counts.empty() && frames.file_->has("/vertices")) frames.file_->remove("/vertices");
   frames.file_->flush();
   if (!frames.steps_.empty()) frames.writeXdmf();
@@ -235,7 +235,7 @@ void FramesFile::writeGrains(support::Hdf5File& file, const Frame& frame, const 
 /// The list of `grains` vertices, which frames of as many grains share. They are just 0, 1, 2..., but not every reader
 /// makes them up.
 std::string FramesFile::listVertices(std::size_t grains) {
-  const std::string list = fmt::format("/vertices/{}", grains);
+  std::string list = fmt::format("/vertices/{}", grains);
   if (file_->has(list)) return list;
   file_->reserve<std::uint32_t>(list, {grains, 1});
   std::vector<std::uint32_t> block;

@@ -50,7 +50,7 @@ std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, cons
   }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  const std::filesystem::path path = folder / "sinkage.csv";
+  std::filesystem::path path = folder / "sinkage.csv";
   support::writeTextFile(path, text + '\n', "--out");
   return path;
 }

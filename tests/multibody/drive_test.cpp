@@ -92,7 +92,7 @@ double fourBarError(double dt, int& singular) {
   Mechanism m = fourBar();
   Solver solver(m.model);
   EXPECT_EQ(solver.redundantRows(), 6) << solver.report(); // three a loop
-  const int steps = static_cast<int>(10 / dt + 0.5);
+  const int steps = static_cast<int>(std::lround(10 / dt));
   for (int i = 0; i < steps; ++i) {
     solver.step(m.state, m.loads, dt);
     singular += solver.lastStep().singularRows;

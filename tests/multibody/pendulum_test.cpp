@@ -23,7 +23,7 @@ Mechanism pointPendulum() {
 double pointPendulumError(double dt) {
   Mechanism p = pointPendulum();
   Solver solver(p.model);
-  const int steps = static_cast<int>(10 / dt + 0.5);
+  const int steps = static_cast<int>(std::lround(10 / dt));
   for (int i = 0; i < steps; ++i) {
     solver.step(p.state, p.loads, dt);
     EXPECT_LE(solver.lastStep().maxPositionError, 1e-10);

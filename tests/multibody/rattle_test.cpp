@@ -84,7 +84,7 @@ TEST(Rattle, FourBarsPassTheirSingularPositionWithTheOrderOfTheScheme) {
             m.loads.gravity = {0, 0, -9.81};
             Solver solver(m.model, rattle(order));
             EXPECT_EQ(solver.degreesOfFreedom(), 1);
-            const int steps = static_cast<int>(c.t / h + 0.5);
+            const int steps = static_cast<int>(std::lround(c.t / h));
             for (int i = 0; i < steps; ++i) {
               solver.step(m.state, m.loads, h);
               singular += solver.lastStep().singularRows;

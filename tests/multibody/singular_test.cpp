@@ -44,7 +44,7 @@ struct Passage {
 Passage pass(int n, const SolverOptions& options, double dt, double t, const Vec3d& tip) {
   Mechanism m = alignedFourBars(n);
   Solver solver(m.model, options);
-  const int steps = static_cast<int>(t / dt + 0.5);
+  const int steps = static_cast<int>(std::lround(t / dt));
   const double start = energy(m);
   Passage p;
   for (int i = 0; i < steps; ++i) {

@@ -130,7 +130,7 @@ TEST(MultibodySprings, PointSpringOscillatesAtItsFrequency) {
   p.loads.gravity = {};
   Solver solver(p.model);
   const double omega = std::sqrt(k * (1 / m1 + 1 / m2));
-  const int half = static_cast<int>(base::kPi / omega / dt + 0.5);
+  const int half = static_cast<int>(std::lround(base::kPi / omega / dt));
   for (int i = 0; i < half; ++i) solver.step(p.state, p.loads, dt);
   // After half a period 0.1 m of stretch has become 0.1 m of compression, less the implicit spring's damping
   // omega dt / 2 a radian: 0.1 pi omega dt / 2 = 6.4e-5 m.

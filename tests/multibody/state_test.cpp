@@ -99,7 +99,7 @@ TEST(MultibodyState, LedgerOfAVehicleClosesWithTheStep) {
     Mechanism m = vehicleLike();
     Solver solver(m.model);
     const double start = totals(m.model, m.state, m.loads).kinetic;
-    const int steps = static_cast<int>(0.5 / dt + 0.5);
+    const int steps = static_cast<int>(std::lround(0.5 / dt));
     for (int i = 0; i < steps; ++i) solver.step(m.state, m.loads, dt);
     const Ledger& l = m.state.ledger;
     return std::fabs(totals(m.model, m.state, m.loads).kinetic - start - l.gravityWork - l.externalWork - l.driveWork -

@@ -29,7 +29,7 @@ double attitudeErrorAt10(double dt) {
   Mechanism m = top({1, 1, 1});
   Solver solver(m.model);
   const Vec3d before = totals(m.model, m.state, m.loads).angularMomentum;
-  const int steps = static_cast<int>(10 / dt + 0.5);
+  const int steps = static_cast<int>(std::lround(10 / dt));
   for (int i = 0; i < steps; ++i) solver.step(m.state, m.loads, dt);
   const Vec3d after = totals(m.model, m.state, m.loads).angularMomentum;
   EXPECT_EQ(after.x, before.x); // no torque, no change: to the last bit

@@ -153,7 +153,7 @@ TEST(Exchange, OneElementMayGoToManyRanksAndNoneToOthers) {
   Exchange exchange(t.exec, comm, kOnCpus);
   // Rank 0 sends its tracer 5 to all others; the others send nothing.
   std::vector<std::pair<std::uint32_t, int>> leaving;
-  for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.push_back({5, r}); // not in the order of ranks
+  for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.emplace_back(5, r); // not in the order of ranks
   route(exchange, t, leaving);
   EXPECT_EQ(exchange.importCount(), comm.first() ? 0u : 1u);
   EXPECT_EQ(exchange.exportCount(), leaving.size());

@@ -135,7 +135,7 @@ TEST(Layers, ThicknessHoldsTheGrainsVolumeAtTheExpectedPacking) {
     LayerOptions o = options();
     o.layers = 6; // an even number: odd and even layers may differ in count
     const BedPlan plan = planBed(surface, o);
-    const double volume = plan.grains * 4.0 / 3.0 * base::kPi * kRadius * kRadius * kRadius;
+    const double volume = static_cast<double>(plan.grains) * 4.0 / 3.0 * base::kPi * kRadius * kRadius * kRadius;
     EXPECT_NEAR(plan.thickness, volume / (0.6 * 2.0 * 1.0), 20 * kEps);
     EXPECT_NEAR(plan.floor.height(0.7, 0.1), surface.height(0.7, 0.1) - plan.thickness, 20 * kEps);
   }
@@ -169,7 +169,8 @@ TEST(Layers, FlatFloor_IsOneBedBelowTheLowestPoint_AndFillsTheHills) {
 
   // The grains' volume is that between floor and surface, at the expected packing: columns are rounded to whole layers
   // and no layer may overhang its supports; 5 % of the whole.
-  const double volume = plan.grains * 4.0 / 3.0 * base::kPi * kRadius * kRadius * kRadius / o.packing;
+  const double volume =
+      static_cast<double>(plan.grains) * 4.0 / 3.0 * base::kPi * kRadius * kRadius * kRadius / o.packing;
   double mean = 0;
   for (int j = 0; j < 100; ++j)
     for (int i = 0; i < 200; ++i) mean += surface.height(0.01 * (i + 0.5), -0.5 + 0.01 * (j + 0.5)) / 20000;
