@@ -18,11 +18,13 @@ inline base::Exec testExec(int threads = 1, int rank = 0) {
 }
 
 #ifdef GROUSER_SOURCE_DIR
-/// A scene of tests/scenes: in the sources, which GROUSER_TEST_SOURCE names where they have moved since the build.
-inline std::string testScene(const std::string& name) {
+/// Of the sources, which GROUSER_TEST_SOURCE names where they have moved since the build.
+inline std::string sourceFolder() {
   const char* moved = std::getenv("GROUSER_TEST_SOURCE");
-  return std::string(moved ? moved : GROUSER_SOURCE_DIR) + "/tests/scenes/" + name;
+  return moved ? moved : GROUSER_SOURCE_DIR;
 }
+/// A scene of tests/scenes.
+inline std::string testScene(const std::string& name) { return sourceFolder() + "/tests/scenes/" + name; }
 #endif
 
 } // namespace grouser

@@ -11,10 +11,10 @@
 namespace grouser::multibody::detail {
 
 ConstraintSystem::ConstraintSystem(const Model& model)
-    : ConstraintGraph(model), elimination_(std::make_unique<Elimination>(movableBodies(), edges())), active_(hard_) {
+    : ConstraintGraph(model), elimination_(std::make_unique<Elimination>(movableBodies(), edges())) {
   const std::size_t count = constraints().size();
   for (const Constraint& c : constraints()) hard_.push_back(hardRows(c.kind));
-
+  active_.assign(hard_.begin(), hard_.end());
   linearisation_.assign(parts().size(), 0);
   redundant_.assign(count, 0);
   expectedLost_.assign(parts().size(), 0);

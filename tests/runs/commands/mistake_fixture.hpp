@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tests/device_under_test.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
@@ -17,7 +18,7 @@ namespace grouser::test {
 
 namespace fs = std::filesystem;
 
-inline fs::path asset(const std::string& name) { return fs::path(GROUSER_SOURCE_DIR) / "assets" / name; }
+inline fs::path asset(const std::string& name) { return fs::path(sourceFolder()) / "assets" / name; }
 
 /// A picture of the project with bytes changed: 16 to 19 width, 20 to 23 height, 24 bits, 25 colour type, 28 interlace.
 inline std::string picture(std::size_t at = 0, const std::string& bytes = "") {
