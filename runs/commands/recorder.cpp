@@ -85,7 +85,7 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
 }
 output::RunWriter::Options writerOptions(bool frames, const RunRequest& options, const base::Exec& exec,
                                          const std::vector<output::Channel>& channels,
-                                         const simulation::Checkpoint* former) {
+                                         const simulation::Checkpoint* former, std::int64_t total) {
   output::RunWriter::Options w;
   w.force = options.force;
   w.frames = frames;
@@ -101,6 +101,8 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
     try {
       output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
       if (w.frames && kept.frames > 0) output::checkFrames(options.folder, step, former->frames);
+      // The contact forces of the last frame are known no more: where no step is left to take, it stays.
+      if (w.frames && step == total && output::holdsLastFrame(options.folder, step, kept.frames)) ++kept.frames;
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
@@ -142,12 +144,13 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 } // namespace
 
 Recorder::Recorder(simulation::Simulation& simulation, const RunRequest& options, const base::Exec& exec,
-                   const simulation::Checkpoint* former)
+                   const simulation::Checkpoint* former, std::int64_t total)
     : simulation_(simulation), begunAt_(simulation.steps()), channels_(channelsOf(simulation)), row_(channels_),
       writer_(options.folder, simulation.setup().provenance, channels_,
-              writerOptions(simulation.setup().output.frames, options, exec, channels_, former)) {
+              writerOptions(simulation.setup().output.frames, options, exec, channels_, former, total)) {
   try {
     begin(options, former);
+    endIsThere_ = former && writer_.frames() > former->frames;
   } catch (const std::exception& error) {
     writer_.abandon(error.what());
     throw;
@@ -207,6 +210,7 @@ void Recorder::row() {
 }
 
 void Recorder::frame() {
+  if (endIsThere_ && simulation_.steps() == begunAt_) return;
   if (simulation_.setup().output.frames) writer_.frame(currentFrame());
 }
 

@@ -17,9 +17,9 @@ namespace grouser::commands {
 /// What a run writes: channels, rows and frames of one simulation. On several ranks all of them have one.
 class Recorder {
 public:
-  /// `former`: the checkpoint that the run goes on from, or null.
+  /// `former`: the checkpoint that the run goes on from, or null; `total`: the step at which it ends.
   Recorder(simulation::Simulation& simulation, const RunRequest& options, const base::Exec& exec,
-           const simulation::Checkpoint* former);
+           const simulation::Checkpoint* former, std::int64_t total);
 
   void row();
   void frame();
@@ -39,6 +39,7 @@ private:
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;
+  bool endIsThere_ = false; ///< the frame of the step that the run goes on from, which is its last
   std::optional<output::GrainsCsv> grainsCsv_;
 };
 

@@ -258,7 +258,7 @@ output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, setup.timeStep); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
 
-  Recorder recorder(simulation, options, exec, former.get());
+  Recorder recorder(simulation, options, exec, former.get(), total);
   Checkpoints checkpoints(provenance, options);
   const Clock::time_point driving = Clock::now();
   const double waitedBefore = comm.waited();

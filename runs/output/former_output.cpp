@@ -59,4 +59,12 @@ void checkFrames(const fs::path& folder, std::int64_t step, std::int64_t count) 
                                        (folder / "frames.h5").string(), count, step));
 }
 
+bool holdsLastFrame(const fs::path& folder, std::int64_t step, std::int64_t count) {
+  try {
+    return FramesFile::framesUpTo(folder, step) == count + 1;
+  } catch (const base::InputError&) {
+    return false;
+  }
+}
+
 } // namespace grouser::output

@@ -14,4 +14,7 @@ std::vector<Row> readRows(const std::filesystem::path& folder, const std::vector
 /// The same for the frames of `folder`/frames.h5, which stay in the file: throws unless they are there.
 void checkFrames(const std::filesystem::path& folder, std::int64_t step, std::int64_t count);
 
+/// Whether the file holds one more, of the very step: the end of a run that had none left to take.
+bool holdsLastFrame(const std::filesystem::path& folder, std::int64_t step, std::int64_t count);
+
 } // namespace grouser::output

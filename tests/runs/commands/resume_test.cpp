@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -191,6 +192,23 @@ TEST_F(ResumedRun, SignalStopsWithACheckpointAndGoesOn) {
   EXPECT_EQ(resume(bed()).stateHash, hash);
   EXPECT_NE(contents(resumed_ / "manifest.json").find("\"status\": \"finished\""), std::string::npos);
   expectSameFolders();
+}
+
+TEST_F(ResumedRun, NothingLeftToDoKeepsTheForcesOfTheLastFrame) {
+  const auto scene = [] { return bed({"run.duration=0.1"}); }; // step 1000, between the frames at 900 and 1200
+  run(resumed_, scene());
+  const auto forces = [&] {
+    return support::Hdf5File::open(resumed_ / "frames.h5").numbers("/000004/grains/contact_force");
+  };
+  const std::vector<double> before = forces();
+  ASSERT_FALSE(std::isnan(before.at(0)));
+  const std::string rows = contents(resumed_ / "timeseries.csv");
+  resume(scene());
+  EXPECT_EQ(bits(forces()), bits(before));
+  EXPECT_EQ(contents(resumed_ / "timeseries.csv"), rows);
+  // A longer run has no frame there.
+  resume(bed());
+  EXPECT_EQ(support::Hdf5File::open(resumed_ / "frames.h5").number("/000004", "step"), 1200);
 }
 
 TEST_F(ResumedRun, LongerDurationGoesOnFromTheEnd) {
