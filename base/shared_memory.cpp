@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace grouser::base {
@@ -15,13 +16,20 @@ void* map(int file, std::size_t bytes) {
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
+/// Asked before any page is taken: on a machine with much memory the attempt would fill it, and end in a kill.
+bool hasRoom(int file, std::size_t bytes) {
+  struct statvfs there {};
+  return fstatvfs(file, &there) == 0 && bytes / there.f_frsize < there.f_bavail;
+}
+
 } // namespace
 
 void* createShared(const std::string& name, std::size_t bytes) noexcept {
   const int file = shm_open(name.c_str(), O_CREAT | O_EXCL | O_RDWR, S_IRUSR | S_IWUSR);
   if (file < 0) return nullptr;
   // Reserves all pages now: the first access to one that does not fit any more would end the program (SIGBUS).
-  void* const memory = posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0 ? map(file, bytes) : nullptr;
+  const bool reserved = hasRoom(file, bytes) && posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0;
+  void* const memory = reserved ? map(file, bytes) : nullptr;
   ::close(file);
   if (!memory) forgetShared(name);
   return memory;

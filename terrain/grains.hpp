@@ -28,6 +28,7 @@ public:
   /// valid until the next refresh. Local.
   contact::GrainsView view() const;
   /// Migration and cuts, to change them; null on one rank. Local.
+  // NOLINTNEXTLINE(readability-make-member-function-const): who may only look at grains shall not get it
   GrainDistribution* distribution() { return system_.distribution.get(); }
 
   /// Makes the neighbour list valid for the next step. True when slots have changed since the last call.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 
 namespace grouser::multibody::detail {
 
@@ -425,7 +424,8 @@ GROUSER_SIMD_CLONES void Elimination::sweepForward(Vector6* x) const {
 }
 
 GROUSER_SIMD_CLONES void Elimination::sweepBackward(Vector6* x) const {
-  for (const Operation& operation : std::views::reverse(program_)) {
+  for (std::size_t left = program_.size(); left > 0; --left) {
+    const Operation& operation = program_[left - 1];
     if (operation.closes) {
       backwardLoop(loops_[at(operation.index)], x);
     } else {

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <ranges>
 
 namespace grouser::studies {
 
@@ -288,7 +287,8 @@ support::LineFit measuredOrder(const ImpactSeries& series, int quantity) {
 const ImpactPoint* cheapestImpact(const ImpactSeries& series, int quantity, double tolerance) {
   const ImpactReference reference = impactReference(series.study);
   const ImpactPoint* best = nullptr;
-  for (const ImpactPoint& p : std::views::reverse(series.points)) {
+  for (std::size_t left = series.points.size(); left > 0; --left) {
+    const ImpactPoint& p = series.points[left - 1];
     if (!p.stable) break;
     for (int q = 0; q < kImpactQuantities; ++q) {
       const auto k = static_cast<std::size_t>(q);

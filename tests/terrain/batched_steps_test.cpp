@@ -21,7 +21,7 @@ Grains thrown(double speed, Precision precision = Precision::single, bool hills 
     floor.floor = HeightField::plane({-2, 3, -2, 3}, -0.05, 0.1, -0.05);
   else
     floor.walls.push_back(floorPlane(model.law));
-  return Grains(testExec(2), model, std::move(floor), gravelBlock(6, 6, 3, {0.4, 0, -speed}, {3, 0, 0}));
+  return Grains(testExec(2), model, floor, gravelBlock(6, 6, 3, {0.4, 0, -speed}, {3, 0, 0}));
 }
 
 void advanceAtOnce(Grains& grains, std::int64_t steps) {
