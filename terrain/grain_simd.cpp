@@ -27,9 +27,12 @@ int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) 
   if (features & ~kKnown) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
 #if defined(__x86_64__)
-  // All of what the files are compiled for (CMakeLists.txt), not the wide registers alone.
-  if (most >= 16 && __builtin_cpu_supports("x86-64-v4")) return 16;
-  if (most >= 8 && __builtin_cpu_supports("x86-64-v3")) return 8;
+  // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  if (most >= 16 && avx2 && avx512) return 16;
+  if (most >= 8 && avx2) return 8;
   if (most >= 4) return 4;
 #endif
   return 1;
