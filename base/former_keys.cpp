@@ -31,7 +31,8 @@ std::vector<std::pair<Node*, std::string>> sectionsAt(Node& node, const std::str
 } // namespace
 
 void Document::renameKeys(const std::string& where, const std::vector<FormerKey>& keys) {
-  for (const auto& [former, now] : keys) {
+  for (const FormerKey& key : keys) {
+    const std::string &former = key.former, &now = key.now;
     bool isNoted = false;
     for (const auto& [section, path] : sectionsAt(root_, "", where)) {
       auto& map = std::get<Node::Map>(section->value);

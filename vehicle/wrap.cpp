@@ -188,20 +188,20 @@ Wrap wrapTrack(const VehicleSpec& spec) {
   std::optional<Wrap> best, nearest;
   const double span = f.frontWheelX - f.rearWheelX;
   const int groundMin = std::max(1, static_cast<int>(std::floor(span / f.pitch)));
+  const auto consider = [&](const std::optional<Wrap>& wrap) {
+    if (!wrap) return;
+    const double slide = wrap->idlerX - f.idlerX;
+    if (!nearest || std::fabs(slide) < std::fabs(nearest->idlerX - f.idlerX)) nearest = wrap;
+    if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) return;
+    if (!best || better(*wrap, *best, f.idlerX)) best = wrap;
+  };
   for (int topGap = -f.teeth / 2; topGap < 0; ++topGap)
     for (int bottomGap = 1; bottomGap <= f.teeth / 2; ++bottomGap)
       for (int rear = 1; rear <= f.shoes / 4; ++rear)
         for (int ground = groundMin; ground <= groundMin + 6; ++ground)
           for (int front = 1; front <= f.shoes / 4; ++front)
-            for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler) {
-              const auto wrap = closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0});
-              if (!wrap) continue;
-              if (!nearest || std::fabs(wrap->idlerX - f.idlerX) < std::fabs(nearest->idlerX - f.idlerX))
-                nearest = wrap;
-              const double slide = wrap->idlerX - f.idlerX;
-              if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) continue;
-              if (!best || better(*wrap, *best, f.idlerX)) best = wrap;
-            }
+            for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler)
+              consider(closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0}));
   if (!best) refuse(spec, nearest);
   return *best;
 }

@@ -13,7 +13,6 @@
 namespace {
 
 using namespace grouser::terrain;
-using grouser::base::dot;
 using grouser::base::norm;
 using grouser::base::uniform;
 namespace base = grouser::base;

@@ -92,7 +92,7 @@ struct Corner {
 struct Polygon {
   std::array<Corner, 4> corner;
   std::size_t count = 0;
-  void push_back(const Corner& c) { corner[count++] = c; }
+  void add(const Corner& c) { corner[count++] = c; }
 };
 
 /// The part of a triangle beyond the near plane: none, three or four corners.
@@ -104,10 +104,10 @@ Polygon clipped(const Facet& f, const View& view) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner &a = in[k], &b = in[(k + 1) % 3];
     const bool aIn = a.p_C.z > view.near, bIn = b.p_C.z > view.near;
-    if (aIn) out.push_back(a);
+    if (aIn) out.add(a);
     if (aIn != bIn) {
       const float t = (view.near - a.p_C.z) / (b.p_C.z - a.p_C.z);
-      out.push_back({a.p_C + (b.p_C - a.p_C) * t, a.normal + (b.normal - a.normal) * t});
+      out.add({a.p_C + (b.p_C - a.p_C) * t, a.normal + (b.normal - a.normal) * t});
     }
   }
   return out;
@@ -130,7 +130,7 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
   const Polygon polygon = clipped(facet, view);
   for (std::size_t k = 2; k < polygon.count; ++k) {
     ScreenTriangle t;
-    const Corner* c[3] = {&polygon.corner[0], &polygon.corner[k - 1], &polygon.corner[k]};
+    const Corner* c[3] = {polygon.corner.data(), &polygon.corner[k - 1], &polygon.corner[k]};
     for (std::size_t i = 0; i < 3; ++i) {
       t.z[i] = c[i]->p_C.z, t.w[i] = view.perspective ? 1 / t.z[i] : 1, t.normal[i] = c[i]->normal;
       t.x[i] = 0.5f * float(view.width) + c[i]->p_C.x * t.w[i] * view.pixelsPerUnit();

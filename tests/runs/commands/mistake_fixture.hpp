@@ -83,7 +83,7 @@ struct Mistake {
   std::string words = "run scene.toml";
   std::vector<std::string> says; ///< parts of the message: cause and remedy
   int code = 2;
-  std::string before = ""; ///< for the shell
+  std::string before{}; ///< for the shell
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Mistake& m) { return out << m.name; }
