@@ -14,7 +14,7 @@ fs::path shareFolder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
-    const fs::path beside = program.parent_path().parent_path() / "share" / "grouser";
+    fs::path beside = program.parent_path().parent_path() / "share" / "grouser";
     if (fs::is_directory(beside, error)) return beside;
   }
   return GROUSER_SHARE_FOLDER;
