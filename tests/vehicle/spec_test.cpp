@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <unistd.h>
 
 using namespace grouser;
 
@@ -23,7 +24,8 @@ std::string refusalAfter(const std::string& from, const std::string& to) {
   const std::size_t at = content.find(from);
   if (at == std::string::npos) return "not in the file: " + from;
   content.replace(at, from.size(), to);
-  const auto path = std::filesystem::temp_directory_path() / "grouser_spec_test.toml";
+  // Named by the process: tests run side by side.
+  const auto path = std::filesystem::temp_directory_path() / ("grouser_spec_" + std::to_string(getpid()) + ".toml");
   std::ofstream(path) << content;
   std::string message;
   try {
