@@ -89,7 +89,8 @@ using ContactGeometry = BasicContactGeometry<float>;
 /// What one contact does in one step.
 template <class T> struct BasicReaction {
   base::Vec3<T> force; ///< on i [N]; on j it is the exact opposite
-  T dissipated;        ///< by dashpots and sliding within the step [J]
+  T damped;            ///< by the dashpots within the step [J]
+  T rubbed;            ///< by sliding within the step [J]
   T pressing;          ///< normal force without cohesion [N], what limits friction
   T normalStiffness;   ///< dF_n / d overlap of the spring [N/m]
 };
@@ -128,9 +129,12 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 /// or SIMD numbers of these: one source for the kernels of both devices and for many contacts at a time.
 /// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit.
 ///
-/// What is dissipated is the work of the dashpot, with the approach in the middle of the step as this contact alone
-/// would make it (second order in the step for a single collision), and of friction (first order). The energy that a
-/// loaded tangential spring gains or loses because k_t follows the contact radius is booked there too.
+/// What is dissipated is booked with the velocities in the middle of the step, by which symplectic Euler changes the
+/// kinetic energy exactly, F . (v_old + v_new) / 2 dt, as this contact alone would make them: second order in the step
+/// for a single collision. A contact that sticks dissipates by its dashpots alone; of one that slides it is all work
+/// but what its spring gains. What turning the spring into the tangent plane takes away is an error of the step's
+/// length, not a loss, and is booked nowhere here. With Hertz' law a loaded tangential spring gains or loses energy as
+/// k_t follows the contact radius, however short the step: that is the law's own, and booked as sliding.
 template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law,
                                                                                 const BasicContactGeometry<T>& touch,
                                                                                 ScalarOf<T> dt, base::Vec3<T>& shear) {
@@ -146,7 +150,7 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
   T normalForce = pressing;
   if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pullPerRadius * touch.effectiveRadius;
   const T halfStepPerMass = Scalar(0.5) * dt / touch.effectiveMass;
-  BasicReaction<T> reaction{n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, pressing,
+  BasicReaction<T> reaction{n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, zero, pressing,
                             c.normalStiffness};
   if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
 
@@ -157,13 +161,15 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
   const bool hertz = kFeatures & kGeneral ? law.hertz : (kFeatures & kHertz) != 0;
   if (hertz) { // k_t has grown as the root of the overlap, which was less by the way of this step
     const T share = Scalar(1) - approach * dt / touch.overlap;
-    reaction.dissipated -= Scalar(0.5) * storedBefore * (Scalar(1) - squareRoot(share > zero ? share : zero));
+    reaction.rubbed -= Scalar(0.5) * storedBefore * (Scalar(1) - squareRoot(share > zero ? share : zero));
   }
   shear += slip * base::broadcast<T>(dt);
-  base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
+  const base::Vec3<T> dashpots = slip * c.tangentialDamping;
+  base::Vec3<T> tangential = shear * -c.tangentialStiffness - dashpots;
   const T limit = law.friction * (pressing > zero ? pressing : zero);
   const T size2 = dot(tangential, tangential);
-  if (const auto slides = size2 > limit * limit; base::any(slides)) {
+  const auto slides = size2 > limit * limit;
+  if (base::any(slides)) {
     // Sliding: the force lies on Coulomb's cone.
     tangential = base::select(slides, tangential * (limit / squareRoot(size2)), tangential);
     if (!hertz) {
@@ -180,9 +186,11 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
         shear = base::select(beyond, shear * (limit / squareRoot(spring2)), shear);
     }
   }
-  // Work put into the tangential contact, less what its spring has gained.
-  reaction.dissipated -=
-      dot(tangential, slip) * dt + Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
+  // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres.
+  const base::Vec3<T> middle = slip + tangential * (Scalar(3.5) * halfStepPerMass);
+  const T gained = Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
+  reaction.damped += slides ? zero : dot(dashpots, middle) * dt;
+  reaction.rubbed -= slides ? dot(tangential, middle) * dt + gained : zero;
   reaction.force += tangential;
   return reaction;
 }

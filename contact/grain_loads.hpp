@@ -13,8 +13,7 @@ namespace grouser::contact {
 struct GrainLoad {
   base::Vec3l force;
   base::Vec3f torque;
-  float dissipated; ///< [J]
-  float deepest;    ///< overlap [m]
+  float deepest; ///< overlap [m]
 };
 
 /// Loads from rigid parts as the grains' kernel sees them. `range[i]` packs first * 256 + count of the loads of slot i.

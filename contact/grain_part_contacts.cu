@@ -145,7 +145,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   memory_ = base::Array<PatchMemory>(exec);
   oldMemory_ = base::Array<PatchMemory>(exec);
   load_ = base::Array<GrainLoad>(exec);
-  sums_ = base::Array<std::int64_t>(exec, 6);
+  sums_ = base::Array<std::int64_t>(exec, 8);
 }
 
 /// What is sent with a pair.
@@ -264,12 +264,13 @@ void GrainPartContacts::computeOn(const base::Exec& exec, const GrainsView& grai
     run.template operator()<kGeneral>();
 }
 
-GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.data(), model_.force, sums_.data() + 3}; }
+GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.data(), model_.force, sums_.data() + 5}; }
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = allSums();
-  return {q[0], model_.energy.value(q[1]), model_.energy.value(q[2]),
-          model_.force.value({q[3], q[4], q[5]}) * model_.timeStep};
+  const auto energy = [&](std::size_t k) { return model_.energy.value(q[k]); };
+  return {q[0],      energy(1), energy(2),
+          energy(3), energy(4), model_.force.value({q[5], q[6], q[7]}) * model_.timeStep};
 }
 
 std::size_t GrainPartContacts::bytes() const {

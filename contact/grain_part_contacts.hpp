@@ -52,7 +52,7 @@ public:
   struct Ledger {
     std::int64_t contacts{};     ///< patches in touch at the last compute
     double elastic{};            ///< held in their springs [J]
-    double dissipated{};         ///< since the start [J]
+    double damped{}, rubbed{}, rolled{}; ///< dissipated since the start [J]
     base::Vec3d impulseOnGrains; ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const; ///< of all ranks, which all call it
@@ -92,7 +92,7 @@ private:
   base::Array<double> massPerCube_;
   unsigned features_;
   base::Array<GrainLoad> load_;
-  base::Array<std::int64_t> sums_; ///< of this step: contacts, elastic; since the start: dissipated, force x, y, z
+  base::Array<std::int64_t> sums_; ///< of this step: contacts, elastic; since the start: damped, rubbed, rolled, force
 };
 
 } // namespace grouser::contact

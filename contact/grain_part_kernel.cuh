@@ -70,7 +70,8 @@ template <unsigned kFeatures> struct GrainPartForces {
     addTo(partLoad[p].torque, sum.torqueOnPart);
     base::atomicAdd64(sums + 0, found);
     base::atomicAdd64(sums + 1, model.energy.quantise(sum.elastic));
-    base::atomicAdd64(sums + 2, model.energy.quantise(static_cast<double>(sum.onGrain.dissipated)));
+    for (int cause = 0; cause < 3; ++cause)
+      base::atomicAdd64(sums + 2 + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
   }
 
 private:
@@ -89,7 +90,8 @@ private:
   struct PairLoad {
     GrainLoad onGrain{};
     base::Vec3l torqueOnPart{};
-    double elastic = 0; ///< held in springs [J]
+    double elastic = 0;  ///< held in springs [J]
+    float lost[3] = {};  ///< dissipated by dashpots, sliding and rolling resistance [J]
   };
 
   GROUSER_HD Ball ballOf(int i) const {
@@ -174,7 +176,7 @@ private:
     const base::Vec3d force = model.force.value(quanta);
     sum.onGrain.force += quanta;
     sum.onGrain.torque += cross(arm, force).template as<float>();
-    sum.onGrain.dissipated += reaction.dissipated;
+    sum.lost[0] += reaction.damped, sum.lost[1] += reaction.rubbed;
     sum.elastic += storedEnergy(law, static_cast<double>(patch.overlap), ball.radius, springs.shear);
     if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
     sum.torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
@@ -182,7 +184,7 @@ private:
       const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
       const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
       const base::Vec3f torque = rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt,
-                                               springs.rolled, sum.onGrain.dissipated);
+                                               springs.rolled, sum.lost[2]);
       const float k = rollingStiffness(law, reaction.normalStiffness, radius);
       sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
       // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.

@@ -26,6 +26,12 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   };
 
   GROUSER_HD void operator()(int k) const {
+    WallBooks books;
+    run(k, books);
+  }
+
+  /// Adds what walls and floor do to `books`.
+  GROUSER_HD void run(int k, WallBooks& books) const {
     if (Kernel::ended()) return;
     const int i = static_cast<int>(d.nearBoundary[k]);
     const Vec v = d.velocity[i].xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
@@ -49,12 +55,23 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
         touchFixed(grain, d.wallCount, foot.normal.template as<Real>(), overlap, sum);
       }
     }
+    if (now != 0) book(grain, sum, books);
     if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum);
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
   }
 
 private:
+  /// Force and, about the origin of the world, torque of walls and floor.
+  GROUSER_HD void book(const Grain& grain, const BoundaryLoad<Real>& sum, WallBooks& books) const {
+    const base::Vec3d force = sum.force.template as<double>();
+    const base::Vec3d torque = cross(grain.x, force) + sum.torque.template as<double>();
+    for (int a = 0; a < 3; ++a) {
+      books.of[a] += wholeQuanta(d.bookScale.perForce * force[a]);
+      books.of[3 + a] += wholeQuanta(d.bookScale.perTorque * torque[a]);
+    }
+  }
+
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
                              BoundaryLoad<Real>& sum) const {
     const Vec normal = -outward; // from the grain to the wall
@@ -118,7 +135,7 @@ private:
     if (held) shear = loaded(history, turned);
     const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
     if (Kernel::hasHistory()) store(history, turned, shear);
-    sum.dissipated += reaction.dissipated;
+    sum.damped += reaction.damped, sum.rubbed += reaction.rubbed;
     Reaction result{reaction.force, {}};
     if (has(contact::kRollingFriction)) {
       Vec angle{};
@@ -126,7 +143,7 @@ private:
       const contact::RollingMotion<Real> motion{touch.normal, spin, grain.size.radius,
                                                 Real(1.4) * grain.size.mass * grain.size.radius * grain.size.radius};
       result.rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
-                                              angle, sum.dissipated);
+                                              angle, sum.rolled);
       store(history + 3, turned, angle);
     }
     if (touch.overlap > sum.deepest) sum.deepest = touch.overlap;
@@ -140,6 +157,27 @@ private:
   GROUSER_HD static void store(float* history, const base::Mat3d* turned, const Vec& spring) {
     storeVector(history, turned ? transposedTimes(*turned, spring.template as<double>()).template as<float>()
                                 : spring.template as<float>());
+  }
+};
+
+/// The same where books are kept: of as many grains as one thread takes at a time.
+template <unsigned kFeatures, class Real> struct BookedBoundaryContacts {
+  static constexpr int kOnCpu = 32;
+  BoundaryContacts<kFeatures, Real> contacts;
+  std::int64_t count;
+
+  GROUSER_HD void operator()(int item) const {
+    WallBooks books;
+#if defined(__CUDA_ARCH__)
+    contacts.run(item, books);
+    base::atomicAddTogether(bankOf(contacts.d.books, static_cast<int>(blockIdx.x)) + kGrainBooks, books.of);
+#else
+    const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
+    for (std::int64_t k = first; k < last; ++k) contacts.run(static_cast<int>(k), books);
+    base::WideSum* const bank = bankOf(contacts.d.books, item) + kGrainBooks;
+    for (int b = 0; b < kBooks - kGrainBooks; ++b)
+      if (books.of[b] != 0) base::atomicAdd(bank + b, books.of[b]);
+#endif
   }
 };
 

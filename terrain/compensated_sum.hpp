@@ -38,9 +38,14 @@ GROUSER_HD double remainderQuantum(float v) {
   return static_cast<double>(binade) * kRemainderOfBinade;
 }
 
+/// The number and what rounding has cut off.
+GROUSER_HD double withRemainder(float value, std::int16_t remainder) {
+  return static_cast<double>(value) + remainder * remainderQuantum(value);
+}
+
 /// value + remainder += increment. Returns the new sum in double.
 GROUSER_HD double addCompensated(float& value, std::int16_t& remainder, double increment) {
-  const double sum = static_cast<double>(value) + remainder * remainderQuantum(value) + increment;
+  const double sum = withRemainder(value, remainder) + increment;
   value = static_cast<float>(sum);
   double r = floor((sum - static_cast<double>(value)) / remainderQuantum(value) + 0.5);
   r = r > kMostRemainder ? kMostRemainder : r < kLeastRemainder ? kLeastRemainder : r;
@@ -55,10 +60,14 @@ GROUSER_HD std::uint32_t packRemainders(std::int16_t low, std::int16_t high) {
          static_cast<std::uint32_t>(static_cast<std::uint16_t>(high)) << 16;
 }
 
+/// What advanceKeeping() has kept along an axis, in units.
+GROUSER_HD double placesKept(std::uint32_t word, int axis) {
+  return (static_cast<std::int32_t>(word << (22 - 10 * axis)) >> 22) * (1.0 / kPlacesPerUnit);
+}
+
 /// Whole units of a displacement given in units; the rest, in 1/1024 units, stays in 10 bits of `word`.
 GROUSER_HD std::int64_t advanceKeeping(double displacement, std::uint32_t& word, int axis) {
-  const int kept = static_cast<std::int32_t>(word << (22 - 10 * axis)) >> 22;
-  const double wanted = displacement + kept * (1.0 / kPlacesPerUnit);
+  const double wanted = displacement + placesKept(word, axis);
   const double whole = floor(wanted + 0.5);
   double r = floor((wanted - whole) * kPlacesPerUnit + 0.5);
   r = r > kMostPlace ? kMostPlace : r < kLeastPlace ? kLeastPlace : r;

@@ -45,7 +45,6 @@ static_assert(std::tuple_size_v<AllFields> + 1 <= contact::Exchange::kMaxFields,
 GrainFields::GrainFields(const GrainLayout& scene) {
   boundaryHistory.width = static_cast<std::size_t>(scene.boundaries * scene.historyWidth());
   boundaryContactMask.width = boundaryOf.width = scene.boundaries > 0;
-  dissipated.width = scene.ledger > 0;
   crossings.width = scene.periodic > 0;
   formerVelocity.width = rowOrigin.width = 0;
 }
@@ -197,7 +196,6 @@ void GrainArrays::describe(GrainKernelData& d) {
   d.crossings = f.crossings.now.data();
   d.boundaryOf = f.boundaryOf.now.data();
   d.boundaryHistory = f.boundaryHistory.now.data(), d.boundaryContactMask = f.boundaryContactMask.now.data();
-  d.dissipated = f.dissipated.now.data();
 }
 
 std::size_t GrainArrays::bytes() const {

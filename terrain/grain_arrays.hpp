@@ -27,7 +27,6 @@ struct GrainFields {
   GrainField<float> boundaryHistory{kSorted | kMigrates};
   /// A bit for each wall, floor or surface in touch.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
-  GrainField<double> dissipated{kSorted | kMigrates, &GrainState::dissipated}; ///< since the start [J]
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
   /// Velocities before the last step while the grains are sorted between steps; else these are velocity.next, and the
   /// width is 0.
@@ -41,7 +40,7 @@ struct GrainFields {
 
   template <class Self> static auto all(Self& f) {
     return std::tie(f.position, f.velocity, f.spin, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask,
-                    f.dissipated, f.crossings, f.formerVelocity, f.reference, f.boundaryOf, f.rowOrigin);
+                    f.crossings, f.formerVelocity, f.reference, f.boundaryOf, f.rowOrigin);
   }
 
   /// On the device, of one grain.

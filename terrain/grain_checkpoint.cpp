@@ -152,6 +152,7 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   s.layout = system.constants.layout();
   s.total = static_cast<std::int64_t>(system.count);
   s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
+  s.books = system.books.save(system.comm);
   saveFields(system.arrays, slots, s);
   saveMotion(system.arrays.fields(), slots, s);
   saveTravelled(system, slots, s);
@@ -223,6 +224,7 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   f.boundaryHistory.now.assign(historyOf(own_.wallShear, own_.wallRolling));
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
+  system.books.restore(own_.books, system.comm);
 }
 
 bool GrainCheckpoint::loadAsSaved(GrainSystem& system) const {

@@ -6,6 +6,7 @@
 #include "contact/grain_loads.hpp"
 #include "contact/neighbour_list.hpp"
 #include "contact/rolling_resistance.hpp"
+#include "terrain/grain_books.hpp"
 #include "terrain/grain_model.hpp"
 #include "terrain/grain_records.hpp"
 #include "terrain/rigid_surface.hpp"
@@ -18,7 +19,7 @@ struct GrainKernelData {
   unsigned features;
   std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
   double timeStep, stepPerMass, stepPerInertia, unitsPerSpeed; // dt, dt/m, dt/I, dt/unit
-  double unitLength;
+  double unitLength, mass, inertia; ///< [m], [kg], [kg m2]: of the largest grain
   float unitsPerLength; ///< a power of two
   float diameter, maxOverlap, maxSpeed2;
   float maxOverlapShare;   ///< of a grain's own radius, where they differ [-]
@@ -53,7 +54,8 @@ struct GrainKernelData {
   std::uint32_t* boundaryContactMask; ///< a bit for each boundary
   base::Vec3d* fromSurfaces;          ///< [N] forces of the surfaces, by place in the list of grains near boundaries
   contact::PartLoad* surfaceLoads;    ///< sums of this step
-  double* dissipated;
+  base::WideSum* books; ///< [kBookBanks][kBooks]; null where none are kept
+  BookScale bookScale;
   contact::GrainLoadsView loads;
   StepFlags* flags;        ///< of this step
   const StepFlags* former; ///< of the step before in a batch: has it raised one, this step does nothing; else null

@@ -2,10 +2,13 @@
 // Energies and counts of the grains, from state functions.
 #include "terrain/grain_ledger.hpp"
 
+#include "contact/sphere_pair.hpp"
 #include "contact/strongest_force.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 namespace grouser::terrain {
 
@@ -20,10 +23,14 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
   using Kernel::d, Kernel::f, Kernel::has;
   using Law = contact::BasicLaw<Real>;
 
-  base::FixedPoint energy, momentum;
-  std::int64_t*
-      sums; ///< kinetic, rotational, potential, elastic, dissipated, px, py, pz, 2 x contacts, boundary contacts
-  std::uint64_t* extremes;    ///< complements of the deepest overlap [units] and the largest speed [um/s]
+  enum Sum { kKinetic, kRotational, kPotential, kElastic, kTouching, kAtBoundary, kMomentum, kAngular = 9, kSums = 12 };
+  static constexpr int kBanks = 64; // so that threads rarely add to the same sums at a time
+
+  base::FixedPoint energy, momentum, angular;
+  base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching twice
+  /// Complements of the deepest overlap [units] and the largest speed [um/s]; the first sum that a grain's share is too
+  /// large for.
+  std::uint64_t* extremes;
   const std::uint32_t* ghost; ///< null where there are none
 
   struct Held {
@@ -33,9 +40,17 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
 
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) return;
-    const Vec3d v = d.velocity[i].xyz().template as<double>(), w = d.spin[i].xyz().template as<double>();
-    const base::Vec3l u = base::toUnits(d.position[i]);
-    const Vec3d x = u.template as<double>() * d.unitLength;
+    // With remainders, which the books have too.
+    Vec3d v, w;
+    const Remainders kept = d.remainders[i];
+    const Vec4f speed = d.velocity[i], spin = d.spin[i];
+    base::Vec3l u = base::toUnits(d.position[i]);
+    Vec3d x = u.template as<double>();
+    for (int a = 0; a < 3; ++a) {
+      v[a] = withRemainder(speed.xyz()[a], lowRemainder(kept.axis[a]));
+      w[a] = withRemainder(spin.xyz()[a], highRemainder(kept.axis[a]));
+      x[a] = (x[a] + placesKept(kept.position, a)) * d.unitLength;
+    }
     const GrainSize<Real> size = Kernel::sizeOf(i);
     const double m = static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
     Held held;
@@ -43,20 +58,24 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     measureBoundaries(i, x, size, held);
     const double inertia = 0.4 * m * radius * radius;
     const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
-    add(0, energy.quantise(0.5 * m * dot(v, v)));
-    add(1, energy.quantise(0.5 * inertia * dot(w, w)));
+    std::int64_t share[kSums];
+    share[kKinetic] = energy.quantise(0.5 * m * dot(v, v));
+    share[kRotational] = energy.quantise(0.5 * inertia * dot(w, w));
     // Potential energy follows the unwrapped position: a grain that has crossed a periodic boundary has fallen farther.
     Vec3d way = x;
     if (has(kPeriodic)) {
       way.x += d.crossings[i].x * (static_cast<double>(d.period.length.x) * d.unitLength);
       way.y += d.crossings[i].y * (static_cast<double>(d.period.length.y) * d.unitLength);
     }
-    add(2, energy.quantise(-m * dot(gravity, way)));
-    add(3, energy.quantise(held.elastic));
-    add(4, energy.quantise(d.dissipated ? d.dissipated[i] : 0.0));
-    for (int a = 0; a < 3; ++a) add(5 + a, momentum.quantise(m * v[a]));
-    add(8, held.touching);
-    add(9, held.boundary);
+    share[kPotential] = energy.quantise(-m * dot(gravity, way));
+    share[kElastic] = energy.quantise(held.elastic);
+    share[kTouching] = held.touching, share[kAtBoundary] = held.boundary;
+    const Vec3d turning = cross(way, v) * m + w * inertia;
+    for (int a = 0; a < 3; ++a) {
+      share[kMomentum + a] = momentum.quantise(m * v[a]);
+      share[kAngular + a] = angular.quantise(turning[a]);
+    }
+    add(i, share);
     base::atomicMin64(extremes, ~static_cast<std::uint64_t>(held.deepest / d.unitLength));
     base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e6));
   }
@@ -70,8 +89,11 @@ private:
       const GrainSize<Real> other = Kernel::sizeOf(j);
       const std::int64_t reach = has(kManyRadii) ? own.units + other.units : d.diameterUnits;
       if (distance2 >= reach * reach) continue;
-      const double distance = sqrt(static_cast<double>(distance2));
-      const double overlap = static_cast<double>(reach * reach - distance2) / (reach + distance) * d.unitLength;
+      const base::Vec3d apart = Kernel::apart(d.position[i], d.position[j]).template as<double>();
+      const double overlap = contact::spherePair(apart, static_cast<double>(distance2),
+                                                 static_cast<double>(reach * reach - distance2),
+                                                 static_cast<double>(reach), d.unitLength)
+                                 .overlap;
       const double ri = static_cast<double>(own.radius), rj = static_cast<double>(other.radius);
       const Law& law = has(kManyMaterials) ? f.pairLaws[own.material * d.materials + other.material] : f.law;
       const bool touched = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
@@ -123,8 +145,56 @@ private:
     }
     return energyHeld;
   }
-  GROUSER_HD void add(int which, std::int64_t quanta) const { base::atomicAdd64(sums + which, quanta); }
+  GROUSER_HD void add(int i, const std::int64_t (&share)[kSums]) const {
+    constexpr std::int64_t kEnd = std::int64_t{1} << 62; // quantise() stops there
+    base::WideSum* const bank = sums + (i / 256 % kBanks) * kSums;
+    for (int k = 0; k < kSums; ++k)
+      if (share[k] >= kEnd || share[k] <= -kEnd) base::atomicMin64(extremes + 2, static_cast<std::uint64_t>(k));
+#if defined(__CUDA_ARCH__)
+    base::atomicAddTogether(bank, share);
+#else
+    for (int k = 0; k < kSums; ++k) base::atomicAdd(bank + k, share[k]);
+#endif
+  }
 };
+
+} // namespace
+
+namespace {
+
+using Sums = MeasureGrain<float>;
+
+/// The sums of all ranks, which all call it.
+std::array<double, Sums::kSums> summed(const base::Array<base::WideSum>& banks, const base::Comm& comm) {
+  std::vector<base::WideSum> mine(Sums::kSums);
+  const std::vector<base::WideSum> here = banks.toHost();
+  for (std::size_t k = 0; k < here.size(); ++k) mine[k % Sums::kSums] += here[k];
+  std::vector<base::WideSum> all(Sums::kSums);
+  for (const std::vector<base::WideSum>& rank : comm.gatherAll(mine))
+    for (std::size_t k = 0; k < rank.size(); ++k) all[k] += rank[k];
+  std::array<double, Sums::kSums> values{};
+  for (std::size_t k = 0; k < all.size(); ++k) values[k] = all[k].value();
+  return values;
+}
+
+/// Throws SimulationError where a grain's share of a sum has been too large for it.
+void checkRange(std::uint64_t sum) {
+  static constexpr const char* kNames[] = {"kinetic energy", "energy of rotation", "potential energy",
+                                           "elastic energy of the contacts"};
+  if (sum == ~std::uint64_t{0}) return;
+  throw base::SimulationError(std::string("the ") + (sum < std::size(kNames) ? kNames[sum] : "momentum") +
+                              " of a grain has left the range of its 64-bit integer: the scene has become unsound, or "
+                              "its numbers are too unlike for one run");
+}
+
+void addBooks(GrainLedger& ledger, const GrainSystem& system) {
+  const GrainModel& model = system.constants.model;
+  const GrainBookkeeping::Totals books = system.books.totals(system.comm);
+  ledger.damped = books.damped, ledger.rubbed = books.rubbed, ledger.rolled = books.rolled;
+  ledger.work = books.work, ledger.turnover = books.turnover;
+  ledger.impulse = (model.gravity * books.mass + books.wallForce) * model.timeStep;
+  ledger.angularImpulse = (cross(books.moment, model.gravity) + books.wallTorque) * model.timeStep;
+}
 
 } // namespace
 
@@ -135,34 +205,41 @@ GrainLedger measureLedger(GrainSystem& system) {
   };
   double force = strongest(model.law);
   for (const contact::ContactLaw& law : model.materials.grains) force = std::max(force, strongest(law));
-  const base::FixedPoint energy = base::fixedPointFor(force * model.radius, 32);
-  const base::FixedPoint momentum = base::fixedPointFor(model.mass * 10, 32);
-  base::Array<std::int64_t> sums(system.exec, 10);
-  base::Array<std::uint64_t> extremes(system.exec, std::vector<std::uint64_t>(2, ~std::uint64_t{0}));
+  const base::FixedPoint energy = base::fixedPointFor(force * model.radius, 42);
+  const base::FixedPoint momentum = base::fixedPointFor(model.mass * 10, 42);
+  const base::FixedPoint angular = base::fixedPointFor(model.mass * 10 * 1e3 * model.radius, 42);
+  base::Array<base::WideSum> sums(system.exec, std::size_t{Sums::kBanks} * Sums::kSums);
+  base::Array<std::uint64_t> extremes(system.exec, std::vector<std::uint64_t>(3, ~std::uint64_t{0}));
   const auto measure = [&]<class Real>(const ForceData<Real>& f) {
-    base::forEach(
-        system.exec, "measure grains", static_cast<std::int64_t>(system.arrays.slots()),
-        MeasureGrain<Real>{{system.kernelData(), f}, energy, momentum, sums.data(), extremes.data(), system.ghosts()});
+    base::forEach(system.exec, "measure grains", static_cast<std::int64_t>(system.arrays.slots()),
+                  MeasureGrain<Real>{{system.kernelData(), f},
+                                     energy,
+                                     momentum,
+                                     angular,
+                                     sums.data(),
+                                     extremes.data(),
+                                     system.ghosts()});
   };
   if (model.precision == Precision::single)
     measure(system.forceData<float>());
   else
     measure(system.forceData<double>());
-  std::vector<std::int64_t> q = sums.toHost();
+  const auto q = summed(sums, system.comm);
   std::vector<std::uint64_t> most = extremes.toHost();
-  system.comm.sum(q.data(), q.size());
   system.comm.minimum(most.data(), most.size());
+  checkRange(most[2]);
   GrainLedger ledger;
-  ledger.kinetic = energy.checked(q[0], "kinetic energies of the grains");
-  ledger.rotational = energy.checked(q[1], "energies of rotation of the grains");
-  ledger.potential = energy.checked(q[2], "potential energies of the grains");
-  ledger.elastic = energy.checked(q[3], "elastic energies of the contacts");
-  ledger.dissipated = energy.checked(q[4], "dissipated energies");
-  ledger.momentum = momentum.checked({q[5], q[6], q[7]}, "momenta of the grains");
-  ledger.contacts = q[8] / 2;
-  ledger.boundaryContacts = q[9];
+  ledger.kinetic = q[Sums::kKinetic] * energy.quantum, ledger.rotational = q[Sums::kRotational] * energy.quantum;
+  ledger.potential = q[Sums::kPotential] * energy.quantum, ledger.elastic = q[Sums::kElastic] * energy.quantum;
+  ledger.contacts = static_cast<std::int64_t>(q[Sums::kTouching]) / 2;
+  ledger.boundaryContacts = static_cast<std::int64_t>(q[Sums::kAtBoundary]);
+  for (int a = 0; a < 3; ++a) {
+    ledger.momentum[a] = q[static_cast<std::size_t>(Sums::kMomentum + a)] * momentum.quantum;
+    ledger.angularMomentum[a] = q[static_cast<std::size_t>(Sums::kAngular + a)] * angular.quantum;
+  }
   ledger.deepestOverlap = static_cast<double>(~most[0]) * system.constants.scale.unit;
   ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
+  addBooks(ledger, system);
   return ledger;
 }
 

@@ -17,7 +17,7 @@ inline constexpr unsigned kManyRadii = contact::kManyMasses; ///< each grain its
 inline constexpr unsigned kManyMaterials = 1u << 8; ///< each grain its own material, in spin.w; implies kManyRadii
 inline constexpr unsigned kBoundaries = 1u << 9;    ///< walls or floor
 inline constexpr unsigned kLoads = 1u << 10;        ///< loads from rigid parts
-inline constexpr unsigned kLedger = 1u << 11;       ///< dissipation is summed
+inline constexpr unsigned kLedger = 1u << 11;       ///< books are kept
 inline constexpr unsigned kPeriodic = 1u << 12;     ///< periodic boundaries along x or y
 inline constexpr unsigned kSurfaces = 1u << 13;     ///< rigid surfaces that may move; implies kBoundaries
 inline constexpr unsigned kFloor = 1u << 14;        ///< a height-field floor; implies kBoundaries
@@ -55,7 +55,7 @@ struct GrainModel {
   contact::ContactLaw floorLaw; ///< grain on the height-field floor, where there is one
   double skin{0.3};             ///< of the neighbour list, as a share of the smallest grain's radius [-]
   double maxOverlap{0.2};       ///< as a share of the grain's radius [-]; more stops the run
-  bool ledger{true};            ///< whether dissipation is summed grain by grain
+  bool ledger{true};            ///< whether books are kept of work and what is dissipated
   GrainMaterials materials;     ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};
   bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
@@ -67,10 +67,17 @@ bool hasOwnKernel(unsigned features, Precision precision);
 /// The features in words: "linear, friction, planes or floor".
 std::string featureText(unsigned features);
 
-/// Energies [J] and counts of the grains at one instant, from state functions; sums are order-free.
+/// The grains at one instant, from state functions, and what has happened to them since the start, from the books;
+/// sums are order-free.
 struct GrainLedger {
-  double kinetic{}, rotational{}, potential{}, elastic{}, dissipated{};
-  base::Vec3d momentum;            ///< [kg m/s]
+  double kinetic{}, rotational{}, potential{}, elastic{}; ///< now [J]
+  double damped{}, rubbed{}, rolled{}; ///< dissipated by dashpots, sliding and rolling resistance [J]; 0 without books
+  double dissipated() const { return damped + rubbed + rolled; }
+  double work{};                       ///< of all forces on the grains [J]: what kinetic and rotational have gained
+  double turnover{};                   ///< the same without signs, a grain and a step each [J]
+  base::Vec3d momentum;                ///< now [kg m/s]
+  base::Vec3d angularMomentum;         ///< now, about the origin of the world [kg m2/s]
+  base::Vec3d impulse, angularImpulse; ///< by gravity, walls and floor [N s], [N m s about the origin]
   std::int64_t contacts{};         ///< pairs of grains in touch
   std::int64_t boundaryContacts{}; ///< grains in touch with walls, floor and surfaces
   double deepestOverlap{};         ///< [m]

@@ -13,7 +13,8 @@ using base::Vec4f;
 /// What walls and floor do to one grain in one step.
 template <class Real> struct BoundaryLoad {
   base::Vec3<Real> force, torque; ///< [N], [N m] about the centre
-  Real dissipated, deepest;       ///< [J]; deepest overlap [m]
+  Real damped, rubbed, rolled;    ///< dissipated by dashpots, sliding and rolling resistance [J]
+  Real deepest;                   ///< overlap [m]
 };
 
 /// How often a grain has left through the upper side along x and y and entered through the lower one, less the reverse:

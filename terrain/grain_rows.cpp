@@ -46,7 +46,7 @@ std::vector<std::uint32_t> GrainState::words() const {
 
 GrainState GrainState::withoutRows() const {
   GrainState out;
-  out.layout = layout, out.total = total, out.skin = skin, out.rebuilds = rebuilds;
+  out.layout = layout, out.total = total, out.skin = skin, out.rebuilds = rebuilds, out.books = books;
   return out;
 }
 

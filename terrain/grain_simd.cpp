@@ -47,20 +47,26 @@ void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceD
 namespace detail {
 
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
-                  const base::Vec3d& torque, float deepest) {
+                  const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
   const Vec4f v = d.velocity[i], w = d.spin[i];
-  step.advance(i, {d.position[i], v, w, d.remainders[i], d.reference[i]}, step.sizeOf(v.w, w.w), force, torque,
-               deepest);
+  step.advance(i, {d.position[i], v, w, d.remainders[i], d.reference[i]}, step.sizeOf(v.w, w.w), force, torque, deepest,
+               lost, books);
 }
 
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
-                float& dissipated, float& deepest) {
+                float& deepest) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
   GrainStep<contact::kGeneral, float>::Sum sum;
-  sum.dissipated = dissipated, sum.deepest = deepest;
+  sum.deepest = deepest;
   step.addLoads(i, step.sizeOf(0, 0), force, torque, sum);
-  dissipated = sum.dissipated, deepest = sum.deepest;
+  deepest = sum.deepest;
+}
+
+void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
+  base::WideSum* const bank = bankOf(d.books, first / kGrainsATime);
+  for (int b = 0; b < kGrainBooks; ++b)
+    if (books.of[b] != 0) base::atomicAdd(bank + b, books.of[b]);
 }
 
 } // namespace detail

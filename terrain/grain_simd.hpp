@@ -21,9 +21,11 @@ LaneStep stepSse, stepAvx2, stepAvx512;
 
 /// GrainStep's own, of one grain, for what is rare.
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
-                  const base::Vec3d& torque, float deepest);
+                  const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books);
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
-                float& dissipated, float& deepest);
+                float& deepest);
+/// Adds what some grains of a launch, from `first` on, have done.
+void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
 
 } // namespace detail
 } // namespace grouser::terrain

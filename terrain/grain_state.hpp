@@ -37,7 +37,6 @@ struct GrainState {
   std::vector<Remainders> remainders;      ///< [rows]
   std::vector<float> radius;               ///< [rows] [m]; empty where all are alike
   std::vector<std::uint32_t> material;     ///< [rows]; empty where there is one
-  std::vector<double> dissipated;          ///< [rows] since the start [J]; empty without a ledger
   std::vector<Crossings> crossings;        ///< [rows] of periodic boundaries; empty without them
   std::vector<std::uint32_t> wallBits;     ///< [rows] bit a wall or floor in touch; empty without them
   std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], zero out of touch; empty without friction
@@ -46,6 +45,8 @@ struct GrainState {
   std::vector<base::Vec3f> contactShear;   ///< [m], one a neighbour; empty without friction
   std::vector<base::Vec3f> wallRolling;    ///< as wallShear [rad]; empty without rolling friction
   std::vector<base::Vec3f> contactRolling; ///< as contactShear [rad]; empty without rolling friction
+
+  std::vector<std::int64_t> books; ///< of the energies since the start (GrainBookkeeping); empty without a ledger
 
   // When the neighbour list was built, so that a resumed run builds the next one at the same step.
   std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] since then [units], as wrapping words
@@ -71,7 +72,6 @@ struct GrainState {
       visitor.boundaries(s.wallBits, static_cast<std::size_t>(l.boundaries), l.friction ? &s.wallShear : nullptr,
                          l.rolling ? &s.wallRolling : nullptr);
     visitor.unhashed(s.travelled);
-    if (l.ledger) visitor.unhashed(s.dissipated);
     if (l.periodic) visitor.unhashed(s.crossings);
   }
 
@@ -81,7 +81,7 @@ struct GrainState {
   static void visitColumns(Self& s, const PerGrain& perGrain, const PerContact& perContact) {
     perGrain("position", s.position), perGrain("velocity", s.velocity), perGrain("spin", s.spin);
     perGrain("remainders", s.remainders), perGrain("radius", s.radius), perGrain("material", s.material);
-    perGrain("dissipated", s.dissipated), perGrain("crossings", s.crossings);
+    perGrain("crossings", s.crossings);
     perGrain("wall_bits", s.wallBits), perGrain("wall_shear", s.wallShear), perGrain("wall_rolling", s.wallRolling);
     perGrain("contacts", s.contacts), perGrain("travelled", s.travelled);
     perContact("neighbour", s.neighbour), perContact("contact_shear", s.contactShear);

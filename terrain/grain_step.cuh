@@ -16,7 +16,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   struct Sum {
     Vec force, torque;
-    Real dissipated = 0;
+    Real damped = 0, rubbed = 0, rolled = 0; ///< [J]
     float deepest = 0;
   };
 
@@ -34,6 +34,12 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   };
 
   GROUSER_HD void operator()(int k) const {
+    GrainBooks books;
+    run(k, books);
+  }
+
+  /// Adds what the step does to the energies to `books`, where they are kept.
+  GROUSER_HD void run(int k, GrainBooks& books) const {
     if (Kernel::ended()) {
       if (k == 0)
         // Each step of a batch reads only the flags of the step before it: one that is skipped raises its own, so that
@@ -55,8 +61,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque, sum);
-    if (has(kLedger)) d.dissipated[i] += static_cast<double>(sum.dissipated);
-    advance(i, {p, v, w, kept, reference}, size, force, torque, sum.deepest);
+    const Lost lost{static_cast<double>(sum.damped), static_cast<double>(sum.rubbed), static_cast<double>(sum.rolled)};
+    advance(i, {p, v, w, kept, reference}, size, force, torque, sum.deepest, lost, books);
   }
 
   /// The state that a step replaces.
@@ -163,7 +169,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (Kernel::hasHistory()) storeVector(history.at, shear.template as<float>());
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(normal * arm, reaction.force);
-    Real dissipated = reaction.dissipated;
+    sum.damped += Real(0.5) * reaction.damped; // the other half is the neighbour's
+    if (has(contact::kFriction)) sum.rubbed += Real(0.5) * reaction.rubbed;
     if (has(contact::kRollingFriction)) {
       Vec angle{};
       if (history.held) angle = loadVector(history.at + 3).template as<Real>();
@@ -171,11 +178,12 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
           has(kManyRadii) ? contact::rollingInertia(own.size.mass, own.size.radius, other.size.mass, other.size.radius)
                           : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
       const contact::RollingMotion<Real> motion{normal, own.spin - other.spin, touch.effectiveRadius, inertia};
+      Real rolled = 0;
       sum.torque += contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle,
-                                           dissipated);
+                                           rolled);
+      sum.rolled += Real(0.5) * rolled;
       storeVector(history.at + 3, angle.template as<float>());
     }
-    sum.dissipated += Real(0.5) * dissipated; // the other half is the neighbour's
     if (static_cast<float>(overlap) > sum.deepest) sum.deepest = static_cast<float>(overlap);
   }
 
@@ -185,7 +193,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const BoundaryLoad<Real>& load = f.boundaryLoads[place - 1];
     sum.force += load.force;
     sum.torque += load.torque;
-    sum.dissipated += load.dissipated;
+    sum.damped += load.damped, sum.rubbed += load.rubbed, sum.rolled += load.rolled;
     if (static_cast<float>(load.deepest) > sum.deepest) sum.deepest = static_cast<float>(load.deepest);
   }
 
@@ -205,13 +213,28 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       const contact::GrainLoad& load = d.loads.load[first + k];
       quanta += load.force;
       torque += load.torque.template as<double>();
-      sum.dissipated += static_cast<Real>(load.dissipated);
       // Stones do get caught between tooth and track: a part may press a grain deeper than grains may press each other,
       // but not to its middle.
       if (load.deepest > static_cast<float>(size.radius)) sum.deepest = load.deepest;
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
+  }
+
+  /// The work on a grain in this step: m dv . (v_old + v_new) / 2, and the same of the spin. `massShare`: of the mass
+  /// of the model.
+  GROUSER_HD void book(const base::Position& place, double work, double massShare, const Lost& lost,
+                       GrainBooks& books) const {
+    const double q = d.bookScale.perEnergy;
+    books.of[kWork] += wholeQuanta(q * work);
+    books.of[kTurnover] += wholeQuanta(q * fabs(work));
+    books.of[kDamped] += wholeQuanta(q * lost.damped);
+    if (Kernel::hasHistory()) books.of[kRubbed] += wholeQuanta(q * lost.rubbed);
+    if (has(contact::kRollingFriction)) books.of[kRolled] += wholeQuanta(q * lost.rolled);
+    books.of[kMass] += has(kManyRadii) ? wholeQuanta(massShare * kMassQuanta) : kMassQuanta;
+    const base::Vec3l u = base::toUnits(place);
+    for (int a = 0; a < 3; ++a)
+      books.of[kMoment + a] += has(kManyRadii) ? wholeQuanta(massShare * static_cast<double>(u[a])) : u[a];
   }
 
   /// Wraps a grain that has left through a periodic boundary to the opposite one. Its reference place (where it was
@@ -230,14 +253,16 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
   GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
-                          const base::Vec3d& torque, float deepest) const {
+                          const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) const {
     base::Vec3f v = now.velocity.xyz(), w = now.spin.xyz();
-    double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
+    double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia, gained = 0, turned = 0;
+    double massShare = 1, inertia = d.inertia;
     float maxOverlap = d.maxOverlap;
     if (has(kManyRadii)) {
       const double mass = static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
+      inertia = 0.4 * mass * radius * radius, massShare = mass / d.mass;
       stepPerMass = d.timeStep / mass;
-      stepPerInertia = d.timeStep / (0.4 * mass * radius * radius);
+      stepPerInertia = d.timeStep / inertia;
       maxOverlap = d.maxOverlapShare * static_cast<float>(size.radius);
     }
     Remainders kept = now.kept;
@@ -245,14 +270,17 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3l moved = base::toUnits(now.position);
     for (int a = 0; a < 3; ++a) {
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
-      const double speed = addCompensated(v[a], rv, force[a] * stepPerMass + d.gravityStep[a]);
-      if (Kernel::hasHistory() || has(kLoads)) addCompensated(w[a], rw, torque[a] * stepPerInertia);
+      const double faster = force[a] * stepPerMass + d.gravityStep[a], turning = torque[a] * stepPerInertia;
+      const double speed = addCompensated(v[a], rv, faster);
+      gained += faster * (speed - 0.5 * faster);
+      if (Kernel::hasHistory() || has(kLoads)) turned += turning * (addCompensated(w[a], rw, turning) - 0.5 * turning);
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.
       if (displacement > -kMostUnitsPerStep && displacement < kMostUnitsPerStep)
         moved[a] += advanceKeeping(displacement, kept.position, a);
     }
+    if (has(kLedger)) book(now.position, d.mass * massShare * gained + inertia * turned, massShare, lost, books);
     if (has(kPeriodic)) crossSides(i, moved, r);
     const base::Position q = base::fromUnits(moved);
     d.nextPosition[i] = q;
@@ -278,6 +306,27 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     else if (speed2 > d.maxSpeed2)
       fault = Fault::speed;
     if (fault != Fault::none) base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
+  }
+};
+
+/// The same where books are kept: of as many grains as one thread takes at a time.
+template <unsigned kFeatures, class Real> struct BookedGrainStep {
+  static constexpr int kOnCpu = 32;
+  GrainStep<kFeatures, Real> step;
+  std::int64_t count;
+
+  GROUSER_HD void operator()(int item) const {
+    GrainBooks books;
+#if defined(__CUDA_ARCH__)
+    step.run(item, books);
+    base::atomicAddTogether(bankOf(step.d.books, static_cast<int>(blockIdx.x)), books.of);
+#else
+    const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
+    for (std::int64_t k = first; k < last; ++k) step.run(static_cast<int>(k), books);
+    base::WideSum* const bank = bankOf(step.d.books, item);
+    for (int b = 0; b < kGrainBooks; ++b)
+      if (books.of[b] != 0) base::atomicAdd(bank + b, books.of[b]);
+#endif
   }
 };
 

@@ -9,7 +9,7 @@ namespace grouser::terrain {
 GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, const Boundaries& around,
                          const std::vector<GrainSpec>& start, const PartitionOptions& partition)
     : exec(device), comm(partition.comm), constants(model, around, start),
-      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), boundaries(exec, constants, around),
+      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), books(exec, constants), boundaries(exec, constants, around),
       neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period),
       count(0) {
   const std::vector<base::Position> places = placesOf(start, 0, constants);
@@ -49,6 +49,7 @@ GrainKernelData GrainSystem::kernelData() {
   d.features = constants.features;
   d.timeStep = dt;
   d.diameter = static_cast<float>(2 * r);
+  d.mass = model.mass, d.inertia = 0.4 * model.mass * r * r;
   d.unitLength = constants.scale.unit, d.unitsPerLength = static_cast<float>(constants.scale.perMetre);
   d.diameterUnits = constants.diameterUnits, d.diameterUnits2 = d.diameterUnits * d.diameterUnits;
   d.halfSkinUnits2 = constants.halfSkinUnits2();
@@ -63,6 +64,7 @@ GrainKernelData GrainSystem::kernelData() {
   d.period = constants.period;
   laws.describe(d);
   arrays.describe(d);
+  books.describe(d);
   boundaries.describe(d);
   d.neighbours = neighbours.view();
   return d;

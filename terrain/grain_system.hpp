@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "terrain/grain_bookkeeping.hpp"
 #include "terrain/grain_boundaries.hpp"
 #include "terrain/grain_distribution.hpp"
 #include "terrain/grain_laws.hpp"
@@ -21,6 +22,7 @@ struct GrainSystem {
   GrainConstants constants;
   GrainLaws laws;
   GrainArrays arrays;
+  GrainBookkeeping books;
   GrainBoundaries boundaries;
   contact::NeighbourList neighbours;
   std::unique_ptr<GrainDistribution> distribution; ///< null on one rank

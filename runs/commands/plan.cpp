@@ -40,7 +40,7 @@ std::string memoryText(const scene::Scene& scene, double grains) {
                                  grains * m.total() / 1048576.0, m.total());
   const auto part = [&](const char* what, double bytes) { text += fmt::format("    {:<22} {:.0f}\n", what, bytes); };
   part("state", m.state), part("neighbour lists", m.lists), part("contact history", m.history);
-  part("planes and floor", m.boundaries), part("ledger", m.ledger);
+  part("planes and floor", m.boundaries);
   part("more while lists are made", m.rebuild);
   return text;
 }

@@ -83,6 +83,24 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
 }
+/// `touching`: whether vehicle and bed may exchange impulses.
+void setLedgerRow(output::RowBuilder& row, const simulation::Ledger& l, bool touching) {
+  row.set("ledger/drive_work", l.driveWork);
+  row.set("ledger/kinetic", l.kinetic), row.set("ledger/potential", l.potential), row.set("ledger/elastic", l.elastic);
+  row.set("ledger/dissipated", l.dissipated.total());
+  row.set("ledger/dissipated_damping", l.dissipated.damping);
+  row.set("ledger/dissipated_friction", l.dissipated.friction);
+  row.set("ledger/dissipated_rolling", l.dissipated.rolling);
+  row.set("ledger/dissipated_parts", l.dissipated.parts);
+  row.set("ledger/dissipated_joints", l.dissipated.joints);
+  row.set("ledger/integration_error", l.integrationError);
+  row.set("ledger/residual", l.residual);
+  row.set("ledger/turnover", l.turnover);
+  row.set("ledger/momentum", l.momentum), row.set("ledger/angular_momentum", l.angularMomentum);
+  row.set("ledger/momentum_residual", l.momentumResidual), row.set("ledger/angular_residual", l.angularResidual);
+  if (touching) row.set("ledger/impulse_residual", l.impulseResidual);
+}
+
 output::RunWriter::Options writerOptions(bool frames, const RunRequest& options, const base::Exec& exec,
                                          const std::vector<output::Channel>& channels,
                                          const simulation::Checkpoint* former, std::int64_t total) {
@@ -197,13 +215,7 @@ void Recorder::row() {
     }
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
-  row_.set("ledger/drive_work", l.driveWork);
-  row_.set("ledger/kinetic", l.kinetic);
-  row_.set("ledger/potential", l.potential);
-  row_.set("ledger/elastic", l.elastic);
-  row_.set("ledger/dissipated", l.dissipated);
-  row_.set("ledger/residual", l.residual);
-  if (!simulation_.mechanism()) row_.set("ledger/impulse_residual", l.impulseResidual);
+  setLedgerRow(row_, l, !simulation_.mechanism());
   writer_.row(row_.row());
   if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
   simulation_.restartMeans();

@@ -42,12 +42,11 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
   const terrain::GrainLayout layout = traitsOf(scene, grainKinds(scene)).layout;
   const double history = static_cast<double>(layout.historyWidth()) * sizeof(float);
-  terrain::GrainLayout open = layout, bare = layout; // without boundaries; and without ledger
-  open.boundaries = bare.boundaries = bare.ledger = 0;
+  terrain::GrainLayout bare = layout; // without boundaries
+  bare.boundaries = 0;
   GrainMemory m;
   m.state = fieldBytes(bare);
-  m.boundaries = fieldBytes(layout) - fieldBytes(open);
-  m.ledger = fieldBytes(open) - fieldBytes(bare);
+  m.boundaries = fieldBytes(layout) - fieldBytes(bare);
   // Count, start, mask, id and order of a row.
   m.lists = 4 * kWord + kMask + kPlaces * kWord;
   m.history = kPlaces * history;

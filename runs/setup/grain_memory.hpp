@@ -12,9 +12,8 @@ struct GrainMemory {
   double lists{};      ///< neighbours
   double history{};    ///< springs and rolling angles of contacts between grains
   double boundaries{}; ///< touch with planes and floor, and history there
-  double ledger{};     ///< dissipated energy
   double rebuild{};    ///< while the lists are made anew, on top of the others
-  double total() const { return state + lists + history + boundaries + ledger; }
+  double total() const { return state + lists + history + boundaries; }
   double most() const { return total() + rebuild; }
 };
 

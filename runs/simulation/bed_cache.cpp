@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "runs/simulation/checkpoint.hpp"
+#include "runs/simulation/ledger.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/shared_folder.hpp"
 
@@ -151,7 +152,7 @@ bool BedCache::keep(const fs::path& file, const std::string& origin, const terra
                     const SettleReport& report, const base::Comm& comm) const {
   Checkpoint bed;
   bed.scene = origin, bed.timeStep = grains.model().timeStep;
-  bed.state.settled = report, bed.state.energyAtStart = {0, 0, 0, 0};
+  bed.state.settled = report, bed.state.ledgerAtStart = Ledger{}.counted();
   bed.state.grains = grains.state();
   // Written under a name of its own and renamed: another machine that shares the folder may write the same bed.
   std::array<char, 256> host{};

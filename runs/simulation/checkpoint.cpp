@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 4; // of the layout below
+constexpr int kVersion = 5; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -39,7 +39,7 @@ template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 /// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
-  archive("/energy_at_start", s.energyAtStart);
+  archive("/ledger_at_start", s.ledgerAtStart);
   archive("/most_put_in", s.mostPutIn);
   archive("/settled/time", s.settled.time);
   archive("/settled/agitation", s.settled.agitation);
@@ -59,6 +59,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
         [&](const char* name, auto& column) { archive.perContact(path(name).c_str(), column, g.contacts); });
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
+    archive("/grains/books", g.books);
   }
   if (archive.present("/surfaces", s.surfaces)) {
     archive("/surfaces/states", s.surfaces->surfaces);
@@ -83,6 +84,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/alarm_forces", v.alarmForces);
     archive("/vehicle/alarm_steps", v.alarmSteps);
     archive("/vehicle/impulse_on_parts", v.impulseOnParts);
+    archive("/vehicle/angular_on_parts", v.angularOnParts);
   }
 }
 

@@ -87,6 +87,13 @@ Mechanism::Ledger Mechanism::ledger() const {
           state_.ledger.dissipated, t.linearMomentum, t.angularMomentum};
 }
 
+void Mechanism::addTo(simulation::Ledger& l) const {
+  const Ledger m = ledger();
+  l.driveWork += m.driveWork, l.kinetic += m.kinetic, l.work += m.kinetic, l.potential += m.potential;
+  l.elastic += m.elastic, l.dissipated.joints += m.dissipated;
+  l.momentum += m.linearMomentum, l.angularMomentum += m.angularMomentum;
+}
+
 Mechanism::Drift Mechanism::drift() const {
   Drift drift = worst_;
   drift.velocity = solver_.velocityError(state_);

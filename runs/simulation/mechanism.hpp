@@ -5,6 +5,7 @@
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mechanism_state.hpp"
 
 #include <string>
@@ -42,6 +43,8 @@ public:
     base::Vec3d linearMomentum, angularMomentum;
   };
   Ledger ledger() const;
+
+  void addTo(simulation::Ledger& ledger) const;
 
   /// Kinetic energy that the drives gave in an impact, since the velocities of the scene did not fit theirs [J].
   double startBlow() const { return startBlow_; }

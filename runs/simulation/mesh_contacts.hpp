@@ -28,7 +28,7 @@ public:
   /// On each mesh about its centre, of all ranks, after computeContacts().
   const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
 
-  double elastic() const { return contacts_->ledger().elastic; } ///< [J]
+  contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }
   std::size_t spheres() const;
   contact::SavedGrainPatches save() const { return contacts_->save(); }
   void restore(const contact::SavedGrainPatches& saved);

@@ -30,7 +30,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   if (ground_.grains) ground_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
-  start_ = ledger();
+  start_ = wholeLedger();
   addGrains();
 }
 
@@ -93,18 +93,15 @@ void Simulation::makeSurfaces(const SurfaceStates* former) {
   surfaces_->place(*ground_.grains, steps_);
 }
 
-/// Adds the grains of the sources that enter before the next step. Their energy goes to the ledger's start, so that it
-/// does not count as a change.
+/// Adds the grains of the sources that enter before the next step. What they bring with them belongs to the ledger's
+/// start, so that it does not count as a change.
 void Simulation::addGrains() {
   if (!ground_.grains || setup_.ground.grains->sources.empty()) return;
   const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
   if (entering.empty()) return;
-  const terrain::GrainLedger before = ground_.grains->ledger();
+  const Ledger before = wholeLedger();
   ground_.grains->add(entering);
-  const terrain::GrainLedger after = ground_.grains->ledger();
-  start_.kinetic += after.kinetic + after.rotational - before.kinetic - before.rotational;
-  start_.potential += after.potential - before.potential;
-  start_.elastic += after.elastic - before.elastic;
+  start_.move(before, wholeLedger());
 }
 
 void Simulation::checkAlarm() {
@@ -112,41 +109,28 @@ void Simulation::checkAlarm() {
   if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
 }
 
-Simulation::Ledger Simulation::ledger() {
-  Ledger ledger;
+Ledger Simulation::wholeLedger() {
+  Ledger l;
   if (ground_.grains) {
     const terrain::GrainLedger g = ground_.grains->ledger();
-    ledger.kinetic = g.kinetic + g.rotational;
-    ledger.potential = g.potential;
-    ledger.elastic = g.elastic;
-    ledger.dissipated = g.dissipated;
-    ledger.grainContacts = g.contacts, ledger.boundaryContacts = g.boundaryContacts;
-    ledger.deepestOverlap = g.deepestOverlap, ledger.fastestGrain = g.fastest;
+    l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = g.elastic;
+    l.dissipated = {g.damped, g.rubbed, g.rolled, 0, 0};
+    l.work = g.work, l.turnover = g.turnover;
+    l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
+    l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;
+    l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
+    l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
   }
-  if (vehicle_) {
-    const VehicleRig::Ledger v = vehicle_->ledger();
-    ledger.driveWork = v.driveWork;
-    ledger.kinetic += v.kinetic;
-    ledger.potential += v.potentialGain;
-    ledger.elastic += v.contacts.elastic;
-    ledger.dissipated += v.dissipated;
-    ledger.partContacts = v.contacts.grainContacts, ledger.patches = v.contacts.patches;
-    ledger.impulseResidual = v.contacts.impulseOnParts + v.contacts.impulseOnGrains;
-  }
-  if (surfaces_) {
-    const Surfaces::Ledger s = surfaces_->ledger();
-    ledger.driveWork += s.work, ledger.kinetic += s.kinetic, ledger.potential += s.potential;
-    ledger.elastic += s.elastic;
-  }
-  if (mechanism_) {
-    const Mechanism::Ledger m = mechanism_->ledger();
-    ledger.driveWork += m.driveWork, ledger.kinetic += m.kinetic, ledger.potential += m.potential;
-    ledger.elastic += m.elastic, ledger.dissipated += m.dissipated;
-  }
-  ledger.kinetic -= start_.kinetic, ledger.potential -= start_.potential;
-  ledger.elastic -= start_.elastic, ledger.dissipated -= start_.dissipated;
-  ledger.residual = ledger.kinetic + ledger.potential + ledger.elastic + ledger.dissipated - ledger.driveWork;
-  return ledger;
+  if (vehicle_) vehicle_->addTo(l);
+  if (surfaces_) surfaces_->addTo(l);
+  if (mechanism_) mechanism_->addTo(l);
+  return l;
+}
+
+Ledger Simulation::ledger() {
+  Ledger l = wholeLedger();
+  l.countFrom(start_);
+  return l;
 }
 
 void Simulation::checkEnergy(const Ledger& now) {

@@ -4,6 +4,7 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/bed_cache.hpp"
 #include "runs/simulation/ground.hpp"
+#include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/simulation_state.hpp"
 #include "runs/simulation/step_observer.hpp"
@@ -53,14 +54,8 @@ public:
   }
   const SettleReport& settled() const { return settled_; }
 
-  /// Changes of all energies [J] since the first step, and what does not balance:
-  /// residual = kinetic + potential + elastic + dissipated - driveWork.
-  struct Ledger {
-    double driveWork{}, kinetic{}, potential{}, elastic{}, dissipated{}, residual{};
-    base::Vec3d impulseResidual; ///< on vehicle plus on bed [N s]
-    std::int64_t grainContacts{}, boundaryContacts{}, partContacts{}, patches{};
-    double deepestOverlap{}, fastestGrain{}; ///< [m], [m/s]
-  };
+  using Ledger = simulation::Ledger;
+  /// Counted from the first step. All ranks call it.
   Ledger ledger();
 
   /// Throws SimulationError when the contacts have given far more energy than ever was put in: an unstable step.
@@ -73,6 +68,8 @@ private:
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();
+  /// Since the grains, bodies and surfaces were made.
+  Ledger wholeLedger();
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
   bool hasBed() const { return ground_.grains && setup_.ground.grains->bed; }

@@ -21,7 +21,7 @@ SimulationState Simulation::save() const {
   SimulationState state;
   state.steps = steps_;
   state.settled = settled_;
-  state.energyAtStart = {start_.kinetic, start_.potential, start_.elastic, start_.dissipated};
+  state.ledgerAtStart = start_.counted();
   state.mostPutIn = mostPutIn_;
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
@@ -37,7 +37,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
       settled_(state.settled), steps_(state.steps) {
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
-      state.mechanism.has_value() != setup_.mechanism.has_value() || state.energyAtStart.size() != 4 ||
+      state.mechanism.has_value() != setup_.mechanism.has_value() || 
       state.surfaces.has_value() != (ground_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (hasBed()) keepSurface(ground_, state.surface);
@@ -57,8 +57,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
     mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
     mechanism_->restore(*state.mechanism);
   }
-  const std::vector<double>& e = state.energyAtStart;
-  start_.kinetic = e[0], start_.potential = e[1], start_.elastic = e[2], start_.dissipated = e[3];
+  start_.setCounted(state.ledgerAtStart);
   mostPutIn_ = state.mostPutIn;
 }
 

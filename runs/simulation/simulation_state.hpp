@@ -18,7 +18,7 @@ struct SimulationState {
   std::int64_t steps{};
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
   SettleReport settled;
-  std::vector<double> energyAtStart; ///< kinetic, potential, elastic, dissipated [J]: the ledger counts from here
+  std::vector<double> ledgerAtStart; ///< Ledger::counted(): the ledger counts from here
   double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
   std::optional<terrain::GrainState> grains;
   std::optional<SurfaceStates> surfaces;

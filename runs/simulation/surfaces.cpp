@@ -78,16 +78,19 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
         i < shapes_ ? grains.system().boundaries.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
     const setup::SurfaceMotion::State law = surfaces_[i].motion.at(time);
     SurfaceState& s = states_.surfaces[i];
+    const Vec3d centre = law.centre + freeAxis(i) * s.offset;
     double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
     if (const auto& free = surfaces_[i].free) {
       // Symplectic Euler, as the grains.
-      const double mass = free->mass, given = free->loadAt(time);
+      const double mass = free->mass, given = free->loadAt(time), before = s.speed;
       s.speed += (dot(load.force + gravity_ * mass, freeAxis(i)) + given) / mass * timeStep_;
       s.offset += s.speed * timeStep_;
       checkSpeed(i, step, grains.system().constants.smallestRadius);
-      power += given * s.speed;
+      power += given * 0.5 * (before + s.speed);
     }
     s.work += power * timeStep_;
+    s.impulse -= load.force * timeStep_;
+    s.angularImpulse -= (load.torque + cross(centre, load.force)) * timeStep_;
     s.force += load.force, s.torque += load.torque, s.power += power;
   }
   ++states_.meanSteps;
@@ -105,18 +108,21 @@ void Surfaces::restartMeans() {
   states_.meanSteps = 0;
 }
 
-Surfaces::Ledger Surfaces::ledger() const {
-  Ledger ledger;
-  if (meshes_) ledger.elastic = meshes_->elastic();
+void Surfaces::addTo(Ledger& ledger) const {
+  if (meshes_) {
+    const contact::GrainPartContacts::Ledger m = meshes_->ledger();
+    ledger.elastic += m.elastic, ledger.partContacts += m.contacts;
+    ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed, ledger.dissipated.rolling += m.rolled;
+  }
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const SurfaceState& s = states_.surfaces[i];
-    ledger.work += s.work;
+    ledger.driveWork += s.work;
+    ledger.momentumResidual -= s.impulse, ledger.angularResidual -= s.angularImpulse;
     if (!surfaces_[i].free) continue;
-    const double mass = surfaces_[i].free->mass;
-    ledger.kinetic += 0.5 * mass * s.speed * s.speed;
+    const double mass = surfaces_[i].free->mass, kinetic = 0.5 * mass * s.speed * s.speed;
+    ledger.kinetic += kinetic, ledger.work += kinetic;
     ledger.potential -= mass * dot(gravity_, freeAxis(i)) * s.offset;
   }
-  return ledger;
 }
 
 void Surfaces::restore(const SurfaceStates& states) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/setup/ground_setup.hpp"
+#include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mesh_contacts.hpp"
 #include "runs/simulation/surface_state.hpp"
 #include "terrain/grains.hpp"
@@ -47,13 +48,8 @@ public:
   Observation observe(std::size_t i, std::int64_t step) const;
   void restartMeans();
 
-  /// [J]; of surfaces that forces move.
-  struct Ledger {
-    double work{}; ///< since the start, by what moves the surfaces and by loads
-    double kinetic{}, potential{};
-    double elastic{}; ///< in contacts with meshes
-  };
-  Ledger ledger() const;
+  /// Adds the work of what moves them, energies of surfaces that forces move, and contacts with meshes.
+  void addTo(Ledger& ledger) const;
 
   SurfaceStates save() const;
   /// Throws InputError when they are of other surfaces.

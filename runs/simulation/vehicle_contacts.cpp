@@ -167,6 +167,9 @@ void VehicleContacts::collect(multibody::Loads& loads) {
     wrench.torque += quanta_.torque.checked(track[c].torque, "torques on a part") +
                      groundTorqueQuantum_.checked(ground[c].torque, "torques on a part");
     impulseOnParts_ += ground[c].force;
+    angularOnParts_ += (groundTorqueQuantum_.value(ground[c].torque) +
+                        cross(motion_.host()[c].centre, groundForceQuantum_.value(ground[c].force))) *
+                       timeStep_;
   }
 }
 
@@ -201,6 +204,8 @@ VehicleContacts::Ledger VehicleContacts::ledger() const {
   if (bed_) {
     const contact::GrainPartContacts::Ledger bed = bed_->ledger();
     ledger.elastic += bed.elastic;
+    ledger.damped = bed.damped, ledger.rubbed = bed.rubbed, ledger.rolled = bed.rolled;
+    ledger.angularOnParts = angularOnParts_;
     ledger.grainContacts = bed.contacts;
     ledger.impulseOnGrains = bed.impulseOnGrains;
     ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
@@ -217,6 +222,7 @@ void VehicleContacts::save(VehicleState& s) const {
   if (rigidGround_) s.ground = rigidGround_->save();
   if (bed_) s.bed = bed_->save();
   s.impulseOnParts = impulseOnParts_;
+  s.angularOnParts = angularOnParts_;
 }
 
 void VehicleContacts::restore(const VehicleState& s) {
@@ -224,6 +230,7 @@ void VehicleContacts::restore(const VehicleState& s) {
   if (rigidGround_) rigidGround_->restore(s.ground);
   if (bed_) bed_->restore(s.bed);
   impulseOnParts_ = s.impulseOnParts;
+  angularOnParts_ = s.angularOnParts;
   relativeTravel_ = absoluteTravel_ = kNeverListed;
 }
 

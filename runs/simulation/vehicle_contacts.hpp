@@ -50,11 +50,13 @@ public:
   /// Energies of the contacts [J].
   struct Ledger {
     double elastic{};       ///< held now
-    double dissipated{};    ///< since the start; that with grains is in the grains' own ledger
+    double dissipated{};    ///< since the start, of parts with each other and with rigid ground
+    double damped{}, rubbed{}, rolled{}; ///< since the start, of parts with grains
     std::int64_t patches{}; ///< of parts on parts and on ground
     std::int64_t grainContacts{};
     base::Vec3d impulseOnParts; ///< from the grains since the start [N s]
     base::Vec3d impulseOnGrains;
+    base::Vec3d angularOnParts; ///< about the origin of the world, from the grains since the start [N m s]
   };
   Ledger ledger() const;
 
@@ -100,6 +102,7 @@ private:
   static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
   double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};
   base::Vec3l impulseOnParts_{};
+  base::Vec3d angularOnParts_; ///< from grains and rigid ground [N m s]
 };
 
 } // namespace grouser::simulation

@@ -98,14 +98,20 @@ std::string VehicleRig::alarm() {
   return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
 }
 
-VehicleRig::Ledger VehicleRig::ledger() const {
-  Ledger ledger;
-  ledger.contacts = contacts_->ledger();
-  ledger.kinetic = multibody::totals(assembly_.model, state_, loads_).kinetic;
-  ledger.driveWork = state_.ledger.driveWork;
-  ledger.potentialGain = -(state_.ledger.gravityWork + state_.ledger.springWork);
-  ledger.dissipated = state_.ledger.dissipated + ledger.contacts.dissipated;
-  return ledger;
+void VehicleRig::addTo(Ledger& ledger) const {
+  const VehicleContacts::Ledger c = contacts_->ledger();
+  const multibody::Totals bodies = multibody::totals(assembly_.model, state_, loads_);
+  ledger.kinetic += bodies.kinetic, ledger.work += bodies.kinetic;
+  ledger.driveWork += state_.ledger.driveWork;
+  ledger.potential -= state_.ledger.gravityWork + state_.ledger.springWork; // with their ramps
+  ledger.elastic += c.elastic;
+  ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
+  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += state_.ledger.dissipated;
+  ledger.momentum += bodies.linearMomentum, ledger.angularMomentum += bodies.angularMomentum;
+  // Of the bodies themselves nothing is booked yet; the grains have what the parts gave them.
+  ledger.momentumResidual -= c.impulseOnGrains, ledger.angularResidual += c.angularOnParts;
+  ledger.partContacts += c.grainContacts, ledger.patches += c.patches;
+  ledger.impulseResidual += c.impulseOnParts + c.impulseOnGrains;
 }
 
 VehicleState VehicleRig::save() const {

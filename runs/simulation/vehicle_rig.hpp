@@ -3,6 +3,7 @@
 
 #include "multibody/solver.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "runs/simulation/ledger.hpp"
 #include "runs/simulation/vehicle_contacts.hpp"
 #include "runs/simulation/vehicle_parts.hpp"
 #include "runs/simulation/vehicle_state.hpp"
@@ -49,15 +50,8 @@ public:
   /// loads since it was last asked.
   std::string alarm();
 
-  /// Energies of the bodies and of the contacts of parts with parts and ground [J].
-  struct Ledger {
-    double kinetic{};       ///< of the bodies
-    double driveWork{};     ///< since the start
-    double potentialGain{}; ///< -(work of gravity and springs, ramps included)
-    double dissipated{};    ///< in contacts of parts, joints and dampers since the start
-    VehicleContacts::Ledger contacts;
-  };
-  Ledger ledger() const;
+  /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
+  void addTo(Ledger& ledger) const;
 
   /// Bodies, contact history and sums, for hash and checkpoint.
   VehicleState save() const;

@@ -22,6 +22,7 @@ struct VehicleState {
   std::vector<base::Vec3l> alarmForces;  ///< by part, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
+  base::Vec3d angularOnParts;            ///< since the start [N m s]
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;

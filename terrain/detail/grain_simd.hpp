@@ -33,6 +33,8 @@ template <int kWidth, bool kWithFriction, bool kWithLedger> class GrainSimd {
 public:
   GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces) : data_(data), forces_(forces) {}
 
+  GROUSER_SIMD const GrainBooks& books() const { return books_; } ///< of the grains that have been advanced
+
   GROUSER_SIMD void run(int first, int last) {
     // A copy that no store can change: what follows from it alone is worked out once, not for each contact.
     const ForceData<float> f = forces_;
@@ -167,39 +169,41 @@ private:
                                                      base::broadcast<Float>(0.5f * f.radius)};
     const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
     if (kWithFriction) {
-      spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z;
+      spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z, spring[3] = 0.5f * reaction.rubbed;
       base::storeRows(spring_ + c, spring);
     }
     const Vec torque = cross(arm, reaction.force);
-    Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z, 0.5f * reaction.dissipated};
+    Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z, 0.5f * reaction.damped};
     Float torques[4] = {torque.x, torque.y, torque.z, pair.overlap};
     base::storeRows(moving_ + c, forces), base::storeRows(turning_ + c, torques);
   }
 
   GROUSER_SIMD void advance(int g, int i) {
     Float4 force{}, torque{}, most{};
+    float rubbed = 0;
     for (int c = begin_[g]; c < begin_[g + 1]; ++c) {
+      if (kWithFriction && kWithLedger) rubbed += spring_[c][3];
       force += moving_[c];
       torque += turning_[c];
       most = turning_[c] > most ? turning_[c] : most;
     }
-    float dissipated = force[3], deepest = samePlace_[g] ? data_.diameter : most[3];
+    float damped = force[3], rolled = 0, deepest = samePlace_[g] ? data_.diameter : most[3];
     if (const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
-      dissipated += load.dissipated;
+      damped += load.damped, rubbed += load.rubbed, rolled += load.rolled;
       if (load.deepest > deepest) deepest = load.deepest;
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};
     if (data_.features & kLoads && data_.loads.range[i] != 0) {
       base::Vec3d f3{f4[0], f4[1], f4[2]}, t3{t4[0], t4[1], t4[2]};
-      addLoadsOf(data_, forces_, i, f3, t3, dissipated, deepest);
+      addLoadsOf(data_, forces_, i, f3, t3, deepest);
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
-    if (kWithLedger) data_.dissipated[i] += static_cast<double>(dissipated);
-    if (!advanceSimd(i, f4, t4, deepest))
-      advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest);
+    const Lost lost{static_cast<double>(damped), static_cast<double>(rubbed), static_cast<double>(rolled)};
+    if (!advanceSimd(i, f4, t4, deepest, lost))
+      advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest, lost, books_);
   }
 
   /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing
@@ -221,13 +225,15 @@ private:
   }
 
   /// GrainStep::advance() where nothing is out of the ordinary; else false, and nothing is done.
-  GROUSER_SIMD bool advanceSimd(int i, const Double4& force, const Double4& torque, float deepest) {
+  GROUSER_SIMD bool advanceSimd(int i, const Double4& force, const Double4& torque, float deepest, const Lost& lost) {
     Float4 v = load<Float4>(data_.velocity + i), w = load<Float4>(data_.spin + i);
     const Int4 kept = load<Int4>(data_.remainders + i);
     Int4 rv = kept << 16 >> 16, rw = kept >> 16;
     const Double4 gravity{data_.gravityStep.x, data_.gravityStep.y, data_.gravityStep.z, 0};
-    const Double4 speed = addCompensatedAxes(v, rv, force * data_.stepPerMass + gravity);
-    if (kWithFriction || data_.features & kLoads) addCompensatedAxes(w, rw, torque * data_.stepPerInertia);
+    const Double4 faster = force * data_.stepPerMass + gravity, turning = torque * data_.stepPerInertia;
+    const Double4 speed = addCompensatedAxes(v, rv, faster);
+    Double4 turn{};
+    if (kWithFriction || data_.features & kLoads) turn = addCompensatedAxes(w, rw, turning);
     Double4 displacement = speed * data_.unitsPerSpeed;
     const auto near = (displacement > -kMostUnitsPerStep) & (displacement < kMostUnitsPerStep);
     displacement = near ? displacement : Double4{}; // a speed that is no number must not reach the integer conversion
@@ -250,6 +256,14 @@ private:
                           base::laneBits(passes) == 0 && (base::laneBits(near) & 7) == 7;
     if (!ordinary) return false;
 
+    if (kWithLedger) {
+      const Double4 gained = faster * (speed - faster * 0.5), turned = turning * (turn - turning * 0.5);
+      double sum = 0, sumTurned = 0; // in the order of GrainStep
+      for (int a = 0; a < 3; ++a) sum += gained[a];
+      if (kWithFriction || data_.features & kLoads)
+        for (int a = 0; a < 3; ++a) sumTurned += turned[a];
+      book(p, data_.mass * sum + data_.inertia * sumTurned, lost);
+    }
     Int4 keep = (rv & 0xFFFF) | rw << 16;
     keep[3] = (kept[3] & ~0x3FFFFFFF) | r[0] | r[1] << 10 | r[2] << 20;
     v[3] = 0, w[3] = 0;
@@ -260,8 +274,24 @@ private:
     return true;
   }
 
+  /// GrainStep::book().
+  GROUSER_SIMD void book(const Int4& place, double work, const Lost& lost) {
+    const double q = data_.bookScale.perEnergy;
+    books_.of[kWork] += wholeQuanta(q * work);
+    books_.of[kTurnover] += wholeQuanta(q * __builtin_fabs(work));
+    books_.of[kDamped] += wholeQuanta(q * lost.damped);
+    if (kWithFriction) books_.of[kRubbed] += wholeQuanta(q * lost.rubbed);
+    if (lost.rolled != 0) books_.of[kRolled] += wholeQuanta(q * lost.rolled);
+    books_.of[kMass] += kMassQuanta;
+    base::Position p;
+    __builtin_memcpy(&p, &place, sizeof p);
+    const base::Vec3l u = base::toUnits(p);
+    books_.of[kMoment] += u.x, books_.of[kMoment + 1] += u.y, books_.of[kMoment + 2] += u.z;
+  }
+
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
+  GrainBooks books_;
   int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];
   bool samePlace_[kGrains];
@@ -271,16 +301,23 @@ private:
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };
 
+template <class Some> GROUSER_SIMD void runAndBook(const GrainKernelData& d, const ForceData<float>& f, int first,
+                                                   int last) {
+  Some some(d, f);
+  some.run(first, last);
+  addToBooks(d, first, some.books());
+}
+
 /// Picks the features that are known at compile time.
 template <int kWidth>
 GROUSER_SIMD void runSimd(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   const bool friction = d.features & contact::kFriction, ledger = d.features & kLedger;
   if (friction && ledger)
-    GrainSimd<kWidth, true, true>(d, f).run(first, last);
+    runAndBook<GrainSimd<kWidth, true, true>>(d, f, first, last);
   else if (friction)
     GrainSimd<kWidth, true, false>(d, f).run(first, last);
   else if (ledger)
-    GrainSimd<kWidth, false, true>(d, f).run(first, last);
+    runAndBook<GrainSimd<kWidth, false, true>>(d, f, first, last);
   else
     GrainSimd<kWidth, false, false>(d, f).run(first, last);
 }

@@ -30,7 +30,7 @@ struct SphereOnPlane {
       const BasicContactGeometry<double> touch{n, overlap(), velocity + cross(spin, arm), mass, radius};
       const auto r = contactForce<kGeneral>(law, touch, dt, shear);
       force += r.force, torque += cross(arm, r.force);
-      dissipated += r.dissipated;
+      dissipated += r.damped + r.rubbed;
       if (law.rollingFriction > 0) {
         const RollingMotion<double> rolling{n, spin, radius, 1.4 * mass * radius * radius};
         torque += rollingTorque(law, rolling, r.pressing, r.normalStiffness, dt, angle, dissipated);

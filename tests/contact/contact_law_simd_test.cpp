@@ -57,7 +57,8 @@ template <unsigned kFeatures, int kWidth, class T> void expectLanesAsAlone(const
         EXPECT_EQ(bitsOf(together.force[a][l]), bitsOf(alone.force[a])) << "lane " << l << ", axis " << a;
         EXPECT_EQ(bitsOf(springs[a][l]), bitsOf(spring[l][a]));
       }
-      EXPECT_EQ(bitsOf(together.dissipated[l]), bitsOf(alone.dissipated));
+      EXPECT_EQ(bitsOf(together.damped[l]), bitsOf(alone.damped));
+      EXPECT_EQ(bitsOf(together.rubbed[l]), bitsOf(alone.rubbed));
       EXPECT_EQ(bitsOf(together.pressing[l]), bitsOf(alone.pressing));
       EXPECT_EQ(bitsOf(together.normalStiffness[l]), bitsOf(alone.normalStiffness));
       const base::Vec3<T> tangential = alone.force - one[l].normal * dot(alone.force, one[l].normal);

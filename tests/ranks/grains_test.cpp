@@ -172,7 +172,7 @@ TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
   const GrainState again = second.state();
   EXPECT_EQ(again.words(), saved.words());
   EXPECT_EQ(again.travelled, saved.travelled);
-  EXPECT_EQ(again.dissipated, saved.dissipated);
+  EXPECT_EQ(again.books, saved.books);
   second.setSteps(1234);
   advance(second, kSteps - 1234);
   EXPECT_EQ(allWords(second), expected());
@@ -192,7 +192,7 @@ TEST(GrainsOnRanks, LedgerIsThatOfOneRank) {
   EXPECT_EQ(a.rotational, b.rotational);
   EXPECT_EQ(a.potential, b.potential);
   EXPECT_EQ(a.elastic, b.elastic);
-  EXPECT_EQ(a.dissipated, b.dissipated);
+  EXPECT_EQ(a.books, b.books);
   EXPECT_EQ(a.contacts, b.contacts);
   EXPECT_EQ(a.boundaryContacts, b.boundaryContacts);
   EXPECT_EQ(a.deepestOverlap, b.deepestOverlap);

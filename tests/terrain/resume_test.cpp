@@ -29,7 +29,7 @@ struct End {
   std::int64_t rebuilds;
   double dissipated;
 };
-End endOf(Grains& grains) { return {grains.state().words(), grains.system().rebuilds, grains.ledger().dissipated}; }
+End endOf(Grains& grains) { return {grains.state().words(), grains.system().rebuilds, grains.ledger().dissipated()}; }
 
 constexpr int kSteps = 4000;
 

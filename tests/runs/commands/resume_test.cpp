@@ -118,7 +118,7 @@ protected:
     EXPECT_EQ(c.rows, d.rows);
     EXPECT_EQ(c.frames, d.frames);
     EXPECT_EQ(c.state.grains->rebuilds, d.state.grains->rebuilds);
-    EXPECT_EQ(bits(c.state.grains->dissipated), bits(d.state.grains->dissipated));
+    EXPECT_EQ(c.state.grains->books, d.state.grains->books);
   }
 
   fs::path resumed_; ///< the folder of the run that is resumed

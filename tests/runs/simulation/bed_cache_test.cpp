@@ -58,7 +58,7 @@ protected:
     const auto note = [&] {
       const Simulation::Ledger l = simulation.ledger();
       for (const double v :
-           {l.kinetic, l.potential, l.elastic, l.dissipated, l.residual, static_cast<double>(l.grainContacts),
+           {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.residual, static_cast<double>(l.grainContacts),
             simulation.settled().time, simulation.settled().agitation, simulation.time()})
         o.row.push_back(v);
     };

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "base/wide_sum.cuh"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+/// What the grains' steps add to the books of a run. Symplectic Euler changes the kinetic energy of a grain in a step
+/// by exactly F . (v_old + v_new) / 2 dt + T . (w_old + w_new) / 2 dt. That work is summed here, step by step, from the
+/// very forces, velocities and remainders that make the new state; the kinetic energy itself is read off the state, so
+/// that the two check each other. All sums are of integers: order-free, the same for any device, threads and ranks.
+namespace grouser::terrain {
+
+/// The sums.
+enum Book : int {
+  kWork,     ///< by all forces on the grains
+  kTurnover, ///< the same without signs, a grain and a step each
+  kDamped,   ///< taken by dashpots of contacts
+  kRubbed,   ///< by sliding
+  kRolled,   ///< by rolling resistance
+  kMass,     ///< of the grains, a step each, from which gravity's impulse follows
+  kMoment,   ///< x, y, z: mass times place, a step each, from which gravity's torque follows
+  kGrainBooks = kMoment + 3,
+  /// x, y, z: of walls and floor on the grains, a step each
+  kWallForce = kGrainBooks,
+  kWallTorque = kWallForce + 3, ///< about the origin of the world
+  kBooks = kWallTorque + 3
+};
+
+/// Quanta of the mass of the largest grain.
+inline constexpr std::int64_t kMassQuanta = 1 << 30;
+
+/// Quanta of the sums: what one grain adds in a step lies within 2^51 of them, or the run has become unsound.
+struct BookScale {
+  double perEnergy{1}, perMoment{1}, perForce{1}, perTorque{1}; ///< quanta a unit; powers of two
+};
+
+/// Nearest whole number of |quanta| < 2^51, ties to even, without a call; what is beyond, or no number, becomes the end
+/// of the range.
+GROUSER_HD std::int64_t wholeQuanta(double quanta) {
+  constexpr double kMost = 0x1p51, kShift = 0x1.8p52;
+  const double within = !(quanta > -kMost) ? -kMost : quanta < kMost ? quanta : kMost;
+  const double shifted = within + kShift; // its last place is 1
+  std::int64_t bits, zero;
+  memcpy(&bits, &shifted, sizeof bits);
+  memcpy(&zero, &kShift, sizeof zero);
+  return bits - zero;
+}
+
+/// What dissipation takes from one grain in one step [J].
+struct Lost {
+  double damped, rubbed, rolled;
+};
+
+/// What several grains have added.
+struct GrainBooks {
+  std::int64_t of[kGrainBooks] = {};
+};
+struct WallBooks {
+  std::int64_t of[kBooks - kGrainBooks] = {};
+};
+
+/// The sums are kept several times over, so that threads which add at the same time rarely meet: [kBookBanks][kBooks].
+inline constexpr int kBookBanks = 64;
+GROUSER_HD base::WideSum* bankOf(base::WideSum* books, int item) { return books + (item % kBookBanks) * kBooks; }
+
+} // namespace grouser::terrain
