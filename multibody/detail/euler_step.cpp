@@ -5,6 +5,7 @@
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
+#include "multibody/readings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,7 @@ void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State
     }
   }
   for (const int c : part.couplings) couplingImpulse_[at(c)] = 0;
+  noteOldMotion(part, state);
 }
 
 /// Gaps of all joints and couplings over -dt. `first`: also what soft and driven axes ask for.
@@ -284,15 +286,19 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
                          share * couplingImpulse_[at(c)] * system_.rows(a.constraint).torque[at(a.row)], state);
     }
     state.coupling[at(c)].force = couplingImpulse_[at(c)] / dt;
+    bookCoupling(c, state);
   }
   for (const int k : system_.offTree()) readConstraint(k, state, dt);
-  if (relinearised_)
+  if (relinearised_) {
     for (const int node : part.bodies) {
       // The impulses belong to rows of several positions: the momentum is what the twist says.
       const std::size_t b = at(system_.bodyOf(node));
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
       state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
+    bookSeveralPlaces(state);
+  }
+  closeBooks(state.ledger);
 }
 
 void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
@@ -314,6 +320,9 @@ void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, doubl
     state.ledger.driveWork += work.drive;
     state.ledger.springWork += work.spring;
     state.ledger.dissipated += work.dissipated;
+    state.ledger.jointDamping += work.joint;
+    state.ledger.springDamping += work.springs;
+    state.ledger.stopDamping += work.stops;
     newRates_[at(a)] = newRate;
   }
 }
@@ -331,6 +340,7 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
     torque += total[r] * rows.torque[r];
   }
   addAngularMomentum(k, force, torque, state);
+  bookConstraint(k, force, torque, state);
 
   if (c.kind == ConstraintKind::kPointSpring) {
     state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, after, 0)};
@@ -373,9 +383,13 @@ EulerStep::EulerStep(const Problem& problem)
       last_(problem.last), axisLaws_(model_), laws_(system_.axes().size()), x_(at(system_.nodes())),
       steps_(system_.links().size()), impulse_(system_.constraints().size()),
       couplingImpulse_(system_.couplings().size()), oldRate_(system_.axes().size(), 0.0),
-      newRates_(system_.axes().size(), 0.0), mixing_(system_, model_), newTwist_(model_.bodies().size()) {
+      newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()), oldCouplingRate_(2 * system_.couplings().size()),
+      mixing_(system_, model_), newTwist_(model_.bodies().size()) {
   std::vector<Pose> poses;
-  for (const Body& body : model_.bodies()) poses.push_back(body.pose);
+  for (const Body& body : model_.bodies()) {
+    poses.push_back(body.pose);
+    if (!body.fixed) mass_ += body.mass;
+  }
   system_.place(poses, frames_);
   trial_ = frames_;
   for (std::size_t i = 0; i < steps_.size(); ++i)
@@ -386,7 +400,9 @@ EulerStep::EulerStep(const Problem& problem)
 void EulerStep::step(State& state, const Loads& loads, double dt) {
   system_.place(state.pose, frames_);
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
+  const double elastic = elasticEnergy(model_, state, loads);
   for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
+  state.ledger.elasticGain += elasticEnergy(model_, state, loads) - elastic;
   state.time += dt;
 }
 

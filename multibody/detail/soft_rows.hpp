@@ -13,6 +13,7 @@ struct SoftRow {
   double constant = 0;  ///< springs: F = constant - stiffness x
   double stiffness = 0; ///< [N/m] or [N m/rad]
   double damping = 0;   ///< joint's and springs' dampers
+  double jointDamping = 0, springDamping = 0; ///< and either alone
   double applied0 = 0;  ///< force drives at the beginning and at the end of the stage
   double applied1 = 0;
   bool stops = false;  ///< has end stops

@@ -102,9 +102,13 @@ VehicleRig::Ledger VehicleRig::ledger() const {
   Ledger ledger;
   ledger.contacts = contacts_->ledger();
   ledger.kinetic = multibody::totals(assembly_.model, state_, loads_).kinetic;
-  ledger.driveWork = state_.ledger.driveWork;
-  ledger.potentialGain = -(state_.ledger.gravityWork + state_.ledger.springWork);
-  ledger.dissipated = state_.ledger.dissipated + ledger.contacts.dissipated;
+  const multibody::Balance b = multibody::balance(assembly_.model, state_, loads_);
+  ledger.driveWork = b.driveWork, ledger.externalWork = b.externalWork;
+  ledger.potentialGain = b.potentialGain, ledger.elastic = b.elasticGain;
+  ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
+  ledger.integrationError = b.integrationError, ledger.leftOver = b.leftOver, ledger.turnover = b.turnover;
+  ledger.linearLeftOver = b.linearLeftOver, ledger.angularLeftOver = b.angularLeftOver;
+  ledger.dissipated = ledger.bodiesDissipated() + ledger.contacts.dissipated;
   return ledger;
 }
 
