@@ -25,6 +25,10 @@
 /// or load as the ground's.
 namespace grouser::multibody::detail {
 
+namespace {
+Vec3d laneOf(const Vec3L& v, int l) { return {v.x[l], v.y[l], v.z[l]}; }
+} // namespace
+
 Twist EulerStep::relativeTwist(int k, const std::vector<Twist>& twist) const {
   const Constraint& c = system_.constraints()[at(k)];
   const Vec3d& p = system_.jointFrames(k).p_B;
@@ -82,25 +86,38 @@ void EulerStep::bookGround(int k, const Vec3d& force, const Vec3d& torque) {
   books_.angular += side * (cross(system_.jointFrames(k).p_B, force) + torque);
 }
 
+/// Corrections that were mixed leave another gyroscopic momentum in the equation than that of the last iterate: the
+/// spins tell which.
+void EulerStep::bookMixedSpins(const State& state) {
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const LinkLanes& links = system_.links()[i];
+    const LinkStep& s = steps_[i];
+    for (int l = 0; l < links.count; ++l) {
+      const std::size_t b = at(links.body[at(l)]);
+      const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
+      const Vec3d used = laneOf(s.gyroUsed, l), left = state.angularMomentum[b] - I * state.twist[b].w;
+      bookWork(0.5 * dot(used - left, laneOf(s.w0, l) + state.twist[b].w));
+    }
+  }
+}
+
 void EulerStep::bookSeveralPlaces(const State& state) {
-  const double turnover = books_.turnover;
   books_ = {};
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& links = system_.links()[i];
     const LinkStep& s = steps_[i];
     for (int l = 0; l < links.count; ++l) {
-      const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
       const std::size_t b = at(links.body[at(l)]);
       const Body& body = model_.bodies()[b];
       const Mat3d I = rotatedInertia(frames_[b].R, body.inertia_B);
-      const Vec3d v0 = get(s.v0), w0 = get(s.w0), v = state.twist[b].v, w = state.twist[b].w;
+      const Vec3d v0 = laneOf(s.v0, l), w0 = laneOf(s.w0, l), v = state.twist[b].v, w = state.twist[b].w;
       const Vec3d impulse = body.mass * (v - v0);
-      books_.kinetic += 0.5 * dot(impulse, v0 + v) + 0.5 * dot(I * (w - w0), w0 + w);
+      bookWork(0.5 * dot(impulse, v0 + v) + 0.5 * dot(I * (w - w0), w0 + w));
       books_.linear += impulse;
-      books_.angular += cross(get(s.position), impulse) + (state.angularMomentum[b] - (get(s.gyroBefore) + I * w0));
+      books_.angular += cross(laneOf(s.position, l), impulse) +
+                        (state.angularMomentum[b] - (laneOf(s.gyroBefore, l) + I * w0));
     }
   }
-  books_.turnover = turnover;
 }
 
 void EulerStep::closeBooks(Ledger& ledger) const {

@@ -297,6 +297,8 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
       state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
     bookSeveralPlaces(state);
+  } else if (mixing_.on()) {
+    bookMixedSpins(state);
   }
   closeBooks(state.ledger);
 }

@@ -106,6 +106,7 @@ private:
   void bookConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state);
   void bookGround(int k, const Vec3d& force, const Vec3d& torque);
   void bookWork(double work);
+  void bookMixedSpins(const State& state);
   void bookSeveralPlaces(const State& state);
   void closeBooks(Ledger& ledger) const;
   void finishLinks(State& state, const Loads& loads, double dt);

@@ -47,7 +47,7 @@ Mechanism springPendulum(double damping = 0) {
 Mechanism heavyTop() {
   Mechanism m;
   const Quat lean = aboutY(0.4);
-  const Vec3d axis = lean.matrix() * Vec3d{0, 0, 1}, w = 20 * axis;
+  const Vec3d axis = lean.matrix() * Vec3d{0, 0, 1}, w = 20.0 * axis;
   m.model.addBody(makeBody("top", 1, Mat3d::diagonal({0.02, 0.02, 0.03}), {0.3 * axis, lean}, {}, w));
   m.model.addJointAt("tip", JointType::kSpherical, kWorld, 0, {});
   m.start();
