@@ -21,7 +21,7 @@ struct AxisLaw {
   double dampingPart = 0;       ///< dt c of all dampers: of the joint, of springs, of end stops
   double jointDamping = 0, springDamping = 0, stopDamping = 0; ///< and of each kind
   double springKnown = 0;                                      ///< `known`, and
-  double springInverseCompliance = 0; ///< `inverseCompliance` without the joint's own damping
+  double springInverseCompliance = 0;                          ///< `inverseCompliance` without the joint's own damping
   bool driven = false;
   double speed = 0; ///< imposed rate
 };

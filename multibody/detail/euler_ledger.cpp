@@ -114,8 +114,8 @@ void EulerStep::bookSeveralPlaces(const State& state) {
       const Vec3d impulse = body.mass * (v - v0);
       bookWork(0.5 * dot(impulse, v0 + v) + 0.5 * dot(I * (w - w0), w0 + w));
       books_.linear += impulse;
-      books_.angular += cross(laneOf(s.position, l), impulse) +
-                        (state.angularMomentum[b] - (laneOf(s.gyroBefore, l) + I * w0));
+      books_.angular +=
+          cross(laneOf(s.position, l), impulse) + (state.angularMomentum[b] - (laneOf(s.gyroBefore, l) + I * w0));
     }
   }
 }

@@ -348,9 +348,8 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
   const Vec3L& p = b.frames.p_B;
   const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
   const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
-  const Lanes done =
-      b.real * (b.side * dot(force, (s.v0 + s.v) - (s.parentV0 + parentV)) + dot(onChild, s.w0 + s.w) -
-                dot(onParent, s.parentW0 + parentW));
+  const Lanes done = b.real * (b.side * dot(force, (s.v0 + s.v) - (s.parentV0 + parentV)) + dot(onChild, s.w0 + s.w) -
+                               dot(onParent, s.parentW0 + parentW));
   work.joints += done;
   work.halfTurnover += base::absolute(done);
   for (int l = 0; l < b.count; ++l) {
@@ -360,8 +359,8 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
     else {
       const Vec3d onBodies = b.side[l] * Vec3d{force.x[l], force.y[l], force.z[l]};
       work.ground += onBodies;
-      work.groundMoment += cross(Vec3d{p.x[l], p.y[l], p.z[l]}, onBodies) +
-                           b.side[l] * Vec3d{torque.x[l], torque.y[l], torque.z[l]};
+      work.groundMoment +=
+          cross(Vec3d{p.x[l], p.y[l], p.z[l]}, onBodies) + b.side[l] * Vec3d{torque.x[l], torque.y[l], torque.z[l]};
     }
     const int k = b.constraint[at(l)];
     JointReading& reading = state.joint[at(system_.constraints()[at(k)].source)];

@@ -385,8 +385,8 @@ EulerStep::EulerStep(const Problem& problem)
       last_(problem.last), axisLaws_(model_), laws_(system_.axes().size()), x_(at(system_.nodes())),
       steps_(system_.links().size()), impulse_(system_.constraints().size()),
       couplingImpulse_(system_.couplings().size()), oldRate_(system_.axes().size(), 0.0),
-      newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()), oldCouplingRate_(2 * system_.couplings().size()),
-      mixing_(system_, model_), newTwist_(model_.bodies().size()) {
+      newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()),
+      oldCouplingRate_(2 * system_.couplings().size()), mixing_(system_, model_), newTwist_(model_.bodies().size()) {
   std::vector<Pose> poses;
   for (const Body& body : model_.bodies()) {
     poses.push_back(body.pose);

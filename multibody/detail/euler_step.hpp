@@ -133,9 +133,9 @@ private:
       impulse_;                            ///< Lambda, one a constraint; of joints that bodies hang by where asked for
   std::vector<double> couplingImpulse_;    ///< one a coupling
   std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
-  double mass_ = 0; ///< of all movable bodies
+  double mass_ = 0;                        ///< of all movable bodies
   StepBooks books_;
-  std::vector<Twist> oldMotion_;      ///< before the step, one a constraint; of those off the tree
+  std::vector<Twist> oldMotion_;        ///< before the step, one a constraint; of those off the tree
   std::vector<double> oldCouplingRate_; ///< before the step, two a coupling
   Mixing mixing_;
   bool relinearised_ = false;         ///< the position solve had to leave J(q)

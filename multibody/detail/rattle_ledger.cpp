@@ -22,8 +22,8 @@
 ///
 /// Momentum. p changes x_0 x m v + S by x_0 x p + T, its moment about the origin; the drift adds h v x m v = 0 and
 /// leaves S as it is; so does the second kick at x_1. Row impulses are opposite forces at one point, with opposite
-/// torques: between bodies that can move they cancel, and what is left are gravity, loads, and rows to immovable bodies,
-/// with (F, p_B x F + M) for the force F at p_B and the torque M.
+/// torques: between bodies that can move they cancel, and what is left are gravity, loads, and rows to immovable
+/// bodies, with (F, p_B x F + M) for the force F at p_B and the torque M.
 ///
 /// Where the position solve took rows at several places (relinearised), impulses have no one place: the change of
 /// momentum itself is booked then, what is not gravity or load as the ground's.
@@ -44,7 +44,7 @@ void RattleStep::bookFirstKick(const Part& part, const State& state, const Loads
     const int b = system_.bodyOf(node);
     const Body& body = model_.bodies()[at(b)];
     const Wrench& wrench = loads.external[at(b)];
-    Kick kick{state.twist[at(b)], mean_[at(b)], state.angularMomentum[at(b)], spin_[at(node)], {}, {},
+    Kick kick{state.twist[at(b)],        mean_[at(b)], state.angularMomentum[at(b)], spin_[at(node)], {}, {},
               state.pose[at(b)].position};
     const Vec3d known = 0.5 * h * (wrench.force + body.mass * loads.gravity), torque = 0.5 * h * wrench.torque;
     if (severalPlaces) {

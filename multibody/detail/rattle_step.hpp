@@ -141,12 +141,12 @@ private:
     Vec3d linear, angular;
   };
   StageBooks books_;
-  std::vector<char> toGround_;    ///< of each constraint: one of its sides cannot move
-  std::vector<Vector6> kick_;     ///< known impulses of the second half kick, one a movable body
-  std::vector<Vec3d> meanSpin_;   ///< between the two half kicks, one a movable body
-  std::vector<Vec3d> spin_;           ///< angular momentum after the first half kick, one a movable body
-  std::vector<Twist> mean_;           ///< twist over the stage, one a body
-  std::vector<Twist> twist_;          ///< at the end of the stage, one a body
+  std::vector<char> toGround_;  ///< of each constraint: one of its sides cannot move
+  std::vector<Vector6> kick_;   ///< known impulses of the second half kick, one a movable body
+  std::vector<Vec3d> meanSpin_; ///< between the two half kicks, one a movable body
+  std::vector<Vec3d> spin_;     ///< angular momentum after the first half kick, one a movable body
+  std::vector<Twist> mean_;     ///< twist over the stage, one a body
+  std::vector<Twist> twist_;    ///< at the end of the stage, one a body
   std::vector<Pose> trialPose_;
   std::vector<Frame> frames_, trial_;
   std::vector<JointFrames> startFrames_, trialFrames_; ///< one a constraint

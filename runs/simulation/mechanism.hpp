@@ -40,13 +40,13 @@ public:
   ///   kinetic + potential + elastic + dissipated + integrationError = driveWork + leftOver.
   struct Ledger {
     double driveWork{}, kinetic{}, potential{}, elastic{};
-    double dissipated{};                                ///< sum of the three causes
+    double dissipated{};                                   ///< sum of the three causes
     double jointDamping{}, springDamping{}, stopDamping{}; ///< what dampers of joints, of springs, of end stops took
-    double integrationError{};                          ///< of the step: falls with it
-    double leftOver{};                                  ///< what is not booked: rounding
-    double turnover{};                                  ///< sum of absolute works, kinetic energy of the start included
-    base::Vec3d linearMomentum, angularMomentum;        ///< about the world's origin
-    base::Vec3d linearLeftOver, angularLeftOver;        ///< what no impulse from outside explains: rounding
+    double integrationError{};                             ///< of the step: falls with it
+    double leftOver{};                                     ///< what is not booked: rounding
+    double turnover{};                           ///< sum of absolute works, kinetic energy of the start included
+    base::Vec3d linearMomentum, angularMomentum; ///< about the world's origin
+    base::Vec3d linearLeftOver, angularLeftOver; ///< what no impulse from outside explains: rounding
   };
   Ledger ledger() const;
 

@@ -65,7 +65,7 @@ public:
     double leftOver{};         ///< of its kinetic energy: rounding
     double turnover{};         ///< sum of the absolute works in it
     base::Vec3d linearLeftOver, angularLeftOver; ///< of its momenta: rounding [N s, N m s]
-    double dissipated{};       ///< bodiesDissipated() and in contacts of parts
+    double dissipated{};                         ///< bodiesDissipated() and in contacts of parts
     VehicleContacts::Ledger contacts;
   };
   Ledger ledger() const;

@@ -95,9 +95,9 @@ TEST(MultibodyState, EveryNumberOfTheBooksIsSavedAndRestored) {
   double next = 1;
   Ledger& l = m.state.ledger;
   const auto set = [&](CompensatedSum& s) { s = {next, next + 0.5}, ++next; };
-  for (CompensatedSum* s : {&l.gravityWork, &l.externalWork, &l.driveWork, &l.springWork, &l.dissipated, &l.kineticWork,
-                            &l.potentialGain, &l.elasticGain, &l.turnover, &l.jointDamping, &l.springDamping,
-                            &l.stopDamping})
+  for (CompensatedSum* s :
+       {&l.gravityWork, &l.externalWork, &l.driveWork, &l.springWork, &l.dissipated, &l.kineticWork, &l.potentialGain,
+        &l.elasticGain, &l.turnover, &l.jointDamping, &l.springDamping, &l.stopDamping})
     set(*s);
   for (CompensatedVector* v : {&l.linearImpulse, &l.angularImpulse}) set(v->x), set(v->y), set(v->z);
   l.begun = 1, l.startKinetic = 77, l.startLinear = {78, 79, 80}, l.startAngular = {81, 82, 83};
@@ -131,6 +131,9 @@ TEST(MultibodyState, LedgerOfAVehicleClosesWithTheStep) {
     const int steps = static_cast<int>(std::lround(0.5 / dt));
     for (int i = 0; i < steps; ++i) solver.step(m.state, m.loads, dt);
     const Ledger& l = m.state.ledger;
+    const Balance b = balance(m.model, m.state, m.loads);
+    EXPECT_LE(std::fabs(b.leftOver), 1e-9 * b.turnover) << "rounding";
+    EXPECT_NEAR(b.dissipated(), l.dissipated, 1e-12 * b.turnover);
     return std::fabs(totals(m.model, m.state, m.loads).kinetic - start - l.gravityWork - l.externalWork - l.driveWork -
                      l.springWork + l.dissipated);
   };
