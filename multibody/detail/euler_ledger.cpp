@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/euler_step.hpp"
 
+#include "multibody/detail/axis_springs.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 
@@ -27,6 +28,11 @@ namespace grouser::multibody::detail {
 
 namespace {
 Vec3d laneOf(const Vec3L& v, int l) { return {v.x[l], v.y[l], v.z[l]}; }
+
+/// Gain of a spring F = load - stiffness (x - rest) from x0 to x1, without the cancellation of two large energies.
+double gainOf(double load, double stiffness, double rest, double x0, double x1) {
+  return (x1 - x0) * (stiffness * (0.5 * (x0 + x1) - rest) - load);
+}
 } // namespace
 
 Twist EulerStep::relativeTwist(int k, const std::vector<Twist>& twist) const {
@@ -52,6 +58,42 @@ void EulerStep::noteOldMotion(const ConstraintSystem::Part& part, const State& s
     oldCouplingRate_[2 * at(c)] = system_.rateOfAxis(row.axis1, state.twist);
     oldCouplingRate_[2 * at(c) + 1] = system_.rateOfAxis(row.axis2, state.twist);
   }
+}
+
+void EulerStep::noteOldLengths(const State& state) {
+  oldLength_.clear();
+  for (const int a : springAxis_) oldLength_.push_back(axisPositionIn(state, system_, a));
+  for (const SpringReading& spring : state.spring) oldLength_.push_back(spring.length);
+  for (const BushingReading& b : state.bushing)
+    for (const double x : {b.translation.x, b.translation.y, b.translation.z, b.rotation.x, b.rotation.y, b.rotation.z})
+      oldLength_.push_back(x);
+}
+
+void EulerStep::bookElasticGain(State& state, const Loads& loads) const {
+  double gain = 0;
+  const double* x0 = oldLength_.data();
+  for (std::size_t s = 0; s < springAxis_.size(); ++s, ++x0) {
+    const AxisSpring& spring = model_.axisSprings()[s];
+    const LinearSpring linear = linearSpring(spring, loads.axisSprings[s]);
+    const double x1 = axisPositionIn(state, system_, springAxis_[s]);
+    gain += gainOf(linear.load, linear.stiffness, linear.rest, *x0, x1);
+    const double over0 = overLimit(spring, *x0), over1 = overLimit(spring, x1);
+    gain += 0.5 * spring.stopStiffness * (over1 - over0) * (over1 + over0);
+  }
+  for (std::size_t s = 0; s < state.spring.size(); ++s, ++x0) {
+    const PointSpring& spring = model_.pointSprings()[s];
+    const SpringControl& control = loads.pointSprings[s];
+    gain += gainOf(control.loadFactor * spring.preload, control.stiffnessFactor * spring.stiffness, spring.restLength,
+                   *x0, state.spring[s].length);
+  }
+  for (std::size_t b = 0; b < state.bushing.size(); ++b) {
+    const Bushing& bushing = model_.bushings()[b];
+    const double factor = loads.bushings[b].stiffnessFactor;
+    for (int i = 0; i < 6; ++i, ++x0)
+      gain += gainOf(0, factor * (i < 3 ? bushing.stiffness[i] : bushing.rotationStiffness[i - 3]), 0, *x0,
+                     i < 3 ? state.bushing[b].translation[i] : state.bushing[b].rotation[i - 3]);
+  }
+  state.ledger.elasticGain += gain;
 }
 
 void EulerStep::bookWork(double work) {

@@ -79,8 +79,12 @@ double largestLane(const Lanes& x) {
   return largest;
 }
 
-double sumOf(const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
-Vec3d sumOf(const Vec3L& v) { return {sumOf(v.x), sumOf(v.y), sumOf(v.z)}; }
+/// Sums over the lanes of four numbers.
+GROUSER_SIMD Lanes sumsOf(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  Lanes x[4] = {a, b, c, d};
+  base::transpose(x);
+  return (x[0] + x[1]) + (x[2] + x[3]);
+}
 
 /// Rate of an axis of B relative to A: of the child relative to its parent, times the side.
 GROUSER_SIMD Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
@@ -118,7 +122,7 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
     s.v0 = s.v, s.w0 = s.w, s.force = force, s.torque = torque;
     s.gyro = gyroscopicMomentum(I, s.w, dt);
     const Vec3L f = h * (force + b.mass * gravity);
-    s.gyroBefore = spin - timesInertia(I, s.w), s.gyroUsed = s.gyro;
+    s.gyroBefore = spin - timesInertia(I, s.w);
     const Vec3L m = s.gyroBefore - s.gyro + h * torque;
     scatterNode(x_, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
     for (Lanes& lambda : s.impulse) lambda = all(0);
@@ -279,21 +283,22 @@ GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads
   for (std::size_t i = 0; i < steps_.size(); ++i)
     if (system_.links()[i].joint) finishJoints(system_.links()[i], steps_[i], state, dt, work);
   Ledger& ledger = state.ledger;
-  const double gravity = sumOf(work.gravity), external = sumOf(work.external);
-  ledger.gravityWork += gravity;
-  ledger.externalWork += external;
-  ledger.driveWork += sumOf(work.drive);
-  ledger.springWork += sumOf(work.spring);
-  ledger.dissipated += sumOf(work.dissipated);
-  ledger.jointDamping += sumOf(work.jointDamping);
-  ledger.springDamping += sumOf(work.springDamping);
-  ledger.stopDamping += sumOf(work.stopDamping);
-  ledger.potentialGain += -dt * sumOf(work.fall);
-  const Vec3d force = sumOf(work.force) + mass_ * loads.gravity;
-  const Vec3d moment = sumOf(work.moment) + cross(sumOf(work.massMoment), loads.gravity);
-  books_ = {gravity + external + 0.5 * sumOf(work.joints) + sumOf(work.gyroscopic) / dt,
-            sumOf(work.turnover) + 0.5 * sumOf(work.halfTurnover) + sumOf(work.perStepTurnover) / dt,
-            dt * force + work.ground, dt * moment + work.groundMoment};
+  const Lanes works = sumsOf(work.gravity, work.external, work.drive, work.spring);
+  const Lanes losses = sumsOf(work.dissipated, work.jointDamping, work.springDamping, work.stopDamping);
+  const Lanes rest = sumsOf(work.kinetic, work.turnover, work.fall, work.fall);
+  const Lanes force = sumsOf(work.force.x, work.force.y, work.force.z, work.force.z);
+  const Lanes moment = sumsOf(work.moment.x, work.moment.y, work.moment.z, work.moment.z);
+  ledger.gravityWork += works[0];
+  ledger.externalWork += works[1];
+  ledger.driveWork += works[2];
+  ledger.springWork += works[3];
+  ledger.dissipated += losses[0];
+  ledger.jointDamping += losses[1];
+  ledger.springDamping += losses[2];
+  ledger.stopDamping += losses[3];
+  ledger.potentialGain += -dt * rest[2];
+  books_ = {rest[0], rest[1], Vec3d{dt * force[0], dt * force[1], dt * force[2]} + work.ground,
+            Vec3d{dt * moment[0], dt * moment[1], dt * moment[2]} + work.groundMoment};
 }
 
 /// What loads do on four bodies, and their new state.
@@ -301,19 +306,17 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
                                           double dt, LinkWork& work) const {
   const Lanes half = all(0.5 * dt);
   const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
-  const Vec3L g = all(loads.gravity);
+  const Vec3L g = all(loads.gravity), force = s.force + b.mass * g;
   const Lanes gravity = b.real * (b.mass * dot(g, path));
   const Lanes external = b.real * (dot(s.force, path) + dot(s.torque, turn));
-  const Lanes gyroscopic = b.real * dot(turn, s.gyroBefore - s.gyroUsed), mass = b.real * b.mass;
+  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyroUsed));
   work.gravity += gravity;
   work.external += external;
-  work.gyroscopic += gyroscopic;
-  work.fall += mass * dot(g, s.v);
-  work.turnover += base::absolute(gravity) + base::absolute(external);
-  work.perStepTurnover += base::absolute(gyroscopic);
-  work.massMoment += mass * s.position;
-  work.force += b.real * s.force;
-  work.moment += b.real * (cross(s.position, s.force) + s.torque);
+  work.kinetic += gravity + external + gyroscopic;
+  work.turnover += base::absolute(gravity) + base::absolute(external) + base::absolute(gyroscopic);
+  work.fall += b.real * (b.mass * dot(g, s.v));
+  work.force += b.real * force;
+  work.moment += b.real * (cross(s.position, force) + s.torque);
   const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
   const LaneMask sound = (v2 * 0.0 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
   for (int l = 0; l < b.count; ++l) {
@@ -348,10 +351,11 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
   const Vec3L& p = b.frames.p_B;
   const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
   const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
-  const Lanes done = b.real * (b.side * dot(force, (s.v0 + s.v) - (s.parentV0 + parentV)) + dot(onChild, s.w0 + s.w) -
-                               dot(onParent, s.parentW0 + parentW));
-  work.joints += done;
-  work.halfTurnover += base::absolute(done);
+  const Lanes done = 0.5 * b.real *
+                     (b.side * dot(force, (s.v0 + s.v) - (s.parentV0 + parentV)) + dot(onChild, s.w0 + s.w) -
+                      dot(onParent, s.parentW0 + parentW));
+  work.kinetic += done;
+  work.turnover += base::absolute(done);
   for (int l = 0; l < b.count; ++l) {
     state.angularMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
     if (b.parentNode[at(l)] >= 0)
@@ -396,8 +400,10 @@ GROUSER_SIMD void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int 
   work.dissipated += b.real * (damping[0] * perTime * newRate * path);
   const Lanes each = b.real * (perTime * newRate * path);
   work.jointDamping += damping[1] * each;
-  work.springDamping += damping[2] * each;
-  work.stopDamping += damping[3] * each;
+  if (base::any((damping[2] != 0.0) | (damping[3] != 0.0))) {
+    work.springDamping += damping[2] * each;
+    work.stopDamping += damping[3] * each;
+  }
 }
 
 /// Position, rate and forces of one axis of four joints.

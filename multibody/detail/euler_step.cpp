@@ -5,7 +5,6 @@
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/vector6.hpp"
-#include "multibody/readings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -388,12 +387,12 @@ EulerStep::EulerStep(const Problem& problem)
       newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()),
       oldCouplingRate_(2 * system_.couplings().size()), mixing_(system_, model_), newTwist_(model_.bodies().size()) {
   std::vector<Pose> poses;
-  for (const Body& body : model_.bodies()) {
-    poses.push_back(body.pose);
-    if (!body.fixed) mass_ += body.mass;
-  }
+  for (const Body& body : model_.bodies()) poses.push_back(body.pose);
   system_.place(poses, frames_);
   trial_ = frames_;
+  for (const AxisSpring& spring : model_.axisSprings())
+    springAxis_.push_back(system_.axisOf(spring.joint, spring.axis));
+  oldLength_.reserve(springAxis_.size() + model_.pointSprings().size() + 6 * model_.bushings().size());
   for (std::size_t i = 0; i < steps_.size(); ++i)
     for (std::size_t l = 0; l < kLanes; ++l)
       steps_[i].spread[l] = spreadOf(model_.bodies()[at(system_.links()[i].body[l])].inertia_B);
@@ -402,9 +401,9 @@ EulerStep::EulerStep(const Problem& problem)
 void EulerStep::step(State& state, const Loads& loads, double dt) {
   system_.place(state.pose, frames_);
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
-  const double elastic = elasticEnergy(model_, state, loads);
+  noteOldLengths(state);
   for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
-  state.ledger.elasticGain += elasticEnergy(model_, state, loads) - elastic;
+  bookElasticGain(state, loads);
   state.time += dt;
 }
 

@@ -87,11 +87,10 @@ private:
   /// Of four bodies and their joints in a step [J].
   struct LinkWork {
     Lanes gravity, external, drive, spring, dissipated;
-    // What ledger.hpp has. Gyroscopic work in units of the step, the joints' of half a unit, fall: sum of m g.v.
-    Lanes gyroscopic, joints, fall, turnover, halfTurnover, perStepTurnover;
-    Lanes jointDamping, springDamping, stopDamping;
-    Vec3L massMoment, force, moment; ///< sums of m x; of loads
-    Vec3d ground, groundMoment;      ///< impulse of what cannot move
+    // What ledger.hpp has. `fall`: sum of m g.v.
+    Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
+    Vec3L force, moment;        ///< of gravity and loads
+    Vec3d ground, groundMoment; ///< impulse of what cannot move
   };
   /// Of a step; what ledger.hpp has.
   struct StepBooks {
@@ -102,6 +101,8 @@ private:
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
   // euler_ledger.cpp
   void noteOldMotion(const ConstraintSystem::Part& part, const State& state);
+  void noteOldLengths(const State& state);
+  void bookElasticGain(State& state, const Loads& loads) const;
   void bookCoupling(int c, const State& state);
   void bookConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state);
   void bookGround(int k, const Vec3d& force, const Vec3d& torque);
@@ -135,6 +136,8 @@ private:
   std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
   double mass_ = 0;                        ///< of all movable bodies
   StepBooks books_;
+  std::vector<int> springAxis_;         ///< of each axis spring
+  std::vector<double> oldLength_;       ///< before the step: of axis springs, point springs, bushings' six each
   std::vector<Twist> oldMotion_;        ///< before the step, one a constraint; of those off the tree
   std::vector<double> oldCouplingRate_; ///< before the step, two a coupling
   Mixing mixing_;

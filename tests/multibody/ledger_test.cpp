@@ -132,6 +132,7 @@ void expectClosedBooks(const Case& c, const SolverOptions& options, double step)
   Mechanism m = c.make();
   Solver solver(m.model, accepting(options));
   const auto steps = std::lround(c.duration / step);
+  const Totals start = totals(m.model, m.state, m.loads);
   Scale scale;
   for (long i = 0; i < steps; ++i) {
     solver.step(m.state, m.loads, step);
@@ -142,6 +143,9 @@ void expectClosedBooks(const Case& c, const SolverOptions& options, double step)
   EXPECT_LE(std::fabs(b.leftOver), kRounding * b.turnover);
   EXPECT_NEAR(b.kineticGain + b.potentialGain + b.elasticGain + b.dissipated() + b.integrationError,
               b.driveWork + b.externalWork, kRounding * b.turnover);
+  const Totals end = totals(m.model, m.state, m.loads);
+  EXPECT_NEAR(b.potentialGain, end.gravity - start.gravity, kRounding * b.turnover);
+  EXPECT_NEAR(b.elasticGain, end.elastic - start.elastic, kRounding * b.turnover);
   EXPECT_LE(length(b.linearLeftOver), kRounding * scale.linear);
   EXPECT_LE(length(b.angularLeftOver), kRounding * scale.angular);
   if (c.name == "oddments") {
