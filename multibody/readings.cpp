@@ -38,19 +38,25 @@ Totals totals(const Model& model, const State& state, const Loads& loads) {
     t.linearMomentum += body.mass * V.v;
     t.angularMomentum += cross(p, body.mass * V.v) + state.angularMomentum[b];
   }
+  t.elastic = elasticEnergy(model, state, loads);
+  return t;
+}
+
+double elasticEnergy(const Model& model, const State& state, const Loads& loads) {
+  double energy = 0;
   for (std::size_t s = 0; s < model.axisSprings().size(); ++s) {
     const AxisSpring& spring = model.axisSprings()[s];
     const SpringControl& control = loads.axisSprings[s];
     const double q = axisReading(model, state, spring.joint, spring.axis).position, x = q - spring.freePosition;
-    t.elastic += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
+    energy += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
     const double over = detail::overLimit(spring, q);
-    t.elastic += 0.5 * spring.stopStiffness * over * over;
+    energy += 0.5 * spring.stopStiffness * over * over;
   }
   for (std::size_t s = 0; s < model.pointSprings().size(); ++s) {
     const PointSpring& spring = model.pointSprings()[s];
     const SpringControl& control = loads.pointSprings[s];
     const double x = state.spring[s].length - spring.restLength;
-    t.elastic += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
+    energy += 0.5 * control.stiffnessFactor * spring.stiffness * x * x - control.loadFactor * spring.preload * x;
   }
   for (std::size_t b = 0; b < model.bushings().size(); ++b) {
     const Bushing& bushing = model.bushings()[b];
@@ -59,9 +65,41 @@ Totals totals(const Model& model, const State& state, const Loads& loads) {
     for (int i = 0; i < 3; ++i)
       sum += bushing.stiffness[i] * r.translation[i] * r.translation[i] +
              bushing.rotationStiffness[i] * r.rotation[i] * r.rotation[i];
-    t.elastic += 0.5 * loads.bushings[b].stiffnessFactor * sum;
+    energy += 0.5 * loads.bushings[b].stiffnessFactor * sum;
   }
-  return t;
+  return energy;
+}
+
+double Ledger::integrationError() const {
+  // Large numbers whose difference is small: the lost parts apart.
+  const double burnt = (jointDamping.sum + springDamping.sum) + stopDamping.sum;
+  const double lost = driveWork.lost + externalWork.lost - jointDamping.lost - springDamping.lost - stopDamping.lost -
+                      potentialGain.lost - elasticGain.lost - kineticWork.lost;
+  return driveWork.sum + externalWork.sum - burnt - potentialGain.sum - elasticGain.sum - kineticWork.sum + lost;
+}
+
+void beginLedger(const Model& model, State& state, const Loads& loads) {
+  const Totals t = totals(model, state, loads);
+  state.ledger.begun = 1;
+  state.ledger.startKinetic = t.kinetic;
+  state.ledger.startLinear = t.linearMomentum, state.ledger.startAngular = t.angularMomentum;
+  state.ledger.turnover += t.kinetic;
+}
+
+Balance balance(const Model& model, const State& state, const Loads& loads) {
+  const Ledger& l = state.ledger;
+  Balance b;
+  if (l.begun == 0) return b;
+  const Totals t = totals(model, state, loads);
+  b.driveWork = l.driveWork, b.externalWork = l.externalWork;
+  b.kineticGain = t.kinetic - l.startKinetic, b.potentialGain = l.potentialGain, b.elasticGain = l.elasticGain;
+  b.jointDamping = l.jointDamping, b.springDamping = l.springDamping, b.stopDamping = l.stopDamping;
+  b.integrationError = l.integrationError();
+  b.leftOver = b.kineticGain - l.kineticWork;
+  b.turnover = l.turnover;
+  b.linearLeftOver = t.linearMomentum - l.startLinear - l.linearImpulse.value();
+  b.angularLeftOver = t.angularMomentum - l.startAngular - l.angularImpulse.value();
+  return b;
 }
 
 } // namespace grouser::multibody

@@ -22,5 +22,28 @@ struct Totals {
   Vec3d angularMomentum; ///< about the world's origin
 };
 Totals totals(const Model& model, const State& state, const Loads& loads);
+/// The elastic one alone [J].
+double elasticEnergy(const Model& model, const State& state, const Loads& loads);
+
+/// What the books of a state (ledger.hpp) say since its first step [J, N s, N m s]:
+///   kineticGain + potentialGain + elasticGain + dissipated() + integrationError = driveWork + externalWork + leftOver
+/// What loads that are scaled or turned put in (ramps of springs and of gravity) counts neither as stored nor as work:
+/// gains are summed at the loads of each step.
+struct Balance {
+  double driveWork = 0, externalWork = 0;
+  double kineticGain = 0, potentialGain = 0, elasticGain = 0;
+  double jointDamping = 0;  ///< lost by the dampers of joints
+  double springDamping = 0; ///< of axis springs, point springs and bushings
+  double stopDamping = 0;   ///< of end stops
+  double dissipated() const { return jointDamping + springDamping + stopDamping; }
+  double integrationError = 0; ///< falls with the step
+  double leftOver = 0;         ///< kinetic energy that no impulse explains: rounding
+  double turnover = 0;         ///< sum of absolute works and the kinetic energy of the start
+  Vec3d linearLeftOver;        ///< momentum that no impulse from outside explains: rounding
+  Vec3d angularLeftOver;       ///< of moments about the world's origin
+};
+Balance balance(const Model& model, const State& state, const Loads& loads);
+/// Begins the books of a state: what the solver does before its first step.
+void beginLedger(const Model& model, State& state, const Loads& loads);
 
 } // namespace grouser::multibody

@@ -233,6 +233,7 @@ void Solver::step(State& state, const Loads& loads, double dt) {
   s.checkDampers(dt);
   s.checkStable(state, loads, dt);
   s.last = {};
+  if (state.ledger.begun == 0) beginLedger(s.model, state, loads);
   s.stepper->step(state, loads, dt);
   ++s.steps;
 }

@@ -15,6 +15,17 @@ using namespace detail;
 
 namespace {
 
+/// What State::kBooks counts.
+template <class Ledger_, class F> void forEachBook(Ledger_& l, F f) {
+  f(l.gravityWork.lost), f(l.externalWork.lost), f(l.driveWork.lost), f(l.springWork.lost), f(l.dissipated.lost);
+  const auto sum = [&](auto& s) { f(s.sum), f(s.lost); };
+  sum(l.kineticWork), sum(l.potentialGain), sum(l.elasticGain), sum(l.turnover);
+  sum(l.jointDamping), sum(l.springDamping), sum(l.stopDamping);
+  for (auto* v : {&l.linearImpulse, &l.angularImpulse}) sum(v->x), sum(v->y), sum(v->z);
+  f(l.begun), f(l.startKinetic);
+  for (auto* v : {&l.startLinear, &l.startAngular}) f(v->x), f(v->y), f(v->z);
+}
+
 /// Hands every number of a state, in a fixed order, to `f`.
 template <class State_, class F> void forEachNumber(State_& s, F f) {
   const auto vec = [&](auto& v) { f(v.x), f(v.y), f(v.z); };
@@ -30,11 +41,12 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
     f(j.position), f(j.rate), f(j.axisForce), f(j.driveForce), f(j.springForce);
   }
   for (auto& p : s.spring) f(p.force), f(p.length);
-  f(s.ledger.gravityWork), f(s.ledger.externalWork), f(s.ledger.driveWork), f(s.ledger.springWork);
-  f(s.ledger.dissipated);
+  f(s.ledger.gravityWork.sum), f(s.ledger.externalWork.sum), f(s.ledger.driveWork.sum), f(s.ledger.springWork.sum);
+  f(s.ledger.dissipated.sum);
   for (auto& a : s.slide) f(a.position), f(a.rate), f(a.axisForce), f(a.driveForce), f(a.springForce);
   for (auto& b : s.bushing) vec(b.force), vec(b.torque), vec(b.translation), vec(b.rotation);
   for (auto& c : s.coupling) f(c.force);
+  forEachBook(s.ledger, f);
 }
 
 /// Fills axis positions and rates, lengths and bushings' readings from poses and twists; angles within half a turn.

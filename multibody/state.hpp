@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "multibody/ledger.hpp"
 #include "multibody/model.hpp"
 #include "multibody/spatial.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace grouser::multibody {
@@ -57,16 +59,6 @@ struct SpringReading {
   double length = 0; ///< [m]
 };
 
-/// Work since the start [J]. Each is impulse times the mean of the rates before and after the step, so that
-/// kinetic energy now = at the start + gravity + external + drives + springs - dissipated, up to the step's order.
-struct Ledger {
-  double gravityWork = 0;
-  double externalWork = 0; ///< of the wrenches in Loads
-  double driveWork = 0;
-  double springWork = 0; ///< of the elastic forces and preloads (loss of elastic energy and what ramps put in)
-  double dissipated = 0; ///< in dampers, joint damping and stops
-};
-
 /// Everything that changes. After a step of Integrator::kRattle `pose` and `twist` are both at `time`. After one of
 /// Integrator::kSymplecticEuler they are staggered, as in any kick-drift scheme: `pose` is at `time`, `twist` is the
 /// mean twist over the step that led there.
@@ -84,6 +76,8 @@ struct State {
 
   /// The complete dynamic state as a flat array: a run resumed from it gives the same bits as one straight through.
   std::vector<double> save() const;
+  /// So many of its last numbers are books that no step depends on: a hash of the state leaves them out.
+  static constexpr std::size_t kBooks = 39;
   /// Inverse of save(); throws base::InputError if the length does not fit this state's model.
   void restore(const std::vector<double>& flat);
 };

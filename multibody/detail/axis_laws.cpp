@@ -72,22 +72,28 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
   for (AxisLaw& law : laws) law = {};
   const std::size_t ofJoints = at(system.firstAxis(static_cast<int>(model_->joints().size())));
   for (std::size_t a = 0; a < ofJoints; ++a)
-    laws[a].inverseCompliance = laws[a].dampingPart = dt * ownDamping(system, *model_, system.axes()[a]);
+    laws[a].inverseCompliance = laws[a].dampingPart = laws[a].jointDamping =
+        dt * ownDamping(system, *model_, system.axes()[a]);
   for (std::size_t s = 0; s < model_->axisSprings().size(); ++s) {
     const AxisSpring& spring = model_->axisSprings()[s];
     const int axis = system.axisOf(spring.joint, spring.axis);
     const double position = axisPositionIn(state, system, axis), rate = axisRateIn(state, system, axis);
     AxisLaw& law = laws[at(axis)];
     add(law, linearSpring(spring, loads.axisSprings[s]), position, dt);
+    law.springDamping += dt * spring.damping;
 
     // End stops; their dampers act on the way in only, so that they do not hold back what leaves.
     const double over = overLimit(spring, position);
-    if (over != 0)
-      add(law, -spring.stopStiffness * over, spring.stopStiffness, rate * over >= 0 ? spring.stopDamping : 0, dt);
+    if (over == 0) continue;
+    const double damping = rate * over >= 0 ? spring.stopDamping : 0;
+    add(law, -spring.stopStiffness * over, spring.stopStiffness, damping, dt);
+    law.stopDamping += dt * damping;
   }
-  for (std::size_t a = ofJoints; a < laws.size(); ++a)
-    add(laws[a], ownSpring(system, *model_, loads, system.axes()[a]),
-        system.positionOfAxis(static_cast<int>(a), frames), dt);
+  for (std::size_t a = ofJoints; a < laws.size(); ++a) {
+    const LinearSpring own = ownSpring(system, *model_, loads, system.axes()[a]);
+    add(laws[a], own, system.positionOfAxis(static_cast<int>(a), frames), dt);
+    laws[a].springDamping += dt * own.damping;
+  }
   for (AxisLaw& law : laws) law.force = law.known;
   for (std::size_t d = 0; d < model_->drives().size(); ++d) {
     if (!loads.drives[d].on) continue;
@@ -113,6 +119,8 @@ AxisWork AxisLaws::work(const AxisLaw& law, double multiplier, double newRate, d
   AxisWork work;
   const double damper = law.dampingPart / dt * newRate;
   work.dissipated = damper * path;
+  const double each = newRate / dt * path;
+  work.joint = law.jointDamping * each, work.springs = law.springDamping * each, work.stops = law.stopDamping * each;
   work.spring = (law.known - (law.inverseCompliance - law.dampingPart) / dt * newRate) * path;
   work.drive = (law.driven ? multiplier * path : 0) + law.driveForce * path;
   return work;

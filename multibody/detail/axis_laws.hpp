@@ -11,6 +11,7 @@ namespace grouser::multibody::detail {
 /// Work done over one step through a soft or driven row [J].
 struct AxisWork {
   double drive = 0, spring = 0, dissipated = 0;
+  double joint = 0, springs = 0, stops = 0; ///< what of it dampers of joints, springs and stops dissipated
 };
 
 /// Puts together what acts along each axis row in one step of the symplectic Euler scheme: joint damping, springs, end

@@ -18,9 +18,10 @@ struct AxisLaw {
   double known = 0;             ///< springs' and stops' part of it that does not depend on the new rate
   double driveForce = 0;        ///< of force drives, included in `force`
   double inverseCompliance = 0; ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
-  double dampingPart = 0;       ///< dt c of all dampers
-  double springKnown = 0;       ///< `known`, and
-  double springInverseCompliance = 0; ///< `inverseCompliance` without the joint's own damping
+  double dampingPart = 0;       ///< dt c of all dampers: of the joint, of springs, of end stops
+  double jointDamping = 0, springDamping = 0, stopDamping = 0; ///< and of each kind
+  double springKnown = 0;                                      ///< `known`, and
+  double springInverseCompliance = 0;                          ///< `inverseCompliance` without the joint's own damping
   bool driven = false;
   double speed = 0; ///< imposed rate
 };

@@ -79,7 +79,12 @@ double largestLane(const Lanes& x) {
   return largest;
 }
 
-double sumOf(const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
+/// Sums over the lanes of four numbers.
+GROUSER_SIMD Lanes sumsOf(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  Lanes x[4] = {a, b, c, d};
+  base::transpose(x);
+  return (x[0] + x[1]) + (x[2] + x[3]);
+}
 
 /// Rate of an axis of B relative to A: of the child relative to its parent, times the side.
 GROUSER_SIMD Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
@@ -117,7 +122,8 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
     s.v0 = s.v, s.w0 = s.w, s.force = force, s.torque = torque;
     s.gyro = gyroscopicMomentum(I, s.w, dt);
     const Vec3L f = h * (force + b.mass * gravity);
-    const Vec3L m = (spin - timesInertia(I, s.w)) - s.gyro + h * torque;
+    s.gyroBefore = spin - timesInertia(I, s.w);
+    const Vec3L m = s.gyroBefore - s.gyro + h * torque;
     scatterNode(x_, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
     for (Lanes& lambda : s.impulse) lambda = all(0);
   }
@@ -128,12 +134,12 @@ GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt)
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& b = system_.links()[i];
     LinkStep& s = steps_[i];
+    if (!b.joint) continue;
+    gatherTwists(state, b.parent, s.parentV0, s.parentW0);
     if (b.axes == 0) continue;
     s.startCos = dot(b.frames.x_A, b.frames.x_B), s.startSin = dot(b.frames.y_A, b.frames.x_B);
-    Vec3L parentV, parentW;
-    gatherTwists(state, b.parent, parentV, parentW);
     for (int a = 0; a < b.axes; ++a) {
-      s.oldRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
+      s.oldRate[a] = axisRate(b, a, s.v, s.w, s.parentV0, s.parentW0);
       // The known force of a spring acts along its row.
       for (int l = 0; l < b.count; ++l) {
         const double known = laws_[at(b.axis[at(a)][at(l)])].force;
@@ -263,7 +269,7 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
     LinkStep& s = steps_[i];
     const Lanes(&I)[6] = system_.inertiaOf(i);
     const Vec3L g = gyroscopicMomentum(I, s.w, dt), residual = s.gyro - g;
-    s.gyro = g;
+    s.gyroUsed = s.gyro, s.gyro = g;
     scatterNode(x_, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
     largest = largestOf(largest, all(3 * dt) / (I[0] + I[3] + I[5]) * squareRoot(norm2(residual)));
   }
@@ -276,11 +282,23 @@ GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads
   for (std::size_t i = 0; i < steps_.size(); ++i) finishBodies(system_.links()[i], steps_[i], state, loads, dt, work);
   for (std::size_t i = 0; i < steps_.size(); ++i)
     if (system_.links()[i].joint) finishJoints(system_.links()[i], steps_[i], state, dt, work);
-  state.ledger.gravityWork += sumOf(work.gravity);
-  state.ledger.externalWork += sumOf(work.external);
-  state.ledger.driveWork += sumOf(work.drive);
-  state.ledger.springWork += sumOf(work.spring);
-  state.ledger.dissipated += sumOf(work.dissipated);
+  Ledger& ledger = state.ledger;
+  const Lanes works = sumsOf(work.gravity, work.external, work.drive, work.spring);
+  const Lanes losses = sumsOf(work.dissipated, work.jointDamping, work.springDamping, work.stopDamping);
+  const Lanes rest = sumsOf(work.kinetic, work.turnover, work.fall, work.fall);
+  const Lanes force = sumsOf(work.force.x, work.force.y, work.force.z, work.force.z);
+  const Lanes moment = sumsOf(work.moment.x, work.moment.y, work.moment.z, work.moment.z);
+  ledger.gravityWork += works[0];
+  ledger.externalWork += works[1];
+  ledger.driveWork += works[2];
+  ledger.springWork += works[3];
+  ledger.dissipated += losses[0];
+  ledger.jointDamping += losses[1];
+  ledger.springDamping += losses[2];
+  ledger.stopDamping += losses[3];
+  ledger.potentialGain += -dt * rest[2];
+  books_ = {rest[0], rest[1], Vec3d{dt * force[0], dt * force[1], dt * force[2]} + work.ground,
+            Vec3d{dt * moment[0], dt * moment[1], dt * moment[2]} + work.groundMoment};
 }
 
 /// What loads do on four bodies, and their new state.
@@ -288,8 +306,17 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
                                           double dt, LinkWork& work) const {
   const Lanes half = all(0.5 * dt);
   const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
-  work.gravity += b.real * (b.mass * dot(all(loads.gravity), path));
-  work.external += b.real * (dot(s.force, path) + dot(s.torque, turn));
+  const Vec3L g = all(loads.gravity), force = s.force + b.mass * g;
+  const Lanes gravity = b.real * (b.mass * dot(g, path));
+  const Lanes external = b.real * (dot(s.force, path) + dot(s.torque, turn));
+  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyroUsed));
+  work.gravity += gravity;
+  work.external += external;
+  work.kinetic += gravity + external + gyroscopic;
+  work.turnover += base::absolute(gravity) + base::absolute(external) + base::absolute(gyroscopic);
+  work.fall += b.real * (b.mass * dot(g, s.v));
+  work.force += b.real * force;
+  work.moment += b.real * (cross(s.position, force) + s.torque);
   const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
   const LaneMask sound = (v2 * 0.0 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
   for (int l = 0; l < b.count; ++l) {
@@ -309,13 +336,11 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
                                           LinkWork& work) const {
   Lanes total[6], newRate[2];
   for (int r = 0; r < 6; ++r) total[r] = s.impulse[r];
-  if (b.axes > 0) {
-    Vec3L parentV, parentW;
-    gatherTwists(state, b.parent, parentV, parentW);
-    for (int a = 0; a < b.axes; ++a) {
-      newRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
-      addAxis(b, s, a, newRate[a], dt, total[b.axisRow[at(a)]], work);
-    }
+  Vec3L parentV, parentW;
+  gatherTwists(state, b.parent, parentV, parentW);
+  for (int a = 0; a < b.axes; ++a) {
+    newRate[a] = axisRate(b, a, s.v, s.w, parentV, parentW);
+    addAxis(b, s, a, newRate[a], dt, total[b.axisRow[at(a)]], work);
   }
 
   Vec3L force{}, torque{};
@@ -326,10 +351,21 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
   const Vec3L& p = b.frames.p_B;
   const Vec3L onChild = b.side * (cross(p - b.com, force) + torque);
   const Vec3L onParent = b.side * (cross(p - b.parentCom, force) + torque);
+  const Lanes done = 0.5 * b.real *
+                     (b.side * dot(force, (s.v0 + s.v) - (s.parentV0 + parentV)) + dot(onChild, s.w0 + s.w) -
+                      dot(onParent, s.parentW0 + parentW));
+  work.kinetic += done;
+  work.turnover += base::absolute(done);
   for (int l = 0; l < b.count; ++l) {
     state.angularMomentum[at(b.body[at(l)])] += Vec3d{onChild.x[l], onChild.y[l], onChild.z[l]};
     if (b.parentNode[at(l)] >= 0)
       state.angularMomentum[at(b.parent[at(l)])] -= Vec3d{onParent.x[l], onParent.y[l], onParent.z[l]};
+    else {
+      const Vec3d onBodies = b.side[l] * Vec3d{force.x[l], force.y[l], force.z[l]};
+      work.ground += onBodies;
+      work.groundMoment +=
+          cross(Vec3d{p.x[l], p.y[l], p.z[l]}, onBodies) + b.side[l] * Vec3d{torque.x[l], torque.y[l], torque.z[l]};
+    }
     const int k = b.constraint[at(l)];
     JointReading& reading = state.joint[at(system_.constraints()[at(k)].source)];
     reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
@@ -349,18 +385,25 @@ GROUSER_SIMD void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int 
     row[l] = &law.force;
     driven[l] = law.driven ? 1 : 0;
   }
-  // Force, known, driveForce, inverseCompliance; dampingPart and what follows it.
+  // Force, known, driveForce, inverseCompliance; dampingPart, jointDamping, springDamping, stopDamping.
   constexpr std::size_t kDouble = sizeof(double);
   static_assert(offsetof(AxisLaw, force) == 0 && offsetof(AxisLaw, known) == kDouble &&
                 offsetof(AxisLaw, driveForce) == 2 * kDouble && offsetof(AxisLaw, inverseCompliance) == 3 * kDouble &&
-                offsetof(AxisLaw, dampingPart) == 4 * kDouble && sizeof(AxisLaw) >= 7 * kDouble);
+                offsetof(AxisLaw, dampingPart) == 4 * kDouble && offsetof(AxisLaw, jointDamping) == 5 * kDouble &&
+                offsetof(AxisLaw, springDamping) == 6 * kDouble && offsetof(AxisLaw, stopDamping) == 7 * kDouble);
   gatherRows(row, 0, known);
-  gatherRows(row, 3, damping);
+  gatherRows(row, 4, damping);
   total += all(dt) * known[0];
   const Lanes drive = driven > 0.0 ? s.impulse[b.axisRow[at(a)]] * perTime : all(0);
   work.drive += b.real * ((drive + known[2]) * path);
-  work.spring += b.real * ((known[1] - (known[3] - damping[1]) * perTime * newRate) * path);
-  work.dissipated += b.real * (damping[1] * perTime * newRate * path);
+  work.spring += b.real * ((known[1] - (known[3] - damping[0]) * perTime * newRate) * path);
+  work.dissipated += b.real * (damping[0] * perTime * newRate * path);
+  const Lanes each = b.real * (perTime * newRate * path);
+  work.jointDamping += damping[1] * each;
+  if (base::any((damping[2] != 0.0) | (damping[3] != 0.0))) {
+    work.springDamping += damping[2] * each;
+    work.stopDamping += damping[3] * each;
+  }
 }
 
 /// Position, rate and forces of one axis of four joints.

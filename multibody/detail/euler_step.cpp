@@ -52,6 +52,7 @@ void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State
     }
   }
   for (const int c : part.couplings) couplingImpulse_[at(c)] = 0;
+  noteOldMotion(part, state);
 }
 
 /// Gaps of all joints and couplings over -dt. `first`: also what soft and driven axes ask for.
@@ -284,15 +285,21 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
                          share * couplingImpulse_[at(c)] * system_.rows(a.constraint).torque[at(a.row)], state);
     }
     state.coupling[at(c)].force = couplingImpulse_[at(c)] / dt;
+    bookCoupling(c, state);
   }
   for (const int k : system_.offTree()) readConstraint(k, state, dt);
-  if (relinearised_)
+  if (relinearised_) {
     for (const int node : part.bodies) {
       // The impulses belong to rows of several positions: the momentum is what the twist says.
       const std::size_t b = at(system_.bodyOf(node));
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
       state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
+    bookSeveralPlaces(state);
+  } else if (mixing_.on()) {
+    bookMixedSpins(state);
+  }
+  closeBooks(state.ledger);
 }
 
 void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
@@ -314,6 +321,9 @@ void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, doubl
     state.ledger.driveWork += work.drive;
     state.ledger.springWork += work.spring;
     state.ledger.dissipated += work.dissipated;
+    state.ledger.jointDamping += work.joint;
+    state.ledger.springDamping += work.springs;
+    state.ledger.stopDamping += work.stops;
     newRates_[at(a)] = newRate;
   }
 }
@@ -331,6 +341,7 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
     torque += total[r] * rows.torque[r];
   }
   addAngularMomentum(k, force, torque, state);
+  bookConstraint(k, force, torque, state);
 
   if (c.kind == ConstraintKind::kPointSpring) {
     state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, after, 0)};
@@ -373,11 +384,15 @@ EulerStep::EulerStep(const Problem& problem)
       last_(problem.last), axisLaws_(model_), laws_(system_.axes().size()), x_(at(system_.nodes())),
       steps_(system_.links().size()), impulse_(system_.constraints().size()),
       couplingImpulse_(system_.couplings().size()), oldRate_(system_.axes().size(), 0.0),
-      newRates_(system_.axes().size(), 0.0), mixing_(system_, model_), newTwist_(model_.bodies().size()) {
+      newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()),
+      oldCouplingRate_(2 * system_.couplings().size()), mixing_(system_, model_), newTwist_(model_.bodies().size()) {
   std::vector<Pose> poses;
   for (const Body& body : model_.bodies()) poses.push_back(body.pose);
   system_.place(poses, frames_);
   trial_ = frames_;
+  for (const AxisSpring& spring : model_.axisSprings())
+    springAxis_.push_back(system_.axisOf(spring.joint, spring.axis));
+  oldLength_.reserve(springAxis_.size() + model_.pointSprings().size() + 6 * model_.bushings().size());
   for (std::size_t i = 0; i < steps_.size(); ++i)
     for (std::size_t l = 0; l < kLanes; ++l)
       steps_[i].spread[l] = spreadOf(model_.bodies()[at(system_.links()[i].body[l])].inertia_B);
@@ -386,7 +401,9 @@ EulerStep::EulerStep(const Problem& problem)
 void EulerStep::step(State& state, const Loads& loads, double dt) {
   system_.place(state.pose, frames_);
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
+  noteOldLengths(state);
   for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
+  bookElasticGain(state, loads);
   state.time += dt;
 }
 

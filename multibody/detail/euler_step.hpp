@@ -71,6 +71,9 @@ private:
     Lanes oldRate[2];         ///< of the axes, before the step
     Lanes startCos, startSin; ///< of a joint's angle
     Lanes spread;             ///< of the inertias (spreadOf())
+    // For the books.
+    Vec3L gyroBefore, gyroUsed; ///< gyroscopic momentum of the old twist, and that with which the new one was found
+    Vec3L parentV0, parentW0;   ///< twist of the parent before the step
   };
   void startLinks(const State& state, const Loads& loads, double dt);
   void startLinkAxes(const State& state, double dt);
@@ -84,7 +87,29 @@ private:
   /// Of four bodies and their joints in a step [J].
   struct LinkWork {
     Lanes gravity, external, drive, spring, dissipated;
+    // What ledger.hpp has. `fall`: sum of m g.v.
+    Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
+    Vec3L force, moment;        ///< of gravity and loads
+    Vec3d ground, groundMoment; ///< impulse of what cannot move
   };
+  /// Of a step; what ledger.hpp has.
+  struct StepBooks {
+    double kinetic = 0, turnover = 0;
+    Vec3d linear, angular;
+  };
+  /// Motion of the point p_B in B relative to A, and of B relative to A.
+  Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
+  // euler_ledger.cpp
+  void noteOldMotion(const ConstraintSystem::Part& part, const State& state);
+  void noteOldLengths(const State& state);
+  void bookElasticGain(State& state, const Loads& loads) const;
+  void bookCoupling(int c, const State& state);
+  void bookConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state);
+  void bookGround(int k, const Vec3d& force, const Vec3d& torque);
+  void bookWork(double work);
+  void bookMixedSpins(const State& state);
+  void bookSeveralPlaces(const State& state);
+  void closeBooks(Ledger& ledger) const;
   void finishLinks(State& state, const Loads& loads, double dt);
   void finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads, double dt,
                     LinkWork& work) const;
@@ -109,6 +134,12 @@ private:
       impulse_;                            ///< Lambda, one a constraint; of joints that bodies hang by where asked for
   std::vector<double> couplingImpulse_;    ///< one a coupling
   std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
+  double mass_ = 0;                        ///< of all movable bodies
+  StepBooks books_;
+  std::vector<int> springAxis_;         ///< of each axis spring
+  std::vector<double> oldLength_;       ///< before the step: of axis springs, point springs, bushings' six each
+  std::vector<Twist> oldMotion_;        ///< before the step, one a constraint; of those off the tree
+  std::vector<double> oldCouplingRate_; ///< before the step, two a coupling
   Mixing mixing_;
   bool relinearised_ = false;         ///< the position solve had to leave J(q)
   std::vector<Twist> newTwist_;       ///< current iterate, one a body, where mixing asks for it

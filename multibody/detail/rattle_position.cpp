@@ -212,12 +212,14 @@ void RattleStep::applyCorrection(const Part& part, double h) {
 /// Spin after the first half kick: the sum of the impulses, so that it is conserved to the last digits; where the rows
 /// were taken anew, what the mean twist says.
 void RattleStep::collectMomentum(const Part& part, const State& state, const Loads& loads, double h) {
+  books_ = {};
   if (relinearised_[at(part.index)]) {
     for (const int node : part.bodies) {
       const int b = system_.bodyOf(node);
       const Mat3d I = rotatedInertia(frames_[at(b)].R, model_.bodies()[at(b)].inertia_B);
       spin_[at(node)] = I * mean_[at(b)].w + gyroscopicMomentum(I, mean_[at(b)].w, h);
     }
+    bookFirstKick(part, state, loads, h);
     return;
   }
   for (const int node : part.bodies) {
@@ -227,19 +229,20 @@ void RattleStep::collectMomentum(const Part& part, const State& state, const Loa
   }
   for (const int k : part.constraints) {
     for (int r = 0; r < 6; ++r)
-      if (const double total = impulse_[at(k)][at(r)]; total != 0) system_.addImpulse(k, r, total, x_);
+      if (const double total = impulse_[at(k)][at(r)]; total != 0) give(k, r, total);
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
       const double known = 0.5 * h * (nodeForce(soft_[at(a)], x0_[at(a)]) + soft_[at(a)].applied0);
-      if (known != 0) system_.addImpulse(k, system_.axes()[at(a)].row, known, x_);
+      if (known != 0) give(k, system_.axes()[at(a)].row, known);
     }
   }
   for (const int c : part.couplings) {
     const CouplingRow& row = system_.couplings()[at(c)];
     const Axis &one = system_.axes()[at(row.axis1)], &two = system_.axes()[at(row.axis2)];
-    system_.addImpulse(two.constraint, two.row, couplingImpulse_[at(c)], x_);
-    system_.addImpulse(one.constraint, one.row, -row.ratio * couplingImpulse_[at(c)], x_);
+    give(two.constraint, two.row, couplingImpulse_[at(c)]);
+    give(one.constraint, one.row, -row.ratio * couplingImpulse_[at(c)]);
   }
   for (const int node : part.bodies) spin_[at(node)] += angular(x_[at(node)]);
+  bookFirstKick(part, state, loads, h);
 }
 
 } // namespace grouser::multibody::detail

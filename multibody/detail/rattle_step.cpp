@@ -81,6 +81,9 @@ RattleStep::RattleStep(const Problem& problem)
   for (std::size_t b = 0; b < model_.bodies().size(); ++b) trialPose_[b] = model_.bodies()[b].pose;
   system_.place(trialPose_, frames_);
   trial_ = frames_;
+  kick_.resize(at(system_.movableBodies()));
+  meanSpin_.resize(kick_.size());
+  for (const Constraint& c : system_.constraints()) toGround_.push_back(c.nodeA < 0 || c.nodeB < 0 ? 1 : 0);
   for (int node = 0; node < system_.movableBodies(); ++node)
     inertiaSpread_.push_back(spreadOf(model_.bodies()[at(system_.bodyOf(node))].inertia_B));
 }

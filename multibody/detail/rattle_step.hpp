@@ -87,6 +87,21 @@ private:
   void addEndImpulses(const Part& part);
   double setRateResiduals(const Part& part);
   void finish(const Part& part, State& state, const Loads& loads, double h);
+  void finishAxis(int a, State& state, double h);
+
+  // Books of the kicks (rattle_ledger.cpp).
+  /// Adds an impulse along a row to the bodies' vectors, and what it takes from bodies that cannot move to the books.
+  void give(int k, int row, double impulse);
+  void bookFirstKick(const Part& part, const State& state, const Loads& loads, double h);
+  void bookSecondKick(const Part& part, const Loads& loads, double h);
+  struct Kick {
+    Twist before, after;
+    Vec3d spinBefore, spinAfter;
+    Vec3d impulse, moment; ///< in all [N s], [N m s]
+    Vec3d place;           ///< of the centre of mass
+  };
+  void book(int b, const Mat3d& inertia, const Kick& kick, const Loads& loads, double h);
+  void closeBooks(Ledger& ledger) const;
 
   // Readings (rattle_velocity.cpp).
   void readReactions(const Part& part, State& state, const Loads& loads);
@@ -119,9 +134,19 @@ private:
   std::vector<double> couplingImpulse_, couplingEndImpulse_;
   std::vector<Vec3d> gyro_;           ///< gyroscopic momentum at the current iterate, one a movable body
   std::vector<double> inertiaSpread_; ///< one a movable body
-  std::vector<Vec3d> spin_;           ///< angular momentum after the first half kick, one a movable body
-  std::vector<Twist> mean_;           ///< twist over the stage, one a body
-  std::vector<Twist> twist_;          ///< at the end of the stage, one a body
+  /// Of one stage; what ledger.hpp has.
+  struct StageBooks {
+    double kinetic = 0, external = 0, potential = 0, elastic = 0, turnover = 0;
+    double jointDamping = 0, springDamping = 0, stopDamping = 0;
+    Vec3d linear, angular;
+  };
+  StageBooks books_;
+  std::vector<char> toGround_;  ///< of each constraint: one of its sides cannot move
+  std::vector<Vector6> kick_;   ///< known impulses of the second half kick, one a movable body
+  std::vector<Vec3d> meanSpin_; ///< between the two half kicks, one a movable body
+  std::vector<Vec3d> spin_;     ///< angular momentum after the first half kick, one a movable body
+  std::vector<Twist> mean_;     ///< twist over the stage, one a body
+  std::vector<Twist> twist_;    ///< at the end of the stage, one a body
   std::vector<Pose> trialPose_;
   std::vector<Frame> frames_, trial_;
   std::vector<JointFrames> startFrames_, trialFrames_; ///< one a constraint

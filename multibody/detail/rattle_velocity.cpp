@@ -47,6 +47,7 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
     if (setRateResiduals(part) <= kRateRoundOff * fastest) break;
   }
   addEndImpulses(part);
+  bookSecondKick(part, loads, h);
 }
 
 /// The matrix at the end of the stage.
@@ -81,11 +82,12 @@ void RattleStep::setSecondKick(const Part& part, const Loads& loads, double h) {
       // impulse is not among them.
       const double meanImpulse = soft_[at(a)].driven ? 0.5 * h * meanForce(a, h).force : impulse_[at(k)][at(row)];
       const double known = meanImpulse + 0.5 * h * (nodeForce(soft_[at(a)], x1_[at(a)]) + soft_[at(a)].applied1);
-      if (known != 0) system_.addImpulse(k, row, known, x_);
+      if (known != 0) give(k, row, known);
     }
   }
   for (const int c : part.couplings) couplingEndImpulse_[at(c)] = 0;
   for (const int node : part.bodies) {
+    kick_[at(node)] = x_[at(node)], meanSpin_[at(node)] = spin_[at(node)];
     spin_[at(node)] += angular(x_[at(node)]);
     add(x_[at(node)], {},
         -(angular(x_[at(node)])) + (spin_[at(node)] - system_.inertia(node) * mean_[at(system_.bodyOf(node))].w));
@@ -97,12 +99,12 @@ void RattleStep::addEndImpulses(const Part& part) {
   for (const int node : part.bodies) x_[at(node)] = {};
   for (const int k : part.constraints)
     for (int r = 0; r < 6; ++r)
-      if (const double total = endImpulse_[at(k)][at(r)]; total != 0) system_.addImpulse(k, r, total, x_);
+      if (const double total = endImpulse_[at(k)][at(r)]; total != 0) give(k, r, total);
   for (const int c : part.couplings) {
     const CouplingRow& row = system_.couplings()[at(c)];
     const Axis &one = system_.axes()[at(row.axis1)], &two = system_.axes()[at(row.axis2)];
-    system_.addImpulse(two.constraint, two.row, couplingEndImpulse_[at(c)], x_);
-    system_.addImpulse(one.constraint, one.row, -row.ratio * couplingEndImpulse_[at(c)], x_);
+    give(two.constraint, two.row, couplingEndImpulse_[at(c)]);
+    give(one.constraint, one.row, -row.ratio * couplingEndImpulse_[at(c)]);
   }
   for (const int node : part.bodies) spin_[at(node)] += angular(x_[at(node)]);
 }
@@ -136,37 +138,22 @@ double RattleStep::setRateResiduals(const Part& part) {
   return largest;
 }
 
-/// Work over the stage, and the new state. Gravity, springs and stops: the loss of their energies; loads and drives:
-/// mean force times path; dampers: their mean force times path.
+/// Work over the stage, and the new state. Gravity, springs and stops: the loss of their energies; drives: mean force
+/// times path; dampers: their mean force times path. Loads: in the kicks (rattle_ledger.cpp).
 void RattleStep::finish(const Part& part, State& state, const Loads& loads, double h) {
+  Ledger& ledger = state.ledger;
   for (const int node : part.bodies) {
     const int b = system_.bodyOf(node);
-    const Wrench& wrench = loads.external[at(b)];
     const Vec3d path = trialPose_[at(b)].position - state.pose[at(b)].position;
-    state.ledger.gravityWork += model_.bodies()[at(b)].mass * dot(loads.gravity, path);
-    state.ledger.externalWork += dot(wrench.force, path) + dot(wrench.torque, h * mean_[at(b)].w);
+    const double fall = model_.bodies()[at(b)].mass * dot(loads.gravity, path);
+    ledger.gravityWork += fall;
+    books_.potential -= fall;
     checkTwist(model_.bodies()[at(b)], {twist_[at(b)].v, mean_[at(b)].w}, state.time, h);
     checkTwist(model_.bodies()[at(b)], {twist_[at(b)].v, twist_[at(b)].w}, state.time, 0);
   }
-  for (const int k : part.constraints) {
-    const Constraint& c = system_.constraints()[at(k)];
-    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
-      const SoftRow& s = soft_[at(a)];
-      const std::size_t row = at(system_.axes()[at(a)].row);
-      const double path = x1_[at(a)] - x0_[at(a)];
-      state.ledger.springWork += softRows_.energy(s, a, x0_[at(a)]) - softRows_.energy(s, a, x1_[at(a)]);
-      state.ledger.dissipated += s.damping * path * path / h;
-      if (s.stops) state.ledger.dissipated += softRows_.stopLoss(a, x0_[at(a)], x1_[at(a)], h);
-      state.ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
-      if (s.driven) {
-        // Impulse times mean rate in either half: right also when a law starts with an impact.
-        const double meanRate = path / h, first = impulse_[at(k)][row] - 0.5 * h * meanForce(a, h).force;
-        state.ledger.driveWork += 0.5 * (first * (startRate_[at(a)] + meanRate) +
-                                         endImpulse_[at(k)][row] * (meanRate + system_.rateOfAxis(a, twist_)));
-      }
-      if (isJoint(c.kind)) axisPositionIn(state, system_, a) = x1_[at(a)];
-    }
-  }
+  for (const int k : part.constraints)
+    for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) finishAxis(a, state, h);
+  closeBooks(ledger);
   for (const int node : part.bodies) {
     const int b = system_.bodyOf(node);
     state.twist[at(b)] = twist_[at(b)];
@@ -174,6 +161,34 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
     state.angularMomentum[at(b)] = spin_[at(node)];
     frames_[at(b)] = trial_[at(b)];
   }
+}
+
+/// Work along an axis, and where it is now.
+void RattleStep::finishAxis(int a, State& state, double h) {
+  const int k = system_.axes()[at(a)].constraint;
+  const std::size_t row = at(system_.axes()[at(a)].row);
+  const SoftRow& s = soft_[at(a)];
+  Ledger& ledger = state.ledger;
+  const double path = x1_[at(a)] - x0_[at(a)];
+  const double loosened = softRows_.energy(s, a, x0_[at(a)]) - softRows_.energy(s, a, x1_[at(a)]);
+  ledger.springWork += loosened;
+  books_.elastic -= loosened;
+  ledger.dissipated += s.damping * path * path / h;
+  books_.jointDamping += s.jointDamping * path * path / h;
+  books_.springDamping += s.springDamping * path * path / h;
+  if (s.stops) {
+    const double loss = softRows_.stopLoss(a, x0_[at(a)], x1_[at(a)], h);
+    ledger.dissipated += loss;
+    books_.stopDamping += loss;
+  }
+  ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
+  if (s.driven) {
+    // Impulse times mean rate in either half: right also when a law starts with an impact.
+    const double meanRate = path / h, first = impulse_[at(k)][row] - 0.5 * h * meanForce(a, h).force;
+    ledger.driveWork += 0.5 * (first * (startRate_[at(a)] + meanRate) +
+                               endImpulse_[at(k)][row] * (meanRate + system_.rateOfAxis(a, twist_)));
+  }
+  if (isJoint(system_.constraints()[at(k)].kind)) axisPositionIn(state, system_, a) = x1_[at(a)];
 }
 
 /// Reactions at the end of the step, and what springs and dampers do there.

@@ -34,10 +34,14 @@ void SoftRows::evaluate(const Loads& loads, double t, double h, std::vector<Soft
   for (std::size_t a = 0; a < rows.size(); ++a) {
     rows[a].stops = !stopsOf_[a].empty();
     add(rows[a], ownSpring(system_, model_, loads, system_.axes()[a]));
+    const bool ofJoint = isJoint(system_.constraints()[at(system_.axes()[a].constraint)].kind);
+    (ofJoint ? rows[a].jointDamping : rows[a].springDamping) = rows[a].damping;
   }
   for (std::size_t s = 0; s < model_.axisSprings().size(); ++s) {
     const AxisSpring& spring = model_.axisSprings()[s];
-    add(rows[at(system_.axisOf(spring.joint, spring.axis))], linearSpring(spring, loads.axisSprings[s]));
+    SoftRow& row = rows[at(system_.axisOf(spring.joint, spring.axis))];
+    add(row, linearSpring(spring, loads.axisSprings[s]));
+    row.springDamping += spring.damping;
   }
   for (std::size_t d = 0; d < model_.drives().size(); ++d) {
     if (!loads.drives[d].on) continue;

@@ -10,10 +10,11 @@ namespace grouser::multibody::detail {
 
 /// What acts along one axis row over one stage of RATTLE, from position x0 to x1 in the time h.
 struct SoftRow {
-  double constant = 0;  ///< springs: F = constant - stiffness x
-  double stiffness = 0; ///< [N/m] or [N m/rad]
-  double damping = 0;   ///< joint's and springs' dampers
-  double applied0 = 0;  ///< force drives at the beginning and at the end of the stage
+  double constant = 0;                        ///< springs: F = constant - stiffness x
+  double stiffness = 0;                       ///< [N/m] or [N m/rad]
+  double damping = 0;                         ///< joint's and springs' dampers
+  double jointDamping = 0, springDamping = 0; ///< and either alone
+  double applied0 = 0;                        ///< force drives at the beginning and at the end of the stage
   double applied1 = 0;
   bool stops = false;  ///< has end stops
   bool driven = false; ///< position and rate are imposed

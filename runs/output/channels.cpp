@@ -49,7 +49,7 @@ std::vector<Channel> ledgerChannels() {
        "dissipated",
        1,
        {}},
-      {"ledger/residual", "J", "work of all forces on the bodies less their kinetic energy: rounding", 1, {}},
+      {"ledger/residual", "J", "kinetic energy less the work of all forces on the bodies: rounding", 1, {}},
       {"ledger/turnover", "J", "sum of the absolute work on each body in each step", 1, {}},
       {"ledger/momentum", "N s", "of grains, vehicle and bodies", 3, kAxes},
       {"ledger/angular_momentum", "N m s", "the same about the world's origin", 3, kAxes},

@@ -36,7 +36,7 @@ void Ledger::countFrom(const Ledger& start) {
   std::size_t k = 0;
   forCounted(*this, [&](double& x) { x -= from[k++]; });
   integrationError = driveWork - dissipated.total() - work - potential - elastic;
-  residual = work - kinetic;
+  residual = kinetic - work;
 }
 
 void Ledger::move(const Ledger& before, const Ledger& after) {

@@ -21,12 +21,12 @@ struct Dissipated {
 
 /// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length
 ///
-///   kinetic + potential + elastic + dissipated + integrationError + residual = driveWork
+///   kinetic + potential + elastic + dissipated + integrationError = driveWork + residual
 ///
 /// Work is booked by the identity that symplectic Euler and RATTLE obey exactly: a step changes the kinetic energy by
 /// F . (v_old + v_new) / 2 dt, whatever the force. Elastic and potential energy are functions of the state. What the
 /// forces' work on the bodies and what these functions have lost differ by the integration error: it falls with the
-/// step. The residual is what the state's kinetic energy differs from the work booked: rounding, or else a mistake.
+/// step. The residual is what the state's kinetic energy has more than the work booked: rounding, or else a mistake.
 struct Ledger {
   double driveWork{}, kinetic{}, potential{}, elastic{};
   Dissipated dissipated;

@@ -83,15 +83,24 @@ double Mechanism::axisSpringForce(int index) const {
 
 Mechanism::Ledger Mechanism::ledger() const {
   const multibody::Totals t = multibody::totals(model_, state_, loads_);
-  return {state_.ledger.driveWork,  t.kinetic,        t.gravity,        t.elastic,
-          state_.ledger.dissipated, t.linearMomentum, t.angularMomentum};
+  const multibody::Balance b = multibody::balance(model_, state_, loads_);
+  Ledger ledger;
+  ledger.driveWork = b.driveWork;
+  ledger.kinetic = t.kinetic, ledger.potential = t.gravity, ledger.elastic = t.elastic;
+  ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
+  ledger.dissipated = b.dissipated();
+  ledger.integrationError = b.integrationError, ledger.leftOver = b.leftOver, ledger.turnover = b.turnover;
+  ledger.linearMomentum = t.linearMomentum, ledger.angularMomentum = t.angularMomentum;
+  ledger.linearLeftOver = b.linearLeftOver, ledger.angularLeftOver = b.angularLeftOver;
+  return ledger;
 }
 
 void Mechanism::addTo(simulation::Ledger& l) const {
   const Ledger m = ledger();
-  l.driveWork += m.driveWork, l.kinetic += m.kinetic, l.work += m.kinetic, l.potential += m.potential;
-  l.elastic += m.elastic, l.dissipated.joints += m.dissipated;
+  l.driveWork += m.driveWork, l.kinetic += m.kinetic, l.work += m.kinetic - m.leftOver, l.turnover += m.turnover;
+  l.potential += m.potential, l.elastic += m.elastic, l.dissipated.joints += m.dissipated;
   l.momentum += m.linearMomentum, l.angularMomentum += m.angularMomentum;
+  l.momentumResidual += m.linearLeftOver, l.angularResidual += m.angularLeftOver;
 }
 
 Mechanism::Drift Mechanism::drift() const {
@@ -101,8 +110,10 @@ Mechanism::Drift Mechanism::drift() const {
 }
 
 std::vector<std::uint32_t> MechanismState::words() const {
-  std::vector<std::uint32_t> words(2 * bodies.size());
-  if (!bodies.empty()) std::memcpy(words.data(), bodies.data(), bodies.size() * sizeof(double));
+  if (bodies.empty()) return {};
+  const std::size_t count = bodies.size() - multibody::State::kBooks;
+  std::vector<std::uint32_t> words(2 * count);
+  std::memcpy(words.data(), bodies.data(), count * sizeof(double));
   return words;
 }
 

@@ -98,18 +98,33 @@ std::string VehicleRig::alarm() {
   return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
 }
 
+VehicleRig::BodiesLedger VehicleRig::bodiesLedger() const {
+  BodiesLedger ledger;
+  ledger.contacts = contacts_->ledger();
+  ledger.kinetic = multibody::totals(assembly_.model, state_, loads_).kinetic;
+  const multibody::Balance b = multibody::balance(assembly_.model, state_, loads_);
+  ledger.driveWork = b.driveWork, ledger.externalWork = b.externalWork;
+  ledger.potentialGain = b.potentialGain, ledger.elastic = b.elasticGain;
+  ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
+  ledger.integrationError = b.integrationError, ledger.leftOver = b.leftOver, ledger.turnover = b.turnover;
+  ledger.linearLeftOver = b.linearLeftOver, ledger.angularLeftOver = b.angularLeftOver;
+  ledger.dissipated = ledger.bodiesDissipated() + ledger.contacts.dissipated;
+  return ledger;
+}
+
 void VehicleRig::addTo(Ledger& ledger) const {
-  const VehicleContacts::Ledger c = contacts_->ledger();
+  const BodiesLedger b = bodiesLedger();
+  const VehicleContacts::Ledger& c = b.contacts;
   const multibody::Totals bodies = multibody::totals(assembly_.model, state_, loads_);
-  ledger.kinetic += bodies.kinetic, ledger.work += bodies.kinetic;
-  ledger.driveWork += state_.ledger.driveWork;
-  ledger.potential -= state_.ledger.gravityWork + state_.ledger.springWork; // with their ramps
-  ledger.elastic += c.elastic;
+  ledger.kinetic += b.kinetic, ledger.work += b.kinetic - b.leftOver, ledger.turnover += b.turnover;
+  ledger.driveWork += b.driveWork;
+  ledger.potential += b.potentialGain, ledger.elastic += b.elastic + c.elastic;
   ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
-  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += state_.ledger.dissipated;
+  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.bodiesDissipated();
   ledger.momentum += bodies.linearMomentum, ledger.angularMomentum += bodies.angularMomentum;
-  // Of the bodies themselves nothing is booked yet; the grains have what the parts gave them.
-  ledger.momentumResidual -= c.impulseOnGrains, ledger.angularResidual += c.angularOnParts;
+  // The grains' own residual still lacks what the parts gave them.
+  ledger.momentumResidual += b.linearLeftOver - c.impulseOnGrains;
+  ledger.angularResidual += b.angularLeftOver + c.angularOnParts;
   ledger.partContacts += c.grainContacts, ledger.patches += c.patches;
   ledger.impulseResidual += c.impulseOnParts + c.impulseOnGrains;
 }

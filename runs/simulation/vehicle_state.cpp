@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/vehicle_state.hpp"
 
+#include "multibody/state.hpp"
+
 #include <cstring>
 
 namespace grouser::simulation {
 
 std::vector<std::uint32_t> VehicleState::words() const {
   std::vector<std::uint32_t> words;
-  for (const double v : bodies) {
+  const std::size_t count = bodies.empty() ? 0 : bodies.size() - multibody::State::kBooks;
+  for (std::size_t i = 0; i < count; ++i) {
     std::uint32_t raw[2];
-    std::memcpy(raw, &v, sizeof raw);
+    std::memcpy(raw, &bodies[i], sizeof raw);
     words.insert(words.end(), raw, raw + 2);
   }
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.memories})

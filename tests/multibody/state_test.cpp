@@ -74,17 +74,46 @@ TEST(MultibodyState, ResumedRunEqualsTheStraightRunToTheLastBit) {
 }
 
 TEST(MultibodyState, HashOfARunIsTheSameOnEveryMachineAndBuild) {
-  // FNV-1a over the state's bytes. A change needs a reason in the commit that changes it.
+  // FNV-1a over the state's bytes, but for books. A change needs a reason in the commit that changes it.
   Mechanism m = vehicleLike();
   Solver solver(m.model);
   runSteps(m, solver, 0, 300);
   std::uint64_t hash = 14695981039346656037ull;
-  for (const double x : m.state.save()) {
+  std::vector<double> saved = m.state.save();
+  saved.resize(saved.size() - State::kBooks);
+  for (const double x : saved) {
     unsigned char bytes[sizeof x];
     std::memcpy(bytes, &x, sizeof x);
     for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
   }
   EXPECT_EQ(hash, 0x22a8b4b384c6136cull) << std::hex << hash;
+}
+
+TEST(MultibodyState, EveryNumberOfTheBooksIsSavedAndRestored) {
+  // Numbers that differ from each other and from the defaults.
+  Mechanism m = vehicleLike();
+  double next = 1;
+  Ledger& l = m.state.ledger;
+  const auto set = [&](CompensatedSum& s) { s = {next, next + 0.5}, ++next; };
+  for (CompensatedSum* s :
+       {&l.gravityWork, &l.externalWork, &l.driveWork, &l.springWork, &l.dissipated, &l.kineticWork, &l.potentialGain,
+        &l.elasticGain, &l.turnover, &l.jointDamping, &l.springDamping, &l.stopDamping})
+    set(*s);
+  for (CompensatedVector* v : {&l.linearImpulse, &l.angularImpulse}) set(v->x), set(v->y), set(v->z);
+  l.begun = 1, l.startKinetic = 77, l.startLinear = {78, 79, 80}, l.startAngular = {81, 82, 83};
+  const std::vector<double> saved = m.state.save();
+
+  Mechanism other = vehicleLike();
+  other.state.restore(saved);
+  EXPECT_EQ(std::memcmp(&other.state.ledger, &l, sizeof l), 0);
+  // The trailing State::kBooks numbers are the books but for the five plain sums.
+  const std::vector<double> fresh = vehicleLike().state.save();
+  std::size_t changed = 0;
+  for (std::size_t i = saved.size() - State::kBooks; i < saved.size(); ++i) changed += saved[i] != fresh[i];
+  EXPECT_EQ(changed, State::kBooks);
+  for (std::size_t i = 0; i < saved.size() - State::kBooks; ++i) changed += saved[i] != fresh[i];
+  EXPECT_EQ(changed, State::kBooks + 5);
+  EXPECT_EQ(sizeof(Ledger), (State::kBooks + 5) * sizeof(double));
 }
 
 TEST(MultibodyState, RestoreRefusesAnotherModelsState) {
@@ -102,6 +131,9 @@ TEST(MultibodyState, LedgerOfAVehicleClosesWithTheStep) {
     const int steps = static_cast<int>(std::lround(0.5 / dt));
     for (int i = 0; i < steps; ++i) solver.step(m.state, m.loads, dt);
     const Ledger& l = m.state.ledger;
+    const Balance b = balance(m.model, m.state, m.loads);
+    EXPECT_LE(std::fabs(b.leftOver), 1e-9 * b.turnover) << "rounding";
+    EXPECT_NEAR(b.dissipated(), l.dissipated, 1e-12 * b.turnover);
     return std::fabs(totals(m.model, m.state, m.loads).kinetic - start - l.gravityWork - l.externalWork - l.driveWork -
                      l.springWork + l.dissipated);
   };

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+namespace grouser::multibody {
+
+/// A sum that keeps what rounding cuts off: the error of a million small works is that of one. Each addition's own
+/// error is exact (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and is summed beside it (Neumaier
+/// 1974, ZAMM 54:39). `sum` alone has the bits of the plain sum.
+struct CompensatedSum {
+  double sum = 0, lost = 0;
+
+  CompensatedSum& operator+=(double x) {
+    const double next = sum + x, added = next - sum;
+    lost += (sum - (next - added)) + (x - added);
+    sum = next;
+    return *this;
+  }
+  double value() const { return sum + lost; }
+  operator double() const { return value(); } // NOLINT(google-explicit-constructor): it is a number
+};
+
+struct CompensatedVector {
+  CompensatedSum x, y, z;
+
+  CompensatedVector& operator+=(const base::Vec3d& v) {
+    x += v.x, y += v.y, z += v.z;
+    return *this;
+  }
+  base::Vec3d value() const { return {x, y, z}; }
+};
+
+/// The books of a mechanism since its first step [J, N s, N m s].
+///
+/// An impulse p changes the kinetic energy of a body by exactly p . (v_before + v_after) / 2, and so does one of
+/// torque with the angular velocities: kineticWork is the sum of that over all impulses of all steps, those of
+/// constraints and the gyroscopic ones among them. It must be what the bodies have gained; what differs is rounding, or
+/// a change of the state that nobody booked. Potential and elastic energy are functions of positions. So
+///   integration error = drives + external loads - dissipated - potential - elastic - kineticWork
+/// is what forces that should conserve energy, constraints that should not work and the gyroscopic terms leave.
+/// balance() in readings.hpp puts it together.
+struct Ledger {
+  /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: gravity and springs the
+  /// loss of their energies, drives and dampers force times path over each stage, external loads as kSymplecticEuler.
+  CompensatedSum gravityWork, externalWork, driveWork;
+  CompensatedSum springWork; ///< of elastic forces and preloads
+  CompensatedSum dissipated; ///< the sum of the three below, each rounded otherwise
+
+  CompensatedSum kineticWork;
+  CompensatedSum potentialGain, elasticGain; ///< between the ends of each step, at the loads of that step
+  CompensatedSum jointDamping, springDamping, stopDamping;
+  /// Sum of the absolute values of all works, the kinetic energy of the start among them: what errors are a part of. Of
+  /// a constraint counts what it gives to its two bodies together (kSymplecticEuler), or what all of them give to a
+  /// body (kRattle).
+  CompensatedSum turnover;
+  /// Impulses of gravity, external loads and whatever cannot move, and their moments about the world's origin.
+  CompensatedVector linearImpulse, angularImpulse;
+
+  /// Before the first step.
+  double begun = 0; ///< 1 from then on
+  double startKinetic = 0;
+  base::Vec3d startLinear, startAngular;
+
+  double integrationError() const;
+};
+
+} // namespace grouser::multibody
