@@ -199,7 +199,6 @@ void Recorder::row() {
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
     row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(rig->observe()));
   const simulation::Simulation::Ledger l = simulation_.ledger();
-  simulation_.checkEnergy(l);
   if (const auto& grains = simulation_.ground().grains) {
     row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
     row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);

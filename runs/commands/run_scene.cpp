@@ -190,6 +190,7 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
       progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
                       fmt::format("t {:.3f} of {:g} s", simulation.time(), static_cast<double>(total) * dt));
   }
+  simulation.checkEnergy(); // the end may fall between two looks
   // Before the last row: a run that goes on from here does not have it.
   checkpoints.write(simulation, recorder.writer());
   // The end is always written, whether or not the intervals meet it.

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "runs/simulation/checkpoint.hpp"
+#include "runs/simulation/energy_guard.hpp"
 #include "runs/simulation/ledger.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/shared_folder.hpp"
@@ -153,6 +154,7 @@ bool BedCache::keep(const fs::path& file, const std::string& origin, const terra
   Checkpoint bed;
   bed.scene = origin, bed.timeStep = grains.model().timeStep;
   bed.state.settled = report, bed.state.ledgerAtStart = Ledger{}.counted();
+  bed.state.guard = EnergyGuard{}.save();
   bed.state.grains = grains.state();
   // Written under a name of its own and renamed: another machine that shares the folder may write the same bed.
   std::array<char, 256> host{};

@@ -40,7 +40,7 @@ template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/ledger_at_start", s.ledgerAtStart);
-  archive("/most_put_in", s.mostPutIn);
+  archive("/energy_guard", s.guard);
   archive("/settled/time", s.settled.time);
   archive("/settled/agitation", s.settled.agitation);
   archive("/settled/steps", s.settled.steps);

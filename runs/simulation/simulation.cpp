@@ -4,16 +4,11 @@
 #include "base/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
 namespace grouser::simulation {
-
-namespace {
-constexpr double kMostCreated = 2;     // largest energy residual, as a share of the energy available [-]
-constexpr double kEnergyFloor = 1e-6;  // [J] residuals below this are never an error
-constexpr double kVehicleFloor = 1e-3; // [J/kg] the same, of a vehicle's mass
-} // namespace
 
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds)
@@ -63,6 +58,7 @@ void Simulation::step(StepObserver* observer) {
   ++steps_;
   addGrains();
   if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+  afterStep();
   done(Stage::checks);
 }
 
@@ -73,8 +69,10 @@ std::int64_t Simulation::advance(std::int64_t most) {
     step();
     return 1;
   }
-  const std::int64_t taken = ground_.grains->advance(most);
+  const std::int64_t toLook = EnergyGuard::kInterval - steps_ % EnergyGuard::kInterval;
+  const std::int64_t taken = ground_.grains->advance(std::min(most, toLook));
   steps_ += taken;
+  afterStep();
   return taken;
 }
 
@@ -133,18 +131,30 @@ Ledger Simulation::ledger() {
   return l;
 }
 
+/// Ledger and guard, after each step.
+void Simulation::afterStep() {
+  // What contacts of parts hold is known of the beginning of the last step: after the first one, of the start.
+  if (steps_ == 1) start_.elastic += partsElastic();
+  if (steps_ % EnergyGuard::kInterval != 0) return;
+  const Ledger now = ledger();
+  checkEnergy(now);
+  guard_.look(now);
+}
+
+double Simulation::partsElastic() const {
+  return (vehicle_ ? vehicle_->contacts().ledger().elastic : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
+}
+
+void Simulation::checkEnergy() { checkEnergy(ledger()); }
+
 void Simulation::checkEnergy(const Ledger& now) {
-  mostPutIn_ = std::max(mostPutIn_, std::max(0.0, now.driveWork) + std::max(0.0, -now.potential));
-  const double available = start_.kinetic + std::max(start_.elastic, -now.elastic) + mostPutIn_;
-  // A vehicle starts with small overlaps between its parts, whose elastic energy is in no other term.
-  const double floor = kEnergyFloor + (vehicle_ ? kVehicleFloor * vehicle_->assembly().mass : 0.0);
-  if (now.residual <= kMostCreated * available + floor) return;
+  const double held = std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
+  const std::string verdict = guard_.judge(now, held);
+  if (verdict.empty()) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
-  throw base::SimulationError(
-      fmt::format("step {}, time {:.4g} s: {:.3g} J have come from nowhere, {:.3g} J were put in; {}", steps_, time(),
-                  now.residual, available, remedy));
+  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 
 } // namespace grouser::simulation

@@ -3,6 +3,7 @@
 
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/bed_cache.hpp"
+#include "runs/simulation/energy_guard.hpp"
 #include "runs/simulation/ground.hpp"
 #include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mechanism.hpp"
@@ -58,8 +59,9 @@ public:
   /// Counted from the first step. All ranks call it.
   Ledger ledger();
 
-  /// Throws SimulationError when the contacts have given far more energy than ever was put in: an unstable step.
-  void checkEnergy(const Ledger& now);
+  /// Throws SimulationError where the steps make or lose far more energy than is credible, with the likely cause. Done
+  /// within the steps every EnergyGuard::kInterval; for the end of a run, which may fall in between.
+  void checkEnergy();
 
   /// Hash over the state sorted by id, as 16 hexadecimal digits: equal bits, equal hash.
   std::string stateHash() const;
@@ -68,8 +70,11 @@ private:
   static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();
+  void afterStep();
   /// Since the grains, bodies and surfaces were made.
   Ledger wholeLedger();
+  double partsElastic() const;
+  void checkEnergy(const Ledger& now);
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
   bool hasBed() const { return ground_.grains && setup_.ground.grains->bed; }
@@ -83,9 +88,9 @@ private:
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
+  EnergyGuard guard_;
   std::int64_t steps_{0};
-  double mostPutIn_{0}; ///< by drives and gravity, the most at any row so far [J]
-  Ledger start_;        ///< before the first step; the ledger counts from here
+  Ledger start_; ///< before the first step; the ledger counts from here
 };
 
 } // namespace grouser::simulation

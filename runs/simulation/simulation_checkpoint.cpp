@@ -22,7 +22,7 @@ SimulationState Simulation::save() const {
   state.steps = steps_;
   state.settled = settled_;
   state.ledgerAtStart = start_.counted();
-  state.mostPutIn = mostPutIn_;
+  state.guard = guard_.save();
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
   if (surfaces_) state.surfaces = surfaces_->save();
@@ -58,7 +58,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
     mechanism_->restore(*state.mechanism);
   }
   start_.setCounted(state.ledgerAtStart);
-  mostPutIn_ = state.mostPutIn;
+  guard_.restore(state.guard);
 }
 
 } // namespace grouser::simulation

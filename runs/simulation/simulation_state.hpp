@@ -19,7 +19,7 @@ struct SimulationState {
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
   SettleReport settled;
   std::vector<double> ledgerAtStart; ///< Ledger::counted(): the ledger counts from here
-  double mostPutIn{};                ///< by drives and gravity, the most at any row so far [J]
+  std::vector<double> guard;         ///< EnergyGuard::save()
   std::optional<terrain::GrainState> grains;
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;

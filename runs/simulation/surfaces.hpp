@@ -50,6 +50,7 @@ public:
 
   /// Adds the work of what moves them, energies of surfaces that forces move, and contacts with meshes.
   void addTo(Ledger& ledger) const;
+  double meshElastic() const { return meshes_ ? meshes_->ledger().elastic : 0.0; } ///< in contacts with meshes [J]
 
   SurfaceStates save() const;
   /// Throws InputError when they are of other surfaces.

@@ -93,7 +93,7 @@ std::vector<ShearRow> shearSample(const SampleGrains& material, const ShearBox& 
     simulation.step();
     if (step % every != 0) continue;
     stopStudyIfAsked();
-    simulation.checkEnergy(simulation.ledger());
+    simulation.checkEnergy();
     const simulation::Surfaces& surfaces = *simulation.surfaces();
     ShearRow row;
     row.displacement = std::max(0.0, simulation.time() - kRest) * box.speed;
