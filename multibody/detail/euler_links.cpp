@@ -269,7 +269,8 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
     LinkStep& s = steps_[i];
     const Lanes(&I)[6] = system_.inertiaOf(i);
     const Vec3L g = gyroscopicMomentum(I, s.w, dt), residual = s.gyro - g;
-    s.gyroUsed = s.gyro, s.gyro = g;
+    s.gyro = g;
+    s.unmet = dot(residual, s.w0 + s.w);
     scatterNode(x_, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
     largest = largestOf(largest, all(3 * dt) / (I[0] + I[3] + I[5]) * squareRoot(norm2(residual)));
   }
@@ -293,12 +294,14 @@ GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads
   ledger.driveWork += works[2];
   ledger.springWork += works[3];
   ledger.dissipated += losses[0];
-  ledger.jointDamping += losses[1];
-  ledger.springDamping += losses[2];
-  ledger.stopDamping += losses[3];
   ledger.potentialGain += -dt * rest[2];
-  books_ = {rest[0], rest[1], Vec3d{dt * force[0], dt * force[1], dt * force[2]} + work.ground,
-            Vec3d{dt * moment[0], dt * moment[1], dt * moment[2]} + work.groundMoment};
+  books_ = {rest[0],
+            rest[1],
+            Vec3d{dt * force[0], dt * force[1], dt * force[2]} + work.ground,
+            Vec3d{dt * moment[0], dt * moment[1], dt * moment[2]} + work.groundMoment,
+            losses[1],
+            losses[2],
+            losses[3]};
 }
 
 /// What loads do on four bodies, and their new state.
@@ -309,7 +312,7 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
   const Vec3L g = all(loads.gravity), force = s.force + b.mass * g;
   const Lanes gravity = b.real * (b.mass * dot(g, path));
   const Lanes external = b.real * (dot(s.force, path) + dot(s.torque, turn));
-  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyroUsed));
+  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyro) - 0.5 * s.unmet);
   work.gravity += gravity;
   work.external += external;
   work.kinetic += gravity + external + gyroscopic;
