@@ -379,7 +379,7 @@ void EulerStep::readAxes(int k, const std::array<double, 6>& total, State& state
 
 EulerStep::EulerStep(const Problem& problem)
     : model_(problem.model), options_(problem.options), system_(problem.system), driveStart_(problem.driveStart),
-      last_(problem.last), axisLaws_(model_), laws_(system_.axes().size()), x_(at(system_.nodes())),
+      last_(problem.last), axisLaws_(model_, system_), laws_(system_.axes().size()), x_(at(system_.nodes())),
       steps_(system_.links().size()), impulse_(system_.constraints().size()),
       couplingImpulse_(system_.couplings().size()), oldRate_(system_.axes().size(), 0.0),
       newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()),

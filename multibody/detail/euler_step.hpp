@@ -90,7 +90,6 @@ private:
     Lanes gravity, external, drive, spring, dissipated;
     // What ledger.hpp has. `fall`: sum of m g.v.
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
-    Vec3L force, moment;        ///< of gravity and loads
     Vec3d ground, groundMoment; ///< impulse of what cannot move
   };
   /// Of a step; what ledger.hpp has.
@@ -138,6 +137,7 @@ private:
   std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
   double mass_ = 0;                        ///< of all movable bodies
   StepBooks books_;
+  Twist fromOutside_; ///< impulse of gravity and loads, and its moment about the origin
   struct SpringPlace {
     std::size_t joint;
     bool slide;
