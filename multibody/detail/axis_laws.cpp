@@ -66,14 +66,18 @@ std::vector<double> driveStart(const ConstraintSystem& system, const Model& mode
   return start;
 }
 
+AxisLaws::AxisLaws(const Model& model, const ConstraintSystem& system) : model_(&model) {
+  const int ofJoints = system.firstAxis(static_cast<int>(model.joints().size()));
+  for (int a = 0; a < ofJoints; ++a) jointDamping_.push_back(ownDamping(system, model, system.axes()[at(a)]));
+}
+
 void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
                         const std::vector<Frame>& frames, const std::vector<double>& start,
                         std::vector<AxisLaw>& laws) const {
   for (AxisLaw& law : laws) law = {};
-  const std::size_t ofJoints = at(system.firstAxis(static_cast<int>(model_->joints().size())));
+  const std::size_t ofJoints = jointDamping_.size();
   for (std::size_t a = 0; a < ofJoints; ++a)
-    laws[a].inverseCompliance = laws[a].dampingPart = laws[a].jointDamping =
-        dt * ownDamping(system, *model_, system.axes()[a]);
+    laws[a].inverseCompliance = laws[a].dampingPart = laws[a].jointDamping = dt * jointDamping_[a];
   for (std::size_t s = 0; s < model_->axisSprings().size(); ++s) {
     const AxisSpring& spring = model_->axisSprings()[s];
     const int axis = system.axisOf(spring.joint, spring.axis);

@@ -20,7 +20,7 @@ struct AxisWork {
 /// the bracket being known at the start of the step, the rest a soft row with compliance 1 / (dt c + dt^2 k).
 class AxisLaws {
 public:
-  explicit AxisLaws(const Model& model) : model_(&model) {}
+  AxisLaws(const Model& model, const ConstraintSystem& system);
 
   /// `laws`: one an axis. `start`: positions of the driven axes when their laws began, one a drive.
   void evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
@@ -31,6 +31,7 @@ public:
 
 private:
   const Model* model_;
+  std::vector<double> jointDamping_; ///< of the joints' axes, the first ones
 };
 
 /// How far a position is beyond the limits of a spring's end stops, with sign; 0 between them.

@@ -62,7 +62,7 @@ void EulerStep::noteOldMotion(const ConstraintSystem::Part& part, const State& s
 
 void EulerStep::noteOldLengths(const State& state) {
   oldLength_.clear();
-  for (const int a : springAxis_) oldLength_.push_back(axisPositionIn(state, system_, a));
+  for (const SpringPlace& p : springPlace_) oldLength_.push_back(positionIn(state, p));
   for (const SpringReading& spring : state.spring) oldLength_.push_back(spring.length);
   for (const BushingReading& b : state.bushing)
     for (const double x : {b.translation.x, b.translation.y, b.translation.z, b.rotation.x, b.rotation.y, b.rotation.z})
@@ -72,11 +72,12 @@ void EulerStep::noteOldLengths(const State& state) {
 void EulerStep::bookElasticGain(State& state, const Loads& loads) const {
   double gain = 0;
   const double* x0 = oldLength_.data();
-  for (std::size_t s = 0; s < springAxis_.size(); ++s, ++x0) {
+  for (std::size_t s = 0; s < springPlace_.size(); ++s, ++x0) {
     const AxisSpring& spring = model_.axisSprings()[s];
     const LinearSpring linear = linearSpring(spring, loads.axisSprings[s]);
-    const double x1 = axisPositionIn(state, system_, springAxis_[s]);
+    const double x1 = positionIn(state, springPlace_[s]);
     gain += gainOf(linear.load, linear.stiffness, linear.rest, *x0, x1);
+    if (spring.stopStiffness == 0) continue;
     const double over0 = overLimit(spring, *x0), over1 = overLimit(spring, x1);
     gain += 0.5 * spring.stopStiffness * (over1 - over0) * (over1 + over0);
   }
@@ -137,14 +138,14 @@ void EulerStep::bookMixedSpins(const State& state) {
     for (int l = 0; l < links.count; ++l) {
       const std::size_t b = at(links.body[at(l)]);
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
-      const Vec3d used = laneOf(s.gyroUsed, l), left = state.angularMomentum[b] - I * state.twist[b].w;
-      bookWork(0.5 * dot(used - left, laneOf(s.w0, l) + state.twist[b].w));
+      const Vec3d left = state.angularMomentum[b] - I * state.twist[b].w;
+      bookWork(0.5 * (s.unmet[l] + dot(laneOf(s.gyro, l) - left, laneOf(s.w0, l) + state.twist[b].w)));
     }
   }
 }
 
 void EulerStep::bookSeveralPlaces(const State& state) {
-  books_ = {};
+  books_.kinetic = books_.turnover = 0, books_.linear = books_.angular = {};
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& links = system_.links()[i];
     const LinkStep& s = steps_[i];
@@ -165,6 +166,9 @@ void EulerStep::bookSeveralPlaces(const State& state) {
 void EulerStep::closeBooks(Ledger& ledger) const {
   ledger.kineticWork += books_.kinetic;
   ledger.turnover += books_.turnover;
+  ledger.jointDamping += books_.jointDamping;
+  ledger.springDamping += books_.springDamping;
+  ledger.stopDamping += books_.stopDamping;
   ledger.linearImpulse += books_.linear;
   ledger.angularImpulse += books_.angular;
 }

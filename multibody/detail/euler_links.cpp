@@ -101,6 +101,7 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
   static_assert(sizeof(Wrench) == 6 * sizeof(double) && sizeof(Pose) == 7 * sizeof(double));
   const Vec3L gravity = all(loads.gravity);
   const Lanes h = all(dt);
+  Vec3L impulse{}, moment{};
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& b = system_.links()[i];
     LinkStep& s = steps_[i];
@@ -125,8 +126,13 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
     s.gyroBefore = spin - timesInertia(I, s.w);
     const Vec3L m = s.gyroBefore - s.gyro + h * torque;
     scatterNode(x_, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
+    impulse += b.real * f;
+    moment += b.real * (cross(s.position, f) + h * torque);
     for (Lanes& lambda : s.impulse) lambda = all(0);
   }
+  const Lanes linear = sumsOf(impulse.x, impulse.y, impulse.z, impulse.z);
+  const Lanes angular = sumsOf(moment.x, moment.y, moment.z, moment.z);
+  fromOutside_ = {{linear[0], linear[1], linear[2]}, {angular[0], angular[1], angular[2]}};
 }
 
 /// Angles and rates of the axes before the step, and the known forces along them.
@@ -269,7 +275,8 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
     LinkStep& s = steps_[i];
     const Lanes(&I)[6] = system_.inertiaOf(i);
     const Vec3L g = gyroscopicMomentum(I, s.w, dt), residual = s.gyro - g;
-    s.gyroUsed = s.gyro, s.gyro = g;
+    s.gyro = g;
+    s.unmet = dot(residual, s.w0 + s.w);
     scatterNode(x_, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
     largest = largestOf(largest, all(3 * dt) / (I[0] + I[3] + I[5]) * squareRoot(norm2(residual)));
   }
@@ -286,19 +293,14 @@ GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads
   const Lanes works = sumsOf(work.gravity, work.external, work.drive, work.spring);
   const Lanes losses = sumsOf(work.dissipated, work.jointDamping, work.springDamping, work.stopDamping);
   const Lanes rest = sumsOf(work.kinetic, work.turnover, work.fall, work.fall);
-  const Lanes force = sumsOf(work.force.x, work.force.y, work.force.z, work.force.z);
-  const Lanes moment = sumsOf(work.moment.x, work.moment.y, work.moment.z, work.moment.z);
   ledger.gravityWork += works[0];
   ledger.externalWork += works[1];
   ledger.driveWork += works[2];
   ledger.springWork += works[3];
   ledger.dissipated += losses[0];
-  ledger.jointDamping += losses[1];
-  ledger.springDamping += losses[2];
-  ledger.stopDamping += losses[3];
   ledger.potentialGain += -dt * rest[2];
-  books_ = {rest[0], rest[1], Vec3d{dt * force[0], dt * force[1], dt * force[2]} + work.ground,
-            Vec3d{dt * moment[0], dt * moment[1], dt * moment[2]} + work.groundMoment};
+  books_ = {rest[0],   rest[1],  fromOutside_.v + work.ground, fromOutside_.w + work.groundMoment, losses[1],
+            losses[2], losses[3]};
 }
 
 /// What loads do on four bodies, and their new state.
@@ -306,17 +308,15 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
                                           double dt, LinkWork& work) const {
   const Lanes half = all(0.5 * dt);
   const Vec3L path = half * (s.v0 + s.v), turn = half * (s.w0 + s.w);
-  const Vec3L g = all(loads.gravity), force = s.force + b.mass * g;
+  const Vec3L g = all(loads.gravity);
   const Lanes gravity = b.real * (b.mass * dot(g, path));
   const Lanes external = b.real * (dot(s.force, path) + dot(s.torque, turn));
-  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyroUsed));
+  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyro) - 0.5 * s.unmet);
   work.gravity += gravity;
   work.external += external;
   work.kinetic += gravity + external + gyroscopic;
   work.turnover += base::absolute(gravity) + base::absolute(external) + base::absolute(gyroscopic);
   work.fall += b.real * (b.mass * dot(g, s.v));
-  work.force += b.real * force;
-  work.moment += b.real * (cross(s.position, force) + s.torque);
   const Lanes v2 = norm2(s.v), turn2 = all(dt * dt) * norm2(s.w);
   const LaneMask sound = (v2 * 0.0 == 0.0) & (turn2 <= kLargestTurn * kLargestTurn);
   for (int l = 0; l < b.count; ++l) {
@@ -366,8 +366,7 @@ GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s,
       work.groundMoment +=
           cross(Vec3d{p.x[l], p.y[l], p.z[l]}, onBodies) + b.side[l] * Vec3d{torque.x[l], torque.y[l], torque.z[l]};
     }
-    const int k = b.constraint[at(l)];
-    JointReading& reading = state.joint[at(system_.constraints()[at(k)].source)];
+    JointReading& reading = state.joint[at(b.constraint[at(l)])]; // joints are the first constraints
     reading.force = Vec3d{force.x[l], force.y[l], force.z[l]} * (1 / dt);
     reading.torque = Vec3d{torque.x[l], torque.y[l], torque.z[l]} * (1 / dt);
   }
@@ -420,19 +419,22 @@ GROUSER_SIMD void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int
     const Lanes c1 = dot(s.joint.x_A, s.joint.x_B), s1 = dot(s.joint.y_A, s.joint.x_B);
     const Lanes sine = s1 * c0 - c1 * s0, cosine = c1 * c0 + s1 * s0;
     position = angleIncrement(sine, cosine);
-    for (std::size_t l = 0; l < kWidth; ++l)
-      position[l] = state.joint[at(system_.constraints()[at(b.constraint[l])].source)].position + position[l];
+    for (std::size_t l = 0; l < kWidth; ++l) position[l] = state.joint[at(b.constraint[l])].position + position[l];
   }
+  const Lanes axisForce = total / all(dt);
   for (int l = 0; l < b.count; ++l) {
     const AxisLaw& law = laws_[at(b.axis[at(a)][at(l)])];
     const auto read = [&](auto& axis) {
       axis.position = position[l];
       axis.rate = newRate[l];
-      axis.axisForce = total[l] / dt;
+      axis.axisForce = axisForce[l];
       axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
-      axis.springForce = law.springKnown - law.springInverseCompliance / dt * newRate[l];
+      // Most axes have no spring: a division less.
+      axis.springForce = law.springInverseCompliance == 0
+                             ? law.springKnown
+                             : law.springKnown - law.springInverseCompliance / dt * newRate[l];
     };
-    const std::size_t source = at(system_.constraints()[at(b.constraint[at(l)])].source);
+    const std::size_t source = at(b.constraint[at(l)]);
     if (slide)
       read(state.slide[source]);
     else

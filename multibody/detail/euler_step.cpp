@@ -321,9 +321,7 @@ void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, doubl
     state.ledger.driveWork += work.drive;
     state.ledger.springWork += work.spring;
     state.ledger.dissipated += work.dissipated;
-    state.ledger.jointDamping += work.joint;
-    state.ledger.springDamping += work.springs;
-    state.ledger.stopDamping += work.stops;
+    books_.jointDamping += work.joint, books_.springDamping += work.springs, books_.stopDamping += work.stops;
     newRates_[at(a)] = newRate;
   }
 }
@@ -381,7 +379,7 @@ void EulerStep::readAxes(int k, const std::array<double, 6>& total, State& state
 
 EulerStep::EulerStep(const Problem& problem)
     : model_(problem.model), options_(problem.options), system_(problem.system), driveStart_(problem.driveStart),
-      last_(problem.last), axisLaws_(model_), laws_(system_.axes().size()), x_(at(system_.nodes())),
+      last_(problem.last), axisLaws_(model_, system_), laws_(system_.axes().size()), x_(at(system_.nodes())),
       steps_(system_.links().size()), impulse_(system_.constraints().size()),
       couplingImpulse_(system_.couplings().size()), oldRate_(system_.axes().size(), 0.0),
       newRates_(system_.axes().size(), 0.0), oldMotion_(system_.constraints().size()),
@@ -390,9 +388,12 @@ EulerStep::EulerStep(const Problem& problem)
   for (const Body& body : model_.bodies()) poses.push_back(body.pose);
   system_.place(poses, frames_);
   trial_ = frames_;
-  for (const AxisSpring& spring : model_.axisSprings())
-    springAxis_.push_back(system_.axisOf(spring.joint, spring.axis));
-  oldLength_.reserve(springAxis_.size() + model_.pointSprings().size() + 6 * model_.bushings().size());
+  for (const AxisSpring& spring : model_.axisSprings()) {
+    const auto joint = at(spring.joint);
+    springPlace_.push_back(
+        {joint, model_.joints()[joint].type == JointType::kCylindrical && spring.axis == JointAxis::kSlide});
+  }
+  oldLength_.reserve(springPlace_.size() + model_.pointSprings().size() + 6 * model_.bushings().size());
   for (std::size_t i = 0; i < steps_.size(); ++i)
     for (std::size_t l = 0; l < kLanes; ++l)
       steps_[i].spread[l] = spreadOf(model_.bodies()[at(system_.links()[i].body[l])].inertia_B);

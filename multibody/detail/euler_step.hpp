@@ -72,8 +72,9 @@ private:
     Lanes startCos, startSin; ///< of a joint's angle
     Lanes spread;             ///< of the inertias (spreadOf())
     // For the books.
-    Vec3L gyroBefore, gyroUsed; ///< gyroscopic momentum of the old twist, and that with which the new one was found
-    Vec3L parentV0, parentW0;   ///< twist of the parent before the step
+    Vec3L gyroBefore;         ///< gyroscopic momentum of the old twist
+    Lanes unmet;              ///< twice the work of what the last iterate leaves of its gyroscopic equation
+    Vec3L parentV0, parentW0; ///< twist of the parent before the step
   };
   void startLinks(const State& state, const Loads& loads, double dt);
   void startLinkAxes(const State& state, double dt);
@@ -89,13 +90,13 @@ private:
     Lanes gravity, external, drive, spring, dissipated;
     // What ledger.hpp has. `fall`: sum of m g.v.
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
-    Vec3L force, moment;        ///< of gravity and loads
     Vec3d ground, groundMoment; ///< impulse of what cannot move
   };
   /// Of a step; what ledger.hpp has.
   struct StepBooks {
     double kinetic = 0, turnover = 0;
     Vec3d linear, angular;
+    double jointDamping = 0, springDamping = 0, stopDamping = 0;
   };
   /// Motion of the point p_B in B relative to A, and of B relative to A.
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
@@ -136,10 +137,18 @@ private:
   std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
   double mass_ = 0;                        ///< of all movable bodies
   StepBooks books_;
-  std::vector<int> springAxis_;         ///< of each axis spring
-  std::vector<double> oldLength_;       ///< before the step: of axis springs, point springs, bushings' six each
-  std::vector<Twist> oldMotion_;        ///< before the step, one a constraint; of those off the tree
-  std::vector<double> oldCouplingRate_; ///< before the step, two a coupling
+  Twist fromOutside_; ///< impulse of gravity and loads, and its moment about the origin
+  struct SpringPlace {
+    std::size_t joint;
+    bool slide;
+  };
+  static double positionIn(const State& state, const SpringPlace& p) {
+    return p.slide ? state.slide[p.joint].position : state.joint[p.joint].position;
+  }
+  std::vector<SpringPlace> springPlace_; ///< of each axis spring
+  std::vector<double> oldLength_;        ///< before the step: of axis springs, point springs, bushings' six each
+  std::vector<Twist> oldMotion_;         ///< before the step, one a constraint; of those off the tree
+  std::vector<double> oldCouplingRate_;  ///< before the step, two a coupling
   Mixing mixing_;
   bool relinearised_ = false;         ///< the position solve had to leave J(q)
   std::vector<Twist> newTwist_;       ///< current iterate, one a body, where mixing asks for it
