@@ -2,6 +2,7 @@
 #include "runs/commands/recorder.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/frame_of.hpp"
 #include "runs/output/former_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/plane_mesh.hpp"
@@ -49,24 +50,6 @@ std::vector<output::FramePart> frameParts(const simulation::VehicleRig& rig) {
   return parts;
 }
 
-/// The rigid surface as triangles, for pictures.
-base::TriangleMesh groundMesh(const terrain::HeightField& field) {
-  constexpr int kNodes = 160;
-  base::TriangleMesh mesh;
-  const terrain::Rectangle& a = field.area();
-  for (int j = 0; j < kNodes; ++j)
-    for (int i = 0; i < kNodes; ++i) {
-      const double x = a.xMin + a.width() * i / (kNodes - 1), y = a.yMin + a.length() * j / (kNodes - 1);
-      mesh.vertices.push_back({x, y, field.height(x, y)});
-    }
-  for (std::uint32_t j = 0; j + 1 < kNodes; ++j)
-    for (std::uint32_t i = 0; i + 1 < kNodes; ++i) {
-      const std::uint32_t v = j * kNodes + i;
-      for (const std::uint32_t k : {v, v + 1, v + kNodes + 1, v, v + kNodes + 1, v + kNodes}) mesh.indices.push_back(k);
-    }
-  return mesh;
-}
-
 std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation) {
   std::vector<output::Channel> channels;
   if (simulation.mechanism())
@@ -111,16 +94,6 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   }
   w.former->frames = w.comm.gatherValue(w.former->frames).front();
   return w;
-}
-
-/// Where the cuts between subdomains cross the axes [m].
-std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
-  std::array<std::vector<double>, 3> borders;
-  if (const terrain::GrainDistribution* ranks = grains.system().distribution.get())
-    for (int axis = 0; axis < 3; ++axis)
-      for (const std::int64_t cut : ranks->subdomain().partition().cuts(axis))
-        borders[static_cast<std::size_t>(axis)].push_back(static_cast<double>(cut) * grains.scale().unit);
-  return borders;
 }
 
 /// All grains, on the first rank.
@@ -211,28 +184,24 @@ void Recorder::row() {
 
 void Recorder::frame() {
   if (endIsThere_ && simulation_.steps() == begunAt_) return;
+  framedAt_ = simulation_.steps();
   if (simulation_.setup().output.frames) writer_.frame(currentFrame());
+}
+
+void Recorder::lastFrame() {
+  if (!simulation_.setup().output.frames) return;
+  output::Frame frame = currentFrame();
+  if (const auto& grains = simulation_.ground().grains) frame.step = std::max(frame.step, grains->steps());
+  frame.time = static_cast<double>(frame.step) * simulation_.timeStep();
+  if (frame.step > framedAt_) writer_.frame(frame);
 }
 
 output::Frame Recorder::currentFrame() const {
   output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
-  if (const auto& grains = simulation_.ground().grains) {
-    // Forces are those of the last step: before the first there are none.
-    frame.withContactForces = simulation_.setup().output.contactForces;
-    const bool known = simulation_.steps() > begunAt_;
-    terrain::GrainSnapshot s = grains->snapshot({.contactForces = frame.withContactForces && known});
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-    if (frame.withContactForces && !known) s.contactForce.assign(s.position.size(), {kNone, kNone, kNone});
-    for (std::size_t i = 0; i < s.position.size(); ++i) {
-      frame.positions.push_back(s.position[i].as<float>());
-      frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
-    }
-    frame.velocities = std::move(s.velocity), frame.contactForces = std::move(s.contactForce);
-    frame.borders = bordersOf(*grains);
-    frame.radii = s.radius;
-    if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
-  }
+  // Forces are those of the last step: before the first there are none.
+  if (const auto& grains = simulation_.ground().grains)
+    addGrains(frame, *grains, simulation_.setup().output.contactForces, simulation_.steps() > begunAt_);
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
