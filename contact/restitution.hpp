@@ -8,8 +8,9 @@ namespace grouser::contact {
 /// e = exp(-eta t_c) with the shortened duration t_c (Schwager and Poeschel 2007, Granular Matter 9:465).
 double restitutionOf(double zeta, bool attraction);
 
-/// Damping ratio [-] that gives `restitution`, in (0, 1]. Inverse of `restitutionOf`. With attraction 0 is possible too:
-/// the least damping that gives it, the critical one. Without it no damping does: surfaces always part with some speed.
+/// Damping ratio [-] that gives `restitution`, in (0, 1]. Inverse of `restitutionOf`. With attraction 0 is possible
+/// too: the least damping that gives it, the critical one. Without it no damping does: surfaces always part with some
+/// speed.
 double dampingRatioFor(double restitution, bool attraction);
 
 /// Contact duration [s] for omega_0 = sqrt(k / m_eff) [1/s].

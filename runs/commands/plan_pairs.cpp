@@ -16,10 +16,11 @@ std::string pairsText(const scene::Scene& scene) {
   const auto nameOf = [](const setup::MeetingPair& p) { return fmt::format("{}: {}, {}", p.what, p.grain, p.partner); };
   for (const setup::MeetingPair& p : pairs) width = std::max(width, nameOf(p).size());
   if (!pairs.empty())
-    text += fmt::format("\nwhat acts where they meet\n  {:<{}}  {:<6} {:>11} {:>11} {:>8} {:>8} {:>8}\n  {:<{}}  {:<6} {:>11} "
-                        "{:>11} {:>8} {:>8} {:>8}\n",
-                        "materials", width, "law", "stiffness", "restitution", "friction", "rolling", "cohesion", "", width,
-                        "", "N/m or Pa", "-", "-", "-", "J/m2");
+    text += fmt::format(
+        "\nwhat acts where they meet\n  {:<{}}  {:<6} {:>11} {:>11} {:>8} {:>8} {:>8}\n  {:<{}}  {:<6} {:>11} "
+        "{:>11} {:>8} {:>8} {:>8}\n",
+        "materials", width, "law", "stiffness", "restitution", "friction", "rolling", "cohesion", "", width, "",
+        "N/m or Pa", "-", "-", "-", "J/m2");
   for (const setup::MeetingPair& p : pairs) {
     text += fmt::format("  {:<{}}  {:<6} {:>11.4g} {:>11.4g} {:>8.4g} {:>8.4g} {:>8.4g}\n", nameOf(p), width,
                         p.law.hertz ? "hertz" : "linear", p.stiffness, p.restitution, p.law.friction,

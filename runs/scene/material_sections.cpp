@@ -36,7 +36,8 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-",
-        fmt::format("rebound over impact speed; {} where damping is not given either; below 1e-6 with attraction alone", brief(S::kRestitution)))
+        fmt::format("rebound over impact speed; {} where damping is not given either; below 1e-6 with attraction alone",
+                    brief(S::kRestitution)))
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s",

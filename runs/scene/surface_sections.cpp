@@ -192,10 +192,9 @@ void loadMesh(const Section& section, MeshSection& mesh) {
                              longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
   if (!mesh.sphereRadius) mesh.sphereRadius = byDefault;
   if (*mesh.sphereRadius > 0.5 * longest)
-    section.fail(
-        "sphere_radius",
-        fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
-                    base::roundedDown(0.5 * longest, 4)));
+    section.fail("sphere_radius",
+                 fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
+                             base::roundedDown(0.5 * longest, 4)));
   if (const double points = spheredecomp::latticePoints(triangles, *mesh.sphereRadius);
       !(points <= spheredecomp::kMostLatticePoints))
     section.fail("sphere_radius",

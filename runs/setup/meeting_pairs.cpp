@@ -21,14 +21,16 @@ namespace {
 
 /// Rebound over impact speed that the law's dashpot gives.
 double restitutionOf(const contact::ContactLaw& law, double effectiveMass) {
-  if (law.hertz) return contact::hertzRestitutionOf(law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
+  if (law.hertz)
+    return contact::hertzRestitutionOf(law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
   const double zeta = law.rootDamping > 0 ? law.rootDamping / (2 * std::sqrt(law.stiffness))
                                           : law.damping / (2 * std::sqrt(law.stiffness / effectiveMass));
   return contact::restitutionOf(zeta, law.attraction);
 }
 
 /// Where only one of the two has something, the mixing rule makes nothing of it.
-std::vector<std::string> switchedOff(const scene::Material& a, const scene::Material& b, const contact::ContactLaw& law) {
+std::vector<std::string> switchedOff(const scene::Material& a, const scene::Material& b,
+                                     const contact::ContactLaw& law) {
   std::vector<std::string> sentences;
   const auto say = [&](const char* key, const char* rule, double ofA, double ofB, double acts) {
     if (acts > 0 || (ofA > 0) == (ofB > 0)) return;
@@ -84,7 +86,9 @@ private:
 std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
   Pairs pairs(scene);
   pairs.addGrains();
-  if (scene.terrain) pairs.add(scene.terrain->granular() ? "grain on the floor" : "grain on rigid ground", scene.terrain->groundMaterial);
+  if (scene.terrain)
+    pairs.add(scene.terrain->granular() ? "grain on the floor" : "grain on rigid ground",
+              scene.terrain->groundMaterial);
   std::set<std::size_t> named;
   for (const SceneSurface& s : surfacesOf(scene)) {
     if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh) named.insert(s.number);

@@ -215,13 +215,12 @@ double chooseTimeStep(const scene::Scene& scene) {
   if (*scene.run.timeStep > limit.step) {
     const std::string most = base::roundedDown(limit.step, 3);
     scene.fail("run", "time_step",
-               fmt::format(
-                   "[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
-                   "{} s or less (\"auto\": {} s), or {}{}",
-                   most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
-                   hertz
-                       ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s", scene.run.impactSpeed)
-                       : ""));
+               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
+                           "{} s or less (\"auto\": {} s), or {}{}",
+                           most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
+                           hertz ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s",
+                                               scene.run.impactSpeed)
+                                 : ""));
   }
   return *scene.run.timeStep;
 }
@@ -258,15 +257,14 @@ void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeS
         across(s.section.velocity) + across(s.section.amplitude) * 2 * base::kPi * s.section.frequency.value_or(0);
     const double turns = s.section.spin && norm(*s.section.spin) > 0 ? norm(*s.section.spin) * leverOf(s) : 0;
     if (shifts + turns > most)
-      scene.fail(
-          s.list(), s.number,
-          turns > shifts       ? "spin"
-          : s.section.velocity ? "velocity"
-                               : "amplitude",
-          fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
-                      "{:.3g} s: it could pass through a grain unfelt; keep it below {} m/s (velocity, spin, "
-                      "amplitude, frequency), or lower run.time_step",
-                      s.name, shifts + turns, timeStep, base::roundedDown(most, 4)));
+      scene.fail(s.list(), s.number,
+                 turns > shifts       ? "spin"
+                 : s.section.velocity ? "velocity"
+                                      : "amplitude",
+                 fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
+                             "{:.3g} s: it could pass through a grain unfelt; keep it below {} m/s (velocity, spin, "
+                             "amplitude, frequency), or lower run.time_step",
+                             s.name, shifts + turns, timeStep, base::roundedDown(most, 4)));
   }
 }
 

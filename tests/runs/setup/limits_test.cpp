@@ -46,17 +46,16 @@ struct RandomScene {
   double stiffness, radius, density, restitution, friction, rolling;
   explicit RandomScene(std::uint64_t i) {
     std::uint64_t k = 0;
-    const auto in = [&](double low, double high) {
-      return low * std::pow(high / low, base::uniform(11, 5, i, k++));
-    };
+    const auto in = [&](double low, double high) { return low * std::pow(high / low, base::uniform(11, 5, i, k++)); };
     stiffness = in(1e3, 1e9), radius = in(1e-3, 1e-1), density = in(100, 1e4);
     restitution = in(0.05, 1), friction = i % 3 ? in(0.1, 2) : 0, rolling = i % 4 ? 0 : in(0.01, 1);
   }
   std::string text(const std::string& run, const std::string& grain = "") const {
-    return fmt::format("[run]\nduration = 1\n{}\n[material.m]\nstiffness = {}\ndensity = {}\nrestitution = {}\n"
-                       "friction = {}\nrolling_friction = {}\n[[plane]]\nmaterial = \"m\"\n[[grain]]\nposition = [0, 0, "
-                       "1]\nradius = {}\nmaterial = \"m\"\n{}\n",
-                       run, stiffness, density, restitution, friction, rolling, radius, grain);
+    return fmt::format(
+        "[run]\nduration = 1\n{}\n[material.m]\nstiffness = {}\ndensity = {}\nrestitution = {}\n"
+        "friction = {}\nrolling_friction = {}\n[[plane]]\nmaterial = \"m\"\n[[grain]]\nposition = [0, 0, "
+        "1]\nradius = {}\nmaterial = \"m\"\n{}\n",
+        run, stiffness, density, restitution, friction, rolling, radius, grain);
   }
 };
 
@@ -67,8 +66,7 @@ TEST(PrintedLimits, StepThatAnErrorAdvisesIsAccepted) {
     const std::string still = "gravity = [0, 0, 0]\n";
     const double limit = stepLimit(parsed(random.text(still))).step;
     if (limit >= 0.1) continue;
-    const std::string message =
-        messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = 0.1"))); });
+    const std::string message = messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = 0.1"))); });
     for (const char* words : {"choose ", "\"auto\": "}) {
       const std::string printed = numberBehind(message, words);
       ASSERT_NE(printed, "") << message;
@@ -171,7 +169,8 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
     return messageOf([&] { simulationSetup(parsed(kBall, overrides)); });
   };
   const std::string message = refusal({"material.soil.restitution=0"});
-  for (const char* part : {"material.soil.restitution", "without attraction", "the least is 1e-06", "attraction = true"})
+  for (const char* part :
+       {"material.soil.restitution", "without attraction", "the least is 1e-06", "attraction = true"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
   // What it advises is accepted as it is printed, and nothing longer.
   const std::string step = numberBehind(message, "takes steps of ");
@@ -179,10 +178,12 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
   EXPECT_NE(refusal({"material.soil.restitution=1e-06", fmt::format("run.time_step={}", 1.02 * std::stod(step))}), "");
   // One of two materials with attraction is not enough; the pair is named where it says so.
   EXPECT_NE(refusal({"material.soil.restitution=1e-7"}), "");
-  const std::string pair = "[material.hard]\nstiffness = 1e5\nattraction = true\n[contact.\"soil|hard\"]\nrestitution = 0\n" +
-                           std::string(kBall).replace(std::string(kBall).find("[[plane]]\nmaterial = \"soil\""), 27,
-                                                      "[[plane]]\nmaterial = \"hard\"");
-  EXPECT_NE(messageOf([&] { simulationSetup(parsed(pair)); }).find("contact.\"soil|hard\".restitution"), std::string::npos)
+  const std::string pair =
+      "[material.hard]\nstiffness = 1e5\nattraction = true\n[contact.\"soil|hard\"]\nrestitution = 0\n" +
+      std::string(kBall).replace(std::string(kBall).find("[[plane]]\nmaterial = \"soil\""), 27,
+                                 "[[plane]]\nmaterial = \"hard\"");
+  EXPECT_NE(messageOf([&] { simulationSetup(parsed(pair)); }).find("contact.\"soil|hard\".restitution"),
+            std::string::npos)
       << messageOf([&] { simulationSetup(parsed(pair)); });
   EXPECT_EQ(messageOf([&] { simulationSetup(parsed(pair, {"material.soil.attraction=true"})); }), "");
   EXPECT_EQ(refusal({"material.soil.restitution=0", "material.soil.attraction=true"}), "");
