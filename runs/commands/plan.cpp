@@ -11,6 +11,7 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/mechanism.hpp"
@@ -126,6 +127,7 @@ std::string switches(const scene::Scene& scene) {
 } // namespace
 
 std::string planText(const scene::Scene& scene) {
+  setup::checkRestitutions(scene);
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
   const std::int64_t grains = setup::plannedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);

@@ -24,20 +24,11 @@ namespace {
 output::PartKind pictured(vehicle::PartKind kind) {
   using From = vehicle::PartKind;
   using To = output::PartKind;
-  switch (kind) {
-  case From::kChassis:
-    return To::chassis;
-  case From::kShoe:
-    return To::shoe;
-  case From::kSprocket:
-    return To::sprocket;
-  case From::kRoadWheel:
-    return To::roadWheel;
-  case From::kRoller:
-    return To::roller;
-  case From::kIdler:
-    return To::idler;
-  }
+  constexpr std::pair<From, To> kKinds[] = {{From::kChassis, To::chassis},   {From::kShoe, To::shoe},
+                                            {From::kSprocket, To::sprocket}, {From::kRoadWheel, To::roadWheel},
+                                            {From::kRoller, To::roller},     {From::kIdler, To::idler}};
+  for (const auto& [from, to] : kKinds)
+    if (from == kind) return to;
   return To::other;
 }
 
@@ -83,9 +74,8 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   if (w.comm.first()) {
     try {
       output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
-      if (w.frames && kept.frames > 0) output::checkFrames(options.folder, step, former->frames);
       // The contact forces of the last frame are known no more: where no step is left to take, it stays.
-      if (w.frames && step == total && output::holdsLastFrame(options.folder, step, kept.frames)) ++kept.frames;
+      if (w.frames) kept.frames = output::keptFrames(options.folder, step, former->frames, step == total);
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
@@ -123,7 +113,7 @@ Recorder::Recorder(simulation::Simulation& simulation, const RunRequest& options
               writerOptions(simulation.setup().output.frames, options, exec, channels_, former, total)) {
   try {
     begin(options, former);
-    endIsThere_ = former && writer_.frames() > former->frames;
+    if (former && writer_.frames() > former->frames) framedAt_ = begunAt_;
   } catch (const std::exception& error) {
     writer_.abandon(error.what());
     throw;
@@ -183,7 +173,7 @@ void Recorder::row() {
 }
 
 void Recorder::frame() {
-  if (endIsThere_ && simulation_.steps() == begunAt_) return;
+  if (simulation_.steps() == framedAt_) return;
   framedAt_ = simulation_.steps();
   if (simulation_.setup().output.frames) writer_.frame(currentFrame());
 }

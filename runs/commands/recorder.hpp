@@ -42,8 +42,7 @@ private:
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;
-  std::int64_t framedAt_ = -1; ///< step of the last frame
-  bool endIsThere_ = false;    ///< the frame of the step that the run goes on from, which is its last
+  std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
   std::optional<output::GrainsCsv> grainsCsv_;
 };
 

@@ -2,10 +2,7 @@
 #include "runs/setup/laws.hpp"
 
 #include "base/math.hpp"
-#include "base/rounded.hpp"
-#include "base/table.hpp"
 #include "contact/restitution.hpp"
-#include "runs/setup/step_limit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,38 +20,6 @@ double dampingOf(const std::optional<double>& restitution, const std::optional<d
                  double omega0) {
   if (damping) return *damping;
   return 2 * omega0 * contact::dampingRatioFor(restitution.value_or(1), attraction);
-}
-
-/// The least restitution of dashpots that do not pull; their damping is 500 times the critical one.
-constexpr double kLeastRestitution = 1e-6;
-
-/// The limit of the step if every restitution were possible.
-double stepAtLeastRestitution(scene::Scene scene) {
-  const auto raise = [](std::optional<double>& restitution) {
-    if (restitution) restitution = std::max(*restitution, kLeastRestitution);
-  };
-  for (scene::Material& m : scene.materials) raise(m.restitution);
-  for (scene::ContactPair& p : scene.contacts) raise(p.restitution);
-  return stepLimit(scene).step;
-}
-
-/// Throws where the restitution of a pair asks for a dashpot that pulls, but may not: at the key that says so.
-void checkRestitution(const scene::Scene& scene, const scene::Material& a, const scene::Material& b,
-                      const scene::ContactPair* pair, bool attraction) {
-  const bool given = pair && pair->restitution;
-  const scene::Material& least = b.restitution.value_or(1) < a.restitution.value_or(1) ? b : a;
-  const double restitution = given ? *pair->restitution : least.restitution.value_or(1);
-  if (attraction || restitution >= kLeastRestitution || (pair && pair->damping)) return;
-  const std::string message =
-      fmt::format("[-] is not possible without attraction: surfaces whose dashpot may not pull part with some speed, "
-                  "however strong it is; the least is {:g}, which takes steps of {} s or less; raise it, or give {} "
-                  "attraction = true, with which 0 is critical damping",
-                  kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
-                  &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
-  if (given && scene.document)
-    for (const auto& [name, section] : scene.document->root().named("contact"))
-      if (name == pair->first + "|" + pair->second) section.fail("restitution", message);
-  scene.failMaterial(least.name, "restitution", message);
 }
 
 void setLinear(const scene::Scene& scene, const scene::Material& a, const scene::Material& b,
@@ -122,7 +87,6 @@ ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const st
                                    base::wordOf(a.law), a.name));
   ContactLaw law;
   law.attraction = a.attraction && b.attraction;
-  checkRestitution(scene, a, b, pair, law.attraction);
   law.friction = pair && pair->friction ? *pair->friction : std::min(a.friction, b.friction);
   law.rollingFriction =
       pair && pair->rollingFriction ? *pair->rollingFriction : std::min(a.rollingFriction, b.rollingFriction);

@@ -235,7 +235,7 @@ TEST(MeetingPairs, HaveTheValuesThatAct) {
   EXPECT_NEAR(plane.restitution, 0.4, 1e-12);
   EXPECT_DOUBLE_EQ(plane.law.friction, 0.6);
   EXPECT_EQ(plane.law.rollingFriction, 0);
-  // gamma = 50 of the ball is more than... the larger damping acts, which the restitution 0.4 of the soil has.
+  // Of the dampings the larger acts: that of the restitution 0.4 of the soil, not the 50 /s of the ball.
   EXPECT_EQ(lid.what.rfind("grain on ", 0), 0u);
   EXPECT_DOUBLE_EQ(lid.stiffness, 2 * 1e5 * 2e5 / 3e5);
   EXPECT_NEAR(lid.restitution, 0.4, 1e-12);
