@@ -31,7 +31,7 @@ Colour partColour(output::PartKind kind) {
     Kind kind;
     Colour colour;
   };
-  static const Painted kPainted[] = {
+  const Painted kPainted[] = {
       {Kind::chassis, srgb(112, 122, 92)},    {Kind::shoe, srgb(66, 68, 72)},      {Kind::sprocket, srgb(214, 138, 48)},
       {Kind::roadWheel, srgb(122, 146, 176)}, {Kind::roller, srgb(150, 172, 150)}, {Kind::idler, srgb(178, 96, 84)},
       {Kind::surface, groundColour()},        {Kind::body0, srgb(78, 121, 167)},   {Kind::body1, srgb(214, 138, 48)},

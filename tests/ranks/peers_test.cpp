@@ -24,11 +24,13 @@ protected:
   void SetUp() override {
     if (comm.alone()) GTEST_SKIP() << "one rank has no peers";
     exec = testExec(1, comm.rank());
-    if (exec.onCpu()) try {
+    if (exec.onCpu()) {
+      try {
         base::PeerMemory(exec, comm, PeerUse::always);
       } catch (const base::InputError& e) {
         GTEST_SKIP() << e.what();
       }
+    }
     if (!exec.onCpu() && !base::PeerMemory(exec, comm, PeerUse::automatic).allSeeAll())
       GTEST_SKIP() << "the GPUs of this machine do not see each other's memory";
   }
