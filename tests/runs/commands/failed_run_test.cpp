@@ -64,7 +64,7 @@ protected:
     EXPECT_NE(manifest().find(message), std::string::npos) << manifest();
     for (const char* file : files) {
       EXPECT_TRUE(has(file)) << file;
-      EXPECT_NE(manifest().find("\"" + std::string(file) + "\""), std::string::npos) << file;
+      EXPECT_NE(manifest().find('"' + std::string(file) + '"'), std::string::npos) << file;
     }
   }
 };
