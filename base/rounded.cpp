@@ -18,11 +18,17 @@ std::string rounded(double value, int digits, int direction) {
     const std::size_t e = nearest.find('e');
     std::string mantissa = nearest.substr(0, e);
     if (const std::size_t point = mantissa.find('.'); point != std::string::npos) mantissa.erase(point, 1);
-    const long exponent = std::strtol(nearest.c_str() + e + 1, nullptr, 10) - (digits - 1);
-    const long long next = std::strtoll(mantissa.c_str(), nullptr, 10) + direction;
-    number = std::strtod(fmt::format("{}e{}", next, exponent).c_str(), nullptr);
+    long exponent = std::strtol(nearest.c_str() + e + 1, nullptr, 10) - (digits - 1);
+    long long whole = std::strtoll(mantissa.c_str(), nullptr, 10), least = 1;
+    for (int d = 1; d < digits; ++d) least *= 10;
+    const long long sign = whole < 0 ? -1 : 1;
+    // Towards zero from a power of ten all digits are nines.
+    if (whole * sign == least && sign != direction)
+      whole = sign * (10 * least - 1), --exponent;
+    else
+      whole += direction;
+    number = std::strtod(fmt::format("{}e{}", whole, exponent).c_str(), nullptr);
   }
-  // Below a power of ten there is room for a digit more than needed: it is a zero, which is not printed.
   return fmt::format("{:.{}g}", number, digits);
 }
 

@@ -107,7 +107,7 @@ TEST_F(FullDisk, SmallDiskLosesNothing) {
   std::set<std::string> met;
   for (const int kib : {16, 64, 140, 200, 300, 400, 500}) {
     const std::string out = "full" + std::to_string(kib);
-    const Outcome o = shell("export disk=" + disk + " out=" + out + " size=" + std::to_string(kib) +
+    const Outcome o = shell("export grouser disk=" + disk + " out=" + out + " size=" + std::to_string(kib) +
                             "; unshare -m -r sh -c 'mount -t tmpfs -o size=${size}k none $disk; ulimit -c 0; "
                             "\"$grouser\" run bed.toml --threads 1 --out disk/run" +
                             more + "; code=$?; test -d disk/run && cp -r disk/run $out; exit $code'");

@@ -63,7 +63,7 @@ TEST(PrintedLimits, StepThatAnErrorAdvisesIsAccepted) {
   int closeCalls = 0;
   for (std::uint64_t i = 0; i < 500; ++i) {
     const RandomScene random(i);
-    const std::string still = "gravity = [0, 0, 0]\n";
+    const std::string still = "gravity = [0, 0, 0]\noutput_interval = 1\nframe_interval = 1\n";
     const double limit = stepLimit(parsed(random.text(still))).step;
     if (limit >= 0.1) continue;
     const std::string message = messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = 0.1"))); });
