@@ -28,7 +28,7 @@ struct Handle {};
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;
-  int process, serial; ///< of CPUs: for the name
+  int process, file; ///< of CPUs: where it is found
   Handle handle;
 };
 
@@ -43,8 +43,6 @@ struct ReadWord {
   GROUSER_HD void operator()(int) const { *to = *from; }
 };
 
-int memories = 0; // of this process so far
-
 std::uint32_t markOf(int rank) { return 0x67726f75u + static_cast<std::uint32_t>(rank); }
 
 } // namespace
@@ -52,7 +50,7 @@ std::uint32_t markOf(int rank) { return 0x67726f75u + static_cast<std::uint32_t>
 PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::size_t bytes)
     : exec_(exec), comm_(comm), use_(use),
       shares_(!comm.alone() && (use == PeerUse::always || (use == PeerUse::automatic && !exec.onCpu()))),
-      serial_(memories++), views_(static_cast<std::size_t>(comm.size()), nullptr) {
+      views_(static_cast<std::size_t>(comm.size()), nullptr) {
   // At least one page from the start, so that which ranks see each other is known at once.
   if (shares_ || bytes > 0) allocate(bytes);
   checkUse();
@@ -71,8 +69,9 @@ void PeerMemory::checkUse() {
   release();
   throw InputError(
       "peer memory \"always\", but not all ranks see each other's memory: that takes GPUs of one machine "
-      "with a path between them (nvidia-smi topo -p2p r lists them), or of CPUs room in /dev/shm; \"auto\" does "
-      "without");
+      "with a path between them (nvidia-smi topo -p2p r lists them); of CPUs that the machine has room for it, and "
+      "that "
+      "each rank may look into /proc/PID/fd of the others (one user, one container); \"auto\" does without");
 }
 
 void PeerMemory::reserve(std::size_t bytes) {
@@ -91,26 +90,33 @@ void PeerMemory::release() noexcept {
   own_ = nullptr, size_ = 0, ownIsShared_ = false;
 }
 
-std::string PeerMemory::nameOf(int process) const {
-  return "/grouser-" + std::to_string(process) + "-" + std::to_string(serial_);
-}
-
 void PeerMemory::allocate(std::size_t bytes) {
   const std::size_t size = shares_ ? std::max(kPage, (bytes + kPage - 1) / kPage * kPage) : bytes;
-  if (shares_ && exec_.onCpu()) own_ = createShared(nameOf(getpid()), size);
-  ownIsShared_ = own_ != nullptr;
+  SharedBlock block;
+  if (shares_ && exec_.onCpu()) {
+    block = createShared(size);
+    // CPUs share only for who insists: none takes memory of its own instead, which may be far too much.
+    if (comm_.sumOf(block.memory ? 0 : 1) > 0) {
+      closeShared(block.memory, size);
+      endSharing(block);
+      allSeeAll_ = false;
+      return;
+    }
+    own_ = block.memory, ownIsShared_ = true;
+  }
   if (!own_) own_ = allocateForMessages(exec_, size);
   size_ = size;
   setZero(exec_, own_, size_);
   synchronize(exec_);
-  if (shares_) share();
+  if (shares_) share(block.file);
+  endSharing(block); // every rank has opened it by now
 }
 
 /// Offers this rank's memory to the others of its machine, and maps theirs.
-void PeerMemory::share() {
+void PeerMemory::share(int file) {
   Offer mine{};
   mine.device = deviceId(exec_);
-  mine.given = ownIsShared_, mine.process = getpid();
+  mine.given = ownIsShared_, mine.process = getpid(), mine.file = file;
 #if defined(__CUDACC__)
   if (!exec_.onCpu()) mine.given = cudaIpcGetMemHandle(&mine.handle, own_) == cudaSuccess;
   if (!exec_.onCpu()) cudaGetLastError(); // a GPU that cannot show its memory is no error
@@ -123,13 +129,12 @@ void PeerMemory::share() {
     const bool here = r != comm_.rank() && comm_.hostOf(r) == comm_.hostOf(comm_.rank());
     if (!here || !offer.given) continue;
     views_[static_cast<std::size_t>(r)] =
-        exec_.onCpu() ? openShared(nameOf(offer.process), size_) : opened(&offer.handle);
+        exec_.onCpu() ? openShared(offer.process, offer.file, size_) : opened(&offer.handle);
   }
   deviceShared_ = static_cast<int>(devices.size()) < comm_.size();
 
   std::vector<Bytes> mineOf;
   const std::vector<bool> goodViews = tryViews();
-  if (ownIsShared_) forgetShared(nameOf(getpid())); // every rank has opened it by now
   for (const bool good : goodViews) mineOf.push_back(Comm::bytesOf(std::vector<std::uint8_t>{good}));
   const std::vector<Bytes> theirs = comm_.allToAll(mineOf);
   std::uint64_t missing = 0;

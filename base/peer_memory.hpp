@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace grouser::base {
@@ -57,8 +56,7 @@ private:
   void allocate(std::size_t bytes);
   void release() noexcept;
   void checkUse();
-  void share();
-  std::string nameOf(int process) const;
+  void share(int file);
   static void* opened(const void* handle);
   void close(int rank) noexcept;
   void closeAll() noexcept;
@@ -68,7 +66,6 @@ private:
   Comm comm_;
   PeerUse use_;
   bool shares_; ///< on all ranks the same
-  int serial_;  ///< of this process' memories: for their names
   bool ownIsShared_{false};
   void* own_{nullptr};
   std::size_t size_{0};

@@ -4,48 +4,67 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
+#include <sys/sysinfo.h>
 #include <unistd.h>
+
+#include <array>
+#include <string>
 
 namespace grouser::base {
 
 namespace {
+
+constexpr const char* kName = "grouser-shared"; // seen in /proc alone
+constexpr const char* kTarget = "/memfd:grouser-shared";
 
 void* map(int file, std::size_t bytes) {
   void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
-/// Asked before any page is taken: on a machine with much memory the attempt would fill it, and end in a kill.
-bool hasRoom(int file, std::size_t bytes) {
-  struct statvfs there {};
-  return fstatvfs(file, &there) == 0 && bytes / there.f_frsize < there.f_bavail;
+/// Unlike /dev/shm such memory has no limit of its own: what this machine can never hold would fill it, and end in a
+/// kill.
+bool fitsMachine(std::size_t bytes) {
+  struct sysinfo machine {};
+  return sysinfo(&machine) == 0 && bytes / machine.mem_unit < machine.totalram;
+}
+
+/// Whether it is one of ours: in another name space the number may be that of a stranger.
+bool isShared(const std::string& link) {
+  std::array<char, 64> target{};
+  const ssize_t length = readlink(link.c_str(), target.data(), target.size());
+  return length > 0 && std::string(target.data(), static_cast<std::size_t>(length)).rfind(kTarget, 0) == 0;
 }
 
 } // namespace
 
-void* createShared(const std::string& name, std::size_t bytes) noexcept {
-  const int file = shm_open(name.c_str(), O_CREAT | O_EXCL | O_RDWR, S_IRUSR | S_IWUSR);
-  if (file < 0) return nullptr;
+SharedBlock createShared(std::size_t bytes) noexcept {
+  SharedBlock block;
+  if (!fitsMachine(bytes)) return block;
+  block.file = memfd_create(kName, MFD_CLOEXEC);
+  if (block.file < 0) return block;
   // Reserves all pages now: the first access to one that does not fit any more would end the program (SIGBUS).
-  const bool reserved = hasRoom(file, bytes) && posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0;
-  void* const memory = reserved ? map(file, bytes) : nullptr;
-  ::close(file);
-  if (!memory) forgetShared(name);
-  return memory;
+  if (posix_fallocate(block.file, 0, static_cast<off_t>(bytes)) == 0) block.memory = map(block.file, bytes);
+  if (!block.memory) endSharing(block);
+  return block;
 }
 
-void* openShared(const std::string& name, std::size_t bytes) noexcept {
-  const int file = shm_open(name.c_str(), O_RDWR, 0);
-  if (file < 0) return nullptr;
+void* openShared(int process, int file, std::size_t bytes) noexcept {
+  const std::string link = "/proc/" + std::to_string(process) + "/fd/" + std::to_string(file);
+  if (!isShared(link)) return nullptr;
+  const int own = ::open(link.c_str(), O_RDWR | O_CLOEXEC);
+  if (own < 0) return nullptr;
   struct stat is {};
   void* const memory =
-      fstat(file, &is) == 0 && static_cast<std::size_t>(is.st_size) == bytes ? map(file, bytes) : nullptr;
-  ::close(file);
+      fstat(own, &is) == 0 && static_cast<std::size_t>(is.st_size) == bytes ? map(own, bytes) : nullptr;
+  ::close(own);
   return memory;
 }
 
-void forgetShared(const std::string& name) noexcept { shm_unlink(name.c_str()); }
+void endSharing(SharedBlock& block) noexcept {
+  if (block.file >= 0) ::close(block.file);
+  block.file = -1;
+}
 
 void closeShared(void* memory, std::size_t bytes) noexcept {
   if (memory) munmap(memory, bytes);

@@ -305,11 +305,25 @@ int editDistance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+namespace {
+
+/// Whether `word` is `whole` with letters left out.
+bool isAbridged(std::string_view word, std::string_view whole) {
+  std::size_t at = 0;
+  for (const char c : whole) at += at < word.size() && word[at] == c;
+  return at == word.size();
+}
+
+} // namespace
+
 std::string nearestWord(std::string_view word, const std::vector<std::string>& valid) {
   std::string best;
   int least = std::numeric_limits<int>::max();
-  for (const std::string& candidate : valid)
-    if (const int d = editDistance(word, candidate); d < least) least = d, best = candidate;
+  for (const std::string& candidate : valid) {
+    // Of two as near the one is likelier of which letters were left out: "drivr" is driver, not drive.
+    const int d = 2 * editDistance(word, candidate) - (isAbridged(word, candidate) ? 1 : 0);
+    if (d < least) least = d, best = candidate;
+  }
   return best;
 }
 

@@ -172,9 +172,13 @@ Document Document::parse(std::string_view text, const std::string& name, const s
 }
 
 Document Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  std::error_code error;
+  const bool there = std::filesystem::exists(path, error);
+  // A device may have no end, and a pipe nobody who writes into it.
+  if (there && !std::filesystem::is_regular_file(path, error))
+    throw InputError(fmt::format("{}: is no file; name one that holds what this program reads", path.string()));
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError(fmt::format("{}: cannot be read; check the path", path.string()));
+  if (!file) throw InputError(fmt::format("{}: cannot be read; check the path", path.string()));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   return parse(text, path.string(), overrides);
 }

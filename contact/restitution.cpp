@@ -72,6 +72,7 @@ double restitutionOf(double zeta, bool attraction) {
 
 double dampingRatioFor(double restitution, bool attraction) {
   if (restitution >= 1) return 0;
+  if (attraction && restitution <= 0) return 1;
   if (attraction) {
     const double l = -base::log(restitution);
     return l / std::sqrt(base::kPi * base::kPi + l * l);

@@ -2,6 +2,7 @@
 #include "terrain/grain_constants.hpp"
 
 #include "base/error.hpp"
+#include "base/rounded.hpp"
 #include "terrain/length_units.hpp"
 
 #include <algorithm>
@@ -75,9 +76,9 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
     if (period.length[a] < 3 * reach)
       throw base::InputError(
           fmt::format("periodic boundaries {} = {:g} m and {:g} m are too near: a grain could touch another "
-                      "from both sides; they must be at least {:.6g} m apart, three diameters and "
+                      "from both sides; they must be at least {} m apart, three diameters and "
                       "skins",
-                      "xy"[a], from, to, static_cast<double>(3 * reach) * scale.unit));
+                      "xy"[a], from, to, base::roundedUp(static_cast<double>(3 * reach) * scale.unit, 6)));
   }
   return period;
 }

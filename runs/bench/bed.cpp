@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "base/rounded.hpp"
 #include "contact/restitution.hpp"
 #include "terrain/grains.hpp"
 
@@ -55,8 +56,8 @@ terrain::GrainModel modelOf(const BedBench& b) {
   const double limit = contact::stableStep(std::sqrt(8 * b.stiffness / model.mass), 0);
   if (b.timeStep > limit)
     throw base::InputError(fmt::format(
-        "bench bed: a step of {:g} s is above {:.3g} s, where grains of radius {} m become unstable; give --time-step",
-        b.timeStep, limit, b.radius));
+        "bench bed: a step of {:g} s is above {} s, where grains of radius {} m become unstable; give --time-step",
+        b.timeStep, base::roundedDown(limit, 3), b.radius));
   return model;
 }
 

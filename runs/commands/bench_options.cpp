@@ -4,6 +4,7 @@
 #include "runs/bench/bench.hpp"
 #include "runs/bench/contacts.hpp"
 #include "runs/bench/multibody.hpp"
+#include "runs/commands/ranks_alike.hpp"
 #include "runs/support/option_checks.hpp"
 
 #include <memory>
@@ -37,9 +38,9 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
       ->capture_default_str();
 }
 
-void addBed(CLI::App& benches, const base::Ranks& ranks) {
+void addBed(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::BenchCommand>();
-  command->ranks = &ranks;
+  command->ranks = &invocation.ranks;
   bench::BedBench& b = command->bed;
   CLI::App* bed =
       benches.add_subcommand("bed", "Grains alone: five settled layers in a box, the bed that figures are compared on");
@@ -64,13 +65,16 @@ void addBed(CLI::App& benches, const base::Ranks& ranks) {
   bed->add_flag("--ledger", b.ledger, "sum dissipation grain by grain, as runs do");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(*bed, *command);
-  bed->callback([command] { bench::benchBedCommand(*command); });
+  bed->callback([command, words = invocation.words] {
+    requireSameWords("bench bed", words, command->ranks->comm());
+    bench::benchBedCommand(*command);
+  });
 }
 
-void addStep(CLI::App& benches, const base::Ranks& ranks) {
+void addStep(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::BenchCommand>();
   bench::BenchCommand& c = *command;
-  c.ranks = &ranks;
+  c.ranks = &invocation.ranks;
   CLI::App* step = benches.add_subcommand("step", "Where each microsecond of a scene's step goes");
   step->add_option("scene", c.scene, "scene file")->required();
   step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
@@ -81,13 +85,16 @@ void addStep(CLI::App& benches, const base::Ranks& ranks) {
   step->add_option("--after", c.step.after, "simulated time before timing [s]; default: until the drive is up to speed")
       ->check(support::notNegative("a time in seconds"));
   addCommon(*step, c);
-  step->callback([command] { bench::benchStepCommand(*command); });
+  step->callback([command, words = invocation.words] {
+    requireSameWords("bench step", words, command->ranks->comm());
+    bench::benchStepCommand(*command);
+  });
 }
 
-void addContacts(CLI::App& benches, const base::Ranks& ranks) {
+void addContacts(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::ContactsBench>();
   bench::ContactsBench& c = *command;
-  c.ranks = &ranks;
+  c.ranks = &invocation.ranks;
   CLI::App* contacts = benches.add_subcommand(
       "contacts", "Contact detection alone, over the number of contacts, beside sequential Bullet");
   contacts
@@ -109,7 +116,10 @@ void addContacts(CLI::App& benches, const base::Ranks& ranks) {
   contacts->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
   contacts->add_option("--json", c.json, "write the figures to this file");
   contacts->add_option("--plot", c.plot, "draw them into this PNG file");
-  contacts->callback([command] { bench::benchContactsCommand(*command); });
+  contacts->callback([command, words = invocation.words] {
+    requireSameWords("bench contacts", words, command->ranks->comm());
+    bench::benchContactsCommand(*command);
+  });
 }
 
 void addMultibody(CLI::App& benches, const base::Comm& comm) {
@@ -136,9 +146,9 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
 void addBench(CLI::App& app, const Invocation& invocation) {
   CLI::App* benches = app.add_subcommand("bench", "Figures of speed, with machine and commit");
   benches->require_subcommand(1);
-  addBed(*benches, invocation.ranks);
-  addStep(*benches, invocation.ranks);
-  addContacts(*benches, invocation.ranks);
+  addBed(*benches, invocation);
+  addStep(*benches, invocation);
+  addContacts(*benches, invocation);
   addMultibody(*benches, invocation.ranks.comm());
 }
 

@@ -44,6 +44,11 @@ void chooseCheckpoint(const RunCommand& command, RunRequest& options) {
     options.resume = options.folder / simulation::kCheckpointName;
     return;
   }
+  std::error_code missing;
+  if (!fs::is_regular_file(command.checkpoint, missing))
+    throw base::InputError(fmt::format("--resume {}: there is no such file; name the checkpoint.h5 of a run, or leave "
+                                       "the name away for that in the run's own folder",
+                                       command.checkpoint));
   options.resume = command.checkpoint;
   const fs::path folder = fs::absolute(command.checkpoint).lexically_normal().parent_path();
   if (command.folder.empty()) options.folder = folder;

@@ -13,7 +13,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -45,6 +47,14 @@ int fail(const base::Ranks& ranks, int code, const char* message) {
   std::fflush(stderr);
   ranks.abort(code);
   return code;
+}
+
+constexpr const char* kNotPrinted = "the standard output could not be written; is the disk full?";
+
+/// Whether all that was printed has arrived.
+bool printedAll() {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
 }
 
 void addCommands(CLI::App& app, const std::vector<commands::CommandEntry>& all,
@@ -104,9 +114,10 @@ int main(int argc, char** argv) {
       "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
   try {
     obey(app, argc, argv, ranks);
-    return 0;
+    return printedAll() ? 0 : fail(ranks, kSimulation, kNotPrinted);
   } catch (const CLI::Success& e) {
-    return app.exit(e); // --help and --version
+    const int code = app.exit(e); // --help and --version
+    return printedAll() ? code : fail(ranks, kSimulation, kNotPrinted);
   } catch (const CLI::ParseError& e) {
     return fail(ranks, kInput, fmt::format("{}; see grouser --help, or grouser COMMAND --help", e.what()).c_str());
   } catch (const base::InputError& e) {
@@ -119,8 +130,8 @@ int main(int argc, char** argv) {
     return 128 + e.signal();
   } catch (const base::DeviceError& e) {
     return fail(ranks, kDevice, e.what());
-  } catch (const std::runtime_error& e) {
-    return fail(ranks, kSimulation, e.what()); // what could not be written
+  } catch (const std::runtime_error& e) { // what could not be written
+    return fail(ranks, kSimulation, std::ferror(stdout) ? kNotPrinted : e.what());
   } catch (const std::bad_alloc&) {
     return fail(ranks, kDevice,
                 "out of host memory; use larger or fewer grains, or more ranks on "

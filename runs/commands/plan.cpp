@@ -2,6 +2,7 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/math.hpp"
+#include "base/rounded.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
@@ -10,6 +11,7 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/mechanism.hpp"
@@ -125,6 +127,7 @@ std::string switches(const scene::Scene& scene) {
 } // namespace
 
 std::string planText(const scene::Scene& scene) {
+  setup::checkRestitutions(scene);
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
   const std::int64_t grains = setup::plannedGrains(scene);
   text += fmt::format("  {:<24} {}\n", "grains", grains);
@@ -139,6 +142,7 @@ std::string planText(const scene::Scene& scene) {
   setup::checkGround(scene, step);
   if (!scene.mechanism.empty())
     text += output::mechanismSize(simulation::Mechanism(setup::mechanismSetup(scene), step));
+  text += pairsText(scene);
   text += "\ntime\n";
   const double contact = setup::shortestContact(scene);
   const double resolved = contact / setup::kStepsPerContact;
@@ -154,8 +158,8 @@ std::string planText(const scene::Scene& scene) {
   if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
   if (grains) text += costText(scene, steps * static_cast<double>(grains));
   if (contact > 0 && step > resolved * 1.0000001)
-    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
-                        contact / step, resolved);
+    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
+                        contact / step, base::roundedDown(resolved, 4));
   if (!scene.mechanism.empty())
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);

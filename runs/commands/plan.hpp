@@ -11,6 +11,10 @@ namespace grouser::commands {
 /// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
 std::string planText(const scene::Scene& scene);
 
+/// A part of it: every pair of materials that can meet, with the values that act between them, and a note where a value
+/// of one material does nothing. Empty where nothing can touch.
+std::string pairsText(const scene::Scene& scene);
+
 /// What one rank does, from `grouser bench bed`: the figures that expectations rest on.
 struct RankSpeed {
   const char* name;

@@ -21,28 +21,54 @@ void requireSameCommand(const std::string& command, const base::Comm& comm) {
                       std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
 }
 
-void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm) {
-  if (comm.alone()) return;
+namespace {
+
+struct Fact {
+  std::string what, mine;
+};
+
+Fact program() {
   const support::BuildInfo build = support::buildInfo();
-  const std::pair<const char*, std::string> facts[] = {
-      {"program (version, commit, compiler, hash of its file)",
-       fmt::format("{}, {}, {}, {}", build.version, build.commit, build.compiler, support::programHash())},
-      {"scene", provenance.resolved},
-      {"files that the scene names", provenance.inputs},
-      {"command line", commandLine.substr(std::min(commandLine.find(' '), commandLine.size()))},
-  };
-  for (const auto& [what, mine] : facts) {
-    const auto all = comm.gatherAll(std::vector<char>(mine.begin(), mine.end()));
+  return {"program (version, commit, compiler, hash of its file)",
+          fmt::format("{}, {}, {}, {}", build.version, build.commit, build.compiler, support::programHash())};
+}
+
+/// All words behind the program's name.
+Fact words(const std::string& commandLine) {
+  return {"command line", commandLine.substr(std::min(commandLine.find(' '), commandLine.size()))};
+}
+
+/// `who`: begins the message.
+void requireSame(const std::string& who, const std::vector<Fact>& facts, const base::Comm& comm) {
+  if (comm.alone()) return;
+  for (const Fact& fact : facts) {
+    const auto all = comm.gatherAll(std::vector<char>(fact.mine.begin(), fact.mine.end()));
     for (std::size_t r = 1; r < all.size(); ++r) {
       if (all[r] == all[0]) continue;
       const std::string first(all[0].begin(), all[0].end()), other(all[r].begin(), all[r].end());
       const bool brief = first.size() < 200 && other.size() < 200;
       throw base::InputError(fmt::format("{}: rank {} has another {} than rank 0{}; start all ranks with the same "
                                          "program, files and words",
-                                         provenance.file.string(), r, what,
-                                         brief ? fmt::format(" ({} beside {})", other, first) : ""));
+                                         who, r, fact.what, brief ? fmt::format(" ({} beside {})", other, first) : ""));
     }
   }
+}
+
+} // namespace
+
+void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm) {
+  if (comm.alone()) return;
+  requireSame(provenance.file.string(),
+              {program(),
+               {"scene", provenance.resolved},
+               {"files that the scene names", provenance.inputs},
+               words(commandLine)},
+              comm);
+}
+
+void requireSameWords(const std::string& command, const std::string& commandLine, const base::Comm& comm) {
+  if (comm.alone()) return;
+  requireSame(command, {program(), words(commandLine)}, comm);
 }
 
 } // namespace grouser::commands

@@ -17,4 +17,7 @@ void requireSameCommand(const std::string& command, const base::Comm& comm);
 /// scene. `commandLine`: the program, and all its words behind the first space.
 void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm);
 
+/// The same of a command without a scene: program and command line. `command`: begins the message.
+void requireSameWords(const std::string& command, const std::string& commandLine, const base::Comm& comm);
+
 } // namespace grouser::commands

@@ -2,6 +2,7 @@
 #include "runs/commands/recorder.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/frame_of.hpp"
 #include "runs/output/former_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/plane_mesh.hpp"
@@ -23,20 +24,11 @@ namespace {
 output::PartKind pictured(vehicle::PartKind kind) {
   using From = vehicle::PartKind;
   using To = output::PartKind;
-  switch (kind) {
-  case From::kChassis:
-    return To::chassis;
-  case From::kShoe:
-    return To::shoe;
-  case From::kSprocket:
-    return To::sprocket;
-  case From::kRoadWheel:
-    return To::roadWheel;
-  case From::kRoller:
-    return To::roller;
-  case From::kIdler:
-    return To::idler;
-  }
+  constexpr std::pair<From, To> kKinds[] = {{From::kChassis, To::chassis},   {From::kShoe, To::shoe},
+                                            {From::kSprocket, To::sprocket}, {From::kRoadWheel, To::roadWheel},
+                                            {From::kRoller, To::roller},     {From::kIdler, To::idler}};
+  for (const auto& [from, to] : kKinds)
+    if (from == kind) return to;
   return To::other;
 }
 
@@ -47,24 +39,6 @@ std::vector<output::FramePart> frameParts(const simulation::VehicleRig& rig) {
     parts.push_back({part.name, pictured(part.kind), rig.parts().meshes()[rig.parts().meshOfPart(p)]});
   }
   return parts;
-}
-
-/// The rigid surface as triangles, for pictures.
-base::TriangleMesh groundMesh(const terrain::HeightField& field) {
-  constexpr int kNodes = 160;
-  base::TriangleMesh mesh;
-  const terrain::Rectangle& a = field.area();
-  for (int j = 0; j < kNodes; ++j)
-    for (int i = 0; i < kNodes; ++i) {
-      const double x = a.xMin + a.width() * i / (kNodes - 1), y = a.yMin + a.length() * j / (kNodes - 1);
-      mesh.vertices.push_back({x, y, field.height(x, y)});
-    }
-  for (std::uint32_t j = 0; j + 1 < kNodes; ++j)
-    for (std::uint32_t i = 0; i + 1 < kNodes; ++i) {
-      const std::uint32_t v = j * kNodes + i;
-      for (const std::uint32_t k : {v, v + 1, v + kNodes + 1, v, v + kNodes + 1, v + kNodes}) mesh.indices.push_back(k);
-    }
-  return mesh;
 }
 
 std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation) {
@@ -118,9 +92,8 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   if (w.comm.first()) {
     try {
       output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
-      if (w.frames && kept.frames > 0) output::checkFrames(options.folder, step, former->frames);
       // The contact forces of the last frame are known no more: where no step is left to take, it stays.
-      if (w.frames && step == total && output::holdsLastFrame(options.folder, step, kept.frames)) ++kept.frames;
+      if (w.frames) kept.frames = output::keptFrames(options.folder, step, former->frames, step == total);
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
@@ -129,16 +102,6 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   }
   w.former->frames = w.comm.gatherValue(w.former->frames).front();
   return w;
-}
-
-/// Where the cuts between subdomains cross the axes [m].
-std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
-  std::array<std::vector<double>, 3> borders;
-  if (const terrain::GrainDistribution* ranks = grains.system().distribution.get())
-    for (int axis = 0; axis < 3; ++axis)
-      for (const std::int64_t cut : ranks->subdomain().partition().cuts(axis))
-        borders[static_cast<std::size_t>(axis)].push_back(static_cast<double>(cut) * grains.scale().unit);
-  return borders;
 }
 
 /// All grains, on the first rank.
@@ -168,7 +131,7 @@ Recorder::Recorder(simulation::Simulation& simulation, const RunRequest& options
               writerOptions(simulation.setup().output.frames, options, exec, channels_, former, total)) {
   try {
     begin(options, former);
-    endIsThere_ = former && writer_.frames() > former->frames;
+    if (former && writer_.frames() > former->frames) framedAt_ = begunAt_;
   } catch (const std::exception& error) {
     writer_.abandon(error.what());
     throw;
@@ -221,29 +184,25 @@ void Recorder::row() {
 }
 
 void Recorder::frame() {
-  if (endIsThere_ && simulation_.steps() == begunAt_) return;
+  if (simulation_.steps() == framedAt_) return;
+  framedAt_ = simulation_.steps();
   if (simulation_.setup().output.frames) writer_.frame(currentFrame());
+}
+
+void Recorder::lastFrame() {
+  if (!simulation_.setup().output.frames) return;
+  output::Frame frame = currentFrame();
+  if (const auto& grains = simulation_.ground().grains) frame.step = std::max(frame.step, grains->steps());
+  frame.time = static_cast<double>(frame.step) * simulation_.timeStep();
+  if (frame.step > framedAt_) writer_.frame(frame);
 }
 
 output::Frame Recorder::currentFrame() const {
   output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
-  if (const auto& grains = simulation_.ground().grains) {
-    // Forces are those of the last step: before the first there are none.
-    frame.withContactForces = simulation_.setup().output.contactForces;
-    const bool known = simulation_.steps() > begunAt_;
-    terrain::GrainSnapshot s = grains->snapshot({.contactForces = frame.withContactForces && known});
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-    if (frame.withContactForces && !known) s.contactForce.assign(s.position.size(), {kNone, kNone, kNone});
-    for (std::size_t i = 0; i < s.position.size(); ++i) {
-      frame.positions.push_back(s.position[i].as<float>());
-      frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
-    }
-    frame.velocities = std::move(s.velocity), frame.contactForces = std::move(s.contactForce);
-    frame.borders = bordersOf(*grains);
-    frame.radii = s.radius;
-    if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains->model().radius));
-  }
+  // Forces are those of the last step: before the first there are none.
+  if (const auto& grains = simulation_.ground().grains)
+    addGrains(frame, *grains, simulation_.setup().output.contactForces, simulation_.steps() > begunAt_);
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())

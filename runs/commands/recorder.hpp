@@ -23,6 +23,9 @@ public:
 
   void row();
   void frame();
+  /// Of a run that has met a fault in the present step, unless there is one of that step. Grains alone may have gone
+  /// some steps beyond those that the simulation counts.
+  void lastFrame();
   /// picture.png of the present state.
   void picture(int width);
 
@@ -39,7 +42,7 @@ private:
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;
-  bool endIsThere_ = false; ///< the frame of the step that the run goes on from, which is its last
+  std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
   std::optional<output::GrainsCsv> grainsCsv_;
 };
 

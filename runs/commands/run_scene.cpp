@@ -2,6 +2,7 @@
 #include "runs/commands/run_scene.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/failed_run.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
 #include "runs/output/mechanism_output.hpp"
@@ -120,15 +121,43 @@ public:
     checkpoint_.state = {};
     writtenAt_ = simulation.steps();
   }
+  /// Keeps the present state in memory, unless the last time is too short ago: should the run fail, it is left as its
+  /// checkpoint. Between rows, so that these are counted with it.
+  void remember(const simulation::Simulation& simulation, const output::RunWriter& writer) {
+    const auto& grains = simulation.ground().grains;
+    if (!simulation.comm().alone() || Clock::now() < rememberNext_) return;
+    if (grains && grains->count() > kMostRemembered) return;
+    const Clock::time_point start = Clock::now();
+    good_ = simulation.save();
+    goodRows_ = writer.rows(), goodFrames_ = writer.frames();
+    rememberNext_ = Clock::now() + kRememberPause * (Clock::now() - start);
+  }
+  /// Of a run that has failed: the last state that was remembered, where no later one has been written.
+  void writeRemembered(const simulation::Simulation& simulation, output::RunWriter& writer) {
+    if (!good_ || good_->steps <= writtenAt_) return;
+    writer.sync();
+    checkpoint_.timeStep = simulation.timeStep();
+    checkpoint_.rows = goodRows_, checkpoint_.frames = goodFrames_;
+    checkpoint_.state = std::move(*good_);
+    good_.reset();
+    simulation::writeCheckpoint(path_, checkpoint_, simulation.comm());
+    writtenAt_ = checkpoint_.state.steps;
+  }
   /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
   std::string last() const { return writtenAt_ < 0 ? "" : fmt::format("{}, step {}", path_.string(), writtenAt_); }
   /// The run goes on from one of this step.
   void begunAt(std::int64_t step) { writtenAt_ = step; }
 
 private:
+  static constexpr int kRememberPause = 200;                ///< of what it takes: half a percent of a run's time
+  static constexpr std::size_t kMostRemembered = 2'000'000; ///< grains: half a gigabyte
+
   std::filesystem::path path_;
   simulation::Checkpoint checkpoint_;
   std::int64_t writtenAt_ = -1;
+  std::optional<simulation::SimulationState> good_;
+  std::int64_t goodRows_ = 0, goodFrames_ = 0;
+  Clock::time_point rememberNext_{};
 };
 
 /// Reads the checkpoint of a run to be resumed; null for one from the start.
@@ -146,22 +175,30 @@ std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& prove
 
 /// At the checkpoint, or at the start: then the bed is settled first.
 std::unique_ptr<simulation::Simulation> makeSimulation(setup::SimulationSetup setup, const base::Exec& exec,
-                                                       const simulation::Checkpoint* former, const base::Comm& comm,
+                                                       const simulation::Checkpoint* former, const RunRequest& options,
                                                        simulation::BedCache* beds) {
+  const base::Comm comm = options.comm();
   if (former) return std::make_unique<simulation::Simulation>(std::move(setup), exec, former->state, comm);
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
   const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;
   std::unique_ptr<support::Progress> settling;
-  const auto settle = [&](double time, double agitation) {
+  FailedBed failed(setup, options, exec);
+  simulation::SettleProgress settle = [&](double time, double agitation) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
       throw support::Stopped(signal, fmt::format("stopped by {} while the bed settled; nothing was written",
                                                  support::StopSignals::name(signal)));
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
     settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   };
-  auto simulation = std::make_unique<simulation::Simulation>(std::move(setup), exec, settle, comm, beds);
-  if (settling) settling->finish("at rest");
-  return simulation;
+  settle.failed = [&](const terrain::Grains& bed, const std::string& message) { failed.leave(&bed, message); };
+  try {
+    auto simulation = std::make_unique<simulation::Simulation>(std::move(setup), exec, settle, comm, beds);
+    if (settling) settling->finish("at rest");
+    return simulation;
+  } catch (const base::SimulationError& error) {
+    failed.leave(nullptr, error.what());
+    throw;
+  }
 }
 
 /// Steps to the end, with rows, frames and checkpoints on the way. Throws Stopped where a signal came.
@@ -179,6 +216,7 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
         std::min({total - now, rowEvery - now % rowEvery, frameEvery - now % frameEvery, saveEvery - now % saveEvery}));
     if (simulation.steps() % rowEvery == 0) recorder.row();
     if (simulation.steps() % frameEvery == 0) recorder.frame();
+    if (simulation.steps() % rowEvery == 0) checkpoints.remember(simulation, recorder.writer());
     if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
     if (const int signal = signals.receivedAt(simulation.steps())) {
       checkpoints.write(simulation, recorder.writer());
@@ -199,16 +237,28 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
   progress.finish(fmt::format("{} steps", simulation.steps()));
 }
 
-/// Rows and frames, from the start or from `former` on, to step `total`. What ends the run early is left in the folder.
-void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, bool resumed,
-            std::int64_t total) {
+/// Where the run has met a fault: the state before it as a checkpoint, and all as it is now as frame and picture.
+void leaveState(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints) {
+  if (!simulation.comm().alone()) return; // not all ranks need have met it
   try {
-    if (!resumed) recorder.row(), recorder.frame();
-    drive(simulation, recorder, checkpoints, total);
+    checkpoints.writeRemembered(simulation, recorder.writer());
+    recorder.lastFrame();
+    if (simulation.setup().output.picture) recorder.picture(simulation.setup().output.pictureWidth);
+  } catch (const std::exception&) {
+    // The user gets the error that ended the run, not this one.
+  }
+}
+
+/// All that is written of a run once its folder is there. What ends the run early is left in the folder.
+template <class Write>
+void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const Write& write) {
+  try {
+    write();
   } catch (const support::Stopped& stopped) {
     recorder.writer().stop(stopped.what());
     throw;
   } catch (const base::SimulationError& error) {
+    leaveState(simulation, recorder, checkpoints);
     const std::string last = checkpoints.last();
     const std::string message = error.what() + (last.empty() ? "" : fmt::format(" (last checkpoint: {})", last));
     recorder.writer().abandon(message);
@@ -238,9 +288,8 @@ void describeLedger(simulation::Simulation& simulation) {
                l.impulseResidual.z);
 }
 
-} // namespace
-
-output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
+/// `hasFolder`: whether it came so far that the folder is that of this run.
+output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options, bool& hasFolder) {
   const Clock::time_point start = Clock::now();
   const support::StopSignals signals;
   const base::Comm comm = options.comm();
@@ -253,7 +302,7 @@ output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
   std::optional<simulation::BedCache> beds;
   if (options.cache && scene.terrain && scene.terrain->cache) beds = simulation::BedCache::ofUser(comm);
   const std::unique_ptr<simulation::Simulation> made =
-      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), comm, beds ? &*beds : nullptr);
+      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), options, beds ? &*beds : nullptr);
   simulation::Simulation& simulation = *made;
   const setup::SimulationSetup& setup = simulation.setup();
   const std::int64_t whole = std::llround(setup.run.duration / setup.timeStep), begin = simulation.steps(),
@@ -268,30 +317,49 @@ output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
       fmt::print(stderr, "grouser: warning: {}\n", warning);
 
   Recorder recorder(simulation, options, exec, former.get(), total);
+  hasFolder = true;
   Checkpoints checkpoints(provenance, options);
-  const Clock::time_point driving = Clock::now();
-  const double waitedBefore = comm.waited();
   if (former) {
     checkpoints.begunAt(begin);
     fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
   }
-  record(simulation, recorder, checkpoints, former != nullptr, total);
-  const double drove = since(driving), waiting = (comm.waited() - waitedBefore) / drove;
-  if (setup.output.picture) recorder.picture(setup.output.pictureWidth);
-
   output::Summary summary;
-  summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
-  summary.wallTime = since(start);
-  summary.figures["wall_preparation_s"] = prepared;
-  summary.figures["wall_steps_s"] = drove;
-  summary.figures["microseconds_a_step"] = 1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
-  if (options.hash) summary.stateHash = simulation.stateHash();
-  describeLedger(simulation);
-  fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
-             simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"]);
-  describeSharing(simulation, waiting, summary);
-  recorder.writer().finish(summary);
+  record(simulation, recorder, checkpoints, [&] {
+    const Clock::time_point driving = Clock::now();
+    const double waitedBefore = comm.waited();
+    if (!former) recorder.row(), recorder.frame(), checkpoints.remember(simulation, recorder.writer());
+    drive(simulation, recorder, checkpoints, total);
+    const double drove = since(driving), waiting = (comm.waited() - waitedBefore) / drove;
+    if (setup.output.picture) recorder.picture(setup.output.pictureWidth);
+
+    summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
+    summary.wallTime = since(start);
+    summary.figures["wall_preparation_s"] = prepared;
+    summary.figures["wall_steps_s"] = drove;
+    summary.figures["microseconds_a_step"] =
+        1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
+    if (options.hash) summary.stateHash = simulation.stateHash();
+    describeLedger(simulation);
+    fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
+               simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"]);
+    describeSharing(simulation, waiting, summary);
+    recorder.writer().finish(summary);
+  });
   return summary;
+}
+
+} // namespace
+
+output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
+  bool hasFolder = false;
+  try {
+    return runInFolder(scene, options, hasFolder);
+  } catch (const base::SimulationError&) {
+    // Its files are closed by now.
+    if (hasFolder && scene.output.plots && options.comm().alone())
+      leavePlots(options.folder, scene.vehicle.has_value());
+    throw;
+  }
 }
 
 } // namespace grouser::commands

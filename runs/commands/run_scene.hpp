@@ -9,7 +9,8 @@ namespace grouser::commands {
 
 /// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.
 /// With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the end, and where
-/// SIGINT or SIGTERM stops the run. Throws InputError, SimulationError, DeviceError, or Stopped.
+/// SIGINT or SIGTERM stops the run. One that fails leaves what is needed to see why. Throws InputError,
+/// SimulationError, DeviceError, or Stopped.
 output::Summary runScene(const scene::Scene& scene, const RunRequest& options);
 
 } // namespace grouser::commands

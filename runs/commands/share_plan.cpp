@@ -2,6 +2,7 @@
 // How a scene would be divided among ranks, before it is run.
 #include "runs/commands/plan.hpp"
 
+#include "base/error.hpp"
 #include "base/sphere.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -27,6 +28,11 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   const bool bed = scene.terrain && scene.terrain->granular();
   const double grains = static_cast<double>(setup::plannedGrains(scene));
   if (grains == 0) return "";
+  if (ranks > grains)
+    throw base::InputError(
+        fmt::format("--ranks {}: the scene has {:.0f} grains, so most ranks would have none; plan for "
+                    "{:.0f} at most",
+                    ranks, grains, grains));
   const double radius = setup::grainKinds(scene).largest;
   std::array<double, 3> size{};
   if (bed) {
@@ -55,11 +61,12 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
     grown *= 1 + (shape[a] > 2 ? 2 : shape[a] - 1) * std::min(range, size[a]) / width;
     all *= 1 + 2 * (shape[a] - 1) * range / size[a];
   }
-  const double each = grains / ranks, ghosts = each * (grown - 1);
+  // No rank has more ghosts than the others have grains.
+  const double each = grains / ranks, ghosts = std::min(each * (grown - 1), grains - each);
   std::string text = fmt::format("\n{} ranks\n", ranks);
   text += fmt::format("  {:<24} {} x {} x {}\n", "subdomains", shape[0], shape[1], shape[2]);
   text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains a rank", each, ghosts);
-  text += fmt::format("  {:<24} {:.2f} % of the grains\n", "ghosts in all", 100 * (all - 1));
+  text += fmt::format("  {:<24} {:.2f} % of the grains\n", "ghosts in all", 100 * std::min(all - 1, ranks - 1.0));
   text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
                       (each + ghosts) * setup::grainMemory(scene).most() / 1048576.0);
   text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);

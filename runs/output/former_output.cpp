@@ -46,25 +46,19 @@ std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& ch
   return {};
 }
 
-void checkFrames(const fs::path& folder, std::int64_t step, std::int64_t count) {
-  std::int64_t found = 0;
+std::int64_t keptFrames(const fs::path& folder, std::int64_t step, std::int64_t count, bool atEnd) {
+  if (count == 0 && !atEnd) return 0;
+  std::int64_t found = -1;
   try {
     found = FramesFile::framesUpTo(folder, step);
   } catch (const base::InputError&) {
-    found = -1;
+    if (count == 0) return 0; // it is made anew
   }
   if (found < count)
     throw base::InputError(fmt::format("{}: does not hold the {} frames up to step {} that the checkpoint counted; "
                                        "bring back the file that the run wrote, or go on without them by --force",
                                        (folder / "frames.h5").string(), count, step));
-}
-
-bool holdsLastFrame(const fs::path& folder, std::int64_t step, std::int64_t count) {
-  try {
-    return FramesFile::framesUpTo(folder, step) == count + 1;
-  } catch (const base::InputError&) {
-    return false;
-  }
+  return atEnd && found == count + 1 ? found : count;
 }
 
 } // namespace grouser::output

@@ -11,10 +11,9 @@ namespace grouser::output {
 std::vector<Row> readRows(const std::filesystem::path& folder, const std::vector<Channel>& channels, std::int64_t step,
                           std::int64_t count);
 
-/// The same for the frames of `folder`/frames.h5, which stay in the file: throws unless they are there.
-void checkFrames(const std::filesystem::path& folder, std::int64_t step, std::int64_t count);
-
-/// Whether the file holds one more, of the very step: the end of a run that had none left to take.
-bool holdsLastFrame(const std::filesystem::path& folder, std::int64_t step, std::int64_t count);
+/// How many frames of `folder`/frames.h5 a run keeps that is resumed at `step`, where its checkpoint counted `count`:
+/// these, and one more where `atEnd` and the file holds it: that of the very step, the end of a run that had none left
+/// to take. They stay in the file. Throws base::InputError where it does not hold them.
+std::int64_t keptFrames(const std::filesystem::path& folder, std::int64_t step, std::int64_t count, bool atEnd);
 
 } // namespace grouser::output

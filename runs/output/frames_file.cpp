@@ -180,6 +180,7 @@ void FramesFile::add(const Frame& frame) {
     throw std::logic_error("a frame's arrays differ in length");
   const std::string group = groupOf(count_);
   const auto total = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(grains)));
+  if (file_) requireRoom(*file_, bytesOf(frame, total));
   if (file_) writeAllButGrains(frame, group, total);
   if (total > 0 && comm_.alone()) writeGrains(*file_, frame, group);
   if (total > 0 && !comm_.alone()) {
@@ -198,6 +199,17 @@ void FramesFile::add(const Frame& frame) {
   describe(total, frame.step, frame.time);
   file_->flush();
   if (!steps_.empty()) writeXdmf();
+}
+
+/// At most, with what HDF5 adds of its own.
+std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) const {
+  constexpr std::uint64_t kOwn = 32768, kAName = 64;
+  std::uint64_t aGrain = 2 * sizeof(std::uint32_t); // id and list of vertices
+  for (const GrainDataset& d : kGrainDatasets) aGrain += d.width * sizeof(float);
+  std::uint64_t cuts = 0;
+  for (const std::vector<double>& places : frame.borders) cuts += places.size();
+  return kOwn + kAName * static_cast<std::uint64_t>(count_) + grains * aGrain + partVertices_ * 3 * sizeof(float) +
+         cuts * sizeof(double);
 }
 
 void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {

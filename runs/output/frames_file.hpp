@@ -37,6 +37,7 @@ public:
 private:
   FramesFile(const std::filesystem::path& folder, std::optional<support::Hdf5File> file, std::vector<FramePart> parts,
              const base::TriangleMesh& ground, const base::Comm& comm);
+  std::uint64_t bytesOf(const Frame& frame, std::uint64_t grains) const;
   void writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains);
   void writeGrains(support::Hdf5File& file, const Frame& frame, const std::string& group) const;
   std::string listVertices(std::size_t grains);

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kName = "manifest.json";
+/// Kept free behind it [bytes], so that on a full disk it can still say why the run ended: the message, and names.
+constexpr std::uint64_t kRoom = 16384;
 
 std::string now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
@@ -63,7 +65,13 @@ void Manifest::write(RunStatus status) const {
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
   }
   json["files"] = filesIn(path_.parent_path());
-  support::replaceTextFile(path_, json.dump(2) + "\n");
+  const std::string text = json.dump(2) + "\n";
+  try {
+    support::replaceTextFile(path_, text, kRoom);
+  } catch (const std::exception&) {
+    if (status == RunStatus::running || status == RunStatus::finished) throw;
+    support::overwriteTextFile(path_, text);
+  }
 }
 
 void listFiles(const fs::path& folder) {

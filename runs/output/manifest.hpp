@@ -20,7 +20,8 @@ public:
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }
   void add(const Summary& summary) { summary_ = summary; }
 
-  /// Writes the file with the folder's files of this moment, by renaming.
+  /// Writes the file with the folder's files of this moment, by renaming. That a run has failed or was stopped is said
+  /// on a full disk too: then by writing over what is there.
   void write(RunStatus status) const;
 
 private:

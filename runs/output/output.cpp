@@ -28,6 +28,9 @@ namespace {
 /// Rows of a channel that are allotted at a time: enough that a long run does not scatter, small enough for short ones.
 constexpr int kChunkRows = 64;
 
+/// What HDF5 may add of its own when a data set grows by so many rows: nodes of its tree of chunks [bytes].
+constexpr std::uint64_t kTreeBytes = 8192;
+
 /// The files of a run; what else lies in its folder is not ours.
 constexpr const char* kFiles[] = {
     "results.h5",    "timeseries.csv", "frames.h5",   "frames.xdmf",      "scene.toml",
@@ -101,6 +104,7 @@ struct RunWriter::Series {
   std::ofstream csv;
   Manifest manifest;
   std::size_t width = 0;
+  std::int64_t rowsWritten = 0;
 
   /// While former rows are copied the new files have another name, so that a kill loses none.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
@@ -131,6 +135,8 @@ struct RunWriter::Series {
 
   void append(const Row& row) {
     if (row.values.size() != width) throw std::logic_error("a row has another length than its channels");
+    if (rowsWritten++ % kChunkRows == 0)
+      requireRoom(results, (channels.size() + 2) * kTreeBytes + (width + 2) * kChunkRows * sizeof(double));
     steps.append(&row.step);
     times.append(&row.time);
     const double* number = row.values.data();
@@ -277,6 +283,7 @@ void RunWriter::finish(const Summary& summary) {
   Impl& w = *impl_;
   w.frames.reset();
   if (!w.series) return;
+  requireRoom(w.series->results, kTreeBytes);
   w.series->results.attribute("/", "state_hash", summary.stateHash);
   w.series->results.flush();
   w.series->manifest.add(summary);

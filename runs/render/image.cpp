@@ -5,13 +5,24 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
+#include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace grouser::render {
 
 void writePng(const Image& image, const std::filesystem::path& path) {
-  const int written = stbi_write_png(path.c_str(), image.width, image.height, 3, image.rgb.data(), 3 * image.width);
-  if (!written) throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+  // The library's own writing of files does not notice a full disk.
+  std::ofstream file(path, std::ios::binary);
+  const auto take = [](void* to, void* bytes, int count) {
+    static_cast<std::ofstream*>(to)->write(static_cast<const char*>(bytes), count);
+  };
+  const int made = stbi_write_png_to_func(take, &file, image.width, image.height, 3, image.rgb.data(), 3 * image.width);
+  file.close();
+  if (made && file) return;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error); // no part of a picture
+  throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
 }
 
 } // namespace grouser::render

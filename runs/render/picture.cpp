@@ -27,35 +27,19 @@ Colour groundColour() { return srgb(168, 152, 128); }
 
 Colour partColour(output::PartKind kind) {
   using Kind = output::PartKind;
-  switch (kind) {
-  case Kind::chassis:
-    return srgb(112, 122, 92);
-  case Kind::shoe:
-    return srgb(66, 68, 72);
-  case Kind::sprocket:
-  case Kind::body1:
-    return srgb(214, 138, 48);
-  case Kind::roadWheel:
-    return srgb(122, 146, 176);
-  case Kind::roller:
-    return srgb(150, 172, 150);
-  case Kind::idler:
-  case Kind::body3:
-    return srgb(178, 96, 84);
-  case Kind::surface:
-    return groundColour();
-  case Kind::body0:
-    return srgb(78, 121, 167);
-  case Kind::body2:
-    return srgb(89, 161, 79);
-  case Kind::body4:
-    return srgb(140, 110, 160);
-  case Kind::body5:
-    return srgb(118, 183, 178);
-  case Kind::fixed:
-  case Kind::other:
-    break;
-  }
+  struct Painted {
+    Kind kind;
+    Colour colour;
+  };
+  const Painted kPainted[] = {
+      {Kind::chassis, srgb(112, 122, 92)},    {Kind::shoe, srgb(66, 68, 72)},      {Kind::sprocket, srgb(214, 138, 48)},
+      {Kind::roadWheel, srgb(122, 146, 176)}, {Kind::roller, srgb(150, 172, 150)}, {Kind::idler, srgb(178, 96, 84)},
+      {Kind::surface, groundColour()},        {Kind::body0, srgb(78, 121, 167)},   {Kind::body1, srgb(214, 138, 48)},
+      {Kind::body2, srgb(89, 161, 79)},       {Kind::body3, srgb(178, 96, 84)},    {Kind::body4, srgb(140, 110, 160)},
+      {Kind::body5, srgb(118, 183, 178)},
+  };
+  for (const Painted& painted : kPainted)
+    if (painted.kind == kind) return painted.colour;
   return srgb(150, 150, 150);
 }
 

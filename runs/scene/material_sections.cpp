@@ -36,8 +36,9 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-",
-        fmt::format("rebound over impact speed; {} where damping is not given either", brief(S::kRestitution)))
-      .atLeast(1e-6)
+        fmt::format("rebound over impact speed; {} where damping is not given either; below 1e-6 with attraction alone",
+                    brief(S::kRestitution)))
+      .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s",
         "linear: gamma of F_n = k overlap + gamma m_eff v_n (v_n: approach speed), instead of restitution")
@@ -82,7 +83,7 @@ Table<ContactPair> contactTable() {
       "What materials a and b have against each other, otherwise than the mixing rule gives: stiffness in series, "
       "doubled; the smaller of frictions and restitutions; the geometric mean of cohesions (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
-  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(1e-6).atMost(1);
+  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(0).atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
   t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
   t.add("rolling_friction", &S::rollingFriction, "-", "of the pair").atLeast(0).atMost(2);

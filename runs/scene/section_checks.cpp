@@ -109,8 +109,26 @@ void checkSomethingMoves(const Scene& scene) {
 
 } // namespace
 
+namespace {
+
+/// A material that stands in no line of the scene, but only in an override, is a mistyped name: nothing is made of it.
+void checkMaterialsOfOverrides(const Section& root, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, section] : root.named("material"))
+    if (section.origin() != "--set") names.push_back(name);
+  for (const auto& [name, section] : root.named("material"))
+    if (section.origin() == "--set")
+      section.fail("", names.empty()
+                           ? fmt::format("is no material of {}, which has none", scene.file.string())
+                           : fmt::format("is no material of {}; did you mean {}? (it has: {})", scene.file.string(),
+                                         base::nearestWord(name, names), fmt::join(names, ", ")));
+}
+
+} // namespace
+
 void checkTogether(const Scene& scene) {
   const Section root = scene.document->root(), run = root.section("run");
+  checkMaterialsOfOverrides(root, scene);
   checkMeshes(root, scene);
   checkPeriodic(run, scene);
   checkPlanesAcross(root.list("plane"), scene);

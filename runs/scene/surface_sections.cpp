@@ -2,6 +2,7 @@
 // Keys and checks of [[plane]], [[box]], [[cylinder]] and [[mesh]], the rigid surfaces that grains touch.
 #include "runs/scene/detail/section_lists.hpp"
 
+#include "base/rounded.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/support/orientation.hpp"
 #include "runs/support/result_names.hpp"
@@ -191,9 +192,9 @@ void loadMesh(const Section& section, MeshSection& mesh) {
                              longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
   if (!mesh.sphereRadius) mesh.sphereRadius = byDefault;
   if (*mesh.sphereRadius > 0.5 * longest)
-    section.fail(
-        "sphere_radius",
-        fmt::format("[m] is above half of the mesh's longest side of {:.4g} m; lower it, or correct scale", longest));
+    section.fail("sphere_radius",
+                 fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
+                             base::roundedDown(0.5 * longest, 4)));
   if (const double points = spheredecomp::latticePoints(triangles, *mesh.sphereRadius);
       !(points <= spheredecomp::kMostLatticePoints))
     section.fail("sphere_radius",

@@ -2,6 +2,7 @@
 #include "runs/setup/grain_space.hpp"
 
 #include "base/position.hpp"
+#include "base/rounded.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "terrain/grains.hpp"
@@ -62,9 +63,9 @@ public:
       if (!(std::fabs(from) < limit_ && std::fabs(to) < limit_)) fail(tooFar());
       if (to - from < least)
         fail(fmt::format(" sets periodic boundaries along {} that are too near: a grain could touch two images of "
-                         "another; set them at least {:.6g} m apart, three times a diameter with run.skin, or use "
+                         "another; set them at least {} m apart, three times a diameter with run.skin, or use "
                          "smaller grains",
-                         "xy"[a], least));
+                         "xy"[a], base::roundedUp(least, 6)));
     }
   }
 

@@ -210,6 +210,7 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
   checkSpeeds(scene, timeStep);
+  checkSurfacesBetweenSides(scene);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
   GroundSetup ground;
@@ -222,6 +223,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
   checkSpeeds(scene, timeStep);
+  checkSurfacesBetweenSides(scene);
   GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
   const GrainKinds kinds = grainKinds(scene);

@@ -17,7 +17,7 @@ namespace grouser::setup {
 /// - hertz: 1 / E_eff = (1 - nu_a^2) / E_a + (1 - nu_b^2) / E_b and 1 / G_eff = (2 - nu_a) / G_a + (2 - nu_b) / G_b;
 /// - the smaller friction, rolling friction and restitution, the smaller tangential and rolling ratios; the geometric
 ///   mean of the cohesions; attraction only if both allow it.
-/// Throws InputError where one is linear and the other hertz.
+/// Throws InputError where one is linear and the other hertz. Restitutions must be possible: see restitution_check.hpp.
 contact::ContactLaw pairLaw(const scene::Scene& scene, const std::string& a, const std::string& b,
                             std::optional<double> effectiveMass);
 

@@ -2,6 +2,7 @@
 #include "runs/setup/periodic_boundaries.hpp"
 
 #include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,15 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
         scene.fail("source", k, low < from ? "low" : "high", outside(low, high));
     }
   }
+}
+
+void checkSurfacesBetweenSides(const scene::Scene& scene) {
+  const terrain::PeriodicBoundaries sides = periodicBoundaries(scene);
+  if (!sides[0] && !sides[1]) return;
+  const double largest = grainKinds(scene).largest;
+  for (const SceneSurface& s : surfacesOf(scene))
+    if (const std::string fault = faultAtBoundaries(s, s.start, sides, largest); !fault.empty())
+      scene.fail(s.list(), s.number, "position", "[m]: it " + fault);
 }
 
 void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface) {

@@ -16,6 +16,10 @@ base::Vec3d toNearestImage(const terrain::PeriodicBoundaries& sides, base::Vec3d
 /// Grains and sources must lie between the sides. Throws InputError that names the first that does not.
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains);
 
+/// Boxes, cylinders and meshes have no images, so none may begin where grains would feel one: see faultAtBoundaries().
+/// Throws InputError.
+void checkSurfacesBetweenSides(const scene::Scene& scene);
+
 /// `surface` must be as high at one periodic boundary as at the other, all along: level in that direction.
 void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface);
 

@@ -2,6 +2,7 @@
 #include "runs/setup/placement.hpp"
 
 #include "base/math.hpp"
+#include "base/rounded.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "vehicle/spec_file.hpp"
@@ -86,7 +87,8 @@ void checkParts(const scene::Scene& scene) {
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (radius > 0.5 * longest)
       scene.fail("vehicle", "sphere_radius",
-                 fmt::format("[m] is above half of the longest side of {}, {:.4g} m; lower it", name, longest));
+                 fmt::format("[m] is above {} m, half of the longest side of {}; lower it",
+                             base::roundedDown(0.5 * longest, 4), name));
     if (const double points = spheredecomp::latticePoints(mesh, radius); !(points <= spheredecomp::kMostLatticePoints))
       scene.fail("vehicle", "sphere_radius",
                  fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,

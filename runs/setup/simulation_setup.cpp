@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/simulation_setup.hpp"
 
+#include "runs/setup/restitution_check.hpp"
 #include "runs/setup/step_limit.hpp"
 
 namespace grouser::setup {
 
 SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
   SimulationSetup setup;
+  checkRestitutions(scene);
   setup.timeStep = chooseTimeStep(scene);
   setup.gravity = scene.run.gravity;
   setup.ground = groundSetup(scene, setup.timeStep, ranks);

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/rounded.hpp"
 #include "base/sphere.hpp"
 #include "base/table.hpp"
 #include "contact/restitution.hpp"
@@ -158,7 +159,8 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
 [[noreturn]] void failStiffness(const scene::Scene& scene, const scene::Material& a, const scene::Material& b,
                                 double times, const std::string& message) {
   const auto wanted = [&](double stiffness) {
-    return fmt::format("{}; raise it to {:.3g} at least, or choose smaller grains", message, times * stiffness);
+    return fmt::format("{}; raise it to {} at least, or choose smaller grains", message,
+                       base::roundedUp(times * stiffness, 3));
   };
   if (a.law == scene::ContactLawKind::hertz) {
     const scene::Material& soft = *b.young < *a.young ? b : a;
@@ -210,15 +212,16 @@ double chooseTimeStep(const scene::Scene& scene) {
   if (!scene.run.timeStep) return automatic;
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; });
-  if (*scene.run.timeStep > limit.step)
+  if (*scene.run.timeStep > limit.step) {
+    const std::string most = base::roundedDown(limit.step, 3);
     scene.fail("run", "time_step",
-               fmt::format(
-                   "[s] is above {:.3g} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
-                   "{:.3g} s or less (\"auto\": {:.3g} s), or {}{}",
-                   limit.step, limit.what, limit.step, automatic, limit.remedy,
-                   hertz
-                       ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s", scene.run.impactSpeed)
-                       : ""));
+               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
+                           "{} s or less (\"auto\": {} s), or {}{}",
+                           most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
+                           hertz ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s",
+                                               scene.run.impactSpeed)
+                                 : ""));
+  }
   return *scene.run.timeStep;
 }
 
@@ -254,15 +257,14 @@ void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeS
         across(s.section.velocity) + across(s.section.amplitude) * 2 * base::kPi * s.section.frequency.value_or(0);
     const double turns = s.section.spin && norm(*s.section.spin) > 0 ? norm(*s.section.spin) * leverOf(s) : 0;
     if (shifts + turns > most)
-      scene.fail(
-          s.list(), s.number,
-          turns > shifts       ? "spin"
-          : s.section.velocity ? "velocity"
-                               : "amplitude",
-          fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
-                      "{:.3g} s: it could pass through a grain unfelt; keep it below {:.4g} m/s (velocity, spin, "
-                      "amplitude, frequency), or lower run.time_step",
-                      s.name, shifts + turns, timeStep, most));
+      scene.fail(s.list(), s.number,
+                 turns > shifts       ? "spin"
+                 : s.section.velocity ? "velocity"
+                                      : "amplitude",
+                 fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
+                             "{:.3g} s: it could pass through a grain unfelt; keep it below {} m/s (velocity, spin, "
+                             "amplitude, frequency), or lower run.time_step",
+                             s.name, shifts + turns, timeStep, base::roundedDown(most, 4)));
   }
 }
 
@@ -278,8 +280,8 @@ void checkSpeeds(const scene::Scene& scene, double timeStep) {
       if (norm(sections[k].velocity) > most)
         scene.fail(list, k, "velocity",
                    fmt::format("[m/s] is more than half the neighbour list's skin in a step of {:.3g} s; keep it below "
-                               "{:.4g} m/s, or lower run.time_step, or raise run.skin",
-                               timeStep, most));
+                               "{} m/s, or lower run.time_step, or raise run.skin",
+                               timeStep, base::roundedDown(most, 4)));
   };
   check("grain", scene.grains), check("grains", scene.fills), check("source", scene.sources);
 }

@@ -4,6 +4,7 @@
 #include "base/enum_words.hpp"
 #include "runs/setup/surface_motion.hpp"
 #include "spheredecomp/mesh_query.hpp"
+#include "terrain/grain_setup.hpp"
 #include "terrain/rigid_surface.hpp"
 
 #include <memory>
@@ -46,6 +47,12 @@ terrain::SurfacePose startingPose(const SurfaceSetup& surface);
 double startingOverlap(const SurfaceSetup& surface, const base::Vec3d& position, double radius);
 /// The same where the surface's own frame has come to `pose`.
 double overlapAt(const SurfaceSetup& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
+
+/// Grains feel a box, cylinder or mesh where it is, and no images of it beyond periodic boundaries. So it has to keep
+/// `radius` away from both boundaries, or to reach across both: says how it does not, or nothing. `radius`: of the
+/// largest grain [m].
+std::string faultAtBoundaries(const SurfaceSetup& surface, const base::Pose& pose,
+                              const terrain::PeriodicBoundaries& sides, double radius);
 
 } // namespace grouser::setup
 

@@ -80,7 +80,9 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
   return ground;
 }
 
-SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
+namespace {
+
+SettleReport settleUntilRest(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
   const setup::SettleSetup& wanted = bed.settle;
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
@@ -93,7 +95,12 @@ SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const S
   double forceRatio = 0;
   int calm = 0;
   while (report.time < wanted.timeLimit) {
-    for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
+    try {
+      for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
+    } catch (const base::SimulationError& error) {
+      throw base::SimulationError(fmt::format("while the {} settled, before the run begins: {}",
+                                              bed.tile ? "bed of copied tiles" : "bed", error.what()));
+    }
     report.steps += checkEvery;
     report.time = static_cast<double>(report.steps) * dt;
     if (wanted.forceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step
@@ -115,6 +122,17 @@ SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const S
                                                   forceRatio, *wanted.forceRatio)
                                     : "",
                   wanted.forceRatio ? " and settle_force_ratio" : ""));
+}
+
+} // namespace
+
+SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
+  try {
+    return settleUntilRest(bed, grains, progress);
+  } catch (const base::SimulationError& error) {
+    if (progress.failed) progress.failed(grains, error.what());
+    throw;
+  }
 }
 
 void keepSurface(Ground& ground, const base::Exec& exec) {

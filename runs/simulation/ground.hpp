@@ -7,9 +7,12 @@
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
 
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace grouser::simulation {
 
@@ -24,8 +27,18 @@ struct Ground {
   std::shared_ptr<const terrain::BedSurface> undisturbed;
 };
 
-/// Called now and then while a bed settles: simulated time [s], kinetic energy a grain over m g radius [-].
-using SettleProgress = std::function<void(double time, double agitation)>;
+/// Who watches a bed settle.
+struct SettleProgress {
+  template <class Tell>
+  requires std::invocable<const Tell&, double, double> SettleProgress(Tell f) : tell(std::move(f)) {}
+  void operator()(double time, double agitation) const { tell(time, agitation); }
+
+  /// Called now and then: simulated time [s], kinetic energy a grain over m g radius [-].
+  std::function<void(double time, double agitation)> tell;
+  /// Where it ends in a SimulationError: the bed as it is then, and the message of the error, which is thrown when this
+  /// returns. May be empty; must not throw.
+  std::function<void(const terrain::Grains& bed, const std::string& message)> failed{};
+};
 
 /// How settling ended.
 struct SettleReport {
@@ -41,7 +54,8 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
 /// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
 /// m g radius, and the mean resultant force below the scene's share of the weight where it names one, for a whole tenth
 /// of a second, but at least for the time a grain takes to fall the bed's looseness.
-/// Throws SimulationError when the scene's time limit passes first.
+/// Throws SimulationError when the scene's time limit passes first, or when the grains meet a fault: the message says
+/// that it was while the bed settled.
 SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress);
 
 /// Of a ground with a bed: takes its surface as it lies now for the undisturbed one, or `heights` of one taken earlier.

@@ -71,6 +71,17 @@ void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadiu
                                           step, static_cast<double>(step) * timeStep_, surfaces_[i].name, speed, most));
 }
 
+/// Meshes have many corners: these are looked at now and then.
+void Surfaces::checkPlace(std::size_t i, std::int64_t step) const {
+  constexpr std::int64_t kInterval = 50;
+  const terrain::PeriodicBoundaries& sides = setup_.grains->boundaries.periodic;
+  if ((!sides[0] && !sides[1]) || !surfaces_[i].moves || (surfaces_[i].mesh && step % kInterval != 0)) return;
+  const std::string fault = setup::faultAtBoundaries(surfaces_[i], pose(i, step), sides, setup_.grains->model.radius);
+  if (!fault.empty())
+    throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {} {}; change what moves it", step,
+                                            static_cast<double>(step) * timeStep_, surfaces_[i].name, fault));
+}
+
 void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
@@ -88,6 +99,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
       checkSpeed(i, step, grains.system().constants.smallestRadius);
       power += given * 0.5 * (before + s.speed);
     }
+    checkPlace(i, step + 1);
     s.work += power * timeStep_;
     s.impulse -= load.force * timeStep_;
     s.angularImpulse -= (load.torque + cross(centre, load.force)) * timeStep_;

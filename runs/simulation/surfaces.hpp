@@ -32,7 +32,8 @@ public:
   /// Where they are at step `step`, to the grains.
   void place(terrain::Grains& grains, std::int64_t step) const;
   /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step. Throws
-  /// SimulationError where a surface moves so fast that it could pass through a grain in one step.
+  /// SimulationError where a surface moves so fast that it could pass through a grain in one step, or has come to a
+  /// periodic boundary, beyond which grains do not feel it.
   void advance(terrain::Grains& grains, std::int64_t step);
 
   std::size_t count() const { return surfaces_.size(); }
@@ -58,6 +59,7 @@ public:
 
 private:
   terrain::SurfacePose placement(std::size_t i, std::int64_t step) const;
+  void checkPlace(std::size_t i, std::int64_t step) const;
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
   base::Vec3d freeAxis(std::size_t i) const; ///< zero where it is not free

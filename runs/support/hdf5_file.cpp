@@ -2,6 +2,7 @@
 #include "runs/support/hdf5_file.hpp"
 
 #include "base/error.hpp"
+#include "runs/support/disk_room.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -319,6 +320,12 @@ void Hdf5File::remove(const std::string& object) {
 }
 
 void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush the file"); }
+
+void requireRoom(const Hdf5File& file, std::uint64_t bytes) {
+  void* handle = nullptr; // to the descriptor of the file, which may have another name by now
+  file.check(H5Fget_vfd_handle(file.file_, H5P_DEFAULT, &handle), "say where the file is open");
+  requireRoom(*static_cast<const int*>(handle), file.path_, bytes);
+}
 
 bool Hdf5File::has(const std::string& object) const {
   // Each group on the way must exist before HDF5 may be asked for the next.

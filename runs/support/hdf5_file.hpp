@@ -86,6 +86,7 @@ public:
   void remove(const std::string& object);
   /// Everything written so far is on disk after this: a killed program leaves a readable file.
   void flush();
+  friend void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
   bool has(const std::string& object) const;
   /// What a group holds, without the way to it; nothing where there is no such group.
@@ -134,5 +135,9 @@ private:
   std::filesystem::path path_;
   bool shared_ = false;
 };
+
+/// Before `bytes` more are written that belong together. HDF5 leaves a file that nobody can open where its writes fail
+/// in the middle; where this throws std::runtime_error nothing has changed since flush().
+void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
 } // namespace grouser::support

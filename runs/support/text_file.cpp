@@ -2,6 +2,7 @@
 #include "runs/support/text_file.hpp"
 
 #include "base/error.hpp"
+#include "runs/support/disk_room.hpp"
 
 #include <fmt/format.h>
 
@@ -28,17 +29,30 @@ void writeTextFile(const fs::path& path, const std::string& text, const std::str
   throw std::runtime_error(fmt::format("{}: could not be written whole; is the disk full?", path.string()));
 }
 
-void replaceTextFile(const fs::path& path, const std::string& text) {
+void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_t room) {
   const fs::path part = path.string() + ".part";
   std::ofstream file(part, std::ios::binary);
   file << text;
   file.close();
-  if (!file) {
+  try {
+    if (!file) throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+    if (room) requireRoom(part, room);
+  } catch (...) {
     std::error_code error;
     fs::remove(part, error);
-    throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+    throw;
   }
   fs::rename(part, path);
+}
+
+void overwriteTextFile(const fs::path& path, const std::string& text) {
+  // Not emptied first: that would give its place on the disk away.
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::resize_file(path, text.size(), error);
+  if (!file || error) throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
 }
 
 } // namespace grouser::support

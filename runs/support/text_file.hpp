@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -13,6 +14,11 @@ void writeTextFile(const std::filesystem::path& path, const std::string& text, c
 /// Writes a text file of a run under another name (path + ".part") and puts it in place by renaming: whoever reads
 /// `path` finds the former file or the new one, whole. Throws std::runtime_error, with `path` as it was, where that
 /// fails.
-void replaceTextFile(const std::filesystem::path& path, const std::string& text);
+/// With `room` [bytes] the new file can grow by so much even when the disk is full.
+void replaceTextFile(const std::filesystem::path& path, const std::string& text, std::uint64_t room = 0);
+
+/// Where the disk has no place for a second file: writes over the one that is there, within the room it was given. A
+/// kill in the middle leaves neither text. Throws std::runtime_error.
+void overwriteTextFile(const std::filesystem::path& path, const std::string& text);
 
 } // namespace grouser::support

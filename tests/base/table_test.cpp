@@ -246,6 +246,9 @@ TEST(NearestWord, CountsSwapsAsOneEdit) {
   EXPECT_EQ(editDistance("raduis", "radius"), 1);
   EXPECT_EQ(editDistance("Radius", "radius"), 0);
   EXPECT_EQ(editDistance("", "abc"), 3);
+  EXPECT_EQ(nearestWord("drivr", {"drive", "driver"}), "driver") << "a letter was left out";
+  EXPECT_EQ(nearestWord("drivr", {"driver", "drive"}), "driver");
+  EXPECT_EQ(nearestWord("driv", {"driver", "drive"}), "drive") << "the nearer one";
   EXPECT_EQ(nearestWord("fricton", {"density", "friction", "fraction"}), "friction");
 }
 

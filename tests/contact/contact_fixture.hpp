@@ -4,8 +4,28 @@
 #include "contact/rolling_resistance.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace grouser::contact::testing {
+
+/// A linear law with friction.
+template <class T> BasicLaw<T> linear() {
+  BasicLaw<T> law;
+  law.stiffness = T(1e5), law.damping = 800, law.tangentialStiffness = T(3e4), law.tangentialDamping = 400;
+  law.friction = T(0.5);
+  return law;
+}
+
+/// Glass: E = 4.8e10, nu = 0.2.
+template <class T> BasicLaw<T> hertz() {
+  BasicLaw<T> law;
+  const double effective = 4.8e10 / (2 * (1 - 0.2 * 0.2)), shear = 2e10 / (2 * 1.8);
+  law.hertz = true;
+  law.stiffness = T(4.0 / 3 * effective), law.tangentialStiffness = T(8 * shear);
+  law.rootDamping = T(0.2 * std::sqrt(2 * effective)), law.tangentialRootDamping = law.rootDamping / 2;
+  law.friction = T(0.5);
+  return law;
+}
 
 /// One sphere against a fixed plane z = 0, as the pure laws see it: moved by the scheme of the grains' step
 /// (symplectic Euler), in double.

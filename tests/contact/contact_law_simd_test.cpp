@@ -2,7 +2,7 @@
 // The law on many contacts side by side: each lane has the bits of that contact alone.
 #include "base/random.hpp"
 #include "base/simd.hpp"
-#include "contact/contact_law.hpp"
+#include "contact_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@
 
 namespace grouser::contact {
 namespace {
+
+using testing::hertz, testing::linear;
 
 template <class T> using Geometry = BasicContactGeometry<T>;
 
@@ -69,19 +71,6 @@ template <unsigned kFeatures, int kWidth, class T> void expectLanesAsAlone(const
     EXPECT_GT(sliding, 200 * kWidth / 20);
     EXPECT_LT(sliding, 200 * kWidth * 19 / 20);
   }
-}
-
-template <class T> BasicLaw<T> linear() {
-  BasicLaw<T> law;
-  law.stiffness = T(1e5), law.damping = 800, law.tangentialStiffness = T(3e4), law.tangentialDamping = 400;
-  law.friction = T(0.5);
-  return law;
-}
-template <class T> BasicLaw<T> hertz() {
-  BasicLaw<T> law;
-  law.hertz = true, law.stiffness = T(3e8), law.tangentialStiffness = T(2e8);
-  law.rootDamping = T(2e3), law.tangentialRootDamping = T(1e3), law.friction = T(0.5);
-  return law;
 }
 
 TEST(ContactLawSimd, LinearWithAndWithoutFriction) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/contact_law.hpp"
+#include "contact_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,23 +8,7 @@ namespace {
 
 using base::Vec3f;
 
-template <class T> BasicLaw<T> linear() {
-  BasicLaw<T> law;
-  law.stiffness = T(1e5), law.damping = 800, law.tangentialStiffness = T(3e4), law.tangentialDamping = 400;
-  law.friction = T(0.5);
-  return law;
-}
-
-/// Glass: E = 4.8e10, nu = 0.2.
-template <class T> BasicLaw<T> hertz() {
-  BasicLaw<T> law;
-  const double effective = 4.8e10 / (2 * (1 - 0.2 * 0.2)), shear = 2e10 / (2 * 1.8);
-  law.hertz = true;
-  law.stiffness = T(4.0 / 3 * effective), law.tangentialStiffness = T(8 * shear);
-  law.rootDamping = T(0.2 * std::sqrt(2 * effective)), law.tangentialRootDamping = law.rootDamping / 2;
-  law.friction = T(0.5);
-  return law;
-}
+using testing::hertz, testing::linear;
 
 TEST(ContactLaw, SpringTurnsIntoTheTangentPlane) {
   // A spring left from a contact whose normal has since turned by 0.6 rad, at rest: all of its force is tangential.

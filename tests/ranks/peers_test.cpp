@@ -11,6 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
+
 namespace grouser {
 namespace {
 
@@ -21,6 +24,13 @@ protected:
   void SetUp() override {
     if (comm.alone()) GTEST_SKIP() << "one rank has no peers";
     exec = testExec(1, comm.rank());
+    if (exec.onCpu()) {
+      try {
+        base::PeerMemory(exec, comm, PeerUse::always);
+      } catch (const base::InputError& e) {
+        GTEST_SKIP() << e.what();
+      }
+    }
     if (!exec.onCpu() && !base::PeerMemory(exec, comm, PeerUse::automatic).allSeeAll())
       GTEST_SKIP() << "the GPUs of this machine do not see each other's memory";
   }
@@ -39,14 +49,36 @@ TEST(PeersOnCpus, SeeNobodyUnlessAsked) {
 
 TEST(PeersOnCpus, WhoInsistsIsToldWhy) {
   if (test::comm().alone()) GTEST_SKIP() << "one rank needs nobody's memory";
-  base::PeerMemory memory(base::cpuExec(1), test::comm(), PeerUse::always);
   try {
-    memory.reserve(std::size_t{1} << 46);
+    base::PeerMemory(base::cpuExec(1), test::comm(), PeerUse::always, std::size_t{1} << 46);
     FAIL() << "there is no machine with so much memory";
   } catch (const base::InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("/dev/shm"), std::string::npos) << e.what();
-  } catch (const base::DeviceError&) { // nor for one rank alone
+    EXPECT_NE(std::string(e.what()).find("room for it"), std::string::npos) << e.what();
   }
+}
+
+/// What a process shows of itself under /proc/self/fd.
+int openFiles() {
+  const std::filesystem::directory_iterator files("/proc/self/fd");
+  return static_cast<int>(std::distance(begin(files), end(files)));
+}
+
+TEST_F(Peers, LeaveNeitherNamesNorOpenFiles) {
+  if (!exec.onCpu()) GTEST_SKIP() << "CUDA's memory has no files";
+  const auto names = [] {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+      count += entry.path().filename().string().rfind("grouser", 0) == 0;
+    return count;
+  };
+  const int before = openFiles(), named = names();
+  comm.wait();
+  {
+    base::PeerMemory memory(exec, comm, PeerUse::always);
+    EXPECT_EQ(openFiles(), before) << "all have mapped it: nobody else may";
+    EXPECT_EQ(names(), named) << "a kill now would leave it";
+  }
+  comm.wait();
 }
 
 TEST_F(Peers, WhatOneWritesTheOthersRead) {

@@ -102,7 +102,7 @@ std::vector<Mistake> vehicles() {
       badScene("VehicleCutTooFine", kGrains, replaced(kBench, "RADIUS", "1e-5"),
                {"scene.toml:6: vehicle.sphere_radius", "lattice points", "raise it"}),
       badScene("VehicleCutTooCoarse", kGrains, replaced(kBench, "RADIUS", "0.9"),
-               {"scene.toml:6: vehicle.sphere_radius", "above half of the longest side", "lower it"}),
+               {"scene.toml:6: vehicle.sphere_radius", " m, half of the longest side of ", "lower it"}),
       badVehicle("VehicleMeshMissing", [spec](const fs::path& p) { put(p, spec); }, {".obj"}),
   };
 }

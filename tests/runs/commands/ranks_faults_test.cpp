@@ -36,6 +36,19 @@ TEST_F(OnRanks, RanksToldToDoDifferentThingsAreRefused) {
   EXPECT_FALSE(fs::exists(folder_ / "o"));
 }
 
+TEST_F(OnRanks, BenchesToldToDoDifferentThingsAreRefused) {
+  const std::string bed = "\"$grouser\" bench bed --threads 1 --batches 1 --settle 0 --hash --grains ";
+  const Outcome grains = shell(kLaunch + bed + "100 --steps 10 : -np 1 " + bed + "200 --steps 10"),
+                steps = shell(kLaunch + bed + "100 --steps 10 : -np 1 " + bed + "100 --steps 20"),
+                friction = shell(kLaunch + bed + "100 --steps 10 : -np 1 " + bed + "100 --steps 10 --friction 0");
+  for (const Outcome* o : {&grains, &steps, &friction}) {
+    EXPECT_EQ(o->code, 2);
+    EXPECT_NE(o->errors.find("bench bed: rank 1 has another command line than rank 0"), std::string::npos) << o->errors;
+    EXPECT_EQ(o->out.find("state-hash"), std::string::npos);
+  }
+  EXPECT_EQ(shell(kLaunch + bed + "100 --steps 10 : -np 1 " + bed + "100 --steps 10").code, 0);
+}
+
 TEST_F(OnRanks, TheFirstRankSaysWhereBedsAreKept) {
   const std::string words = " \"$grouser\" run bed.toml --steps 50 --hash --set terrain.settle_time_limit=5 "
                             "--set terrain.settle_kinetic_energy=0.05 --out ",

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/plan.hpp"
+#include "runs/setup/meeting_pairs.hpp"
+#include "vehicle/spec_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::commands {
+
+std::string pairsText(const scene::Scene& scene) {
+  std::string text, notes;
+  const std::vector<setup::MeetingPair> pairs = setup::meetingPairs(scene);
+  std::size_t width = 24;
+  const auto nameOf = [](const setup::MeetingPair& p) { return fmt::format("{}: {}, {}", p.what, p.grain, p.partner); };
+  for (const setup::MeetingPair& p : pairs) width = std::max(width, nameOf(p).size());
+  if (!pairs.empty())
+    text += fmt::format(
+        "\nwhat acts where they meet\n  {:<{}}  {:<6} {:>11} {:>11} {:>8} {:>8} {:>8}\n  {:<{}}  {:<6} {:>11} "
+        "{:>11} {:>8} {:>8} {:>8}\n",
+        "materials", width, "law", "stiffness", "restitution", "friction", "rolling", "cohesion", "", width, "",
+        "N/m or Pa", "-", "-", "-", "J/m2");
+  for (const setup::MeetingPair& p : pairs) {
+    text += fmt::format("  {:<{}}  {:<6} {:>11.4g} {:>11.4g} {:>8.4g} {:>8.4g} {:>8.4g}\n", nameOf(p), width,
+                        p.law.hertz ? "hertz" : "linear", p.stiffness, p.restitution, p.law.friction,
+                        p.law.rollingFriction, p.cohesion);
+    for (const std::string& off : p.off) notes += fmt::format("  note: {}: {}\n", p.what, off);
+  }
+  if (scene.vehicle) {
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    if (text.empty()) text += "\nwhat acts where they meet\n";
+    const auto part = [&](const char* what, double friction) {
+      text += fmt::format("  {:<{}}  foundation of {:.4g} N/m3, relaxation {:.4g} s, friction {:.4g}\n", what, width,
+                          spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
+    };
+    part("shoe on running gear", spec.contact.frictionInside);
+    if (scene.terrain && !scene.terrain->granular()) part("shoe on rigid ground", spec.contact.frictionGround);
+  }
+  return text + notes;
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/meeting_pairs.hpp"
+
+#include "base/math.hpp"
+#include "base/sphere.hpp"
+#include "contact/restitution.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/laws.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+#include "vehicle/spec_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace grouser::setup {
+
+namespace {
+
+/// Rebound over impact speed that the law's dashpot gives.
+double restitutionOf(const contact::ContactLaw& law, double effectiveMass) {
+  if (law.hertz)
+    return contact::hertzRestitutionOf(law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
+  const double zeta = law.rootDamping > 0 ? law.rootDamping / (2 * std::sqrt(law.stiffness))
+                                          : law.damping / (2 * std::sqrt(law.stiffness / effectiveMass));
+  return contact::restitutionOf(zeta, law.attraction);
+}
+
+/// Where only one of the two has something, the mixing rule makes nothing of it.
+std::vector<std::string> switchedOff(const scene::Material& a, const scene::Material& b,
+                                     const contact::ContactLaw& law) {
+  std::vector<std::string> sentences;
+  const auto say = [&](const char* key, const char* rule, double ofA, double ofB, double acts) {
+    if (acts > 0 || (ofA > 0) == (ofB > 0)) return;
+    const scene::Material &has = ofA > 0 ? a : b, &lacks = ofA > 0 ? b : a;
+    sentences.push_back(fmt::format("{} = {:g} of material.{} does nothing against {}, which has 0: {} acts; give "
+                                    "material.{} one too, or set it in [contact.\"{}|{}\"]",
+                                    key, std::max(ofA, ofB), has.name, lacks.name, rule, lacks.name, a.name, b.name));
+  };
+  say("friction", "the smaller", a.friction, b.friction, law.friction);
+  say("rolling_friction", "the smaller", a.rollingFriction, b.rollingFriction, law.rollingFriction);
+  say("cohesion", "the geometric mean", a.cohesion, b.cohesion, law.pullPerRadius);
+  return sentences;
+}
+
+class Pairs {
+public:
+  explicit Pairs(const scene::Scene& scene) : scene_(scene), kinds_(grainKinds(scene)) {}
+
+  /// All grains against `partner`; an empty name: against their own material. `friction`: that of the vehicle's file.
+  void add(const std::string& what, const std::string& partner, std::optional<double> friction = {}) {
+    for (const GrainKinds::Kind& kind : kinds_.kinds)
+      addOne(kind, partner.empty() ? kind.material : partner, what, 1, friction);
+  }
+  void addGrains() {
+    for (std::size_t a = 0; a < kinds_.kinds.size(); ++a)
+      for (std::size_t b = a; b < kinds_.kinds.size(); ++b)
+        addOne(kinds_.kinds[a], kinds_.kinds[b].material, "grain on grain", 0.5, {});
+  }
+  std::vector<MeetingPair> take() { return std::move(pairs_); }
+
+private:
+  void addOne(const GrainKinds::Kind& kind, const std::string& partner, const std::string& what, double share,
+              std::optional<double> friction) {
+    if (!seen_.insert({kind.material, partner, what}).second) return;
+    const double mass = share * base::sphereMass(scene_.material(kind.material).density, kind.smallest);
+    MeetingPair pair{kind.material, partner, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
+    if (friction) pair.law.friction = *friction;
+    pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
+    pair.restitution = restitutionOf(pair.law, mass);
+    pair.cohesion = pair.law.pullPerRadius / (2 * base::kPi);
+    pair.off = switchedOff(scene_.material(kind.material), scene_.material(partner), pair.law);
+    pairs_.push_back(std::move(pair));
+  }
+
+  const scene::Scene& scene_;
+  GrainKinds kinds_;
+  std::set<std::vector<std::string>> seen_;
+  std::vector<MeetingPair> pairs_;
+};
+
+} // namespace
+
+std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
+  Pairs pairs(scene);
+  pairs.addGrains();
+  if (scene.terrain)
+    pairs.add(scene.terrain->granular() ? "grain on the floor" : "grain on rigid ground",
+              scene.terrain->groundMaterial);
+  std::set<std::size_t> named;
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh) named.insert(s.number);
+    pairs.add("grain on " + s.name, s.section.material);
+  }
+  for (std::size_t k = 0; k < scene.planes.size(); ++k)
+    if (!named.contains(k)) pairs.add("grain on a plane", scene.planes[k].material);
+  if (scene.vehicle) {
+    std::optional<double> friction;
+    if (scene.vehicle->material.empty())
+      friction = vehicle::readVehicleSpec(scene.vehicle->spec).contact.frictionGround;
+    pairs.add("grain on the vehicle", scene.vehicle->material, friction);
+  }
+  return pairs.take();
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/restitution_check.hpp"
+
+#include "base/rounded.hpp"
+#include "base/table.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/step_limit.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+namespace grouser::setup {
+
+namespace {
+
+/// The damping of this one is 500 times the critical one.
+constexpr double kLeastRestitution = 1e-6;
+
+/// The limit of the step if every restitution were possible.
+double stepAtLeastRestitution(scene::Scene scene) {
+  const auto raise = [](std::optional<double>& restitution) {
+    if (restitution) restitution = std::max(*restitution, kLeastRestitution);
+  };
+  for (scene::Material& m : scene.materials) raise(m.restitution);
+  for (scene::ContactPair& p : scene.contacts) raise(p.restitution);
+  return stepLimit(scene).step;
+}
+
+void checkPair(const scene::Scene& scene, const std::string& nameA, const std::string& nameB) {
+  const scene::Material &a = scene.material(nameA), &b = scene.material(nameB);
+  const scene::ContactPair* pair = scene.contact(nameA, nameB);
+  if ((a.attraction && b.attraction) || (pair && pair->damping)) return;
+  const bool given = pair && pair->restitution;
+  const scene::Material& least = b.restitution.value_or(1) < a.restitution.value_or(1) ? b : a;
+  if ((given ? *pair->restitution : least.restitution.value_or(1)) >= kLeastRestitution) return;
+  const std::string message =
+      fmt::format("[-] is not possible without attraction: surfaces whose dashpot may not pull part with some speed, "
+                  "however strong it is; the least is {:g}, which takes steps of {} s or less; raise it, or give {} "
+                  "attraction = true, with which 0 is critical damping",
+                  kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
+                  &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
+  if (given && scene.document)
+    for (const auto& [name, section] : scene.document->root().named("contact"))
+      if (name == pair->first + "|" + pair->second) section.fail("restitution", message);
+  scene.failMaterial(least.name, "restitution", message);
+}
+
+} // namespace
+
+void checkRestitutions(const scene::Scene& scene) {
+  for (const std::string& grain : grainKinds(scene).material) {
+    const auto against = [&](const std::string& other) { checkPair(scene, grain, other.empty() ? grain : other); };
+    for (const std::string& other : grainKinds(scene).material) against(other);
+    for (const scene::Plane& plane : scene.planes) against(plane.material);
+    for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material);
+    if (scene.terrain) against(scene.terrain->groundMaterial);
+    if (scene.vehicle) against(scene.vehicle->material);
+  }
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/disk_room.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace grouser::support {
+
+namespace {
+
+/// 0, or why not.
+int makeRoom(int file, std::uint64_t bytes) {
+  struct stat now {};
+  if (fstat(file, &now) != 0) return errno;
+  const auto size = static_cast<std::uint64_t>(now.st_size);
+  // The kernel does not hold what is allotted behind the end against this limit.
+  struct rlimit limit {};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && size + bytes > limit.rlim_cur)
+    return EFBIG;
+  int status = 0;
+  do {
+    status = fallocate(file, FALLOC_FL_KEEP_SIZE, now.st_size, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  } while (status == EINTR);
+  // Other errors mean a file system that cannot allot beforehand: there writing finds out.
+  return status == ENOSPC || status == EDQUOT || status == EFBIG ? status : 0;
+}
+
+} // namespace
+
+void requireRoom(int file, const std::filesystem::path& path, std::uint64_t bytes) {
+  if (const int status = makeRoom(file, bytes))
+    throw std::runtime_error(fmt::format("{}: there is no room for {} bytes more ({}); is the disk full?",
+                                         path.string(), bytes, std::strerror(status)));
+}
+
+void requireRoom(const std::filesystem::path& path, std::uint64_t bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  try {
+    requireRoom(file, path, bytes);
+  } catch (...) {
+    if (file >= 0) ::close(file);
+    throw;
+  }
+  ::close(file);
+}
+
+} // namespace grouser::support

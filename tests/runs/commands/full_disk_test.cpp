@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A disk that is full, or a limit to the size of files, at any time of a run: one message, a manifest that says so, and
+// a checkpoint to go on from.
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace grouser::commands {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 300 rows of 64 grains on a floor, a frame every tenth row and a checkpoint every twentieth.
+constexpr const char* kScene = R"(version = 1
+[run]
+duration = 0.03
+time_step = 1e-4
+output_interval = 1e-4
+frame_interval = 1e-3
+checkpoint_interval = 2e-3
+[material.soil]
+stiffness = 1e5
+[terrain]
+heightmap = "heightmaps/flat.png"
+size = [0.32, 0.32]
+height_range = [0, 0.1]
+material = "soil"
+grain_radius = 0.02
+layers = 1
+settle_time_limit = 0.0
+[output]
+plots = false
+)";
+
+class FullDisk : public ProgramTest {
+protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    put(folder_ / "bed.toml", kScene);
+  }
+  Outcome run(const std::string& words, const std::string& before = "") const {
+    return call("run bed.toml --threads 1 " + words, before);
+  }
+
+  /// The run that met the limit: what it says, and that nothing that was good before is lost. Returns the file that
+  /// could not be written.
+  std::string expectFailedSoundly(const Outcome& o, const std::string& out, const std::string& more,
+                                  const std::string& hash) {
+    EXPECT_EQ(o.code, 3) << o.errors;
+    const std::size_t error = o.errors.find("grouser: error: ");
+    if (error == std::string::npos) return "";
+    EXPECT_EQ(o.errors.find("grouser: error: ", error + 1), std::string::npos) << o.errors;
+    EXPECT_NE(o.errors.find("is the disk full"), std::string::npos) << o.errors;
+    const std::string message = o.errors.substr(error + 16, o.errors.find('\n', error) - error - 16);
+    if (fs::exists(folder_ / out)) {
+      const std::string manifest = contents(folder_ / out / "manifest.json");
+      EXPECT_NE(manifest.find("\"status\": \"failed\""), std::string::npos) << message << "\n" << manifest;
+      EXPECT_NE(manifest.find(message), std::string::npos) << manifest;
+    }
+    if (fs::exists(folder_ / out / "checkpoint.h5")) {
+      const Outcome on = run("--resume --hash --out " + out + more);
+      EXPECT_EQ(on.code, 0) << message << "\n" << on.errors;
+      EXPECT_EQ(on.hash(), hash);
+      ++resumed_;
+    }
+    return fs::path(message.substr(0, message.find(": "))).filename().string();
+  }
+
+  int resumed_ = 0;
+};
+
+TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
+  std::set<std::string> met;
+  // What grows fastest meets the limit first: leaving that away, another does. Many grains have a large checkpoint.
+  const std::string csv = " --set output.grains_csv=false", frames = csv + " --set output.frames=false",
+                    picture = frames + " --set output.picture=false", many = picture + " --set 'terrain.size=[2, 2]'";
+  for (const std::string& more : {std::string(), csv, frames, picture, many}) {
+    const Outcome free = run("--hash --out free --force" + more);
+    ASSERT_EQ(free.code, 0) << free.errors;
+    for (const int kib : {1, 10, 45, 90, 130, 160, 200, 400, 1000, 1500}) {
+      const std::string out = "full" + std::to_string(kib);
+      fs::remove_all(folder_ / out);
+      const Outcome o = run("--out " + out + more, "ulimit -c 0; ulimit -f " + std::to_string(2 * kib) + "; ");
+      if (o.code == 0) break;
+      met.insert(expectFailedSoundly(o, out, more, free.hash()));
+    }
+  }
+  for (const char* file : {"scene.toml", "results.h5", "frames.h5", "grains.csv", "picture.png", "checkpoint.h5.part"})
+    EXPECT_TRUE(met.contains(file)) << file;
+  EXPECT_GT(resumed_, 5);
+}
+
+TEST_F(FullDisk, SmallDiskLosesNothing) {
+  const std::string disk = folder_.string() + "/disk";
+  fs::create_directory(disk);
+  // A name space of its own: what is mounted is gone with the process.
+  if (shell("unshare -m -r mount -t tmpfs -o size=1m none " + disk).code != 0)
+    GTEST_SKIP() << "this machine does not let us mount a small disk";
+  const std::string more = " --set output.picture=false --set output.grains_csv=false";
+  const Outcome free = run("--hash --out free" + more);
+  ASSERT_EQ(free.code, 0) << free.errors;
+  std::set<std::string> met;
+  for (const int kib : {16, 64, 140, 200, 300, 400, 500}) {
+    const std::string out = "full" + std::to_string(kib);
+    const Outcome o = shell("export grouser disk=" + disk + " out=" + out + " size=" + std::to_string(kib) +
+                            "; unshare -m -r sh -c 'mount -t tmpfs -o size=${size}k none $disk; ulimit -c 0; "
+                            "\"$grouser\" run bed.toml --threads 1 --out disk/run" +
+                            more + "; code=$?; test -d disk/run && cp -r disk/run $out; exit $code'");
+    if (o.code == 0) continue;
+    met.insert(expectFailedSoundly(o, out, more, free.hash()));
+  }
+  EXPECT_TRUE(met.contains("frames.h5"));
+  EXPECT_GT(resumed_, 0);
+}
+
+} // namespace
+} // namespace grouser::commands

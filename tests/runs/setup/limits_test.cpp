@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What errors advise is accepted as it is printed; which restitutions are possible; what acts between which materials.
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "base/sphere.hpp"
+#include "contact/restitution.hpp"
+#include "runs/commands/plan.hpp"
+#include "runs/setup/laws.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/meeting_pairs.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/simulation/simulation.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <regex>
+
+namespace grouser::setup {
+namespace {
+
+scene::Scene parsed(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parseScene("version = 1\n" + text, "scene.toml", overrides);
+}
+
+/// The message of the InputError that it throws; empty where it throws none.
+std::string messageOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The first number behind `words` in it.
+std::string numberBehind(const std::string& message, const std::string& words) {
+  std::smatch match;
+  return std::regex_search(message, match, std::regex(words + "([-+.e0-9]*[0-9])")) ? match.str(1) : "";
+}
+
+/// A ball on a plane; stiffness over 6 decades, radius and density over 2.
+struct RandomScene {
+  double stiffness, radius, density, restitution, friction, rolling;
+  explicit RandomScene(std::uint64_t i) {
+    std::uint64_t k = 0;
+    const auto in = [&](double low, double high) { return low * std::pow(high / low, base::uniform(11, 5, i, k++)); };
+    stiffness = in(1e3, 1e9), radius = in(1e-3, 1e-1), density = in(100, 1e4);
+    restitution = in(0.05, 1), friction = i % 3 ? in(0.1, 2) : 0, rolling = i % 4 ? 0 : in(0.01, 1);
+  }
+  std::string text(const std::string& run, const std::string& grain = "") const {
+    return fmt::format(
+        "[run]\nduration = 1\n{}\n[material.m]\nstiffness = {}\ndensity = {}\nrestitution = {}\n"
+        "friction = {}\nrolling_friction = {}\n[[plane]]\nmaterial = \"m\"\n[[grain]]\nposition = [0, 0, "
+        "1]\nradius = {}\nmaterial = \"m\"\n{}\n",
+        run, stiffness, density, restitution, friction, rolling, radius, grain);
+  }
+};
+
+TEST(PrintedLimits, StepThatAnErrorAdvisesIsAccepted) {
+  int closeCalls = 0;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const RandomScene random(i);
+    const std::string still = "gravity = [0, 0, 0]\noutput_interval = 1\nframe_interval = 1\n";
+    const double limit = stepLimit(parsed(random.text(still))).step;
+    if (limit >= 0.1) continue;
+    const std::string message = messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = 0.1"))); });
+    for (const char* words : {"choose ", "\"auto\": "}) {
+      const std::string printed = numberBehind(message, words);
+      ASSERT_NE(printed, "") << message;
+      EXPECT_EQ(messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = " + printed))); }), "");
+    }
+    closeCalls += std::stod(fmt::format("{:.3g}", limit)) > limit;
+  }
+  EXPECT_GT(closeCalls, 100) << "the nearest numbers would have done too: this shows nothing";
+}
+
+TEST(PrintedLimits, StiffnessThatAnErrorAdvisesIsAccepted) {
+  int refused = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    RandomScene random(i);
+    random.stiffness *= 1e-3; // most sink in
+    const auto choose = [&] { chooseTimeStep(parsed(random.text(""))); };
+    const std::string message = messageOf(choose);
+    if (message.empty()) continue;
+    const std::string printed = numberBehind(message, "raise it to ");
+    ASSERT_NE(printed, "") << message;
+    random.stiffness = std::stod(printed);
+    EXPECT_EQ(messageOf(choose), "");
+    ++refused;
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST(PrintedLimits, SpeedThatAnErrorAdvisesIsAccepted) {
+  int closeCalls = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const RandomScene random(i);
+    const auto sceneAt = [&](const std::string& speed) {
+      return parsed(random.text("gravity = [0, 0, 0]", "velocity = [0, 0, -" + speed + "]"));
+    };
+    const double step = chooseTimeStep(sceneAt("0"));
+    const std::string message = messageOf([&] { checkSpeeds(sceneAt("999"), step); });
+    if (message.empty()) continue;
+    const std::string printed = numberBehind(message, "keep it below ");
+    ASSERT_NE(printed, "") << message;
+    EXPECT_EQ(messageOf([&] { checkSpeeds(sceneAt(printed), step); }), "");
+    const scene::Scene scene = sceneAt("0");
+    const double most = 0.5 * scene.run.skin * random.radius / step;
+    closeCalls += std::stod(fmt::format("{:.4g}", most)) > most;
+  }
+  EXPECT_GT(closeCalls, 50);
+}
+
+/// A ball that comes at 0.5 m/s, without gravity.
+const char* const kBall = R"([run]
+duration = 0.1
+gravity = [0, 0, 0]
+[material.soil]
+stiffness = 1e5
+friction = 0
+restitution = 0.5
+[[plane]]
+material = "soil"
+[[grain]]
+position = [0, 0, 0.0201]
+velocity = [0, 0, -0.5]
+radius = 0.02
+material = "soil"
+)";
+
+TEST(Restitution, ZeroWithAttractionIsCriticalDamping) {
+  EXPECT_EQ(contact::dampingRatioFor(0, true), 1);
+  EXPECT_EQ(contact::restitutionOf(contact::dampingRatioFor(0, true), true), 0);
+  EXPECT_EQ(contact::hertzRestitutionOf(contact::hertzDampingRatioFor(0, true), true), 0);
+  // The least that does: a little less and the ball comes back.
+  EXPECT_GT(contact::restitutionOf(0.9, true), 0);
+  EXPECT_GT(contact::hertzRestitutionOf(0.99 * contact::hertzDampingRatioFor(0, true), true), 0);
+}
+
+TEST(Restitution, BallThatIsCriticallyDampedFollowsTheClosedForm) {
+  // overlap = v t exp(-omega t), and t from the instant of touch; symplectic Euler is of first order in the step.
+  const double mass = base::sphereMass(2500, 0.02), omega = std::sqrt(1e5 / mass), v = 0.5;
+  double errors[2];
+  for (int k = 0; k < 2; ++k) {
+    const double dt = 1e-5 / (k + 1);
+    simulation::Simulation ball(
+        simulationSetup(parsed(kBall, {"material.soil.restitution=0", "material.soil.attraction=true",
+                                       "run.precision=double", fmt::format("run.time_step={}", dt)})),
+        base::cpuExec(1), [](double, double) {});
+    double worst = 0;
+    for (int i = 0; i < 2000 * (k + 1); ++i) {
+      ball.step();
+      const double t = ball.time() - 1e-4 / v;
+      if (t < dt) continue;
+      const double overlap = 0.02 - ball.ground().grains->snapshot().position[0].z;
+      worst = std::max(worst, std::fabs(overlap - v * t * std::exp(-omega * t)));
+    }
+    errors[k] = worst / (v / omega * std::exp(-1)); // over the deepest
+  }
+  EXPECT_LT(errors[0], 3 * omega * 1e-5); // a few steps over the contact's own time
+  EXPECT_NEAR(errors[0] / errors[1], 2, 0.5);
+}
+
+TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
+  const auto refusal = [&](const std::vector<std::string>& overrides) {
+    return messageOf([&] { simulationSetup(parsed(kBall, overrides)); });
+  };
+  const std::string message = refusal({"material.soil.restitution=0"});
+  for (const char* part :
+       {"material.soil.restitution", "without attraction", "the least is 1e-06", "attraction = true"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  // What it advises is accepted as it is printed, and nothing longer.
+  const std::string step = numberBehind(message, "takes steps of ");
+  EXPECT_EQ(refusal({"material.soil.restitution=1e-06", "run.time_step=" + step}), "");
+  EXPECT_NE(refusal({"material.soil.restitution=1e-06", fmt::format("run.time_step={}", 1.02 * std::stod(step))}), "");
+  // One of two materials with attraction is not enough; the pair is named where it says so.
+  EXPECT_NE(refusal({"material.soil.restitution=1e-7"}), "");
+  const std::string pair =
+      "[material.hard]\nstiffness = 1e5\nattraction = true\n[contact.\"soil|hard\"]\nrestitution = 0\n" +
+      std::string(kBall).replace(std::string(kBall).find("[[plane]]\nmaterial = \"soil\""), 27,
+                                 "[[plane]]\nmaterial = \"hard\"");
+  EXPECT_NE(messageOf([&] { simulationSetup(parsed(pair)); }).find("contact.\"soil|hard\".restitution"),
+            std::string::npos)
+      << messageOf([&] { simulationSetup(parsed(pair)); });
+  EXPECT_EQ(messageOf([&] { simulationSetup(parsed(pair, {"material.soil.attraction=true"})); }), "");
+  EXPECT_EQ(refusal({"material.soil.restitution=0", "material.soil.attraction=true"}), "");
+}
+
+const char* const kPairs = R"([run]
+duration = 0.1
+[material.soil]
+stiffness = 1e5
+restitution = 0.4
+friction = 0.6
+cohesion = 0.2
+[material.rough]
+stiffness = 3e5
+restitution = 0.7
+friction = 0.9
+rolling_friction = 0.3
+[material.ball]
+stiffness = 2e5
+damping = 50
+friction = 0
+[contact."ball|rough"]
+friction = 0.35
+rolling_friction = 0.05
+[[plane]]
+material = "rough"
+[[box]]
+name = "lid"
+material = "ball"
+position = [0, 0, 2]
+size = [1, 1, 0.1]
+[[grain]]
+position = [0, 0, 0.5]
+radius = 0.02
+material = "soil"
+)";
+
+TEST(MeetingPairs, HaveTheValuesThatAct) {
+  const std::vector<MeetingPair> pairs = meetingPairs(parsed(kPairs));
+  ASSERT_EQ(pairs.size(), 3u);
+  const MeetingPair &soil = pairs[0], &lid = pairs[1], &plane = pairs[2];
+  EXPECT_EQ(soil.what, "grain on grain");
+  EXPECT_DOUBLE_EQ(soil.stiffness, 1e5);
+  EXPECT_NEAR(soil.restitution, 0.4, 1e-12);
+  EXPECT_DOUBLE_EQ(soil.law.friction, 0.6);
+  EXPECT_NEAR(soil.cohesion, 0.2, 1e-15);
+  EXPECT_EQ(plane.what, "grain on a plane");
+  EXPECT_DOUBLE_EQ(plane.stiffness, 2 * 1e5 * 3e5 / 4e5);
+  EXPECT_NEAR(plane.restitution, 0.4, 1e-12);
+  EXPECT_DOUBLE_EQ(plane.law.friction, 0.6);
+  EXPECT_EQ(plane.law.rollingFriction, 0);
+  // Of the dampings the larger acts: that of the restitution 0.4 of the soil, not the 50 /s of the ball.
+  EXPECT_EQ(lid.what.rfind("grain on ", 0), 0u);
+  EXPECT_DOUBLE_EQ(lid.stiffness, 2 * 1e5 * 2e5 / 3e5);
+  EXPECT_NEAR(lid.restitution, 0.4, 1e-12);
+  EXPECT_EQ(lid.law.friction, 0);
+}
+
+TEST(MeetingPairs, SayWhatDoesNothing) {
+  const std::string plan = commands::planText(parsed(kPairs));
+  EXPECT_NE(plan.find("rolling_friction = 0.3 of material.rough does nothing against soil, which has 0"),
+            std::string::npos)
+      << plan;
+  EXPECT_NE(plan.find("[contact.\"soil|rough\"]"), std::string::npos) << plan;
+  EXPECT_NE(plan.find("grain on a plane: soil, rough"), std::string::npos) << plan;
+  const std::string given =
+      commands::planText(parsed(std::string(kPairs) + "[contact.\"soil|rough\"]\nrolling_friction = 0.2\n"));
+  EXPECT_EQ(given.find("rolling_friction = 0.3 of material.rough does nothing"), std::string::npos) << given;
+}
+
+} // namespace
+} // namespace grouser::setup
