@@ -18,7 +18,8 @@ const Vec3d kAxis{2.0 / 7, -3.0 / 7, 6.0 / 7};
 
 /// Just below, at and just above `at`, and on both sides farther off.
 std::vector<double> around(double at) {
-  return {0.1 * at, 0.5 * at, at * (1 - 1e-9), std::nextafter(at, 0), at, std::nextafter(at, 1e9), at * (1 + 1e-9), 2 * at};
+  return {0.1 * at,        0.5 * at, at * (1 - 1e-9), std::nextafter(at, 0), at, std::nextafter(at, 1e9),
+          at * (1 + 1e-9), 2 * at};
 }
 
 TEST(RotationSeries, QuaternionOfAVectorIsTheClosedFormAcrossTheSwitch) {

@@ -123,8 +123,7 @@ TEST(SlipAtTheContact, OfAGrainOnATurningCylinderIsTakenAtItsSurface) {
 TEST(SlipAtTheContact, OfAGrainOnAPlaneIsThatOfItsLowestPoint) {
   const GrainModel m = slippery();
   const Vec3d v{0.3, 0.2, 0}, w{50, -20, 8};
-  const Vec3d is =
-      dragged(m, {{floorPlane(m.law)}, {}}, {{{0.1, 0.2, m.radius - 1e-5}, v, w}}, {}, {0, 0, 1});
+  const Vec3d is = dragged(m, {{floorPlane(m.law)}, {}}, {{{0.1, 0.2, m.radius - 1e-5}, v, w}}, {}, {0, 0, 1});
   const Vec3d slip = v + cross(w, Vec3d{0, 0, -m.radius + 1e-5});
   EXPECT_NEAR(norm(is + base::normalized(Vec3d{slip.x, slip.y, 0})), 0, 2e-4);
 }
@@ -134,11 +133,11 @@ TEST(SlipAtTheContact, OfTwoGrainsTakesEachOnesArm) {
   const double small = 0.5 * m.radius, overlap = 1e-5;
   for (const double other : {m.radius, small}) {
     const Vec3d v{0.2, 0.1, 0}, w{5, 30, -9}, V{-0.1, 0.3, 0}, W{-40, 10, 3};
-    const Vec3d is =
-        dragged(m, {}, {{{0, 0, 0}, V, W, other, 0}, {{0, 0, other + m.radius - overlap}, v, w, m.radius, 0}}, {},
-                {0, 0, -1});
+    const Vec3d is = dragged(
+        m, {}, {{{0, 0, 0}, V, W, other, 0}, {{0, 0, other + m.radius - overlap}, v, w, m.radius, 0}}, {}, {0, 0, -1});
     // Of the first one, relative to the second: both arms end in the middle of the overlap.
-    const Vec3d slip = V + cross(W, Vec3d{0, 0, other - overlap / 2}) - v - cross(w, Vec3d{0, 0, -m.radius + overlap / 2});
+    const Vec3d slip =
+        V + cross(W, Vec3d{0, 0, other - overlap / 2}) - v - cross(w, Vec3d{0, 0, -m.radius + overlap / 2});
     EXPECT_NEAR(norm(is + base::normalized(Vec3d{slip.x, slip.y, 0})), 0, 2e-4) << other;
   }
 }
@@ -162,7 +161,8 @@ TEST(SmallTorque, SpinsAGrainUpAsInExactNumbers) {
   const int steps = 100000;
   GrainModel m = ball(1e-6);
   const double inertia = 0.4 * m.mass * m.radius * m.radius;
-  // One radian a second squared, two and minus a half: 1e-6 rad/s a step, of which a float at 0.1 rad/s loses up to 4e-9.
+  // One radian a second squared, two and minus a half: 1e-6 rad/s a step, of which a float at 0.1 rad/s loses up to
+  // 4e-9.
   const base::Vec3d alpha{1, 2, -0.5}, torque = alpha * inertia;
   const base::Vec3d given = torque.as<float>().as<double>() * (1 / inertia); // the load is a float
   const base::Vec3d w = spunBy(torque, {}, steps, m);

@@ -97,8 +97,8 @@ TEST(UnequalCells, ClosestPointOnAPlaneIsExact) {
 }
 
 TEST(UnequalCells, BoundsOfAQuadraticAreItsOwn) {
-  // Along y alone, and along x alone: the net of a quadratic has its slope at the ends and its curvature throughout, but
-  // for the outermost cells, where the surface runs out into its tangent.
+  // Along y alone, and along x alone: the net of a quadratic has its slope at the ends and its curvature throughout,
+  // but for the outermost cells, where the surface runs out into its tangent.
   const Rectangle inner{-1.2, 1.9, 3.07, 4.12};
   const HeightField alongY = HeightField::sample(kArea, kColumns, kRows, [](double, double y) { return y * y / 2; });
   EXPECT_NEAR(alongY.boundsOver(inner).valleyCurvature, 1, 1e-9);
@@ -111,8 +111,8 @@ TEST(UnequalCells, BoundsOfAQuadraticAreItsOwn) {
 }
 
 TEST(UnequalCells, BoundsOverAPartTakeTheCellsOfThatPart) {
-  const HeightField field =
-      HeightField::sample(kArea, kColumns, kRows, [](double x, double y) { return (x > 1.1 ? 1 : 0) + (y > 4.05 ? 2 : 0); });
+  const HeightField field = HeightField::sample(
+      kArea, kColumns, kRows, [](double x, double y) { return (x > 1.1 ? 1 : 0) + (y > 4.05 ? 2 : 0); });
   EXPECT_EQ(field.boundsOver({-1, 0.2, 3.2, 3.7}).highest, 0);
   EXPECT_NEAR(field.boundsOver({1.6, 1.9, 3.2, 3.7}).lowest, 1, 1e-12);
   EXPECT_NEAR(field.boundsOver({-1, 0.2, 4.16, 4.19}).highest, 2, 0.2);

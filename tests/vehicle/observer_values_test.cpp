@@ -27,7 +27,9 @@ Quat about(int axis, double angle) {
 }
 
 /// Turned by heading, nose up, right side down, in this order.
-Quat attitude(double heading, double pitch, double roll) { return about(2, heading) * about(1, -pitch) * about(0, roll); }
+Quat attitude(double heading, double pitch, double roll) {
+  return about(2, heading) * about(1, -pitch) * about(0, roll);
+}
 
 class ObserverValues : public ::testing::Test {
 protected:
@@ -242,8 +244,8 @@ TEST_F(ObserverValues, TableWritesEachQuantityUnderItsOwnName) {
   double next = 1;
   const auto vec = [&](Vec3d& p) { p = {next, next + 1, next + 2}, next += 3; };
   vec(o.position), vec(o.velocity), vec(o.groundForce);
-  std::map<std::string, std::vector<double>> expected = {{"position", {1, 2, 3}}, {"velocity", {4, 5, 6}},
-                                                         {"ground_force", {7, 8, 9}}};
+  std::map<std::string, std::vector<double>> expected = {
+      {"position", {1, 2, 3}}, {"velocity", {4, 5, 6}}, {"ground_force", {7, 8, 9}}};
   const auto number = [&](const std::string& name, double& value) { expected[name] = {value = next}, ++next; };
   number("heading", o.heading), number("pitch_angle", o.pitchAngle), number("roll_angle", o.rollAngle);
   number("gross_traction", o.grossTraction), number("drawbar_pull", o.drawbarPull);

@@ -49,9 +49,7 @@ constexpr double kStep = 1e-4;
 std::string thrownScene() {
   std::string text = "[run]\nduration = 0.05\ntime_step = 1e-4\noutput_interval = 0.01\nframe_interval = 0.025\n"
                      "gravity = [0.5, -0.25, -9.81]\n[material.glass]\nstiffness = 1e4\n";
-  const auto vec = [](const Vec3d& v) {
-    return fmt::format("[{}, {}, {}]\n", v.x, v.y, v.z);
-  };
+  const auto vec = [](const Vec3d& v) { return fmt::format("[{}, {}, {}]\n", v.x, v.y, v.z); };
   for (const Thrown& t : kThrown)
     text += fmt::format("[[grain]]\nposition = {}velocity = {}spin = {}radius = {}\nmaterial = \"glass\"\n",
                         vec(t.position), vec(t.velocity), vec(t.spin), t.radius);
@@ -106,7 +104,8 @@ TEST_F(RowValues, FramesHaveEachGrainWhereItFlies) {
         EXPECT_NEAR(position[3 * i + static_cast<std::size_t>(a)], p[a], 2e-7);
         EXPECT_NEAR(velocity[3 * i + static_cast<std::size_t>(a)], v[a], 4e-7);
         if (f > 0) {
-          EXPECT_NEAR(force[3 * i + static_cast<std::size_t>(a)], 0, 1e-9) << "weight is no contact";
+          // Found from the change of a float's speed over a step of 1e-4 s; the weights are 0.1 to 2.8 N.
+          EXPECT_NEAR(force[3 * i + static_cast<std::size_t>(a)], 0, 1e-3) << "weight is no contact";
         }
       }
     }

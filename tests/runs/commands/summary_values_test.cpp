@@ -33,18 +33,18 @@ protected:
 };
 
 /// Nine digits are written.
-void expectNine(double is, double wanted, const char* what) { EXPECT_NEAR(is, wanted, 2e-9 * std::fabs(wanted)) << what; }
+void expectNine(double is, double wanted, const char* what) {
+  EXPECT_NEAR(is, wanted, 2e-9 * std::fabs(wanted)) << what;
+}
 
 TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirProducts) {
   SweepPlan plan = planOf(goodScene());
   scene::Scene& scene = plan.runs[0].scene;
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
-  std::vector<output::Channel> channels = {{"vehicle/gross_traction", "N", "", 1, {}},
-                                           {"vehicle/drawbar_pull", "N", "", 1, {}},
-                                           {"vehicle/motion_resistance", "N", "", 1, {}},
-                                           {"ledger/drive_work", "J", "", 1, {}},
-                                           {"ledger/residual", "J", "", 1, {}},
-                                           {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
+  std::vector<output::Channel> channels = {
+      {"vehicle/gross_traction", "N", "", 1, {}},    {"vehicle/drawbar_pull", "N", "", 1, {}},
+      {"vehicle/motion_resistance", "N", "", 1, {}}, {"ledger/drive_work", "J", "", 1, {}},
+      {"ledger/residual", "J", "", 1, {}},           {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
     for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
       channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
@@ -105,10 +105,11 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
 }
 
 TEST_F(SummaryValues, OfSurfacesAreMeansByAxisAndPlacesAtTheEnd) {
-  const SweepPlan plan = planOf("version = 1\n[run]\nduration = 2\ntime_step = 1e-4\n[material.glass]\n"
-                                "[[plane]]\nname = \"belt\"\nmaterial = \"glass\"\n"
-                                "[[box]]\nname = \"lid\"\nposition = [0, 0, 1]\nsize = [1, 1, 1]\nmaterial = \"glass\"\n"
-                                "[[grain]]\nposition = [0, 0, 0.1]\nradius = 0.01\nmaterial = \"glass\"\n");
+  const SweepPlan plan =
+      planOf("version = 1\n[run]\nduration = 2\ntime_step = 1e-4\n[material.glass]\n"
+             "[[plane]]\nname = \"belt\"\nmaterial = \"glass\"\n"
+             "[[box]]\nname = \"lid\"\nposition = [0, 0, 1]\nsize = [1, 1, 1]\nmaterial = \"glass\"\n"
+             "[[grain]]\nposition = [0, 0, 0.1]\nradius = 0.01\nmaterial = \"glass\"\n");
   std::vector<output::Channel> channels = output::surfaceChannels("belt");
   for (const output::Channel& c : output::surfaceChannels("lid")) channels.push_back(c);
   output::RunWriter writer(folder_ / "seed=1", setup::provenanceOf(plan.runs[0].scene), channels, {});

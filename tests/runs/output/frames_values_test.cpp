@@ -103,8 +103,7 @@ TEST_F(FramesValues, SinkageCsvHasEachShoeOfEachTrackInItsOwnColumn) {
                                          {"vehicle/right/sinkage", "m", "", 2, {}}};
   {
     RunWriter writer(folder_, provenance(), channels, {});
-    for (int r = 0; r < 3; ++r)
-      writer.row({10 * r, 0.5 * r, {1.0 + 10 * r, 2.0 + 10 * r, 3.0 + 10 * r, 4.0 + 10 * r}});
+    for (int r = 0; r < 3; ++r) writer.row({10 * r, 0.5 * r, {1.0 + 10 * r, 2.0 + 10 * r, 3.0 + 10 * r, 4.0 + 10 * r}});
     writer.finish({});
   }
   const Csv csv(writeSinkageCsv(folder_ / "results.h5", folder_));

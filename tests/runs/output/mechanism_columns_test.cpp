@@ -51,9 +51,8 @@ private:
 };
 
 void expectNear(const Vec3d& is, const Vec3d& wanted, double tolerance, const char* what) {
-  EXPECT_NEAR(norm(is - wanted), 0, tolerance)
-      << what << ": " << is.x << " " << is.y << " " << is.z << " instead of " << wanted.x << " " << wanted.y << " "
-      << wanted.z;
+  EXPECT_NEAR(norm(is - wanted), 0, tolerance) << what << ": " << is.x << " " << is.y << " " << is.z << " instead of "
+                                               << wanted.x << " " << wanted.y << " " << wanted.z;
 }
 
 std::string body(const std::string& name, double mass, const std::string& inertia, const std::string& position,
@@ -123,8 +122,8 @@ TEST(MechanismColumns, SledFollowsTheClosedFormOfADampedSwing) {
 }
 
 TEST(MechanismColumns, ADriveOfPositionSaysWhatItImposesTakesAndGives) {
-  Rows rows("gravity = [0, 0, 0]\n" + body("rotor", 3, "[0.3, 0.4, 0.5]", "[0.4, 0, 0]",
-                                           "velocity = [0, 0.12, 0]\nspin = [0, 0, 0.3]\n") +
+  Rows rows("gravity = [0, 0, 0]\n" +
+            body("rotor", 3, "[0.3, 0.4, 0.5]", "[0.4, 0, 0]", "velocity = [0, 0.12, 0]\nspin = [0, 0, 0.3]\n") +
             "[[joint]]\nname = \"axle\"\nbodies = [\"world\", \"rotor\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n"
             "damping = 0.8\n[[drive]]\nname = \"motor\"\njoint = \"axle\"\nimposes = \"position\"\n"
             "polynomial = [0, 0.3, 0.7]\n");
@@ -212,8 +211,8 @@ TEST(MechanismColumns, ACouplingsForceIsWhatTurnsTheSecondAxis) {
 }
 
 TEST(MechanismColumns, ACylindricalsAngleAndSlideAreTwoAxes) {
-  Rows rows("gravity = [0, 0, 0]\n" + body("bolt", 2, "[0.2, 0.2, 0.3]", "[0, 0, 0]",
-                                           "velocity = [0, 0, 0.5]\nspin = [0, 0, -4]\n") +
+  Rows rows("gravity = [0, 0, 0]\n" +
+            body("bolt", 2, "[0.2, 0.2, 0.3]", "[0, 0, 0]", "velocity = [0, 0, 0.5]\nspin = [0, 0, -4]\n") +
             "[[joint]]\nname = \"hole\"\ntype = \"cylindrical\"\nbodies = [\"world\", \"bolt\"]\npoint = [0, 0, 0]\n"
             "axis = [0, 0, 1]\ndamping = 0.6\nslide_damping = 1.6\n");
   rows.advance(200);

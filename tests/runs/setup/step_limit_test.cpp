@@ -132,15 +132,17 @@ TEST(StepLimit, OfHertzGrainsIsThatOfAnImpactAtTheGivenSpeed) {
   bed.soil.replace(bed.soil.find("friction = 0"), 12, "friction = 0.5");
   // G = E / (2 (1 + nu)), 1 / G_eff = 2 (2 - nu) / G, k_t = 8 G_eff a; four contacts at once turn it.
   const double shear = 5e7 / 2.5, tangential = 8 * shear / (2 * 1.75) * a;
-  EXPECT_NEAR(bed.limit().step / std::min(undamped(8 * 2 * modulus * a / kMass),
-                                          undamped(4 * 10.0 / 3 * tangential / kMass)), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().step /
+                  std::min(undamped(8 * 2 * modulus * a / kMass), undamped(4 * 10.0 / 3 * tangential / kMass)),
+              1, 1e-9);
 }
 
 TEST(StepLimit, OfAFreeSurfaceCountsTheGrainsThatMayLieOnIt) {
   Bed bed;
-  bed.more = "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 2]\nhigh = [0.5, 0.5, 2.5]\nradius = 0.02\nmaterial = \"soil\"\n"
-             "[[box]]\nname = \"lid\"\nposition = [0, 0, 5]\nsize = [0.3, 0.2, 0.01]\nfree = \"z\"\nmass = 1e-3\n"
-             "material = \"soil\"\n";
+  bed.more =
+      "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 2]\nhigh = [0.5, 0.5, 2.5]\nradius = 0.02\nmaterial = \"soil\"\n"
+      "[[box]]\nname = \"lid\"\nposition = [0, 0, 5]\nsize = [0.3, 0.2, 0.01]\nfree = \"z\"\nmass = 1e-3\n"
+      "material = \"soil\"\n";
   const StepLimit limit = bed.limit();
   // A dense layer on its largest face: 2 sqrt(3) R^2 a grain.
   const double grains = 0.3 * 0.2 / (2 * std::sqrt(3.0) * kRadius * kRadius);
@@ -154,8 +156,7 @@ TEST(StepLimit, OfAFreeSurfaceCountsTheGrainsThatMayLieOnIt) {
 
 TEST(StepLimit, OfAShoeIsItsWholePadOnItsMass) {
   const StepLimit limit = stepLimit(loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml"));
-  const vehicle::VehicleSpec spec =
-      vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
   // Pads of 136 x 280 mm, shoes of 8.5 kg.
   const double springs = spec.contact.foundationModulus * 0.136 * 0.28 / 8.5;
   EXPECT_NEAR(limit.step / damped(springs, springs * spec.contact.relaxationTime), 1, 1e-9);

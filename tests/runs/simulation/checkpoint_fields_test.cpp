@@ -22,7 +22,8 @@ SimulationState filled() {
   SimulationState s;
   int next = 1;
   forEachNumber(
-      s, [&](const std::string&, auto& number) { number = static_cast<std::decay_t<decltype(number)>>(++next * 5 / 4); },
+      s,
+      [&](const std::string&, auto& number) { number = static_cast<std::decay_t<decltype(number)>>(++next * 5 / 4); },
       true);
   terrain::GrainState& g = *s.grains;
   g.total = 3, g.id = {0, 1, 2}, g.contacts = {1, 0, 2};

@@ -87,7 +87,8 @@ template <class T, class F> void forEachNumber(T& s, const F& f, bool make = fal
   if constexpr (std::is_arithmetic_v<U>) {
     f(path, s);
   } else if constexpr (std::is_array_v<U>) {
-    for (std::size_t i = 0; i < std::extent_v<U>; ++i) forEachNumber(s[i], f, make, path + "[" + std::to_string(i) + "]");
+    for (std::size_t i = 0; i < std::extent_v<U>; ++i)
+      forEachNumber(s[i], f, make, path + "[" + std::to_string(i) + "]");
   } else if constexpr (std::is_same_v<U, terrain::Remainders>) { // has an array, whose entries count as initialisers
     forEachNumber(s.axis, f, make, path + ".0"), forEachNumber(s.position, f, make, path + ".1");
   } else if constexpr (detail::IsOptional<U>::value) {
@@ -102,7 +103,8 @@ template <class T, class F> void forEachNumber(T& s, const F& f, bool make = fal
     const auto members = detail::membersOf(s);
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       (forEachNumber(std::get<i>(members), f, make, path + "." + std::to_string(i)), ...);
-    }(std::make_index_sequence<std::tuple_size_v<decltype(members)>>{});
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(members)>>{});
   }
 }
 
