@@ -95,7 +95,7 @@ class Workshop:
         done = subprocess.run(['cmake', '--build', str(self.build_folder), '-j', str(self.jobs), '--target', *targets],
                               capture_output=True, text=True)
         if done.returncode:
-            errors = [line for line in done.stdout.splitlines() if 'error' in line.lower()]
+            errors = [line for line in done.stdout.splitlines() if ' error: ' in line]
             raise BuildError(errors[0] if errors else done.stdout[-300:] + done.stderr[-300:])
         self.built.add(program)
 

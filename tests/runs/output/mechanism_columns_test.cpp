@@ -255,5 +255,17 @@ TEST(MechanismColumns, HowWellTheJointsCloseIsOfTheStepsSinceTheLastRow) {
   EXPECT_EQ(rows("constraints/position_error"), 0);
 }
 
+TEST(MechanismColumns, VelocityErrorIsHowFastJointsOpenNow) {
+  // After a step of symplectic Euler the twist is the mean over the step that led to the pose: half a step behind it,
+  // omega^2 L dt / 2 at the pin, in one or two of its axes.
+  Rows rows("gravity = [0, 0, 0]\nintegrator = \"symplectic_euler\"\n" +
+            body("bar", 1, "[1, 1, 1]", "[1, 0, 0]", "velocity = [0, 2, 0]\nspin = [0, 0, 2]\n") +
+            "[[joint]]\nname = \"pin\"\nbodies = [\"world\", \"bar\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n");
+  rows.advance(100);
+  EXPECT_GT(rows("constraints/velocity_error"), 0.7 * 2e-3);
+  EXPECT_LT(rows("constraints/velocity_error"), 1.01 * 2e-3);
+  EXPECT_LT(rows("constraints/position_error"), 1e-9);
+}
+
 } // namespace
 } // namespace grouser::output
