@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 import tomllib
 from contextlib import contextmanager
 from pathlib import Path
@@ -120,25 +121,29 @@ class Workshop:
         if first:
             words.append('--gtest_fail_fast')
         shards = self.jobs if program == 'all' else 1
-        running = []
-        for k in range(shards):
-            environment = dict(os.environ, GROUSER_CACHE='', GOMP_SPINCOUNT='5000', GTEST_TOTAL_SHARDS=str(shards),
-                               GTEST_SHARD_INDEX=str(k))
-            running.append(subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                            text=True, errors='replace', start_new_session=True))
-        red = []
-        for process in running:
-            red += self.red_of(process)
-        return red
+        running = [self.start(words, k, shards) for k in range(shards)]
+        return [test for process, said in running for test in self.red_of(process, said)]
 
     @staticmethod
-    def red_of(process):
+    def start(words, shard, shards):
+        """Starts one of several processes that share the tests; returns it and the file of what it says."""
+        environment = dict(os.environ, GROUSER_CACHE='', GOMP_SPINCOUNT='5000', GTEST_TOTAL_SHARDS=str(shards),
+                           GTEST_SHARD_INDEX=str(shard))
+        said = tempfile.TemporaryFile('w+', errors='replace')
+        return subprocess.Popen(words, env=environment, stdout=said, stderr=subprocess.STDOUT,
+                                start_new_session=True), said
+
+    @staticmethod
+    def red_of(process, said):
         """Tests that failed, with the one that crashed or did not end."""
         try:
-            text, _ = process.communicate(timeout=MOST_SECONDS)
+            process.wait(timeout=MOST_SECONDS)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, 9)
-            text, _ = process.communicate()
+            process.wait()
+        said.seek(0)
+        text = said.read()
+        said.close()
         red = list(dict.fromkeys(FAILED.findall(text)))
         ended = set(ENDED.findall(text))
         if process.returncode not in (0, 1):

@@ -283,6 +283,22 @@ material = "glass"
   EXPECT_GT(stop[3 * r], 0) << "the stop is pushed ahead";
 }
 
+TEST_F(RowValues, ResultsOfAVehicleHaveItsConstantsAndWhereItStands) {
+  const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml";
+  const Outcome o = call("run " + scene + " --out r --steps 20 --set vehicle.sphere_radius=0.04 --set " +
+                         "run.output_interval=1e-3 --set 'vehicle.position=[2, 0.1]' --set output.picture=false --set " +
+                         "output.plots=false --set output.frames=false");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  // Ten teeth of 154 mm a turn; the vehicle's masses as its file has them.
+  EXPECT_NEAR(results().numbers("/vehicle/pitch_radius")[0], 1.54 / (2 * base::kPi), 1e-12);
+  EXPECT_NEAR(results().numbers("/vehicle/mass")[0], 5018, 1e-9);
+  const std::vector<double> position = series("vehicle/position"), heading = series("vehicle/heading");
+  ASSERT_EQ(position.size(), 9u) << "at 0, 1 and 2 ms";
+  EXPECT_NEAR(position[0], 2, 1e-9);
+  EXPECT_NEAR(position[1], 0.1, 1e-9);
+  EXPECT_NEAR(heading[0], 0, 1e-9);
+}
+
 TEST_F(RowValues, ManifestHasTheRunsOwnFigures) {
   run(thrownScene(), " --hash --set run.seed=3");
   const nlohmann::json json = nlohmann::json::parse(contents(folder_ / "r" / "manifest.json"));
