@@ -285,9 +285,10 @@ material = "glass"
 
 TEST_F(RowValues, ResultsOfAVehicleHaveItsConstantsAndWhereItStands) {
   const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml";
-  const Outcome o = call("run " + scene + " --out r --steps 20 --set vehicle.sphere_radius=0.04 --set " +
-                         "run.output_interval=1e-3 --set 'vehicle.position=[2, 0.1]' --set output.picture=false --set " +
-                         "output.plots=false --set output.frames=false");
+  const Outcome o =
+      call("run " + scene + " --out r --steps 20 --set vehicle.sphere_radius=0.04 --set " +
+           "run.output_interval=1e-3 --set 'vehicle.position=[2, 0.1]' --set output.picture=false --set " +
+           "output.plots=false --set output.frames=false");
   ASSERT_EQ(o.code, 0) << o.errors;
   // Ten teeth of 154 mm a turn; the vehicle's masses as its file has them.
   EXPECT_NEAR(results().numbers("/vehicle/pitch_radius")[0], 1.54 / (2 * base::kPi), 1e-12);

@@ -3,12 +3,14 @@
 // velocities of the same row.
 #include "runs/output/mechanism_output.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/mechanism.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -265,6 +267,37 @@ TEST(MechanismColumns, VelocityErrorIsHowFastJointsOpenNow) {
   EXPECT_GT(rows("constraints/velocity_error"), 0.7 * 2e-3);
   EXPECT_LT(rows("constraints/velocity_error"), 1.01 * 2e-3);
   EXPECT_LT(rows("constraints/position_error"), 1e-9);
+}
+
+TEST(MechanismColumns, IterationsAreTheMostOfAnyStepSinceTheLastRow) {
+  // A bar that a brake stops: the first steps turn by 0.2 rad and need more than the last.
+  const std::string scene = "gravity = [0, 0, 0]\n" +
+                            body("bar", 1, "[1, 1, 1]", "[1, 0, 0]", "velocity = [0, 200, 0]\nspin = [0, 0, 200]\n") +
+                            "[[joint]]\nname = \"pin\"\nbodies = [\"world\", \"bar\"]\npoint = [0, 0, 0]\n"
+                            "axis = [0, 0, 1]\ndamping = 20\n";
+  Rows whole(scene), steps(scene);
+  double most = 0;
+  for (int n = 0; n < 800; ++n) {
+    steps.mechanism().restartMeans();
+    steps.advance(1);
+    most = std::max(most, steps("constraints/iterations"));
+  }
+  ASSERT_GT(most, steps("constraints/iterations"));
+  whole.advance(800);
+  EXPECT_EQ(whole("constraints/iterations"), most);
+}
+
+TEST(MechanismColumns, ACouplingWithAnOffsetThatIsNotMetIsRefused) {
+  const auto geared = [](const std::string& offset) {
+    return kHead + "gravity = [0, 0, 0]\n" + body("pinion", 1, "[0.2, 0.2, 0.3]", "[0, 0, 0]") +
+           body("gear", 1, "[0.4, 0.4, 0.7]", "[1, 0, 0]") +
+           "[[joint]]\nname = \"first\"\nbodies = [\"world\", \"pinion\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n"
+           "[[joint]]\nname = \"second\"\nbodies = [\"world\", \"gear\"]\npoint = [1, 0, 0]\naxis = [0, 0, 1]\n"
+           "[[coupling]]\nname = \"teeth\"\njoints = [\"first\", \"second\"]\nratio = 2\noffset = " +
+           offset + "\n";
+  };
+  EXPECT_NO_THROW(setup::parseScene(geared("0"), "geared.toml"));
+  EXPECT_THROW(setup::parseScene(geared("0.3"), "geared.toml"), base::InputError);
 }
 
 } // namespace

@@ -160,6 +160,28 @@ TEST(RestoredSimulation, OfAVehicleOnRigidGroundSavesWhatItWasGiven) {
                  45);
 }
 
+TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
+  const scene::Scene scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
+                                              {"vehicle.sphere_radius=0.04", "driver.tension_ramp=0.001",
+                                               "driver.weight_ramp=0.001", "driver.drive_ramp=0.002"});
+  Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  while (simulation.steps() < 20) simulation.step();
+  const VehicleState first = *simulation.save().vehicle;
+  simulation.restartMeans(); // a row is written; the track is judged each 50 steps
+  while (simulation.steps() < 45) simulation.step();
+  const VehicleState then = *simulation.save().vehicle;
+  EXPECT_EQ(first.meanSteps, 20);
+  EXPECT_EQ(then.meanSteps, 25);
+  EXPECT_EQ(then.alarmSteps, 45);
+  ASSERT_EQ(then.alarmForces.size(), then.groundForces.size());
+  bool any = false;
+  for (std::size_t c = 0; c < then.alarmForces.size(); ++c) {
+    EXPECT_EQ(then.alarmForces[c], first.groundForces[c] + then.groundForces[c]) << c;
+    any = any || !(first.groundForces[c] == base::Vec3l{});
+  }
+  EXPECT_TRUE(any) << "the ground has pushed before the row";
+}
+
 TEST(RestoredSimulation, OfGrainsAndSurfacesSavesWhatItWasGiven) {
   expectRestored(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/moving.toml"), 900);
 }
