@@ -13,9 +13,9 @@
 namespace grouser::commands {
 namespace {
 
-/// What stands behind `what` in its line.
+/// What stands behind `what` in its line: the last one, for what is switched on and off comes first.
 std::string after(const std::string& text, const std::string& what) {
-  const std::size_t at = text.find("  " + what + " ");
+  const std::size_t at = text.rfind("  " + what + " ");
   if (at == std::string::npos) return "no such line";
   const std::size_t from = text.find_first_not_of(' ', at + 2 + what.size());
   return text.substr(from, text.find('\n', from) - from);

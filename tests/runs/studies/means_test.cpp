@@ -32,7 +32,7 @@ TEST(StudyShear, NormalForceIsThatOfTheLoadAndTheGrainsAbove) {
   const double stress = 3000, d = material.diameter(), load = stress * box.length * box.width * d * d;
   double normal = 0, shear = 0;
   const std::vector<ShearRow> rows = shearSample(material, box, stress, 1);
-  ASSERT_GT(rows.size(), 5u);
+  ASSERT_GE(rows.size(), 4u);
   for (const ShearRow& r : rows) normal += r.normal, shear += r.shear;
   normal /= static_cast<double>(rows.size()), shear /= static_cast<double>(rows.size());
   // The grains above the plane weigh a few per cent of the load; the lid swings by as much.
