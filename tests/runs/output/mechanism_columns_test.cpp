@@ -148,6 +148,20 @@ TEST(MechanismColumns, ADriveOfPositionSaysWhatItImposesTakesAndGives) {
   EXPECT_NEAR(rows.all("bodies/rotor/orientation")[3], base::sin(phi / 2), 1e-9);
 }
 
+TEST(MechanismColumns, ABearingHoldsARotorThatIsOutOfBalance) {
+  // Its principal axes lean by 30 degrees about y: I_xz = (0.4 - 0.3) sin cos, and the bearing gives omega x I omega.
+  Rows rows("gravity = [0, 0, 0]\n" +
+            body("rotor", 3, "[0.3, 0.5, 0.4]", "[0, 0, 0]", "axis = [0, 1, 0]\nangle = 30\nspin = [0, 0, 10]\n") +
+            "[[joint]]\nname = \"axle\"\nbodies = [\"world\", \"rotor\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n"
+            "[[drive]]\nname = \"motor\"\njoint = \"axle\"\nimposes = \"speed\"\nvalue = 10\n");
+  rows.advance(100);
+  const double size = 100 * 0.1 * base::sin(base::kPi / 6) * base::cos(base::kPi / 6), phi = 1;
+  // Order 2, 0.01 rad a step.
+  expectNear(rows.vector("joints/axle/torque"), {-size * base::sin(phi), size * base::cos(phi), 0}, 2e-3 * size,
+             "torque of the axle");
+  expectNear(rows.vector("joints/axle/force"), {}, 1e-9, "force of the axle");
+}
+
 TEST(MechanismColumns, APointSpringPushesApartByItsOwnLaw) {
   Rows rows("gravity = [0, 0, 0]\nsprings = \"explicit\"\n" +
             body("a", 1, "[1, 1, 1]", "[0, 0, 0]", "velocity = [0.2, 0.1, 0]\n") +
