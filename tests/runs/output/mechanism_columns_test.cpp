@@ -206,6 +206,21 @@ TEST(MechanismColumns, ABushingIsReadInTheAxesOfItsFirstBody) {
   expectNear(rows.vector("bushings/rubber/torque"), {0, 0, -8 * twist}, 1e-7, "torque");
 }
 
+TEST(MechanismColumns, ABushingIsAtRestWhereItsBodiesStandAtTheStart) {
+  Rows rows("gravity = [0, 0, 0]\nsprings = \"explicit\"\n" + body("a", 1, "[1, 1, 1]", "[0, 0, 0]") +
+            body("b", 2, "[1, 1, 1]", "[0.3, 0.4, 0]", "axis = [0, 0, 1]\nangle = 40\n") +
+            "[[bushing]]\nname = \"rubber\"\nbodies = [\"a\", \"b\"]\npoint = [0.1, 0, 0]\n"
+            "stiffness = [100, 200, 400]\nrotation_stiffness = [3, 5, 8]\n"
+            "[[spring]]\nname = \"coil\"\nbodies = [\"a\", \"b\"]\npoint_a = [0, 0, 0]\npoint_b = [0, 0, 0]\n"
+            "stiffness = 40\n");
+  rows.advance(20);
+  expectNear(rows.vector("bushings/rubber/translation"), {}, 1e-12, "translation");
+  expectNear(rows.vector("bushings/rubber/rotation"), {}, 1e-12, "rotation");
+  expectNear(rows.vector("bushings/rubber/force"), {}, 1e-9, "force");
+  EXPECT_NEAR(rows("springs/coil/length"), 0.5, 1e-12);
+  EXPECT_NEAR(rows("springs/coil/force"), 0, 1e-9) << "without free_position it is at rest as it stands";
+}
+
 TEST(MechanismColumns, ACouplingsForceIsWhatTurnsTheSecondAxis) {
   Rows rows("gravity = [0, 0, 0]\n" + body("pinion", 1, "[0.2, 0.2, 0.3]", "[0, 0, 0]") +
             body("gear", 1, "[0.4, 0.4, 0.7]", "[1, 0, 0]") +
