@@ -21,8 +21,8 @@ struct Anything {
   template <class T> operator T() const; // NOLINT(google-explicit-constructor): stands for any initialiser
 };
 
-template <class T, std::size_t... i> constexpr bool takes(std::index_sequence<i...>) {
-  return requires { T{(static_cast<void>(i), Anything{})...}; };
+template <class T, std::size_t... kIndex> constexpr bool takes(std::index_sequence<kIndex...>) {
+  return requires { T{(static_cast<void>(kIndex), Anything{})...}; };
 }
 
 inline constexpr std::size_t kMostMembers = 28;
@@ -101,8 +101,8 @@ template <class T, class F> void forEachNumber(T& s, const F& f, bool make = fal
     for (std::size_t i = 0; i < s.size(); ++i) forEachNumber(s[i], f, make, path + "[" + std::to_string(i) + "]");
   } else {
     const auto members = detail::membersOf(s);
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (forEachNumber(std::get<i>(members), f, make, path + "." + std::to_string(i)), ...);
+    [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+      (forEachNumber(std::get<kIndex>(members), f, make, path + "." + std::to_string(kIndex)), ...);
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(members)>>{});
   }
