@@ -32,6 +32,14 @@ std::vector<std::uint32_t> SavedPatches::words() const {
   return words;
 }
 
+std::vector<std::uint32_t> SavedGrainPatches::words() const {
+  std::vector<std::uint32_t> words = memories;
+  words.resize(memories.size() + angles.size());
+  static_assert(sizeof(float) == sizeof(std::uint32_t));
+  if (!angles.empty()) std::memcpy(words.data() + memories.size(), angles.data(), angles.size() * sizeof(float));
+  return words;
+}
+
 SavedPatches PatchBuffers::save() const { return {states.toHost(), sums.toHost()}; }
 
 void PatchBuffers::restore(const SavedPatches& saved) {

@@ -25,6 +25,9 @@ struct SavedGrainPatches {
   std::vector<std::uint32_t> memories;
   std::vector<float> angles;      ///< [patches][3] rolling angle of each [rad]; empty without rolling friction
   std::vector<std::int64_t> sums; ///< of the last step and since the start, as GrainPartContacts keeps them
+
+  /// For the hash: memories, then angles.
+  std::vector<std::uint32_t> words() const;
 };
 
 } // namespace grouser::contact

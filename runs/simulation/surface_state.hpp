@@ -34,7 +34,8 @@ struct SurfaceStates {
         std::memcpy(raw, &number, sizeof raw);
         words.insert(words.end(), raw, raw + 2);
       }
-    words.insert(words.end(), patches.memories.begin(), patches.memories.end());
+    const std::vector<std::uint32_t> onMeshes = patches.words();
+    words.insert(words.end(), onMeshes.begin(), onMeshes.end());
     return words;
   }
 };

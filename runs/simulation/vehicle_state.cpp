@@ -15,7 +15,7 @@ std::vector<std::uint32_t> VehicleState::words() const {
     std::memcpy(raw, &bodies[i], sizeof raw);
     words.insert(words.end(), raw, raw + 2);
   }
-  for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.memories})
+  for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
   return words;
 }

@@ -7,6 +7,7 @@
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
+#include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
@@ -25,34 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
-
-/// A table of text cells; quotes are taken off.
-struct Csv {
-  Words header;
-  std::vector<Words> rows;
-
-  explicit Csv(const fs::path& path) {
-    std::istringstream stream(contents(path));
-    for (std::string line; std::getline(stream, line);) {
-      Words cells(1);
-      bool inQuotes = false;
-      for (const char c : line) {
-        if (c == '"')
-          inQuotes = !inQuotes;
-        else if (c == ',' && !inQuotes)
-          cells.emplace_back();
-        else
-          cells.back() += c;
-      }
-      header.empty() ? header = cells : (rows.push_back(cells), header);
-    }
-  }
-  std::string at(std::size_t row, const std::string& column) const {
-    const auto found = std::find(header.begin(), header.end(), column);
-    if (found == header.end() || row >= rows.size()) return "no such cell";
-    return rows[row][static_cast<std::size_t>(found - header.begin())];
-  }
-};
 
 class Sweep : public ProgramTest {
 protected:

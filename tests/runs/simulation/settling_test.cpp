@@ -48,5 +48,18 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   }
 }
 
+TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
+  const setup::GroundSetup setup = setup::groundSetup(bed({"material.soil.friction=0.5"}), 2e-4);
+  Ground ground = buildGround(setup, base::cpuExec(1));
+  const SettleReport report = settle(*setup.grains->bed, *ground.grains, [](double, double) {});
+  const terrain::GrainLedger now = ground.grains->ledger();
+  const terrain::GrainModel& model = ground.grains->model();
+  const double unit = model.mass * 9.81 * model.radius * static_cast<double>(ground.grains->count());
+  ASSERT_GT(now.rotational, 0);
+  EXPECT_NEAR(report.agitation, (now.kinetic + now.rotational) / unit, 1e-12);
+  EXPECT_LT(report.agitation, 1e-2);
+  EXPECT_NEAR(report.time, static_cast<double>(report.steps) * 2e-4, 1e-12);
+}
+
 } // namespace
 } // namespace grouser::simulation

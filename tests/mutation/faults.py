@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The table of faults, and what has been found of each."""
+import hashlib
+import json
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One small change of a source file, and what it would do to a user."""
+    name: str    # 'vehicle/3'
+    file: str
+    old: str     # stands there just once
+    new: str
+    user: str
+    tests: tuple  # 'ROOM:GTEST FILTER' of the tests that should see it
+
+    def room(self):
+        parts = self.file.split('/')
+        return parts[1] if parts[0] == 'runs' else parts[0]
+
+    def stages(self):
+        """Programs and filters to ask, in this order, before the whole suite."""
+        own = [tuple(t.split(':', 1)) for t in self.tests]
+        return own + [(self.room(), '*')]
+
+    def key(self):
+        return hashlib.sha256('\0'.join([self.file, self.old, self.new]).encode()).hexdigest()[:16]
+
+
+def load_faults(folder):
+    """All faults of folder/*.toml but tests.toml; numbered in each file."""
+    faults = []
+    for path in sorted(Path(folder).glob('*.toml')):
+        if path.name == 'tests.toml':
+            continue
+        for number, entry in enumerate(tomllib.loads(path.read_text())['fault'], 1):
+            unknown = set(entry) - {'file', 'old', 'new', 'user', 'tests'}
+            if unknown or entry['old'] == entry['new']:
+                raise SystemExit(f'{path}: fault {number}: {unknown or "changes nothing"}')
+            faults.append(Fault(f'{path.stem}/{number}', entry['file'], entry['old'], entry['new'], entry['user'],
+                                tuple(entry.get('tests', []))))
+    keys = [f.key() for f in faults]
+    for fault in faults:
+        if keys.count(fault.key()) > 1:
+            raise SystemExit(f'{fault.name} stands there twice')
+    return faults
+
+
+def find(faults, names):
+    """Those of the given rooms or names; all where none is given."""
+    if not names:
+        return faults
+    return [f for f in faults if any(f.name == n or f.name.startswith(n + '/') for n in names)]
+
+
+class Results:
+    """What has been found, in a file that a kill leaves whole."""
+
+    def __init__(self, path, fresh=False):
+        self.path = path
+        self.found = {}
+        if path.exists() and not fresh:
+            self.found = json.loads(path.read_text())
+
+    def of(self, fault):
+        entry = self.found.get(fault.key())
+        return entry and (entry['verdict'], entry['tests'])
+
+    def stands(self, fault, digest):
+        """Whether a fault need not be tried again: what was seen stays so, all else is of these very sources."""
+        entry = self.found.get(fault.key())
+        return bool(entry) and (entry['verdict'] == 'results' or
+                                (entry['digest'] == digest and entry['verdict'] != 'open'))
+
+    def add(self, fault, verdict, tests, digest):
+        self.found[fault.key()] = {'name': fault.name, 'verdict': verdict, 'tests': tests, 'digest': digest,
+                                   'confirmed': False}
+        self.save()
+
+    def newly_seeing(self, digest):
+        """Tests that have seen something and were not yet run without any fault."""
+        return sorted({t for e in self.found.values() if e['verdict'] == 'results' and not e['confirmed'] and
+                       e['digest'] == digest for t in e['tests']})
+
+    def confirm(self, digest):
+        for entry in self.found.values():
+            if entry['digest'] == digest:
+                entry['confirmed'] = True
+        self.save()
+
+    def forget(self, test):
+        for key, entry in list(self.found.items()):
+            entry['tests'] = [t for t in entry['tests'] if t != test]
+            if entry['verdict'] == 'results' and not entry['tests']:
+                del self.found[key]
+        self.save()
+
+    def save(self):
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        part = self.path.with_suffix('.part')
+        part.write_text(json.dumps(self.found, indent=1))
+        part.replace(self.path)

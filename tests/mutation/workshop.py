@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A copy of the sources with its own build, in which faults are put and tests run."""
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import tomllib
+from contextlib import contextmanager
+from pathlib import Path
+
+MOST_SECONDS = 600  # of one call of a test program; one that does not end has seen the fault
+FAILED = re.compile(r'^\[  FAILED  \] ([^\s,]+)(?:,.*)? \(\d+ ms\)$', re.M)
+BEGUN = re.compile(r'^\[ RUN      \] (\S+)$', re.M)
+ENDED = re.compile(r'^\[ {2,7}(?:OK|FAILED|SKIPPED) {1,2}\] ([^\s,]+)', re.M)
+
+
+class BuildError(Exception):
+    """What the compiler said."""
+
+
+def digest_of(files):
+    """Of names and contents; `files` are pairs of a name and bytes."""
+    whole = hashlib.sha256()
+    for name, content in files:
+        whole.update(f'{name}\0{len(content)}\0'.encode() + content)
+    return whole.hexdigest()[:16]
+
+
+class Workshop:
+    def __init__(self, tree, jobs):
+        self.tree = Path(tree)
+        self.jobs = jobs
+        self.source = self.tree / 'build-mutate'
+        self.build_folder = self.source / 'build'
+        kinds = tomllib.loads((self.tree / 'tests' / 'mutation' / 'tests.toml').read_text())
+        self.hashes, self.noisy = kinds['hash'], kinds['noisy']
+        self.built = set()
+
+    def copy(self):
+        """Brings the copy to the state of the working tree; returns a digest of the sources."""
+        listed = subprocess.run(['git', 'ls-files', '-co', '--exclude-standard', '-z'], cwd=self.tree, check=True,
+                                capture_output=True, text=True).stdout.split('\0')
+        names = sorted(n for n in listed if n and (self.tree / n).is_file())
+        keep = set(names)
+        for name in names:
+            there = self.source / name
+            there.parent.mkdir(parents=True, exist_ok=True)
+            if not there.exists() or there.read_bytes() != (self.tree / name).read_bytes():
+                shutil.copyfile(self.tree / name, there)
+                shutil.copymode(self.tree / name, there)
+        for there in self.source.rglob('*'):
+            name = there.relative_to(self.source).as_posix()
+            if there.is_file() and name not in keep and not name.startswith(('build/', 'results.')):
+                there.unlink()
+        self.configure()
+        code = [n for n in names if n.endswith(('.cpp', '.hpp', '.cu', '.cuh'))]
+        return digest_of((n, (self.tree / n).read_bytes()) for n in code)
+
+    def configure(self):
+        if (self.build_folder / 'CMakeCache.txt').exists():
+            return
+        words = ['cmake', '-S', str(self.source), '-B', str(self.build_folder), '-G', 'Ninja', '-DGROUSER_CUDA=OFF']
+        if shutil.which('ccache'):
+            words.append('-DCMAKE_CXX_COMPILER_LAUNCHER=ccache')
+        done = subprocess.run(words, capture_output=True, text=True)
+        if done.returncode:
+            raise SystemExit(done.stdout + done.stderr)
+
+    @contextmanager
+    def with_fault(self, fault):
+        """The fault stands in the copy; yields whether its text was found, just once."""
+        path = self.source / fault.file
+        sound = path.read_text() if path.exists() else ''
+        found = sound.count(fault.old) == 1
+        self.built.clear()
+        try:
+            if found:
+                path.write_text(sound.replace(fault.old, fault.new))
+            yield found
+        finally:
+            if found:
+                path.write_text(sound)
+            self.built.clear()
+
+    @staticmethod
+    def program_name(program):
+        return 'grouser_tests' if program == 'all' else 'grouser_tests_' + program
+
+    def build(self, program):
+        """Builds a room's test program, or all of them in one with the command line. Throws BuildError."""
+        if program in self.built:
+            return
+        targets = [self.program_name(program)] + (['grouser'] if program == 'all' else [])
+        done = subprocess.run(['cmake', '--build', str(self.build_folder), '-j', str(self.jobs), '--target', *targets],
+                              capture_output=True, text=True)
+        if done.returncode:
+            errors = [line for line in done.stdout.splitlines() if ' error: ' in line]
+            raise BuildError(errors[0] if errors else done.stdout[-300:] + done.stderr[-300:])
+        self.built.add(program)
+
+    def run(self, program, pattern, first=True):
+        """Tests of physics and results that are red; `first`: stops at the first."""
+        return self.call(program, pattern, self.hashes + self.noisy, first)
+
+    def run_hashes(self):
+        """Red ones among those that compare a stored hash."""
+        return self.call('all', ':'.join(self.hashes), self.noisy, False)
+
+    def red_without_fault(self, tests):
+        """Those that are red now that no fault stands in the copy."""
+        if not tests:
+            return []
+        self.build('all')
+        return [t for t in self.call('all', ':'.join(tests), [], False) if t in tests]
+
+    def call(self, program, pattern, but, first):
+        path = self.build_folder / 'bin' / self.program_name(program)
+        words = [str(path), f'--gtest_filter={pattern}-{":".join(but)}' if but else f'--gtest_filter={pattern}']
+        if first:
+            words.append('--gtest_fail_fast')
+        shards = self.jobs if program == 'all' else 1
+        running = [self.start(words, k, shards) for k in range(shards)]
+        return [test for process, said in running for test in self.red_of(process, said)]
+
+    @staticmethod
+    def start(words, shard, shards):
+        """Starts one of several processes that share the tests; returns it and the file of what it says."""
+        environment = dict(os.environ, GROUSER_CACHE='', GOMP_SPINCOUNT='5000', GTEST_TOTAL_SHARDS=str(shards),
+                           GTEST_SHARD_INDEX=str(shard))
+        said = tempfile.TemporaryFile('w+', errors='replace')
+        return subprocess.Popen(words, env=environment, stdout=said, stderr=subprocess.STDOUT,
+                                start_new_session=True), said
+
+    @staticmethod
+    def red_of(process, said):
+        """Tests that failed, with the one that crashed or did not end."""
+        try:
+            process.wait(timeout=MOST_SECONDS)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 9)
+            process.wait()
+        said.seek(0)
+        text = said.read()
+        said.close()
+        red = list(dict.fromkeys(FAILED.findall(text)))
+        ended = set(ENDED.findall(text))
+        if process.returncode not in (0, 1):
+            red += [t for t in BEGUN.findall(text)[-1:] if t not in ended]
+        return red

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Laws of two unlike materials, and where a vehicle stands, in numbers of their own.
+#include "runs/setup/laws.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/placement.hpp"
+
+#include "base/math.hpp"
+#include "vehicle/spec_file.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::setup {
+namespace {
+
+scene::Scene twoMaterials(const std::string& more = "") {
+  return parseScene("version = 1\n[run]\nduration = 1\n"
+                    "[material.soft]\nstiffness = 1e5\nfriction = 0.3\ntangential_stiffness_ratio = 0.5\n"
+                    "tangential_damping_ratio = 0.7\ndamping = 200\nrolling_friction = 0.02\ncohesion = 0.4\n"
+                    "[material.hard]\nstiffness = 3e5\nfriction = 0.8\ntangential_stiffness_ratio = 0.4\n"
+                    "tangential_damping_ratio = 0.9\ndamping = 500\nrolling_friction = 0.05\ncohesion = 0.9\n" +
+                        more +
+                        "[[grain]]\nposition = [0, 0, 0]\nradius = 0.01\nmaterial = \"soft\"\n"
+                        "[[grain]]\nposition = [1, 0, 0]\nradius = 0.01\nmaterial = \"hard\"\n",
+                    "two.toml");
+}
+
+TEST(PairLawValues, OfUnlikeMaterialsAreTwoSpringsInARowAndTheWeakerOfTheRest) {
+  const scene::Scene scene = twoMaterials();
+  const contact::ContactLaw law = pairLaw(scene, "soft", "hard", 0.1);
+  EXPECT_NEAR(law.stiffness, 2 * 1e5 * 3e5 / 4e5, 1e-6);
+  EXPECT_NEAR(law.tangentialStiffness, 0.4 * 1.5e5, 1e-6);
+  EXPECT_EQ(law.damping, 500);
+  EXPECT_NEAR(law.tangentialDamping, 0.7 * 500, 1e-9);
+  EXPECT_EQ(law.friction, 0.3);
+  EXPECT_EQ(law.rollingFriction, 0.02);
+  EXPECT_NEAR(law.pullPerRadius, 2 * base::kPi * 0.6, 1e-12) << "the geometric mean of the energies";
+  const contact::ContactLaw own = pairLaw(scene, "hard", "hard", 0.1);
+  EXPECT_EQ(own.stiffness, 3e5);
+  EXPECT_NEAR(own.pullPerRadius, 2 * base::kPi * 0.9, 1e-12);
+}
+
+TEST(PairLawValues, OfAPairAreThoseOfItsSection) {
+  const scene::Scene scene =
+      twoMaterials("[contact.\"soft|hard\"]\nstiffness = 7e5\nfriction = 0.1\ndamping = 50\nrolling_friction = 0.3\n");
+  const contact::ContactLaw law = pairLaw(scene, "hard", "soft", 0.1);
+  EXPECT_EQ(law.stiffness, 7e5);
+  EXPECT_NEAR(law.tangentialStiffness, 0.4 * 7e5, 1e-6);
+  EXPECT_EQ(law.damping, 50);
+  EXPECT_EQ(law.friction, 0.1);
+  EXPECT_EQ(law.rollingFriction, 0.3);
+  EXPECT_EQ(pairLaw(scene, "soft", "soft", 0.1).friction, 0.3) << "of the pair alone";
+}
+
+TEST(PlacementValues, HeadingIsInDegreesAndTheTerrainReachesToBothSides) {
+  const scene::Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
+                                       {"vehicle.heading=30", "vehicle.position=[4, -0.5]", "terrain.size=[9, 8]"});
+  const Placement place = placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
+  EXPECT_NEAR(place.heading, base::kPi / 6, 1e-15);
+  EXPECT_EQ(place.x, 4);
+  EXPECT_EQ(place.y, -0.5);
+  const terrain::Rectangle area = terrainArea(scene).value();
+  EXPECT_EQ(area.xMin, 0);
+  EXPECT_EQ(area.xMax, 9);
+  EXPECT_EQ(area.yMin, -4);
+  EXPECT_EQ(area.yMax, 4);
+}
+
+} // namespace
+} // namespace grouser::setup

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motions of one grain in closed form: sliding to rest on a damped spring, slip at the contact point of what turns, a
+// torque too small for a float.
+#include "contact/grain_loads.hpp"
+#include "surface_fixture.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain::testing {
+namespace {
+
+TEST(SlidingWithDamping, EndsInADampedSwingOfTheTangentialSpring) {
+  const double mu = 0.3, v0 = 0.05, g = 9.81;
+  GrainModel m = roughBall(2e-7, mu, 0);
+  m.law.damping = 0, m.law.tangentialDamping = 3000; // c_t = gamma_t m
+  const double k = m.law.tangentialStiffness, R = m.radius, overlap = m.mass * g / m.law.stiffness;
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, R - overlap}, {v0, 0, 0}, {}}});
+  // The contact point slows down by mu g (1 + 5/2) while it slides, then it swings with 2/7 of the mass from the
+  // spring's length at Coulomb's limit: s = s0 e^(-a t) (cos w t + a / w sin w t).
+  const double slides = v0 / (3.5 * mu * g), s0 = mu * m.mass * g / k;
+  const double a = 3.5 * 3000 / 2, w = std::sqrt(3.5 * k / m.mass - a * a);
+  std::int64_t taken = 0;
+  for (const double after : {-0.5 * slides, 0.5e-4, 1e-4, 2e-4, 3e-4, 5e-4}) {
+    const auto n = static_cast<std::int64_t>(std::lround((slides + after) / m.timeStep));
+    advance(grains, n - taken), taken = n;
+    const double t = static_cast<double>(n) * m.timeStep - slides;
+    const double slip = t < 0 ? -3.5 * mu * g * t : -s0 * base::exp(-a * t) * (a * a + w * w) / w * base::sin(w * t);
+    // Angular momentum about the contact is kept: v = 5/7 v0 + 2/7 of the slip.
+    const GrainSnapshot s = grains.snapshot();
+    // The contact point stops once in 25,000 steps, and the spring has 1e-4 of a swing a step.
+    EXPECT_NEAR(s.velocity[0].x, 5.0 / 7 * v0 + 2.0 / 7 * slip, 3e-6) << after;
+    EXPECT_NEAR(s.spin[0].y * R, 5.0 / 7 * (v0 - slip), 1e-5) << after;
+  }
+  EXPECT_GT(s0 * w, 5e-4) << "the swing is far above what is allowed";
+}
+
+TEST(SlidingWithDamping, DissipatesTheForceTimesTheWayLessWhatTheSpringHolds) {
+  contact::ContactLaw law;
+  law.stiffness = 1e5;
+  makeRough(law, 2000, 0.4);
+  law.damping = 0;
+  const double m = 0.01, overlap = 1e-4, dt = 1e-6, v = 0.3, normal = law.stiffness * overlap;
+  base::Vec3d shear;
+  double booked = 0, work = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const contact::BasicContactGeometry<double> touch{{0, 0, -1}, overlap, {0.6 * v, -0.8 * v, 0}, m, 0.005};
+    const auto r = contact::contactForce<contact::kGeneral>(law, touch, dt, shear);
+    booked += r.dissipated, work -= dot(r.force, touch.velocity) * dt;
+    if (n < 600) continue; // 0.14 mm of spring at 0.3 um a step
+    // On Coulomb's cone, against the slip; the spring is as long as it holds that force.
+    EXPECT_NEAR(r.force.x, -0.6 * 0.4 * normal, 1e-12 * normal);
+    EXPECT_NEAR(r.force.y, 0.8 * 0.4 * normal, 1e-12 * normal);
+    EXPECT_NEAR(r.force.z, normal, 1e-12 * normal);
+    EXPECT_NEAR(norm(shear), 0.4 * normal / law.tangentialStiffness, 1e-15);
+  }
+  const double stored = 0.5 * 0.4 * normal * 0.4 * normal / law.tangentialStiffness;
+  EXPECT_NEAR(booked, work - stored, 1e-12 * work);
+  // Turned back at a tenth of the speed it holds like a spring and a dashpot, until the limit on the other side.
+  const double slow = 0.1 * v, ct = 1000 * m;
+  ASSERT_NEAR(law.tangentialDamping, 1000, 1e-9);
+  for (int n = 1; n <= 20; ++n) {
+    const contact::BasicContactGeometry<double> touch{{0, 0, -1}, overlap, {-0.6 * slow, 0.8 * slow, 0}, m, 0.005};
+    const auto r = contact::contactForce<contact::kGeneral>(law, touch, dt, shear);
+    const double along = 0.6 * r.force.x - 0.8 * r.force.y; // positive: with the former slip
+    EXPECT_NEAR(along, -0.4 * normal + law.tangentialStiffness * slow * n * dt + ct * slow, 1e-12 * normal);
+  }
+}
+
+/// Direction in which a grain is dragged in its first step, when all slips.
+base::Vec3d dragged(const GrainModel& m, const Boundaries& boundaries, const std::vector<GrainSpec>& start,
+                    const std::vector<SurfacePose>& poses, const base::Vec3d& normal) {
+  Grains grains(testExec(1), m, boundaries, start);
+  if (!poses.empty()) grains.setSurfacePoses(poses);
+  grains.refreshNeighbours();
+  grains.step();
+  const base::Vec3d f = grains.snapshot({.contactForces = true}).contactForce[0].as<double>();
+  EXPECT_GT(dot(f, normal), 0);
+  const base::Vec3d tangential = f - normal * dot(f, normal);
+  EXPECT_NEAR(norm(tangential), 0.2 * dot(f, normal), 1e-3 * dot(f, normal)) << "it slides";
+  return base::normalized(tangential);
+}
+
+/// Slips at the first touch: the dashpot alone is beyond Coulomb's limit.
+GrainModel slippery() {
+  GrainModel m = ball(1e-6);
+  makeRough(m.law, 0, 0.2);
+  m.law.tangentialDamping = 1e6;
+  m.maxOverlap = 1;
+  return m;
+}
+
+TEST(SlipAtTheContact, OfAGrainOnATurningBoxTakesBothSpinsAndVelocities) {
+  const GrainModel m = slippery();
+  const Vec3d centre{0.3, -0.2, 0.1}, v{0.5, -0.7, 0}, w{11, 23, 5}, V{-0.4, 0.3, 0}, W{0, 0, 9};
+  const double overlap = 1e-5;
+  const Vec3d place = centre + Vec3d{0.04, 0.03, 0.02 + m.radius - overlap};
+  const SurfacePose pose = placed(centre, {}, {}, V, W);
+  const Boundaries boundaries{.walls = {}, .floor = {}, .surfaces = {{boxOf({0.1, 0.1, 0.02}), m.law, pose}}};
+  const Vec3d is = dragged(m, boundaries, {{place, v, w}}, {pose}, {0, 0, 1});
+  // The grain's lowest point, a radius less the overlap below; the box's point there, turning about its centre.
+  const double arm = m.radius - overlap;
+  const Vec3d grain = v + cross(w, Vec3d{0, 0, -arm}), box = V + cross(W, Vec3d{0.04, 0.03, 0.02});
+  const Vec3d slip = grain - box;
+  const Vec3d wanted = -base::normalized(Vec3d{slip.x, slip.y, 0});
+  EXPECT_NEAR(norm(is - wanted), 0, 2e-4);
+}
+
+TEST(SlipAtTheContact, OfAGrainOnATurningCylinderIsTakenAtItsSurface) {
+  const GrainModel m = slippery();
+  const double radius = 0.05, overlap = 1e-5;
+  // The axis lies along y; the grain sits to the right above it, where the surface moves along (0.8, 0, -0.6).
+  const base::Quat aboutY = turn({1, 0, 0}, -base::kPi / 2);
+  const Vec3d normal{0.6, 0, 0.8}, W{0, 12, 0}, V{0, 0.2, 0}, v{0.1, 0.1, -0.075}, w{0, 7, 0};
+  const SurfacePose pose = placed({}, aboutY, {}, V, W);
+  const Boundaries boundaries{.walls = {}, .floor = {}, .surfaces = {{cylinderOf(radius, 0.1), m.law, pose}}};
+  const Vec3d is = dragged(m, boundaries, {{normal * (radius + m.radius - overlap), v, w}}, {pose}, normal);
+  const Vec3d slip = v + cross(w, normal * -(m.radius - overlap)) - V - cross(W, normal * (radius));
+  const Vec3d along = slip - normal * dot(slip, normal);
+  EXPECT_NEAR(norm(is + base::normalized(along)), 0, 2e-4);
+}
+
+TEST(SlipAtTheContact, OfAGrainOnAPlaneIsThatOfItsLowestPoint) {
+  const GrainModel m = slippery();
+  const Vec3d v{0.3, 0.2, 0}, w{50, -20, 8};
+  const Vec3d is = dragged(m, {{floorPlane(m.law)}, {}}, {{{0.1, 0.2, m.radius - 1e-5}, v, w}}, {}, {0, 0, 1});
+  const Vec3d slip = v + cross(w, Vec3d{0, 0, -m.radius + 1e-5});
+  EXPECT_NEAR(norm(is + base::normalized(Vec3d{slip.x, slip.y, 0})), 0, 2e-4);
+}
+
+TEST(SlipAtTheContact, OfTwoGrainsTakesEachOnesArm) {
+  GrainModel m = slippery();
+  const double small = 0.5 * m.radius, overlap = 1e-5;
+  for (const double other : {m.radius, small}) {
+    const Vec3d v{0.2, 0.1, 0}, w{5, 30, -9}, V{-0.1, 0.3, 0}, W{-40, 10, 3};
+    const Vec3d is = dragged(
+        m, {}, {{{0, 0, 0}, V, W, other, 0}, {{0, 0, other + m.radius - overlap}, v, w, m.radius, 0}}, {}, {0, 0, -1});
+    // Of the first one, relative to the second: both arms end in the middle of the overlap.
+    const Vec3d slip =
+        V + cross(W, Vec3d{0, 0, other - overlap / 2}) - v - cross(w, Vec3d{0, 0, -m.radius + overlap / 2});
+    EXPECT_NEAR(norm(is + base::normalized(Vec3d{slip.x, slip.y, 0})), 0, 2e-4) << other;
+  }
+}
+
+/// Steps a grain under a torque that a part puts on it [N m].
+base::Vec3d spunBy(const base::Vec3d& torque, const base::Vec3d& spin, int steps, GrainModel m) {
+  const base::Exec exec = base::cpuExec(1);
+  Grains grains(exec, m, {}, {{{}, {}, spin}});
+  const std::vector<std::uint32_t> range{1}; // one load, the first
+  const std::vector<contact::GrainLoad> load{{{}, torque.as<float>(), 0, 0}};
+  std::vector<std::int64_t> received(3, 0);
+  const contact::GrainLoadsView view{range.data(), load.data(), base::fixedPointFor(1, 36), received.data()};
+  for (int n = 0; n < steps; ++n) {
+    grains.refreshNeighbours();
+    grains.step(&view);
+  }
+  return grains.snapshot().spin[0].as<double>();
+}
+
+TEST(SmallTorque, SpinsAGrainUpAsInExactNumbers) {
+  const int steps = 100000;
+  GrainModel m = ball(1e-6);
+  const double inertia = 0.4 * m.mass * m.radius * m.radius;
+  // One radian a second squared, two and minus a half: 1e-6 rad/s a step, of which a float at 0.1 rad/s loses up to
+  // 4e-9.
+  const base::Vec3d alpha{1, 2, -0.5}, torque = alpha * inertia;
+  const base::Vec3d given = torque.as<float>().as<double>() * (1 / inertia); // the load is a float
+  const base::Vec3d w = spunBy(torque, {}, steps, m);
+  for (int a = 0; a < 3; ++a) EXPECT_NEAR(w[a] / (given[a] * steps * m.timeStep), 1, 1e-6) << a;
+}
+
+TEST(SmallTorque, IsNotLostBesideAFastSpin) {
+  // At 100 rad/s a float's last place is 7.6e-6: 1e-6 a step would be lost altogether. A remainder counts in 1.2e-10.
+  const int steps = 100000;
+  const GrainModel m = ball(1e-6);
+  const double inertia = 0.4 * m.mass * m.radius * m.radius;
+  const base::Vec3d w = spunBy(base::Vec3d{1, -1, 0} * inertia, {100, 100, -100}, steps, m);
+  EXPECT_NEAR(w.x - 100, 0.1, 2e-5);
+  EXPECT_NEAR(w.y - 100, -0.1, 2e-5);
+  EXPECT_EQ(w.z, -100);
+}
+
+} // namespace
+} // namespace grouser::terrain::testing
