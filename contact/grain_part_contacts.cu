@@ -273,6 +273,20 @@ GrainPartContacts::Ledger GrainPartContacts::ledger() const {
           energy(3), energy(4), model_.force.value({q[5], q[6], q[7]}) * model_.timeStep};
 }
 
+std::vector<GrainPartContacts::Press> GrainPartContacts::pressing(std::uint32_t grain) const {
+  std::vector<Press> found;
+  if (held_ == Held::listed) {
+    const std::vector<std::uint64_t> key = key_.toHost();
+    const std::vector<GrainLoad> load = load_.toHost();
+    for (std::size_t e = 0; e < pairs_; ++e)
+      if (key[e] >> 16 == grain && load[e].deepest > 0)
+        found.push_back({static_cast<int>(key[e] & 0xFFFFu), load[e].deepest});
+  }
+  std::vector<Press> all;
+  for (const std::vector<Press>& rank : comm_.gatherAll(found)) all.insert(all.end(), rank.begin(), rank.end());
+  return all;
+}
+
 std::size_t GrainPartContacts::bytes() const {
   std::size_t total = range_.bytes() + count_.bytes() + slot_.bytes() + key_.bytes() + oldKey_.bytes() +
                       memory_.bytes() + oldMemory_.bytes() + angle_.bytes() + oldAngle_.bytes() + load_.bytes();

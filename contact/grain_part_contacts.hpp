@@ -49,6 +49,12 @@ public:
   GrainLoadsView grainLoads();
 
   std::size_t pairs() const { return pairs_; }
+  /// The parts that pressed a grain in the last compute; of all ranks, which all call it.
+  struct Press {
+    int part;
+    float overlap; ///< [m]
+  };
+  std::vector<Press> pressing(std::uint32_t grain) const;
   struct Ledger {
     std::int64_t contacts{};     ///< patches in touch at the last compute
     double elastic{};            ///< held in their springs [J]

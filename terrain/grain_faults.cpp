@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/grain_faults.hpp"
 
-#include "base/error.hpp"
 #include "terrain/grain_system.hpp"
 
 #include <fmt/format.h>
 
 namespace grouser::terrain {
-
-using base::SimulationError;
 
 void stopFor(std::uint64_t key, const GrainSystem& system) {
   const auto fault = static_cast<Fault>(key >> 56);
@@ -29,19 +26,19 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
                   static_cast<double>(system.steps) * c.model.timeStep, id, found[0], found[1], found[2]);
   switch (fault) {
   case Fault::overlap:
-    throw SimulationError(fmt::format("{} overlaps by more than {:.3g} of its radius; use stiffer contacts (material "
-                                      "stiffness) or a smaller time_step",
-                                      where, c.model.maxOverlap));
+    throw GrainFault(fault, id, fmt::format("{} overlaps by more than {:.3g} of its radius", where, c.model.maxOverlap),
+                     "use stiffer contacts (material stiffness) or a smaller time_step");
   case Fault::range:
-    throw SimulationError(fmt::format("{} leaves the range of positions, {:.6g} m from the origin; give the scene a "
-                                      "floor or walls that hold it",
-                                      where, c.scale.limit()));
+    throw GrainFault(fault, id,
+                     fmt::format("{} leaves the range of positions, {:.6g} m from the origin", where, c.scale.limit()),
+                     "give the scene a floor or walls that hold it");
   case Fault::speed:
-    throw SimulationError(fmt::format("{} moves at {:.4g} m/s, more than half the neighbour list's skin in one step; "
-                                      "use a smaller time_step or a larger skin",
-                                      where, found[3]));
+    throw GrainFault(
+        fault, id,
+        fmt::format("{} moves at {:.4g} m/s, more than half the neighbour list's skin in one step", where, found[3]),
+        "use a smaller time_step or a larger skin");
   default:
-    throw SimulationError(where + " has a velocity that is no number; use a smaller time_step");
+    throw GrainFault(fault, id, where + " has a velocity that is no number", "use a smaller time_step");
   }
 }
 

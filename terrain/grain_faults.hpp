@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/error.hpp"
+#include "base/vec.hpp"
+#include "terrain/grain_records.hpp"
+
 #include <cstdint>
+#include <string>
 
 namespace grouser::terrain {
 
 struct GrainSystem;
 
-/// Throws SimulationError with step, time, grain, place and remedy. `fault`: as StepFlags has it. All ranks call it.
+/// A grain that stops the run. Who knows more than the grains do may name the cause.
+class GrainFault : public base::SimulationError {
+public:
+  GrainFault(Fault which, std::uint32_t grain, const std::string& what, const std::string& remedy)
+      : base::SimulationError(what + "; " + remedy), fault(which), id(grain), fact(what) {}
+  Fault fault;
+  std::uint32_t id;
+  std::string fact; ///< step, time, grain, place and what is wrong there, without a remedy
+};
+
+/// Throws GrainFault with step, time, grain, place and remedy. `fault`: as StepFlags has it. All ranks call it.
 [[noreturn]] void stopFor(std::uint64_t key, const GrainSystem& system);
 
 } // namespace grouser::terrain

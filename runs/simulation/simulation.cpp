@@ -2,6 +2,7 @@
 #include "runs/simulation/simulation.hpp"
 
 #include "base/error.hpp"
+#include "terrain/grain_faults.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,17 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   addGrains();
 }
 
+/// What stops a grain in `advance`, with the cause that energies and parts show.
+template <class Advance> void Simulation::namingCause(const Advance& advance) {
+  try {
+    advance();
+  } catch (const terrain::GrainFault& fault) {
+    const std::string cause = causeOf(fault);
+    if (cause.empty()) throw;
+    throw base::SimulationError(fault.fact + "; " + cause);
+  }
+}
+
 void Simulation::step(StepObserver* observer) {
   const auto done = [observer](Stage stage) {
     if (observer) observer->after(stage);
@@ -52,7 +64,7 @@ void Simulation::step(StepObserver* observer) {
   if (vehicle_) vehicle_->advance();
   if (mechanism_) mechanism_->advance();
   done(Stage::multibody);
-  if (grains) grains->endStep();
+  if (grains) namingCause([&] { grains->endStep(); });
   if (surfaces_) surfaces_->advance(*grains, steps_);
   done(Stage::grainStepEnded);
   ++steps_;
@@ -70,7 +82,8 @@ std::int64_t Simulation::advance(std::int64_t most) {
     return 1;
   }
   const std::int64_t toLook = EnergyGuard::kInterval - steps_ % EnergyGuard::kInterval;
-  const std::int64_t taken = ground_.grains->advance(std::min(most, toLook));
+  std::int64_t taken = 0;
+  namingCause([&] { taken = ground_.grains->advance(std::min(most, toLook)); });
   steps_ += taken;
   afterStep();
   return taken;
@@ -131,6 +144,23 @@ Ledger Simulation::ledger() {
   return l;
 }
 
+std::string Simulation::causeOf(const terrain::GrainFault& fault) {
+  using terrain::Fault;
+  if (fault.fault != Fault::overlap && fault.fault != Fault::speed) return {};
+  if (const std::string verdict = energyVerdict(ledger()); !verdict.empty())
+    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step", timeStep());
+  if (fault.fault == Fault::speed) return {};
+  std::string parts;
+  if (vehicle_)
+    for (const std::string& part : vehicle_->contacts().pressing(fault.id)) parts += (parts.empty() ? "" : ", ") + part;
+  if (!parts.empty())
+    return fmt::format("it is pinched, pressed by {}; the step is not to blame: use stiffer grains (material stiffness), "
+                       "larger ones, or raise run.max_overlap",
+                       parts);
+  return "the energies balance, so the step is not to blame: what presses it, or its speed, is too much for contacts "
+         "so soft; use stiffer ones (material stiffness), or raise run.max_overlap";
+}
+
 /// Ledger and guard, after each step.
 void Simulation::afterStep() {
   // What contacts of parts hold is known of the beginning of the last step: after the first one, of the start.
@@ -147,9 +177,13 @@ double Simulation::partsElastic() const {
 
 void Simulation::checkEnergy() { checkEnergy(ledger()); }
 
-void Simulation::checkEnergy(const Ledger& now) {
+std::string Simulation::energyVerdict(const Ledger& now) const {
   const double held = std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
-  const std::string verdict = guard_.judge(now, held);
+  return guard_.judge(now, held);
+}
+
+void Simulation::checkEnergy(const Ledger& now) {
+  const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";

@@ -15,6 +15,10 @@
 #include <memory>
 #include <string>
 
+namespace grouser::terrain {
+class GrainFault;
+}
+
 namespace grouser::simulation {
 
 /// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
@@ -74,7 +78,10 @@ private:
   /// Since the grains, bodies and surfaces were made.
   Ledger wholeLedger();
   double partsElastic() const;
+  std::string energyVerdict(const Ledger& now) const;
   void checkEnergy(const Ledger& now);
+  template <class Advance> void namingCause(const Advance& advance);
+  std::string causeOf(const terrain::GrainFault& fault);
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
   bool hasBed() const { return ground_.grains && setup_.ground.grains->bed; }

@@ -5,6 +5,7 @@
 #include "runs/simulation/grain_part_model.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace grouser::simulation {
 
@@ -211,6 +212,15 @@ VehicleContacts::Ledger VehicleContacts::ledger() const {
     ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
   }
   return ledger;
+}
+
+std::vector<std::string> VehicleContacts::pressing(std::uint32_t grain) const {
+  std::vector<std::string> names;
+  if (!bed_) return names;
+  for (const contact::GrainPartContacts::Press& p : bed_->pressing(grain))
+    names.push_back(fmt::format("the {} ({:.2g} mm)", assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
+                                1e3 * static_cast<double>(p.overlap)));
+  return names;
 }
 
 std::size_t VehicleContacts::samplesListed() const {

@@ -51,14 +51,14 @@ TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
   EXPECT_EQ(row.places, inFiles);
   const std::size_t columns = inFiles.size() + 1; // and `id`
   EXPECT_EQ(sizeof(GrainState), sizeof(GrainLayout) + sizeof state.total + columns * sizeof(std::vector<int>) +
-                                    sizeof state.skin + sizeof state.rebuilds);
+                                    sizeof state.books + sizeof state.skin + sizeof state.rebuilds);
 }
 
 TEST(GrainFields, WidthsFollowFromTheLayout) {
   const std::size_t bare = GrainFields(GrainLayout{}).bytesPerGrain();
   const auto more = [&](const GrainLayout& layout) { return GrainFields(layout).bytesPerGrain() - bare; };
   EXPECT_EQ(bare, 2 * (sizeof(base::Position) + 2 * sizeof(Vec4f)) + sizeof(Remainders) + 4 + 12);
-  EXPECT_EQ(more({.ledger = 1}), 8u);
+  EXPECT_EQ(more({.ledger = 1}), 0u);
   EXPECT_EQ(more({.periodic = 1}), sizeof(Crossings));
   EXPECT_EQ(more({.boundaries = 2}), 8u);
   EXPECT_EQ(more({.boundaries = 2, .friction = 1}), 8u + 2 * 12u);

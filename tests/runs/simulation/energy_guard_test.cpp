@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The guard stops what gains or loses energy by its steps, at fixed steps, and nothing else.
+#include "base/error.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/simulation/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+namespace grouser::simulation {
+namespace {
+
+Ledger books(double error, double turnover) {
+  Ledger l;
+  l.integrationError = error, l.turnover = turnover;
+  return l;
+}
+
+TEST(EnergyGuard, JudgesBothSignsAgainstWhatWasExchangedSinceTheLastLook) {
+  EnergyGuard guard;
+  guard.look(books(5, 1000));
+  EXPECT_EQ(guard.judge(books(5 + 4.9, 1010), 0), "") << "half of 10 J may be lost";
+  EXPECT_NE(guard.judge(books(5 + 6.2, 1010), 0), "");
+  EXPECT_EQ(guard.judge(books(5 - 2.4, 1010), 0), "") << "a quarter may be made";
+  EXPECT_NE(guard.judge(books(5 - 3.6, 1010), 0), "");
+  EXPECT_NE(guard.judge(books(5 - 3.6, 1010), 0).find("made 3.6 J"), std::string::npos);
+  EXPECT_EQ(guard.judge(books(5 - 3.6, 1010), 1e7), "") << "rounding of ten MJ";
+}
+
+TEST(EnergyGuard, WorkOfDrivesAndLossesCountAsExchanged) {
+  EnergyGuard guard;
+  Ledger l = books(-3, 0);
+  EXPECT_NE(guard.judge(l, 0), "");
+  l.driveWork = -13;
+  EXPECT_EQ(guard.judge(l, 0), "");
+  l.driveWork = 0, l.dissipated.friction = 13;
+  EXPECT_EQ(guard.judge(l, 0), "");
+}
+
+TEST(EnergyGuard, IsRestored) {
+  EnergyGuard a, b;
+  Ledger l = books(5, 1000);
+  l.driveWork = 7;
+  a.look(l);
+  b.restore(a.save());
+  for (const double error : {4.0, 2.0, 1.0, 11.0, 12.0}) {
+    l.integrationError = error, l.turnover = 1010;
+    EXPECT_EQ(a.judge(l, 0), b.judge(l, 0));
+  }
+  EXPECT_THROW(b.restore({1, 2}), base::InputError);
+}
+
+/// A heap of `number` grains in a box, with `more` keys of the material.
+std::string heap(int number, const std::string& material, const std::string& velocity = "[0, 0, 0]") {
+  std::string text = fmt::format("version = 1\n[run]\nduration = 1.0\n[material.soil]\ndensity = 2500\n{}\n"
+                                 "[[grains]]\nform = \"random\"\nlow = [-0.04, -0.04, 0]\nhigh = [0.04, 0.04, 0.15]\n"
+                                 "number = {}\nradius = 0.005\nvelocity = {}\nmaterial = \"soil\"\n",
+                                 material, number, velocity);
+  for (const char* plane : {"[0, 0, 0]\nnormal = [0, 0, 1]", "[-0.04, 0, 0]\nnormal = [1, 0, 0]",
+                            "[0.04, 0, 0]\nnormal = [-1, 0, 0]", "[0, -0.04, 0]\nnormal = [0, 1, 0]",
+                            "[0, 0.04, 0]\nnormal = [0, -1, 0]"})
+    text += fmt::format("[[plane]]\npoint = {}\nmaterial = \"soil\"\n", plane);
+  return text;
+}
+
+/// Steps of `share` of the limit, also above it, which a scene file may not ask for.
+Simulation simulationAt(const std::string& text, double share) {
+  const scene::Scene scene = setup::parseScene(text, "heap.toml");
+  setup::SimulationSetup setup = setup::simulationSetup(scene);
+  setup.timeStep = share * setup::stepLimit(scene).step;
+  setup.ground = setup::groundSetup(scene, setup.timeStep);
+  return Simulation(std::move(setup), base::cpuExec(1), [](double, double) {});
+}
+
+struct Material {
+  const char *name, *text, *velocity;
+};
+class Heaps : public ::testing::TestWithParam<Material> {};
+
+TEST_P(Heaps, AreSoundUpToTheLimit) {
+  for (const double share : {0.5, 0.75, 1.0}) {
+    Simulation simulation = simulationAt(heap(200, GetParam().text, GetParam().velocity), share);
+    EXPECT_NO_THROW(while (simulation.time() < 0.25) simulation.step(); simulation.checkEnergy()) << share;
+  }
+}
+
+TEST_P(Heaps, AreStoppedFarBeyondIt) {
+  Simulation simulation = simulationAt(heap(200, GetParam().text, GetParam().velocity), 3.5);
+  EXPECT_THROW(while (simulation.time() < 0.5) simulation.step(); simulation.checkEnergy(), base::SimulationError);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EnergyGuard, Heaps,
+    ::testing::Values(Material{"Plain", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5", "[0, 0, 0]"},
+                      Material{"Elastic", "stiffness = 2e4\nrestitution = 1\nfriction = 0", "[0, 0, 0]"},
+                      Material{"ElasticRough", "stiffness = 2e4\nrestitution = 1\nfriction = 0.5", "[0, 0, 0]"},
+                      Material{"Lossy", "stiffness = 2e4\nrestitution = 0.1\nfriction = 0.9", "[0, 0, -1]"},
+                      Material{"Rolling", "stiffness = 2e4\nrestitution = 0.4\nfriction = 0.5\nrolling_friction = 0.2",
+                               "[0, 0, 0]"},
+                      Material{"Sticky", "stiffness = 2e4\nrestitution = 0.4\nfriction = 0.5\ncohesion = 0.05",
+                               "[0, 0, 0]"},
+                      Material{"Pulling", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5\nattraction = true",
+                               "[0, 0, 0]"},
+                      Material{"Stiff", "stiffness = 1e6\nrestitution = 0.3\nfriction = 0.8", "[0.5, 0, -1]"}),
+    [](const auto& heap) { return std::string(heap.param.name); });
+
+TEST(EnergyGuard, VerdictFallsAtTheSameStepInBatchesAndAlone) {
+  const auto stopped = [](int most) {
+    Simulation simulation = simulationAt(heap(200, "stiffness = 2e4\nrestitution = 1\nfriction = 0.5"), 3.5);
+    try {
+      while (simulation.time() < 0.5) simulation.advance(most);
+    } catch (const base::SimulationError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string one = stopped(1);
+  EXPECT_NE(one, "");
+  EXPECT_EQ(one, stopped(16));
+  EXPECT_EQ(one, stopped(37));
+}
+
+} // namespace
+} // namespace grouser::simulation
