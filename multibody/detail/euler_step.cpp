@@ -41,6 +41,7 @@ constexpr double kSlowConvergence = 0.2;
 void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                  double dt) {
   startLinks(state, loads, dt);
+  firstSolve_ = true;
   startLinkAxes(state, dt);
   for (const int k : system_.offTree()) {
     impulse_[at(k)] = {};
@@ -113,6 +114,8 @@ double EulerStep::trialPosition(const State& state, int axis) const {
 }
 
 void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
+  if (!firstSolve_) takeGyroResiduals();
+  firstSolve_ = false;
   system_.solve(part, x_);
   if (mixing_.on() && !relinearised_) {
     unpackIterate();
@@ -403,6 +406,7 @@ void EulerStep::step(State& state, const Loads& loads, double dt) {
   system_.place(state.pose, frames_);
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
   noteOldLengths(state);
+  oldSpin_ = state.angularMomentum;
   for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
   bookElasticGain(state, loads);
   state.time += dt;
