@@ -154,6 +154,7 @@ private:
   Mixing mixing_;
   bool relinearised_ = false;         ///< the position solve had to leave J(q)
   std::vector<Twist> newTwist_;       ///< current iterate, one a body, where mixing asks for it
+  std::vector<Pose> placed_;          ///< where the last step left the bodies: those of trial_
   std::vector<Frame> frames_, trial_; ///< bodies' frames at the start and at the end of the step
 };
 
