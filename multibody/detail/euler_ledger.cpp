@@ -138,8 +138,9 @@ void EulerStep::bookMixedSpins(const State& state) {
     for (int l = 0; l < links.count; ++l) {
       const std::size_t b = at(links.body[at(l)]);
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
-      const Vec3d left = state.angularMomentum[b] - I * state.twist[b].w;
-      bookWork(0.5 * (s.unmet[l] + dot(laneOf(s.gyro, l) - left, laneOf(s.w0, l) + state.twist[b].w)));
+      const Vec3d w0 = laneOf(s.w0, l), w = state.twist[b].w;
+      const Vec3d unlike = (oldSpin_[b] - state.angularMomentum[b]) - I * (w0 - w);
+      bookWork(0.5 * dot(unlike - laneOf(s.gyroLeft, l), w0 + w));
     }
   }
 }
@@ -157,8 +158,7 @@ void EulerStep::bookSeveralPlaces(const State& state) {
       const Vec3d impulse = body.mass * (v - v0);
       bookWork(0.5 * dot(impulse, v0 + v) + 0.5 * dot(I * (w - w0), w0 + w));
       books_.linear += impulse;
-      books_.angular +=
-          cross(laneOf(s.position, l), impulse) + (state.angularMomentum[b] - (laneOf(s.gyroBefore, l) + I * w0));
+      books_.angular += cross(laneOf(s.position, l), impulse) + (state.angularMomentum[b] - oldSpin_[b]);
     }
   }
 }

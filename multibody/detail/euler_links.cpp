@@ -123,8 +123,8 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
     s.v0 = s.v, s.w0 = s.w, s.force = force, s.torque = torque;
     s.gyro = gyroscopicMomentum(I, s.w, dt);
     const Vec3L f = h * (force + b.mass * gravity);
-    s.gyroBefore = spin - timesInertia(I, s.w);
-    const Vec3L m = s.gyroBefore - s.gyro + h * torque;
+    s.gyroLeft = (spin - timesInertia(I, s.w)) - s.gyro;
+    const Vec3L m = s.gyroLeft + h * torque;
     scatterNode(x_, b.node, 0, {f.x, f.y, f.z, m.x, m.y, m.z});
     impulse += b.real * f;
     moment += b.real * (cross(s.position, f) + h * torque);
@@ -169,8 +169,10 @@ void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int
   const double lower[6] = {inertia[0][l], inertia[1][l], inertia[2][l], inertia[3][l], inertia[4][l], inertia[5][l]};
   const Mat3d I{{{lower[0], lower[1], lower[2]}, {lower[1], lower[3], lower[4]}, {lower[2], lower[4], lower[5]}}};
   const Vec3d w = angularVelocityOf(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
+  const Vec3d gyro = gyroscopicMomentum(I, w, dt); // solved: nothing is left for the next iterate
   put(s.w, w);
-  put(s.gyro, gyroscopicMomentum(I, w, dt)); // solved: nothing is left for the next iterate
+  put(s.gyroLeft, get(s.gyroLeft) + (get(s.gyro) - gyro));
+  put(s.gyro, gyro);
 }
 
 /// Takes the corrections into twists and impulses.
@@ -268,6 +270,16 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGaps(double dt, bool first) {
   return largestLane(largest);
 }
 
+/// What an iterate left of the gyroscopic equation is solved with the next one.
+void EulerStep::takeGyroResiduals() {
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      const Vector6& residual = x_[at(system_.links()[i].node[l])];
+      Vec3L& left = steps_[i].gyroLeft;
+      left.x[l] += residual[3], left.y[l] += residual[4], left.z[l] += residual[5];
+    }
+}
+
 GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
   Lanes largest = all(0);
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -276,7 +288,6 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGyro(double dt) {
     const Lanes(&I)[6] = system_.inertiaOf(i);
     const Vec3L g = gyroscopicMomentum(I, s.w, dt), residual = s.gyro - g;
     s.gyro = g;
-    s.unmet = dot(residual, s.w0 + s.w);
     scatterNode(x_, b.node, 0, {all(0), all(0), all(0), residual.x, residual.y, residual.z});
     largest = largestOf(largest, all(3 * dt) / (I[0] + I[3] + I[5]) * squareRoot(norm2(residual)));
   }
@@ -311,7 +322,7 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
   const Vec3L g = all(loads.gravity);
   const Lanes gravity = b.real * (b.mass * dot(g, path));
   const Lanes external = b.real * (dot(s.force, path) + dot(s.torque, turn));
-  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroBefore - s.gyro) - 0.5 * s.unmet);
+  const Lanes gyroscopic = b.real * (all(1 / dt) * dot(turn, s.gyroLeft));
   work.gravity += gravity;
   work.external += external;
   work.kinetic += gravity + external + gyroscopic;
@@ -399,10 +410,8 @@ GROUSER_SIMD void EulerStep::addAxis(const LinkLanes& b, const LinkStep& s, int 
   work.dissipated += b.real * (damping[0] * perTime * newRate * path);
   const Lanes each = b.real * (perTime * newRate * path);
   work.jointDamping += damping[1] * each;
-  if (base::any((damping[2] != 0.0) | (damping[3] != 0.0))) {
-    work.springDamping += damping[2] * each;
-    work.stopDamping += damping[3] * each;
-  }
+  work.springDamping += damping[2] * each;
+  work.stopDamping += damping[3] * each;
 }
 
 /// Position, rate and forces of one axis of four joints.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <sstream>
 #include <utility>
 
@@ -41,6 +42,7 @@ constexpr double kSlowConvergence = 0.2;
 void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                  double dt) {
   startLinks(state, loads, dt);
+  firstSolve_ = true;
   startLinkAxes(state, dt);
   for (const int k : system_.offTree()) {
     impulse_[at(k)] = {};
@@ -113,6 +115,8 @@ double EulerStep::trialPosition(const State& state, int axis) const {
 }
 
 void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
+  if (!firstSolve_) takeGyroResiduals();
+  firstSolve_ = false;
   system_.solve(part, x_);
   if (mixing_.on() && !relinearised_) {
     unpackIterate();
@@ -388,6 +392,7 @@ EulerStep::EulerStep(const Problem& problem)
   for (const Body& body : model_.bodies()) poses.push_back(body.pose);
   system_.place(poses, frames_);
   trial_ = frames_;
+  placed_.reserve(poses.size());
   for (const AxisSpring& spring : model_.axisSprings()) {
     const auto joint = at(spring.joint);
     springPlace_.push_back(
@@ -400,12 +405,20 @@ EulerStep::EulerStep(const Problem& problem)
 }
 
 void EulerStep::step(State& state, const Loads& loads, double dt) {
-  system_.place(state.pose, frames_);
+  // Where nobody has moved a body since the last step, its frames are those that the step ended with.
+  if (placed_.size() == state.pose.size() &&
+      std::memcmp(placed_.data(), state.pose.data(), placed_.size() * sizeof(Pose)) == 0)
+    std::swap(frames_, trial_);
+  else
+    system_.place(state.pose, frames_);
+  placed_.clear(); // until the step has succeeded
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
   noteOldLengths(state);
+  oldSpin_ = state.angularMomentum;
   for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
   bookElasticGain(state, loads);
   state.time += dt;
+  placed_ = state.pose;
 }
 
 } // namespace grouser::multibody::detail

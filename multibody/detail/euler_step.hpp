@@ -72,8 +72,7 @@ private:
     Lanes startCos, startSin; ///< of a joint's angle
     Lanes spread;             ///< of the inertias (spreadOf())
     // For the books.
-    Vec3L gyroBefore;         ///< gyroscopic momentum of the old twist
-    Lanes unmet;              ///< twice the work of what the last iterate leaves of its gyroscopic equation
+    Vec3L gyroLeft;           ///< gyroscopic momentum of the old twist less that with which the new one was found
     Vec3L parentV0, parentW0; ///< twist of the parent before the step
   };
   void startLinks(const State& state, const Loads& loads, double dt);
@@ -85,6 +84,7 @@ private:
   void moveLinks(double dt);
   double setLinkGaps(double dt, bool first);
   double setLinkGyro(double dt);
+  void takeGyroResiduals();
   /// Of four bodies and their joints in a step [J].
   struct LinkWork {
     Lanes gravity, external, drive, spring, dissipated;
@@ -137,7 +137,9 @@ private:
   std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
   double mass_ = 0;                        ///< of all movable bodies
   StepBooks books_;
-  Twist fromOutside_; ///< impulse of gravity and loads, and its moment about the origin
+  std::vector<Vec3d> oldSpin_; ///< angular momenta before the step
+  bool firstSolve_ = true;     ///< since the residuals were set anew
+  Twist fromOutside_;          ///< impulse of gravity and loads, and its moment about the origin
   struct SpringPlace {
     std::size_t joint;
     bool slide;
@@ -152,6 +154,7 @@ private:
   Mixing mixing_;
   bool relinearised_ = false;         ///< the position solve had to leave J(q)
   std::vector<Twist> newTwist_;       ///< current iterate, one a body, where mixing asks for it
+  std::vector<Pose> placed_;          ///< where the last step left the bodies: those of trial_
   std::vector<Frame> frames_, trial_; ///< bodies' frames at the start and at the end of the step
 };
 

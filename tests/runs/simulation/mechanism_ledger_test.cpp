@@ -28,16 +28,14 @@ TEST(MechanismLedger, ClosesToRoundingAndItsIntegrationErrorFallsWithTheOrder) {
     const char *name, *integrator;
     double step, duration, order;
   };
-  for (const Case& c :
-       {Case{"slider_crank", "rattle", 4e-3, 1, 2}, Case{"andrews", "rattle", 1e-4, 0.02, 2},
-        Case{"andrews", "symplectic_euler", 1e-5, 0.02, 1}, Case{"spring_torsion", "rattle", 1e-2, 1, 2},
-        Case{"ring46", "symplectic_euler", 1e-3, 0.2, 1}, Case{"fourbar2", "rattle", 1e-3, 1, 2}}) {
+  for (const Case& c : {Case{"slider_crank", "rattle", 1e-4, 0.1, 2}, Case{"andrews", "rattle", 1e-4, 0.02, 2},
+                        Case{"andrews", "symplectic_euler", 1e-5, 0.02, 1}, Case{"pendulum", "rattle", 1e-2, 2, 2},
+                        Case{"pendulum", "symplectic_euler", 1e-3, 2, 1}, Case{"fourbar2", "rattle", 1e-3, 1, 2}}) {
     double error[2];
     for (int half = 0; half < 2; ++half) {
       const double step = half ? c.step / 2 : c.step;
-      const setup::SimulationSetup setup =
-          setupOf(std::string("runs/mechanisms/") + c.name + ".toml",
-                  {"run.time_step=" + std::to_string(step), std::string("run.integrator=\"") + c.integrator + '"'});
+      const setup::SimulationSetup setup = setupOf(std::string("runs/mechanisms/") + c.name + ".toml",
+                                                   {std::string("run.integrator=\"") + c.integrator + '"'});
       Mechanism mechanism(*setup.mechanism, step);
       const Mechanism::Ledger start = mechanism.ledger();
       error[half] = 0;
@@ -87,7 +85,7 @@ TEST(MechanismLedger, GoesOnFromACheckpointWithTheSameBitsAndIsNotHashed) {
 TEST(MechanismLedger, OfAVehiclesBodiesClosesToRounding) {
   Simulation simulation(setupOf("tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.02"}), base::cpuExec(1),
                         [](double, double) {});
-  while (simulation.time() < 0.1) simulation.step();
+  while (simulation.time() < 0.03) simulation.step();
   const VehicleRig::BodiesLedger l = simulation.vehicle()->bodiesLedger();
   EXPECT_GT(l.turnover, 1);
   EXPECT_NE(l.externalWork, 0) << "it stands on the ground";
