@@ -36,8 +36,9 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-",
-        fmt::format("rebound over impact speed; {} where damping is not given either; below 1e-6 with attraction alone",
-                    brief(S::kRestitution)))
+        fmt::format(
+            "rebound over impact speed; {} where damping is not given either; at least 1e-6, or with attraction 0",
+            brief(S::kRestitution)))
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s",
@@ -83,7 +84,10 @@ Table<ContactPair> contactTable() {
       "What materials a and b have against each other, otherwise than the mixing rule gives: stiffness in series, "
       "doubled; the smaller of frictions and restitutions; the geometric mean of cohesions (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
-  t.add("restitution", &S::restitution, "-", "rebound over impact speed of the pair").atLeast(0).atMost(1);
+  t.add("restitution", &S::restitution, "-",
+        "rebound over impact speed of the pair; at least 1e-6, or with attraction 0")
+      .atLeast(0)
+      .atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
   t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
   t.add("rolling_friction", &S::rollingFriction, "-", "of the pair").atLeast(0).atMost(2);
@@ -95,6 +99,8 @@ Table<ContactPair> contactTable() {
 template <class S> void checkOneLoss(const Section& section, const S& s) {
   if (s.restitution && s.damping)
     section.fail("damping", "stands beside restitution, which says the same; remove one of the two");
+  if (s.restitution && *s.restitution > 0 && *s.restitution < 1e-6)
+    section.fail("restitution", "[-] is outside [1e-06, 1], and not 0; choose one of these");
 }
 
 /// What belongs to the material's law gets its default; what belongs to the other must not stand there.

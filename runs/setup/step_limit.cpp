@@ -227,6 +227,9 @@ double chooseTimeStep(const scene::Scene& scene) {
 
 namespace {
 
+/// What is said to be allowed is a round number where its factors are.
+constexpr double kRounding = 1 + 1e-12;
+
 /// How far a point of a surface can be from what it turns about, but for the part of it that turning brings upon itself
 /// [m]. A plane has no end: what is far out there does not count.
 double leverOf(const SceneSurface& s) {
@@ -246,7 +249,7 @@ double leverOf(const SceneSurface& s) {
 }
 
 void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeStep) {
-  const double most = 0.5 * smallest / timeStep;
+  const double most = kRounding * 0.5 * smallest / timeStep;
   for (const SceneSurface& s : surfacesOf(scene)) {
     // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
@@ -274,7 +277,7 @@ void checkSpeeds(const scene::Scene& scene, double timeStep) {
   const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return;
   checkSurfaceSpeeds(scene, kinds.smallest, timeStep);
-  const double most = 0.5 * scene.run.skin * kinds.smallest / timeStep;
+  const double most = kRounding * 0.5 * scene.run.skin * kinds.smallest / timeStep;
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)
       if (norm(sections[k].velocity) > most)

@@ -259,14 +259,6 @@ std::vector<Mistake> meshes() {
   };
 }
 
-/// Simulations that fail.
-std::vector<Mistake> simulations() {
-  return {
-      badScene("BedDoesNotSettle", "settle_time_limit = 0.0", "settle_time_limit = 0.02",
-               {"has not settled", "raise terrain.settle_time_limit"}, kBed, 3),
-  };
-}
-
 /// Where results go.
 std::vector<Mistake> folders() {
   return {
@@ -320,8 +312,8 @@ std::vector<Mistake> checkpoints() {
 
 std::vector<Mistake> mistakes() {
   std::vector<Mistake> all;
-  for (const auto subject : {sceneFiles, pictures, vehicles, grainsAndSurfaces, stepsAndSizes, sources, names, meshes,
-                             simulations, folders, checkpoints})
+  for (const auto subject :
+       {sceneFiles, pictures, vehicles, grainsAndSurfaces, stepsAndSizes, sources, names, meshes, folders, checkpoints})
     for (Mistake& mistake : subject()) all.push_back(std::move(mistake));
   return all;
 }

@@ -292,7 +292,8 @@ TEST_F(ResumedRun, UnsoundRunKeepsItsLastSoundCheckpoint) {
 TEST_F(ResumedRun, NewRunByForceTakesTheFormerCheckpointAway) {
   run(resumed_, bed(), 900);
   EXPECT_THROW(run(resumed_, unsound("0"), {}, true), base::SimulationError);
-  EXPECT_FALSE(fs::exists(resumed_ / simulation::kCheckpointName)) << "it would be of another run";
+  EXPECT_LT(simulation::readCheckpoint(resumed_ / simulation::kCheckpointName).state.steps, 900)
+      << "it would be of another run";
 }
 
 } // namespace
