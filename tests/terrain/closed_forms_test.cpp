@@ -143,7 +143,7 @@ TEST(SlipAtTheContact, OfTwoGrainsTakesEachOnesArm) {
 }
 
 /// Steps a grain under a torque that a part puts on it [N m].
-base::Vec3d spunBy(const base::Vec3d& torque, const base::Vec3d& spin, int steps, GrainModel m) {
+base::Vec3d spunBy(const base::Vec3d& torque, const base::Vec3d& spin, int steps, const GrainModel& m) {
   const base::Exec exec = base::cpuExec(1);
   Grains grains(exec, m, {}, {{{}, {}, spin}});
   const std::vector<std::uint32_t> range{1}; // one load, the first
