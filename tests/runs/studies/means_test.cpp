@@ -35,9 +35,9 @@ TEST(StudyShear, NormalForceIsThatOfTheLoadAndTheGrainsAbove) {
   ASSERT_GE(rows.size(), 4u);
   for (const ShearRow& r : rows) normal += r.normal, shear += r.shear;
   normal /= static_cast<double>(rows.size()), shear /= static_cast<double>(rows.size());
-  // The grains above the plane weigh a few per cent of the load; the lid swings by as much.
-  EXPECT_GT(normal, 0.9 * load);
-  EXPECT_LT(normal, 1.2 * load);
+  // The grains above the plane weigh a sixth of the load; what is drawn quickly swings by as much.
+  EXPECT_GT(normal, 0.95 * load);
+  EXPECT_LT(normal, 1.4 * load);
   EXPECT_GT(shear, 0.1 * load) << "the upper half is held back";
   EXPECT_LT(shear, normal);
   for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_GT(rows[k].displacement, rows[k - 1].displacement);
