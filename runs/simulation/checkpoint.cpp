@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 4; // of the layout below
+constexpr int kVersion = 5; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -71,6 +71,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     auto& v = *s.vehicle;
     archive("/vehicle/bodies", v.bodies);
     archive("/vehicle/observers", v.observers);
+    archive("/vehicle/driver", v.driver);
     archive("/vehicle/track/states", v.track.states);
     archive("/vehicle/track/sums", v.track.sums);
     archive("/vehicle/ground/states", v.ground.states);
