@@ -183,23 +183,24 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
     if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) return;
     if (!found.best || better(*wrap, *found.best, f.idlerX)) found.best = wrap;
   };
+  // All ways to lead the track from the ground run by the idler back to the sprocket.
+  const auto considerFront = [&](int topGap, int bottomGap, int rear, int ground, PlanePoint groundEnd) {
+    const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
+    for (int front = 1; front <= f.shoes / 4; ++front)
+      for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler) {
+        const int top = f.shoes - (bottomGap - topGap) - rear - ground - front - idler;
+        if (anyPlace || (strandFits(f, spec, groundEnd, front) && strandFits(f, spec, sprocketTop, top)))
+          consider(closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0}));
+      }
+  };
   const double span = f.frontWheelX - f.rearWheelX;
   const int groundMin = std::max(1, static_cast<int>(std::floor(span / f.pitch)));
-  for (int topGap = -f.teeth / 2; topGap < 0; ++topGap) {
-    const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
+  for (int topGap = -f.teeth / 2; topGap < 0; ++topGap)
     for (int bottomGap = 1; bottomGap <= f.teeth / 2; ++bottomGap)
       for (int rear = 1; rear <= f.shoes / 4; ++rear)
-        for (int ground = groundMin; ground <= groundMin + 6; ++ground) {
-          const auto run = groundRun(f, bottomGap, rear, ground);
-          if (!run) continue;
-          for (int front = 1; front <= f.shoes / 4; ++front)
-            for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler) {
-              const int top = f.shoes - (bottomGap - topGap) - rear - ground - front - idler;
-              if (anyPlace || (strandFits(f, spec, run->end, front) && strandFits(f, spec, sprocketTop, top)))
-                consider(closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0}));
-            }
-        }
-  }
+        for (int ground = groundMin; ground <= groundMin + 6; ++ground)
+          if (const auto run = groundRun(f, bottomGap, rear, ground))
+            considerFront(topGap, bottomGap, rear, ground, run->end);
   return found;
 }
 

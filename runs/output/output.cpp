@@ -251,7 +251,7 @@ void RunWriter::surface(const UndisturbedSurface& surface) {
   if (!impl_->series) return;
   support::Hdf5File& file = impl_->series->results;
   const std::string group = "/terrain/surface/";
-  const auto write = [&](const char* name, const std::vector<double>& values, std::vector<std::uint64_t> shape,
+  const auto write = [&](const char* name, const std::vector<double>& values, const std::vector<std::uint64_t>& shape,
                          const char* help) {
     file.write(group + name, values, shape);
     file.attribute(group + name, "unit", "m");
