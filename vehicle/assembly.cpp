@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace grouser::vehicle {
@@ -211,6 +212,23 @@ base::Pose placeOnGround(const VehicleSpec& spec, double x, double y, double gro
                          double heading) {
   return {{x, y, groundHeight + clearance - spec.groundHeight()},
           {base::cos(0.5 * heading), 0, 0, base::sin(0.5 * heading)}};
+}
+
+base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
+                        double heading, double ahead, double left) {
+  // Half angles without trigonometric functions: cos(a) = 1 / sqrt(1 + tan^2), cos(a / 2) = sqrt((1 + cos a) / 2).
+  const auto halfTurn = [](double tangent) {
+    const double c = 1 / std::sqrt(1 + tangent * tangent), half = std::sqrt(0.5 * (1 + c));
+    return std::pair{half, 0.5 * tangent * c / half};
+  };
+  const double slant = std::sqrt(1 + ahead * ahead + left * left);
+  const auto [cosPitch, sinPitch] = halfTurn(ahead);
+  const auto [cosRoll, sinRoll] = halfTurn(left / std::sqrt(1 + ahead * ahead));
+  base::Pose pose = placeOnGround(spec, x, y, groundHeight, 0, heading);
+  pose.orientation = pose.orientation * base::Quat{cosPitch, 0, -sinPitch, 0} * base::Quat{cosRoll, sinRoll, 0, 0};
+  // The line from the origin square to the ground meets it under the vehicle, not at (x, y).
+  pose.position.z = groundHeight + (clearance - spec.groundHeight()) * slant;
+  return pose;
 }
 
 void applyControls(const Assembly& vehicle, const Controls& controls, const base::Vec3d& gravity,

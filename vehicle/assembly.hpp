@@ -85,6 +85,11 @@ Assembly assemble(const VehicleSpec& spec, const AssemblyOptions& options = {});
 base::Pose placeOnGround(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
                          double heading);
 
+/// The same on inclined ground of height `groundHeight` at (x, y), that rises by `ahead` along the heading and by
+/// `left` to its left [-]; `clearance` is square to it. The hull's x axis lies over the heading.
+base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
+                        double heading, double ahead, double left);
+
 /// Turn the driver's wishes into loads: gravity, preload factors of tensioners and arms, drive speeds. `gravity` is the
 /// full gravity of the scene [m/s2]; wrenches in `loads` are left alone.
 void applyControls(const Assembly& vehicle, const Controls& controls, const base::Vec3d& gravity,

@@ -4,6 +4,8 @@
 #include "base/error.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace grouser::vehicle {
@@ -39,12 +41,46 @@ Driver::Driver(DriverOptions options) : options_(std::move(options)) {
     throw base::InputError("driver: the times of the speed table must rise strictly");
 }
 
+std::string Driver::judge(double time, double speed, double load) {
+  if (!waits() || time < options_.driveStart) return "";
+  const RestBounds& rest = *options_.rest;
+  if (!(std::fabs(speed) <= rest.speed && std::fabs(load - 1) <= rest.load)) {
+    restsSince_.reset();
+    if (time <= options_.driveStart + rest.timeLimit) return "";
+    return fmt::format(
+        "the vehicle has not come to rest within driver.rest_time_limit = {:g} s: its hull moves at {:.3g} "
+        "m/s along gravity (driver.rest_speed = {:g}), the ground carries {:.3g} of its weight "
+        "(driver.rest_load = {:g} from 1); raise what is too narrow or the limit, or give "
+        "driver.drive_start",
+        rest.timeLimit, speed, rest.speed, load, rest.load);
+  }
+  if (!restsSince_) restsSince_ = time;
+  if (time >= *restsSince_ + kRestTime) begun_ = time;
+  return "";
+}
+
+std::vector<double> Driver::save() const {
+  if (!options_.rest) return {};
+  return {begun_.value_or(-1), restsSince_.value_or(-1)};
+}
+
+void Driver::restore(const std::vector<double>& saved) {
+  if (saved.size() != save().size())
+    throw base::InputError(
+        "driver: the checkpoint is of another start of the drive; resume with the scene that was run");
+  if (saved.empty()) return;
+  begun_ = saved[0] < 0 ? std::nullopt : std::optional(saved[0]);
+  restsSince_ = saved[1] < 0 ? std::nullopt : std::optional(saved[1]);
+}
+
 Controls Driver::at(double time) const {
   Controls controls;
   controls.tension = smoothRamp(time, 0, options_.tensionRamp);
   controls.weight = smoothRamp(time, options_.tensionRamp, options_.weightRamp);
-  const double drive = smoothRamp(time, options_.driveStart, options_.driveRamp);
-  const double t = time - options_.driveStart;
+  const std::optional<double> start = driveStart();
+  if (!start) return controls;
+  const double drive = smoothRamp(time, *start, options_.driveRamp);
+  const double t = time - *start;
   controls.sprocketSpeed = {drive * tableValue(options_.speeds.time, options_.speeds.left, t),
                             drive * tableValue(options_.speeds.time, options_.speeds.right, t)};
   return controls;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace grouser::vehicle {
@@ -15,11 +17,19 @@ struct SpeedTable {
   std::vector<double> right; ///< [rad/s]
 };
 
+/// When a vehicle that was set down rests: it drives off then.
+struct RestBounds {
+  double speed = 0.01;  ///< of the hull's centre of mass along gravity, at most [m/s]
+  double load = 0.05;   ///< ground force / weight, from 1 at most [-]
+  double timeLimit = 5; ///< after the weight's ramp [s]
+};
+
 struct DriverOptions {
-  double tensionRamp = 0.15; ///< tensioner's preload from 0 to its full force [s]
-  double weightRamp = 0.3;   ///< then weight and the arms' preload from 0 to full [s]
-  double driveStart = 0.45;  ///< time at which the sprockets begin to turn [s], >= tensionRamp + weightRamp
-  double driveRamp = 0.3;    ///< sprocket speed from 0 to the table's value [s]
+  double tensionRamp = 0.15;        ///< tensioner's preload from 0 to its full force [s]
+  double weightRamp = 0.3;          ///< then weight and the arms' preload from 0 to full [s]
+  double driveStart = 0.45;         ///< time at which the sprockets begin to turn [s], >= tensionRamp + weightRamp
+  double driveRamp = 0.3;           ///< sprocket speed from 0 to the table's value [s]
+  std::optional<RestBounds> rest{}; ///< wait until it rests, and no less than until driveStart
   SpeedTable speeds{{0}, {0}, {0}};
 };
 
@@ -37,10 +47,27 @@ public:
   /// Throws base::InputError on negative times, unequal columns or falling table times.
   explicit Driver(DriverOptions options);
   Controls at(double time) const;
+
+  /// Whether the drive waits for a vehicle at rest.
+  bool waits() const { return options_.rest && !begun_; }
+  /// Tells a driver that waits how the vehicle lies at `time` [s]: hull's speed along gravity [m/s], mean ground force
+  /// since the last call over the weight [-]. It drives off when both have lain within their bounds for kRestTime. To
+  /// be called at fixed steps. Returns what is wrong when the time limit has passed, else "".
+  std::string judge(double time, double speed, double load);
+  /// When the drive began, or begins for sure [s]; empty while the vehicle is not at rest.
+  std::optional<double> driveStart() const { return options_.rest ? begun_ : options_.driveStart; }
+
+  /// All that changes, for checkpoint and hash: when it began, since when it has been at rest, -1 for never. Empty
+  /// where the start is fixed.
+  std::vector<double> save() const;
+  void restore(const std::vector<double>& saved);
   const DriverOptions& options() const { return options_; }
 
 private:
+  static constexpr double kRestTime = 0.05; ///< [s]
+
   DriverOptions options_;
+  std::optional<double> begun_, restsSince_; ///< [s]
 };
 
 /// 3 s^2 - 2 s^3 of s = (time - start) / duration, held to 0 before and 1 after; a step where duration is 0.

@@ -57,7 +57,8 @@ constexpr ScalarField kTrackFields[] = {
 
 constexpr ShoeField kShoeFields[] = {
     {"pad_height", "m", "lowest point of each shoe's pad plate", &TrackObservation::padHeight},
-    {"sinkage", "m", "undisturbed surface minus pad height, on the ground run", &TrackObservation::sinkage},
+    {"sinkage", "m", "undisturbed surface over the middle of the pad, along its normal, on the ground run",
+     &TrackObservation::sinkage},
     {"tension", "N", "force in the pin joint ahead of each shoe", &TrackObservation::tension},
     {"ground_pressure", "Pa", "ground force normal to the pad over its area", &TrackObservation::groundPressure},
     {"on_ground", "-", "1 on the ground run and carrying load", &TrackObservation::onGround},

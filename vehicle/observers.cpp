@@ -39,6 +39,30 @@ double padHeight(const ShoeSpec& shoe, const base::Pose& pose_W) {
   return lowest;
 }
 
+double sinkage(const VehicleSpec& spec, const base::Pose& shoePose_W, const SurfaceHeight& surface) {
+  constexpr int kIterations = 40, kHalf = 2; // points to either side
+  constexpr double kConverged = 1e-9;        // [m]
+  const Vec3d pad = shoePose_W.toWorld({0, 0, spec.shoe.padBottom});
+  const double cell = 0.5 * spec.shoe.pitch / kHalf;
+  double x = pad.x, y = pad.y, depth = kNaN;
+  for (int k = 0; k < kIterations; ++k) {
+    double slopeX = 0, slopeY = 0, squares = 0;
+    for (int j = -kHalf; j <= kHalf; ++j)
+      for (int i = -kHalf; i <= kHalf; ++i) {
+        const double h = surface(x + i * cell, y + j * cell);
+        slopeX += i * h, slopeY += j * h, squares += i * i;
+      }
+    slopeX /= squares * cell, slopeY /= squares * cell;
+    const Vec3d normal = base::normalized(Vec3d{-slopeX, -slopeY, 1});
+    depth = base::dot(Vec3d{x, y, surface(x, y)} - pad, normal);
+    const Vec3d foot = pad + normal * depth;
+    const double moved = std::fabs(foot.x - x) + std::fabs(foot.y - y);
+    x = foot.x, y = foot.y;
+    if (!(moved > kConverged)) break;
+  }
+  return depth;
+}
+
 bool onGroundRun(const Assembly& vehicle, int track, int shoe, const multibody::State& state) {
   const Track& t = vehicle.tracks[track];
   const base::Pose pose_W = vehiclePose(vehicle, state);
@@ -143,7 +167,7 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
     const double height = padHeight(spec.shoe, pose);
     o.padHeight.push_back(height);
     o.onGround.push_back(carries ? 1 : 0);
-    o.sinkage.push_back(carries && surface ? surface(pose.position.x, pose.position.y) - height : kNaN);
+    o.sinkage.push_back(carries && surface ? vehicle::sinkage(spec, pose, surface) : kNaN);
     o.tension.push_back(base::norm(state.joint[t.shoeJoints[i]].force));
     o.groundPressure.push_back(known ? base::dot(force, base::rotate(pose.orientation, {0, 0, 1})) / padArea : kNaN);
   }

@@ -24,7 +24,7 @@ struct GroundLoads {
 /// One track at one time. Vectors have one entry a shoe, in the order of the wrap.
 struct TrackObservation {
   std::vector<double> padHeight;      ///< lowest point of the pad plate, not of its grouser [m]
-  std::vector<double> sinkage;        ///< undisturbed surface minus padHeight [m]; NaN off the ground run
+  std::vector<double> sinkage;        ///< sinkage() of each shoe [m]; NaN off the ground run
   std::vector<double> tension;        ///< constraint force in the pin joint ahead of each shoe [N]
   std::vector<double> groundPressure; ///< ground force normal to the pad over the pad's area [Pa]; NaN if not known
   std::vector<double> onGround;       ///< 1 on the ground run and carrying load, else 0
@@ -88,6 +88,17 @@ private:
 
 /// Lowest point of a shoe's pad plate: of its four lower corners, in the world [m].
 double padHeight(const ShoeSpec& shoe, const base::Pose& pose_W);
+
+/// Sinkage of a shoe [m]: the distance, along the local normal of the undisturbed surface, from that surface to the
+/// middle of the underside of the shoe's pad plate (not of its grousers), downwards positive. Surface and pad are taken
+/// at the same place: at the foot, the point of the surface whose normal passes through the pad's middle.
+///
+/// The normal at a place is that of the least-squares plane through the heights at 5 x 5 points of a square, one pitch
+/// wide and parallel to the axes, about it: grains are smaller than a shoe. The foot is iterated from the point below
+/// the pad: the pad's middle is dropped square on the plane with this normal through the surface there, until it moves
+/// by less than 1e-9 m, at most 40 times. Exact for a plane in one step. On a bed whose surface jumps from grain to
+/// grain the iteration may end between two places; the distance feels that in second order.
+double sinkage(const VehicleSpec& spec, const base::Pose& shoePose_W, const SurfaceHeight& surface);
 
 /// Shoe on the lower run with its middle between the axles of the first and last road wheel, seen from the hull.
 /// Whether it carries load is another question.

@@ -3,9 +3,11 @@
 
 #include "base/error.hpp"
 #include "base/table.hpp"
+#include "vehicle/running_gear.hpp"
 #include "vehicle/spec_tables.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace grouser::vehicle {
 
@@ -47,9 +49,16 @@ VehicleSpec readVehicleSpec(const std::string& path) {
   spec.idler = root.section("idler").read(idlerTable());
   spec.contact = root.section("contact").read(contactTable());
   checkTogether(root, spec);
+  if (const std::optional<SpecFault> fault = runningGearFault(spec))
+    root.section(fault->section).fail(fault->key, fault->message);
   // The mesh folder is named from the spec file's own place.
   spec.meshFolder = (std::filesystem::path(path).parent_path() / spec.meshFolder).lexically_normal().string();
   return spec;
+}
+
+void refuse(const std::string& path, const SpecFault& fault) {
+  const base::Document document = base::Document::load(path);
+  document.root().section(fault.section).fail(fault.key, fault.message);
 }
 
 std::string specFieldHelp() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vehicle/running_gear.hpp"
 #include "vehicle/spec.hpp"
 
 #include <string>
@@ -8,8 +9,11 @@
 namespace grouser::vehicle {
 
 /// Read a vehicle spec file. Throws base::InputError (file:line, key, value, range) on anything unknown, missing or
-/// out of range.
+/// out of range, and where the running gear is impossible (runningGearFault).
 VehicleSpec readVehicleSpec(const std::string& path);
+
+/// Throws a fault that was found in a spec file as base::InputError with its place there.
+[[noreturn]] void refuse(const std::string& path, const SpecFault& fault);
 
 /// All keys of a vehicle spec file with unit, range and meaning, as Markdown.
 std::string specFieldHelp();

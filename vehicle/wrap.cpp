@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <optional>
 
 namespace grouser::vehicle {
@@ -80,6 +80,20 @@ std::optional<Ends> solveIdler(const Frame& f, PlanePoint groundEnd, PlanePoint 
   return std::nullopt;
 }
 
+/// Both ends of a ground run that all road wheels stand on.
+struct GroundRun {
+  PlanePoint start, end;
+};
+std::optional<GroundRun> groundRun(const Frame& f, int bottomGap, int rearStrand, int ground) {
+  const PlanePoint sprocketBottom = onCircle(0, 0, f.sprocketRadius, f.gapAngle(bottomGap));
+  const double drop = sprocketBottom.z - f.groundZ, rear = rearStrand * f.pitch;
+  if (drop < 0 || drop >= rear) return std::nullopt;
+  const PlanePoint start{sprocketBottom.x + std::sqrt((rear - drop) * (rear + drop)), f.groundZ};
+  const PlanePoint end{start.x + ground * f.pitch, f.groundZ};
+  if (start.x > f.rearWheelX || end.x < f.frontWheelX) return std::nullopt;
+  return GroundRun{start, end};
+}
+
 /// One split of the shoes, closed and convex, or nothing. `topGap` and `bottomGap` count teeth from the gap at 180
 /// degrees.
 std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCounts n) {
@@ -89,11 +103,9 @@ std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCou
   const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
   const PlanePoint sprocketBottom = onCircle(0, 0, f.sprocketRadius, f.gapAngle(bottomGap));
 
-  const double drop = sprocketBottom.z - f.groundZ, rear = n.rearStrand * f.pitch;
-  if (drop < 0 || drop >= rear) return std::nullopt;
-  const PlanePoint groundStart{sprocketBottom.x + std::sqrt((rear - drop) * (rear + drop)), f.groundZ};
-  const PlanePoint groundEnd{groundStart.x + n.ground * f.pitch, f.groundZ};
-  if (groundStart.x > f.rearWheelX || groundEnd.x < f.frontWheelX) return std::nullopt;
+  const auto run = groundRun(f, bottomGap, n.rearStrand, n.ground);
+  if (!run) return std::nullopt;
+  const PlanePoint groundStart = run->start, groundEnd = run->end;
 
   const auto ends = solveIdler(f, groundEnd, sprocketTop, n);
   if (!ends) return std::nullopt;
@@ -144,25 +156,77 @@ bool better(const Wrap& a, const Wrap& b, double idlerX) {
   return std::fabs(a.idlerX - idlerX) < std::fabs(b.idlerX - idlerX);
 }
 
-[[noreturn]] void refuse(const VehicleSpec& spec, const std::optional<Wrap>& nearest) {
-  char text[640];
-  const double loop = spec.shoe.count * spec.shoe.pitch, hull = hullLength(spec);
-  if (nearest)
-    std::snprintf(
-        text, sizeof text,
-        "vehicle %s: %d shoes of pitch %g m (loop %.4f m) close only with the idler at x = %.4f m, %+.1f mm from "
-        "idler.x = %.4f m, outside its slide [%g, %g] mm; set idler.x = %.4f or change shoe.count",
-        spec.name.c_str(), spec.shoe.count, spec.shoe.pitch, loop, nearest->idlerX,
-        1e3 * (nearest->idlerX - spec.idler.x), spec.idler.x, 1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax,
-        nearest->idlerX);
-  else
-    std::snprintf(
-        text, sizeof text,
-        "vehicle %s: the track does not close: %d shoes of pitch %g m make %.4f m, the way about the wheels is "
-        "%.4f m (%+.1f mm); change shoe.count to %d, or idler.x to about %.4f m",
-        spec.name.c_str(), spec.shoe.count, spec.shoe.pitch, loop, hull, 1e3 * (loop - hull),
-        static_cast<int>(std::floor(hull / spec.shoe.pitch + 0.5)), spec.idler.x + 0.5 * (loop - hull));
-  throw base::InputError(text);
+/// What a search over all splits has found.
+struct Found {
+  std::optional<Wrap> best;    ///< with the idler in its slide
+  std::optional<Wrap> nearest; ///< with the idler nearest to its drawn place
+};
+
+/// Whether a strand of so many pitches from `from` can meet an idler that stays in its slide: it is about as long as
+/// the tangent, for its kink at the idler is no larger than the shoes' fold.
+bool strandFits(const Frame& f, const VehicleSpec& spec, PlanePoint from, int pitches) {
+  const double away = distance(from, {f.idlerX, f.idlerZ});
+  const double tangent = std::sqrt(std::max(0.0, (away - f.idlerRadius) * (away + f.idlerRadius)));
+  const double slack =
+      f.idlerRadius * f.maximumFold + f.pitch + 2 * std::max(spec.idler.slideMax, -spec.idler.slideMin);
+  return std::fabs(pitches * f.pitch - tangent) <= slack;
+}
+
+/// `anyPlace`: of the idler; else only loops that can have it in its slide are looked at.
+Found search(const VehicleSpec& spec, bool anyPlace) {
+  const Frame f(spec);
+  Found found;
+  const auto consider = [&](const std::optional<Wrap>& wrap) {
+    if (!wrap) return;
+    const double slide = wrap->idlerX - f.idlerX;
+    if (!found.nearest || std::fabs(slide) < std::fabs(found.nearest->idlerX - f.idlerX)) found.nearest = wrap;
+    if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) return;
+    if (!found.best || better(*wrap, *found.best, f.idlerX)) found.best = wrap;
+  };
+  // All ways to lead the track from the ground run by the idler back to the sprocket.
+  const auto considerFront = [&](int topGap, int bottomGap, int rear, int ground, PlanePoint groundEnd) {
+    const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
+    for (int front = 1; front <= f.shoes / 4; ++front)
+      for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler) {
+        const int top = f.shoes - (bottomGap - topGap) - rear - ground - front - idler;
+        if (anyPlace || (strandFits(f, spec, groundEnd, front) && strandFits(f, spec, sprocketTop, top)))
+          consider(closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0}));
+      }
+  };
+  const double span = f.frontWheelX - f.rearWheelX;
+  const int groundMin = std::max(1, static_cast<int>(std::floor(span / f.pitch)));
+  for (int topGap = -f.teeth / 2; topGap < 0; ++topGap)
+    for (int bottomGap = 1; bottomGap <= f.teeth / 2; ++bottomGap)
+      for (int rear = 1; rear <= f.shoes / 4; ++rear)
+        for (int ground = groundMin; ground <= groundMin + 6; ++ground)
+          if (const auto run = groundRun(f, bottomGap, rear, ground))
+            considerFront(topGap, bottomGap, rear, ground, run->end);
+  return found;
+}
+
+/// A number of shoes with which the vehicle is `sound`, nearest to what the way about the wheels asks for; 0: none.
+int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& sound) {
+  const int wanted = static_cast<int>(std::floor(hullLength(spec) / spec.shoe.pitch + 0.5));
+  for (const int off : {0, 1, -1, 2, -2, 3, -3}) {
+    spec.shoe.count = wanted + off;
+    if (spec.shoe.count >= 12 && spec.shoe.count <= 400 && sound(spec)) return spec.shoe.count;
+  }
+  return 0;
+}
+
+/// A place of the idler with which it is, to 0.1 mm, the nearest that is found in steps of 5 mm; 0: none within 0.6 m.
+double soundIdlerX(VehicleSpec spec, const std::optional<Wrap>& nearest,
+                   const std::function<bool(const VehicleSpec&)>& sound) {
+  const double drawn = spec.idler.x;
+  const auto fits = [&](double x) {
+    spec.idler.x = std::floor(1e4 * x + 0.5) / 1e4;
+    return x > 0 && sound(spec);
+  };
+  if (nearest && fits(nearest->idlerX)) return spec.idler.x;
+  for (int k = 1; k <= 120; ++k)
+    for (const double side : {-1.0, 1.0})
+      if (fits(drawn + side * 0.005 * k)) return spec.idler.x;
+  return 0;
 }
 
 } // namespace
@@ -183,27 +247,34 @@ double Wrap::shoeAngle(int i) const { return direction(pins[i], pins[(i + 1) % p
 
 base::Quat planeRotation(double angle) { return {base::cos(0.5 * angle), 0, -base::sin(0.5 * angle), 0}; }
 
+std::optional<Wrap> findWrap(const VehicleSpec& spec) { return search(spec, false).best; }
+
 Wrap wrapTrack(const VehicleSpec& spec) {
-  const Frame f(spec);
-  std::optional<Wrap> best, nearest;
-  const double span = f.frontWheelX - f.rearWheelX;
-  const int groundMin = std::max(1, static_cast<int>(std::floor(span / f.pitch)));
-  const auto consider = [&](const std::optional<Wrap>& wrap) {
-    if (!wrap) return;
-    const double slide = wrap->idlerX - f.idlerX;
-    if (!nearest || std::fabs(slide) < std::fabs(nearest->idlerX - f.idlerX)) nearest = wrap;
-    if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) return;
-    if (!best || better(*wrap, *best, f.idlerX)) best = wrap;
-  };
-  for (int topGap = -f.teeth / 2; topGap < 0; ++topGap)
-    for (int bottomGap = 1; bottomGap <= f.teeth / 2; ++bottomGap)
-      for (int rear = 1; rear <= f.shoes / 4; ++rear)
-        for (int ground = groundMin; ground <= groundMin + 6; ++ground)
-          for (int front = 1; front <= f.shoes / 4; ++front)
-            for (int idler = 2; idler * f.idlerStep < 1.5 * kPi; ++idler)
-              consider(closeLoop(f, topGap, bottomGap, {0, rear, ground, front, idler, 0}));
-  if (!best) refuse(spec, nearest);
-  return *best;
+  if (const std::optional<Wrap> wrap = findWrap(spec)) return *wrap;
+  const ClosureFault fault = closureFault(spec, [](const VehicleSpec& other) { return findWrap(other).has_value(); });
+  throw base::InputError(fmt::format(
+      "vehicle {}: {}; {}", spec.name, fault.gap,
+      fault.advice.empty() ? "no number of shoes and no place of the idler alone closes it" : fault.advice));
+}
+
+ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(const VehicleSpec&)>& sound) {
+  const double loop = spec.shoe.count * spec.shoe.pitch, way = hullLength(spec);
+  const std::optional<Wrap> nearest = search(spec, true).nearest;
+  ClosureFault fault;
+  if (nearest)
+    fault.gap =
+        fmt::format("{} shoes of pitch {:g} m (loop {:.4f} m) close only with the idler at x = {:.4f} m, "
+                    "{:+.1f} mm from idler.x = {:.4f} m, outside its slide [{:g}, {:g}] mm",
+                    spec.shoe.count, spec.shoe.pitch, loop, nearest->idlerX, 1e3 * (nearest->idlerX - spec.idler.x),
+                    spec.idler.x, 1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax);
+  else
+    fault.gap = fmt::format("the track does not close: {} shoes of pitch {:g} m make {:.4f} m, the way about the "
+                            "wheels is {:.4f} m ({:+.1f} mm)",
+                            spec.shoe.count, spec.shoe.pitch, loop, way, 1e3 * (loop - way));
+  if (const double x = soundIdlerX(spec, nearest, sound); x > 0) fault.advice = fmt::format("set idler.x = {:.4f}", x);
+  if (const int count = soundCount(spec, sound); count > 0)
+    fault.advice += fmt::format("{}set shoe.count = {}", fault.advice.empty() ? "" : ", or ", count);
+  return fault;
 }
 
 double hullLength(const VehicleSpec& spec) {

@@ -4,6 +4,9 @@
 #include "vehicle/spec.hpp"
 
 #include <array>
+#include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace grouser::vehicle {
@@ -52,6 +55,16 @@ struct Wrap {
 /// idler lies nearest to its drawn place. Throws base::InputError when no loop closes with the idler inside its slide:
 /// it names the gap and what to change.
 Wrap wrapTrack(const VehicleSpec& spec);
+/// The same; empty when no loop closes.
+std::optional<Wrap> findWrap(const VehicleSpec& spec);
+
+/// Why the loop of a vehicle that findWrap() refuses does not close, and what to change.
+struct ClosureFault {
+  std::string gap;    ///< by how much, in words
+  std::string advice; ///< "set idler.x = 2.8813, or set shoe.count = 46"; empty where neither helps
+};
+/// What is advised was tried: it makes the vehicle `sound`.
+ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(const VehicleSpec&)>& sound);
 
 /// Length of the shortest loop of pins about sprocket, road wheels and idler in their drawn places [m].
 double hullLength(const VehicleSpec& spec);

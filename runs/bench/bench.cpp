@@ -63,7 +63,7 @@ struct Contacts {
 };
 
 double defaultStart(const scene::Scene& scene) {
-  return scene.vehicle ? scene.driver.driveBegins() + scene.driver.driveRamp : 0;
+  return scene.vehicle ? scene.driver.driveBegins() + scene.driver.rampOfDrive() : 0;
 }
 
 Json printParts(const StepBench& bench) {

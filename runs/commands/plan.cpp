@@ -14,6 +14,7 @@
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/support/progress.hpp"
@@ -160,6 +161,7 @@ std::string planText(const scene::Scene& scene) {
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));
+  for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
   if (!scene.mechanism.empty())
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);

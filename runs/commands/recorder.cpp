@@ -41,6 +41,26 @@ std::vector<output::FramePart> frameParts(const simulation::VehicleRig& rig) {
   return parts;
 }
 
+/// What sinkage is measured from; empty without terrain.
+std::optional<output::UndisturbedSurface> undisturbedSurface(const simulation::Ground& ground) {
+  output::UndisturbedSurface s;
+  const auto lay = [&s](const terrain::Rectangle& area, int columns, int rows, const std::vector<double>& heights) {
+    for (int i = 0; i < columns; ++i) s.x.push_back(area.xMin + area.width() * i / (columns - 1));
+    for (int j = 0; j < rows; ++j) s.y.push_back(area.yMin + area.length() * j / (rows - 1));
+    s.height = heights;
+  };
+  if (const auto& bed = ground.undisturbed) {
+    lay(bed->area(), bed->columns(), bed->rows(), bed->heights());
+    s.interpolation = "bilinear";
+  } else if (const auto& field = ground.surface) {
+    lay(field->area(), field->columns(), field->rows(), field->heights());
+    s.interpolation = "Catmull-Rom";
+  } else {
+    return {};
+  }
+  return s;
+}
+
 std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation) {
   std::vector<output::Channel> channels;
   if (simulation.mechanism())
@@ -144,6 +164,7 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
     parts_ = frameParts(*rig);
     writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
+    if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);
   }
   if (setup.mechanism) parts_ = output::mechanismParts(*setup.mechanism);
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())

@@ -6,6 +6,7 @@
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/simulation.hpp"
@@ -269,6 +270,18 @@ void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints&
   }
 }
 
+/// When the vehicle drove off.
+void describeDrive(const simulation::Simulation& simulation, output::Summary& summary) {
+  if (!simulation.vehicle()) return;
+  const std::optional<double> start = simulation.vehicle()->driveStart();
+  if (start) summary.figures["drive_start_s"] = *start;
+  if (start && *start <= simulation.time())
+    fmt::print("drive     from {:.6g} s on\n", *start);
+  else
+    fmt::print("drive     not begun: {}\n", start ? "driver.drive_start lies after the end"
+                                                  : "the vehicle was not at rest before the end; raise run.duration");
+}
+
 /// Prints the run's energies and momenta, and what finite steps and rounding have made of them.
 void describeLedger(simulation::Simulation& simulation) {
   const simulation::Ledger l = simulation.ledger();
@@ -312,6 +325,9 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
                                        options.resume->string(), begin, total));
   const double prepared = since(start);
   describeBuild(simulation, exec, beds ? &*beds : nullptr);
+  if (!former && comm.first())
+    for (const std::string& warning : setup::vehicleWarnings(scene))
+      fmt::print(stderr, "grouser: warning: {}\n", warning);
   if (simulation.mechanism() && !former && comm.first())
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, setup.timeStep); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
@@ -334,6 +350,7 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = since(start);
+    describeDrive(simulation, summary);
     summary.figures["wall_preparation_s"] = prepared;
     summary.figures["wall_steps_s"] = drove;
     summary.figures["microseconds_a_step"] =

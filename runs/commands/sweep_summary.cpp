@@ -212,7 +212,8 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
   std::optional<support::Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
     file.emplace(support::Hdf5File::open(results));
-  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene), columns))
+  const double driveStart = numberOf(manifest.value("figures", nlohmann::json::object()), "drive_start_s");
+  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, driveStart), columns))
     cells.push_back(cell(f.value));
   cells.push_back(manifest.value("state_hash", ""));
   cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
@@ -221,10 +222,11 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
 
 } // namespace
 
-double steadyFrom(const scene::Scene& scene) {
+double steadyFrom(const scene::Scene& scene, double driveStart) {
   if (!scene.vehicle) return 0.5 * scene.run.duration;
-  double ramped = scene.driver.driveBegins() + scene.driver.driveRamp;
-  if (scene.driver.table) ramped = std::max(ramped, scene.driver.driveBegins() + scene.driver.table->time.back());
+  const double begins = std::isfinite(driveStart) ? driveStart : scene.driver.driveBegins();
+  double ramped = begins + scene.driver.rampOfDrive();
+  if (scene.driver.table) ramped = std::max(ramped, begins + scene.driver.table->time.back());
   return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
 }
 

@@ -5,6 +5,7 @@
 #include "runs/output/run_status.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct SweepOutcome {
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a
 /// speed table), NaN where the run ends before; without a vehicle the second half of the run.
-double steadyFrom(const scene::Scene& scene);
+/// `driveStart`: when the drive began [s]; NaN: as the scene says, at the earliest.
+double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_limits<double>::quiet_NaN());
 
 /// Writes summary.csv into `folder`: one row a run. Columns: run, the swept keys, status, message, what the run's
 /// manifest says of it, and means and extremes over the steady part from its results.h5; cells without a number are

@@ -228,6 +228,15 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const base::Vec3d& v : parts_[p].mesh.vertices) world.push_back(frame.partPoses[p].toWorld(v));
     file_->write(group + "/parts/position", flat(world), {partVertices_, 3});
+    std::vector<double> poses;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const base::Pose& pose = frame.partPoses[p];
+      for (const double v : {pose.position.x, pose.position.y, pose.position.z, pose.orientation.w, pose.orientation.x,
+                             pose.orientation.y, pose.orientation.z})
+        poses.push_back(v);
+    }
+    file_->write(group + "/parts/pose", poses, {parts_.size(), 7});
+    file_->attribute(group + "/parts/pose", "columns", std::vector<std::string>{"x", "y", "z", "qw", "qx", "qy", "qz"});
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::vector<double>& places = frame.borders[axis]; !places.empty())

@@ -32,10 +32,10 @@ constexpr int kChunkRows = 64;
 constexpr std::uint64_t kTreeBytes = 8192;
 
 /// The files of a run; what else lies in its folder is not ours.
-constexpr const char* kFiles[] = {
-    "results.h5",    "timeseries.csv", "frames.h5",   "frames.xdmf",      "scene.toml",
-    "manifest.json", "sinkage.csv",    "sinkage.png", "shoe_heights.png", "drive.png",
-    "ledger.png",    "mechanism.png",  "picture.png", "grains.csv",       simulation::kCheckpointName};
+constexpr const char* kFiles[] = {"results.h5",    "timeseries.csv",   "frames.h5",   "frames.xdmf",
+                                  "scene.toml",    "manifest.json",    "sinkage.csv", "sinkage.png",
+                                  "surface.png",   "shoe_heights.png", "drive.png",   "ledger.png",
+                                  "mechanism.png", "picture.png",      "grains.csv",  simulation::kCheckpointName};
 
 fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
@@ -251,6 +251,23 @@ void RunWriter::constant(const std::string& path, const std::string& unit, doubl
   if (!impl_->series) return;
   impl_->series->results.write("/" + path, std::vector<double>{value}, {1});
   impl_->series->results.attribute("/" + path, "unit", unit);
+}
+
+void RunWriter::surface(const UndisturbedSurface& surface) {
+  if (!impl_->series) return;
+  support::Hdf5File& file = impl_->series->results;
+  const std::string group = "/terrain/surface/";
+  const auto write = [&](const char* name, const std::vector<double>& values, const std::vector<std::uint64_t>& shape,
+                         const char* help) {
+    file.write(group + name, values, shape);
+    file.attribute(group + name, "unit", "m");
+    file.attribute(group + name, "help", help);
+  };
+  write("x", surface.x, {surface.x.size()}, "of the nodes");
+  write("y", surface.y, {surface.y.size()}, "of the nodes");
+  write("height", surface.height, {surface.y.size(), surface.x.size()},
+        "of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], column i at x[i]");
+  file.attribute(group + "height", "interpolation", surface.interpolation);
 }
 
 void RunWriter::setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground) {

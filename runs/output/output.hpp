@@ -55,6 +55,9 @@ public:
   /// A constant of the run in results.h5, e.g. "vehicle/pitch_radius" [m].
   void constant(const std::string& path, const std::string& unit, double value);
 
+  /// The undisturbed surface that sinkage is measured from, in results.h5: terrain/surface/{x, y, height}.
+  void surface(const UndisturbedSurface& surface);
+
   /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
   void setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground);
 

@@ -14,6 +14,13 @@
 /// What is written of a run, as plain data: rows of the time series, frames of the pictures, and its end.
 namespace grouser::output {
 
+/// The surface of the ground before a vehicle touched it, on a grid of nodes.
+struct UndisturbedSurface {
+  std::vector<double> x, y;   ///< of the nodes [m]
+  std::vector<double> height; ///< [y, x] row by row [m]
+  std::string interpolation;  ///< between them: "bilinear" or "Catmull-Rom"
+};
+
 /// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
 /// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
 struct Channel {

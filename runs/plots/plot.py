@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, drive, ledger,
-mechanism. A plot whose quantities the results lack is left out.
+"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, surface, drive,
+ledger, mechanism. A plot whose quantities the results lack is left out.
 """
 import pathlib
 
@@ -15,9 +15,10 @@ import ledger
 import mechanism
 import series
 import shoes
+import surface
 
-PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "drive": drive.plot, "ledger": ledger.plot,
-         "mechanism": mechanism.plot}
+PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "surface": surface.plot, "drive": drive.plot,
+         "ledger": ledger.plot, "mechanism": mechanism.plot}
 
 
 def main():

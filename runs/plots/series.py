@@ -19,6 +19,10 @@ class Run:
         values = item["value"][:] if "value" in item else item[:]
         return values[: len(self.time)] if "value" in item else float(values[0])
 
+    def field(self, path):
+        """What is no series: all of it."""
+        return self._file[path][:] if path in self._file else None
+
     def names(self, group):
         """Names of what the run holds of a kind: bodies, joints."""
         return list(self._file[group]) if group in self._file else []

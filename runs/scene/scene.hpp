@@ -178,11 +178,16 @@ struct Driver {
   std::optional<SpeedTable> table;                  ///< [driver.table]; its time begins with the drive
   double tensionRamp = 0.15;
   double weightRamp = 0.3;
-  std::optional<double> driveStart; ///< [s]; empty: when tension and weight are on
-  double driveRamp = 0.3;
+  std::optional<double> driveStart; ///< [s]; empty: when the vehicle rests
+  std::optional<double> driveRamp;  ///< [s]; empty: 0.3 s of a constant speed, none of a table
+  double restSpeed = 0.01;          ///< [m/s] along gravity, of the hull's centre of mass
+  double restLoad = 0.05;           ///< [-] of ground force / weight from 1
+  double restTimeLimit = 5;         ///< [s] after the weight's ramp
   bool operator==(const Driver&) const = default;
 
+  /// Of the drive at the earliest [s]: as given, or when tension and weight are on.
   double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
+  double rampOfDrive() const { return driveRamp.value_or(table ? 0 : 0.3); } ///< [s]
   /// Whatever form the speeds were given in, as one table.
   SpeedTable speeds() const;
 };

@@ -50,18 +50,33 @@ Table<Driver> driverTable() {
   t.add("weight_ramp", &S::weightRamp, "s", "over which gravity and the arms' preload come on, then")
       .atLeast(0)
       .atMost(1e3);
-  t.add("drive_start", &S::driveStart, "s", "\"auto\" is the end of the weight's ramp")
+  t.add("drive_start", &S::driveStart, "s",
+        "when the sprockets begin to turn; \"auto\": when the vehicle rests after the weight's ramp, or at its end "
+        "where "
+        "the hull is fixed")
       .atLeast(0)
       .atMost(1e5)
       .orWord("auto");
-  t.add("drive_ramp", &S::driveRamp, "s", "over which the sprockets come up to speed").atLeast(0).atMost(1e3);
+  t.add("drive_ramp", &S::driveRamp, "s",
+        "over which the sprockets come up to speed; \"auto\": 0.3 of constant speeds, 0 of a table, which is followed "
+        "as it is given")
+      .atLeast(0)
+      .atMost(1e3)
+      .orWord("auto");
+  t.add("rest_speed", &S::restSpeed, "m/s", "a vehicle that rests moves up and down no faster than this")
+      .above(0)
+      .atMost(10);
+  t.add("rest_load", &S::restLoad, "-", "and the ground carries its weight to within this share").above(0).atMost(0.5);
+  t.add("rest_time_limit", &S::restTimeLimit, "s", "after the weight's ramp, by which it must rest; else the run ends")
+      .above(0)
+      .atMost(1e4);
   return t;
 }
 
 Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
-  t.add("time", &S::time, "s", "from the start of the drive, increasing").atLeast(0).required();
+  t.add("time", &S::time, "s", "from the start of the drive (drive_start), increasing").atLeast(0).required();
   t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
   t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
   return t;

@@ -14,6 +14,7 @@
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_surroundings.hpp"
 #include "terrain/layers.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -209,6 +210,7 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
+  checkVehicleSurroundings(scene);
   checkSpeeds(scene, timeStep);
   checkSurfacesBetweenSides(scene);
   const std::int64_t placed = placedCount(scene);
@@ -222,6 +224,7 @@ void checkGround(const scene::Scene& scene, double timeStep) {
 GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   checkCompany(scene);
   if (scene.vehicle) checkParts(scene);
+  checkVehicleSurroundings(scene);
   checkSpeeds(scene, timeStep);
   checkSurfacesBetweenSides(scene);
   GroundSetup ground;

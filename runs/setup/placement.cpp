@@ -5,6 +5,8 @@
 #include "base/rounded.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
+#include "vehicle/assembly.hpp"
+#include "vehicle/part_meshes.hpp"
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
 
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <vector>
 
 namespace grouser::setup {
 
@@ -80,9 +83,16 @@ Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& sp
 void checkParts(const scene::Scene& scene) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   const double radius = scene.vehicle->sphereRadius;
-  for (const std::string& name :
-       {spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh, spec.roller.mesh, spec.idler.mesh}) {
-    const base::TriangleMesh mesh = spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+  const auto read = [&](const std::string& name) {
+    return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+  };
+  vehicle::PartMeshes meshes;
+  meshes.chassis = read(spec.chassis.mesh);
+  using Named = std::pair<const std::string&, base::TriangleMesh&>;
+  for (const auto& [name, mesh] : {Named{spec.shoe.mesh, meshes.shoe}, Named{spec.sprocket.mesh, meshes.sprocket},
+                                   Named{spec.roadWheel.mesh, meshes.roadWheel}, Named{spec.roller.mesh, meshes.roller},
+                                   Named{spec.idler.mesh, meshes.idler}}) {
+    mesh = read(name);
     const auto [low, high] = spheredecomp::bounds(mesh);
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (radius > 0.5 * longest)
@@ -94,22 +104,49 @@ void checkParts(const scene::Scene& scene) {
                  fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
                              spheredecomp::kMostLatticePoints));
   }
+  if (const std::optional<vehicle::SpecFault> fault = vehicle::meshFault(spec, meshes))
+    vehicle::refuse(scene.vehicle->spec, *fault);
 }
 
-double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
+base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
                    const std::function<double(double, double)>& surfaceHeight) {
+  // A grid of points under both tracks, from a little behind the first road wheel to a little ahead of the last. It is
+  // symmetric about its middle, so that both slopes follow by themselves. Heights count from the first: level ground
+  // has no slope at all, not one of rounding.
+  constexpr int kAlong = 40, kAcross = 2;
+  constexpr double kLevel = 1e-9; // [-]
   const double c = base::cos(place.heading), s = base::sin(place.heading);
   const double first = spec.roadWheel.firstX - 0.2;
   const double last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1) + 0.2;
-  double highest = -1e300;
+  const double middle = 0.5 * (first + last);
+  struct Point {
+    double ahead, left, height;
+  };
+  std::vector<Point> points;
   for (const double side : {-1.0, 1.0})
-    for (int i = 0; i <= 40; ++i)
-      for (int j = -2; j <= 2; ++j) {
-        const double px = first + (last - first) * i / 40.0;
+    for (int i = 0; i <= kAlong; ++i)
+      for (int j = -kAcross; j <= kAcross; ++j) {
+        const double px = first + (last - first) * i / kAlong;
         const double py = side * spec.trackOffset + 0.5 * j * spec.shoe.padHalfWidth;
-        highest = std::max(highest, surfaceHeight(place.x + c * px - s * py, place.y + s * px + c * py));
+        points.push_back({px - middle, py, surfaceHeight(place.x + c * px - s * py, place.y + s * px + c * py)});
       }
-  return highest;
+  const double zero = points.front().height;
+  double mean = 0, ahead = 0, left = 0, aheads = 0, lefts = 0;
+  for (const Point& p : points) {
+    const double h = p.height - zero;
+    mean += h, ahead += p.ahead * h, left += p.left * h, aheads += p.ahead * p.ahead, lefts += p.left * p.left;
+  }
+  mean /= static_cast<double>(points.size()), ahead /= aheads, left /= lefts;
+  if (std::fabs(ahead) < kLevel && std::fabs(left) < kLevel) ahead = left = 0;
+  if (ahead == 0 && left == 0) {
+    double top = -1e300;
+    for (const Point& p : points) top = std::max(top, p.height);
+    return vehicle::placeOnGround(spec, place.x, place.y, top + clearance, 0, place.heading);
+  }
+  double highest = -1e300; // over the plane
+  for (const Point& p : points) highest = std::max(highest, p.height - zero - (mean + ahead * p.ahead + left * p.left));
+  const double under = zero + mean - ahead * middle + highest; // the plane through the highest point, at the origin
+  return vehicle::placeOnSlope(spec, place.x, place.y, under, clearance, place.heading, ahead, left);
 }
 
 } // namespace grouser::setup

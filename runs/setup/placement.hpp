@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/vec.hpp"
 #include "runs/scene/scene.hpp"
 #include "terrain/height_field.hpp"
 #include "vehicle/spec.hpp"
@@ -28,8 +29,10 @@ Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& sp
 /// time; cutting them checks the same, but knows of no scene.
 void checkParts(const scene::Scene& scene);
 
-/// Highest ground under the tracks [m].
-double groundUnder(const vehicle::VehicleSpec& spec, const Placement& place,
+/// Where a vehicle stands when it is set down along the ground under it: pitch and roll are those of the least-squares
+/// plane of the heights under both tracks, and the lowest grousers stand `clearance` [m] above the highest point,
+/// square to that plane.
+base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
                    const std::function<double(double, double)>& surfaceHeight);
 
 } // namespace grouser::setup

@@ -10,7 +10,8 @@ namespace {
 vehicle::DriverOptions driverOptions(const scene::Driver& d) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
-  options.driveStart = d.driveBegins(), options.driveRamp = d.driveRamp;
+  options.driveStart = d.driveBegins(), options.driveRamp = d.rampOfDrive();
+  if (!d.driveStart) options.rest = vehicle::RestBounds{d.restSpeed, d.restLoad, d.restTimeLimit};
   const scene::SpeedTable table = d.speeds();
   options.speeds = {table.time, table.left, table.right};
   return options;
@@ -27,6 +28,8 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
   setup.sphereRadius = v.sphereRadius;
   setup.driver = driverOptions(scene.driver);
+  // What hangs or weighs nothing presses on no ground.
+  if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();
   return setup;
 }
 

@@ -72,6 +72,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     auto& v = *s.vehicle;
     archive("/vehicle/bodies", v.bodies);
     archive("/vehicle/observers", v.observers);
+    archive("/vehicle/driver", v.driver);
     archive("/vehicle/track/states", v.track.states);
     archive("/vehicle/track/sums", v.track.sums);
     archive("/vehicle/ground/states", v.ground.states);

@@ -15,10 +15,10 @@ namespace {
 vehicle::Assembly assembled(const setup::VehicleSetup& setup,
                             const std::function<double(double, double)>& surfaceHeight) {
   const setup::Placement& place = setup.place;
-  const double z = setup.onTerrain ? setup::groundUnder(setup.spec, place, surfaceHeight) + setup.clearance : 0.0;
   vehicle::AssemblyOptions options;
   options.fixChassis = setup.fixChassis;
-  options.pose_W = vehicle::placeOnGround(setup.spec, place.x, place.y, z, 0, place.heading);
+  options.pose_W = setup.onTerrain ? setup::setDown(setup.spec, place, setup.clearance, surfaceHeight)
+                                   : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
   return vehicle::assemble(setup.spec, options);
 }
 
@@ -92,8 +92,20 @@ Vec3d VehicleRig::meanGroundForce() const {
   return sum;
 }
 
+/// Lets a driver that waits know whether the vehicle rests.
+std::string VehicleRig::judgeRest() {
+  if (!driver_.waits() || !contacts_->onGround()) return {};
+  const double g = norm(gravity_);
+  const Vec3d down = gravity_ * (1 / g);
+  Vec3d force;
+  for (const Vec3d& f : groundLoads(alarmMeans_).force) force += f;
+  return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
+                       -dot(force, down) / (assembly_.mass * g));
+}
+
 std::string VehicleRig::alarm() {
-  const std::string alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
+  std::string alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
+  if (alarm.empty()) alarm = judgeRest();
   alarmMeans_.restart();
   return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
 }
@@ -133,6 +145,7 @@ VehicleState VehicleRig::save() const {
   VehicleState s;
   s.bodies = state_.save();
   s.observers = observer_->save();
+  s.driver = driver_.save();
   contacts_->save(s);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
@@ -144,6 +157,7 @@ void VehicleRig::restore(const VehicleState& s) {
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);
+  driver_.restore(s.driver);
   contacts_->restore(s);
   rowMeans_ = {s.groundForces, s.meanSteps};
   alarmMeans_ = {s.alarmForces, s.alarmSteps};

@@ -46,8 +46,11 @@ public:
   vehicle::Observation observe() const;
   void restartMeans() { rowMeans_.restart(); }
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
-  /// A thrown or skipped track, or a shoe that has left the terrain, in words; empty while all is well. Judges by the
-  /// loads since it was last asked.
+  /// When the drive began [s]; empty while it waits for the vehicle to rest.
+  std::optional<double> driveStart() const { return driver_.driveStart(); }
+  /// A thrown or skipped track, a shoe that has left the terrain, a vehicle that does not come to rest, in words; empty
+  /// while all is well. Judges by the loads since it was last asked, and so whether a vehicle that was set down rests
+  /// and drives off: to be called at fixed steps.
   std::string alarm();
 
   /// Energies of the bodies and of the contacts of parts with parts and ground [J], since the start but for `kinetic`.
@@ -86,6 +89,7 @@ private:
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
+  std::string judgeRest();
 
   double timeStep_;
   base::Vec3d gravity_;

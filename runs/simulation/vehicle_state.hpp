@@ -12,6 +12,7 @@ namespace grouser::simulation {
 struct VehicleState {
   std::vector<double> bodies;     ///< multibody::State::save()
   std::vector<double> observers;  ///< vehicle::Observer::save()
+  std::vector<double> driver;     ///< vehicle::Driver::save()
   contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
   contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it
   contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them

@@ -128,7 +128,7 @@ TEST(Wrap, HalfTheShoes_IsRefusedWithTheGap) {
   spec.shoe.count = 24;
   const std::string text = refusal(spec);
   EXPECT_NE(text.find("does not close"), std::string::npos) << text;
-  EXPECT_NE(text.find("change shoe.count to 46"), std::string::npos) << text;
+  EXPECT_NE(text.find("set shoe.count = 46"), std::string::npos) << text;
 }
 
 TEST(Wrap, PlaneRotation_TurnsXTowardsZ) {

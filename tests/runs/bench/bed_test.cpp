@@ -28,7 +28,7 @@ BedBench tinyBed() {
 scene::Scene shortScene() {
   return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
                           {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
-                           "driver.tension_ramp=0.005", "driver.weight_ramp=0.005"});
+                           "driver.tension_ramp=0.005", "driver.weight_ramp=0.005", "driver.drive_start=0.01"});
 }
 
 TEST(StepBench, ComputesTheSameBitsAsTheLoop) {

@@ -29,14 +29,16 @@ protected:
   void SetUp() override {
     FolderTest::SetUp();
     std::vector<Channel> channels = {
-        {"vehicle/left/sinkage", "m", "", kShoes, {}}, {"vehicle/left/pad_height", "m", "", kShoes, {}},
-        {"vehicle/left/tension", "N", "", kShoes, {}}, {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
-        {"vehicle/left/speed", "m/s", "", 1, {}},      {"vehicle/left/drive_torque", "N m", "", 1, {}}};
+        {"vehicle/left/sinkage", "m", "", kShoes, {}},    {"vehicle/left/pad_height", "m", "", kShoes, {}},
+        {"vehicle/left/tension", "N", "", kShoes, {}},    {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
+        {"vehicle/left/speed", "m/s", "", 1, {}},         {"vehicle/left/drive_torque", "N m", "", 1, {}},
+        {"vehicle/position", "m", "", 3, {"x", "y", "z"}}};
     for (const Channel& c : ledgerChannels()) channels.push_back(c);
     RunWriter writer(
         folder_, setup::provenanceOf(setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
         channels, {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
+    writer.surface({{0, 1, 2}, {-1, 1}, {0, 0.1, 0.2, 0.1, 0.2, 0.3}, "bilinear"});
     RowBuilder row(channels);
     for (int r = 0; r < kRows; ++r) {
       std::vector<double> sinkage(kShoes), height(kShoes);
@@ -52,6 +54,7 @@ protected:
       row.set("vehicle/left/tension", std::vector<double>(kShoes, 5000));
       row.set("vehicle/left/sprocket_speed", 1.0);
       row.set("vehicle/left/speed", 0.24);
+      row.set("vehicle/position", base::Vec3d{0.005 * r, 0, 0.5});
       row.set("vehicle/left/drive_torque", 300.0);
       for (const Channel& c : ledgerChannels())
         if (c.width == 1) row.set(c.path, 1.0 * r);

@@ -91,7 +91,7 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
                      const base::Exec& exec, std::int64_t stop, std::int64_t end) {
   const std::string file = testScene(scene);
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
-                                          "driver.drive_ramp=0.02"};
+                                          "driver.drive_ramp=0.02", "driver.drive_start=0.02"};
   overrides.insert(overrides.end(), ramps.begin(), ramps.end());
   Simulation straight(setup::simulationSetup(setup::loadScene(file, ramps)), base::cpuExec(1), quiet);
   while (straight.steps() < stop - 37) straight.step();

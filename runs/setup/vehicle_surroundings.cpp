@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/vehicle_surroundings.hpp"
+
+#include "base/math.hpp"
+#include "runs/setup/bed_layers.hpp"
+#include "runs/setup/placement.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+#include "vehicle/spec_file.hpp"
+#include "vehicle/wrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::setup {
+
+using base::Vec3d;
+
+namespace {
+
+/// A surface is looked for at points this far from each other [m], as balls that leave no gap between them.
+constexpr double kCell = 0.1;
+/// Above the ground [m]: what is lower is no obstacle to a vehicle that stands on that ground.
+constexpr double kFree = 0.05;
+/// Farther than this nothing is looked for where there is no terrain [m].
+constexpr double kFarthest = 100;
+
+/// What a vehicle covers, or may cover, seen along its heading from its place.
+struct Corridor {
+  double rear, front, half; ///< [m]
+  double height;            ///< over the ground [m]
+};
+
+/// A surface, a plane among them, with where it stands in the scene.
+struct Obstacle {
+  std::string list, name;
+  std::size_t number;
+  bool moves;
+  SceneSurface surface;
+};
+
+std::vector<Obstacle> obstaclesOf(const scene::Scene& scene) {
+  std::vector<Obstacle> all;
+  for (const SceneSurface& s : surfacesOf(scene)) all.push_back({s.list(), s.name, s.number, s.moves || s.free, s});
+  // Walls are planes without a name of their own.
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    if (!scene.planes[k].isWall()) continue;
+    scene::Scene one;
+    one.planes = {scene.planes[k]};
+    one.planes.front().name = fmt::format("plane{}", k);
+    std::vector<SceneSurface> surfaces = surfacesOf(one);
+    if (!surfaces.empty()) all.push_back({"plane", surfaces.front().name, k, false, surfaces.front()});
+  }
+  return all;
+}
+
+class Course {
+public:
+  explicit Course(const scene::Scene& scene)
+      : scene_(scene), spec_(vehicle::readVehicleSpec(scene.vehicle->spec)), place_(placeVehicle(scene, spec_)) {
+    const vehicle::Wrap wrap = vehicle::wrapTrack(spec_);
+    const double reach = 0.5 * spec_.shoe.pitch - spec_.shoe.padBottom + spec_.shoe.grouserHeight;
+    double rear = 1e300, front = -1e300, top = -1e300;
+    for (int i = 0; i < spec_.shoe.count; ++i) {
+      rear = std::min(rear, wrap.shoeCentre(i).x - reach), front = std::max(front, wrap.shoeCentre(i).x + reach);
+      top = std::max(top, wrap.shoeCentre(i).z + reach);
+    }
+    if (scene.terrain) ground_ = readSurface(scene);
+    start_ = {rear, front, spec_.trackOffset + spec_.shoe.padHalfWidth, top - spec_.groundHeight()};
+  }
+
+  const Corridor& start() const { return start_; }
+  bool turns() const {
+    const scene::SpeedTable table = scene_.driver.speeds();
+    for (std::size_t i = 0; i < table.time.size(); ++i)
+      if (table.left[i] != table.right[i]) return true;
+    return false;
+  }
+  /// How far it can come in the whole run, without slip [m].
+  double farthest() const {
+    const scene::SpeedTable table = scene_.driver.speeds();
+    double fastest = 0;
+    for (const std::vector<double>* side : {&table.left, &table.right})
+      for (const double omega : *side) fastest = std::max(fastest, std::fabs(omega));
+    if (scene_.vehicle->chassis == scene::ChassisMount::fixed) return 0;
+    const double way = fastest * spec_.pitchRadius() * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
+    return std::min(way, ground_ ? ground_->area().width() + ground_->area().length() : kFarthest);
+  }
+  /// Straight ahead and back.
+  Corridor way() const {
+    const scene::SpeedTable table = scene_.driver.speeds();
+    bool ahead = false, back = false;
+    for (const double omega : table.left) ahead = ahead || omega > 0, back = back || omega < 0;
+    Corridor c = start_;
+    if (ahead) c.front += farthest();
+    if (back) c.rear -= farthest();
+    return c;
+  }
+
+  /// Whether the obstacle reaches into the corridor.
+  bool meets(const Obstacle& o, const Corridor& c) const {
+    const base::Pose& pose = o.surface.start;
+    const bool plane = o.surface.geometry.shape == terrain::SurfaceShape::plane;
+    // Of a plane the corners tell; of all else balls about a lattice of points.
+    const double cell = plane ? 1e300 : kCell, radius = plane ? 0 : 0.87 * kCell;
+    const double reach = plane ? 1e300 : sizeOf(o.surface) + radius + c.height;
+    const int nx = cellsOf(c.front - c.rear, cell), ny = cellsOf(2 * c.half, cell), nz = cellsOf(c.height, cell);
+    for (int i = 0; i <= nx; ++i)
+      for (int j = 0; j <= ny; ++j) {
+        Vec3d p = inWorld(c.rear + (c.front - c.rear) * i / nx, -c.half + 2 * c.half * j / ny);
+        if (std::fabs(p.x - pose.position.x) > reach || std::fabs(p.y - pose.position.y) > reach || !onTerrain(p))
+          continue;
+        const double ground = ground_ ? ground_->height(p.x, p.y) : 0;
+        for (int k = 0; k <= nz; ++k) {
+          p.z = ground + kFree + radius + (c.height - kFree) * k / nz;
+          if (overlapAt(o.surface, pose, p, radius) > 0) return true;
+        }
+      }
+    return false;
+  }
+
+private:
+  static int cellsOf(double length, double cell) { return std::max(1, static_cast<int>(std::ceil(length / cell))); }
+  /// Farthest point of a surface from its own origin [m].
+  static double sizeOf(const SceneSurface& s) {
+    double size = norm(s.geometry.half);
+    if (s.geometry.shape != terrain::SurfaceShape::box)
+      size = norm(Vec3d{s.geometry.half.x, s.geometry.half.x, s.geometry.half.z});
+    if (s.mesh)
+      for (const Vec3d& v : s.mesh->mesh().vertices) size = std::max(size, norm(v));
+    return size;
+  }
+  Vec3d inWorld(double ahead, double left) const {
+    const double c = base::cos(place_.heading), s = base::sin(place_.heading);
+    return {place_.x + c * ahead - s * left, place_.y + s * ahead + c * left, 0};
+  }
+  /// Where the terrain ends, the run ends by itself.
+  bool onTerrain(const Vec3d& p) const {
+    const auto area = terrainArea(scene_);
+    return !area || (p.x >= area->xMin && p.x <= area->xMax && p.y >= area->yMin && p.y <= area->yMax);
+  }
+
+  const scene::Scene& scene_;
+  vehicle::VehicleSpec spec_;
+  Placement place_;
+  std::optional<terrain::HeightField> ground_;
+  Corridor start_{};
+};
+
+} // namespace
+
+void checkVehicleSurroundings(const scene::Scene& scene) {
+  if (!scene.vehicle) return;
+  const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
+  if (!scene.terrain && !grains && scene.vehicle->chassis != scene::ChassisMount::fixed)
+    scene.fail(
+        "vehicle", "chassis",
+        "is \"free\" over planes alone, which act on grains and not on a vehicle; add [terrain], or set chassis = "
+        "\"fixed\"");
+  const std::vector<Obstacle> all = obstaclesOf(scene);
+  if (all.empty()) return;
+  const Course course(scene);
+  for (const Obstacle& o : all) {
+    const bool atStart = course.meets(o, course.start());
+    if (!atStart && !course.meets(o, course.way())) continue;
+    const std::string key = o.list == "plane" ? "point" : "position";
+    scene.fail(o.list, o.number, key,
+               fmt::format("[m]: {} \"{}\" stands {}; surfaces act on grains alone, and the vehicle would pass through "
+                           "it: {}",
+                           o.list, o.name,
+                           atStart ? "where the vehicle is set down"
+                                   : fmt::format("in the way of the vehicle, which can drive {:.1f} m in run.duration",
+                                                 course.farthest()),
+                           atStart ? "move it or vehicle.position, or remove it"
+                                   : "move it aside, turn vehicle.heading, shorten run.duration, or remove it"));
+  }
+}
+
+std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
+  std::vector<std::string> warnings;
+  if (!scene.vehicle) return warnings;
+  if (scene.driver.table && scene.driver.rampOfDrive() == 0 &&
+      (scene.driver.table->left.front() != 0 || scene.driver.table->right.front() != 0))
+    warnings.push_back(
+        fmt::format("driver.table begins at {:g} and {:g} rad/s: the sprockets turn so fast from one step to "
+                    "the next; let the table begin at 0, or set driver.drive_ramp",
+                    scene.driver.table->left.front(), scene.driver.table->right.front()));
+  const std::vector<Obstacle> all = obstaclesOf(scene);
+  if (all.empty()) return warnings;
+  const Course course(scene);
+  const double reach = course.farthest();
+  Corridor around = course.start();
+  const double radius = reach + std::max({around.front, -around.rear, around.half});
+  around.front = radius, around.rear = -radius, around.half = radius;
+  for (const Obstacle& o : all)
+    if (o.moves || (course.turns() && course.meets(o, around)))
+      warnings.push_back(
+          fmt::format("{} \"{}\" acts on grains alone: where the vehicle meets it, it passes through without "
+                      "a force",
+                      o.list, o.name));
+  return warnings;
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a vehicle is set down, when it drives, and what may not stand about it.
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/placement.hpp"
+#include "runs/setup/vehicle_setup.hpp"
+#include "runs/setup/vehicle_surroundings.hpp"
+#include "vehicle/assembly.hpp"
+#include "vehicle/spec_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+namespace grouser::setup {
+namespace {
+
+using base::Vec3d;
+
+vehicle::VehicleSpec spec() {
+  return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+}
+
+/// A scene on level, rigid ground, or on a bed; `more` follows.
+scene::Scene sceneWith(const std::string& more, bool bed = false) {
+  return parseScene(
+      "version = 1\n[run]\nduration = 4\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e6\n[terrain]\n"
+      "heightmap = \"heightmaps/flat.png\"\nsize = [12, 6]\nheight_range = [0, 0]\nmaterial = \"soil\"\n" +
+          std::string(bed ? "grain_radius = 0.05\nlayers = 2\n" : "kind = \"rigid\"\n") +
+          "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n" + more,
+      GROUSER_SOURCE_DIR "/tests/scenes/set_down.toml");
+}
+
+/// Least distance of the lowest grousers' plane from the ground, square to it, over a fine grid under both tracks.
+double clearanceOver(const base::Pose& pose, const std::function<double(double, double)>& ground) {
+  const vehicle::VehicleSpec s = spec();
+  const Vec3d up = rotate(pose.orientation, {0, 0, 1});
+  double least = 1e9;
+  for (int i = 0; i <= 200; ++i)
+    for (int j = -20; j <= 20; ++j)
+      for (const double side : {-1.0, 1.0}) {
+        const Vec3d p = pose.toWorld({0.345 + 2.18 * i / 200, side * s.trackOffset + 0.007 * j, s.groundHeight()});
+        least = std::min(least, dot(p - Vec3d{p.x, p.y, ground(p.x, p.y)}, up));
+      }
+  return least;
+}
+
+TEST(SetDown, OnLevelGround_StandsLevel) {
+  const base::Pose pose = setDown(spec(), {1, 2, 0.3}, 0.002, [](double, double) { return 0.7; });
+  const base::Pose level = vehicle::placeOnGround(spec(), 1, 2, 0.702, 0, 0.3);
+  EXPECT_EQ(pose.position, level.position);
+  EXPECT_EQ(pose.orientation.w, level.orientation.w);
+  EXPECT_EQ(pose.orientation.x, 0);
+  EXPECT_EQ(pose.orientation.z, level.orientation.z);
+}
+
+TEST(SetDown, OnASlope_LiesAlongIt) {
+  for (const double heading : {0.0, 0.8, -2.0}) {
+    const double a = 0.12, b = 0.1763;
+    const auto ground = [&](double x, double y) { return 0.2 + a * x + b * y; };
+    const base::Pose pose = setDown(spec(), {2, 1, heading}, 0.002, ground);
+    const Vec3d up = rotate(pose.orientation, {0, 0, 1}), ahead = rotate(pose.orientation, {1, 0, 0});
+    const double n = std::sqrt(1 + a * a + b * b);
+    EXPECT_NEAR(up.x, -a / n, 1e-12);
+    EXPECT_NEAR(up.y, -b / n, 1e-12);
+    EXPECT_NEAR(ahead.y * base::cos(heading) - ahead.x * base::sin(heading), 0, 1e-12) << "over its heading";
+    EXPECT_GT(ahead.x * base::cos(heading) + ahead.y * base::sin(heading), 0.9);
+    EXPECT_EQ(pose.position.x, 2);
+    EXPECT_NEAR(clearanceOver(pose, ground), 0.002, 1e-12);
+  }
+}
+
+TEST(SetDown, OverARidge_IsClearOfItsTop) {
+  // A ridge across the way and a side slope: the plane is the mean one, the clearance that of the ridge.
+  const auto ground = [](double x, double y) {
+    const double d = (x - 3.2) / 0.3;
+    return 0.05 * y + (d * d < 1 ? 0.06 * (1 - d * d) : 0.0);
+  };
+  const base::Pose pose = setDown(spec(), {2, 0, 0}, 0.002, ground);
+  const double clear = clearanceOver(pose, ground);
+  EXPECT_LT(clear, 0.0022);
+  EXPECT_GT(clear, 0.0015); // its grid is 55 mm wide: the top lies between two points, 0.06 (0.027 / 0.3)^2 = 0.5 mm
+}
+
+TEST(DriveStart, ATableIsFollowedAsGiven) {
+  const std::string table = "[driver.table]\ntime = [0, 0.2]\nleft = [0, 2]\nright = [0, 1]\n";
+  const vehicle::Driver driver(vehicleSetup(sceneWith("[driver]\ndrive_start = 0.5\n" + table)).driver);
+  EXPECT_NEAR(driver.at(0.6).sprocketSpeed[0], 1, 1e-12);
+  EXPECT_NEAR(driver.at(0.65).sprocketSpeed[1], 0.75, 1e-12);
+  // A ramp that was asked for applies to a table too.
+  const vehicle::Driver ramped(
+      vehicleSetup(sceneWith("[driver]\ndrive_start = 0.5\ndrive_ramp = 0.2\n" + table)).driver);
+  EXPECT_NEAR(ramped.at(0.6).sprocketSpeed[0], 0.5, 1e-12);
+  // Of constants, the default is a ramp of 0.3 s.
+  const vehicle::Driver constant(vehicleSetup(sceneWith("[driver]\ndrive_start = 0.5\nsprocket_speed = 2\n")).driver);
+  EXPECT_NEAR(constant.at(0.65).sprocketSpeed[0], 1, 1e-12);
+}
+
+TEST(DriveStart, WaitsForRestUnlessItIsGivenOrTheHullIsHeld) {
+  EXPECT_TRUE(vehicleSetup(sceneWith("[driver]\nsprocket_speed = 1\n")).driver.rest.has_value());
+  EXPECT_FALSE(vehicleSetup(sceneWith("[driver]\nsprocket_speed = 1\ndrive_start = 0.5\n")).driver.rest.has_value());
+  EXPECT_FALSE(vehicleSetup(sceneWith("chassis = \"fixed\"\n[driver]\nsprocket_speed = 1\n")).driver.rest.has_value());
+  const auto rest =
+      vehicleSetup(sceneWith("[driver]\nrest_speed = 0.02\nrest_load = 0.1\nrest_time_limit = 3\n")).driver.rest;
+  ASSERT_TRUE(rest);
+  EXPECT_EQ(rest->speed, 0.02);
+  EXPECT_EQ(rest->load, 0.1);
+  EXPECT_EQ(rest->timeLimit, 3);
+}
+
+/// The refusal of what stands about the vehicle, which covers x from -0.4 to 3.1 m about its place, or "".
+std::string refusalWith(const std::string& more) {
+  try {
+    checkVehicleSurroundings(sceneWith("position = [2, 0]\n" + more, true));
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string box(double x, double y, const char* more = "") {
+  return fmt::format("[driver]\nsprocket_speed = 2\n[[box]]\nposition = [{}, {}, 0.3]\nsize = [0.4, 0.4, 0.6]\n"
+                     "material = \"soil\"\nname = \"rock\"\n{}",
+                     x, y, more);
+}
+
+TEST(Surroundings, WhatStandsWhereTheVehicleIsSetDown_IsRefused) {
+  for (const std::string& more :
+       {box(3, 0.9), box(2, 0),
+        std::string("[[cylinder]]\nposition = [3, 0, 0.5]\naxis = [0, 1, 0]\nradius = 0.3\n"
+                    "length = 2\nmaterial = \"soil\"\nname = \"rock\"\n"),
+        std::string("[[plane]]\npoint = [3, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\nname = \"rock\"\n")}) {
+    const std::string message = refusalWith(more);
+    for (const char* word : {"set_down.toml:", "\"rock\"", "where the vehicle is set down", "pass through", "move it"})
+      EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
+  }
+}
+
+TEST(Surroundings, WhatStandsInItsWay_IsRefused) {
+  const std::string message = refusalWith(box(6, -0.9)); // it drives 1.7 m
+  EXPECT_NE(message.find("in the way of the vehicle, which can drive 1.7 m"), std::string::npos) << message;
+  EXPECT_NE(refusalWith(box(6, -0.9)).find("shorten run.duration"), std::string::npos);
+}
+
+TEST(Surroundings, WhatItCannotReach_IsNot) {
+  EXPECT_EQ(refusalWith(box(9, 0)), "") << "beyond its way";
+  EXPECT_EQ(refusalWith(box(6, 2)), "") << "beside it";
+  EXPECT_EQ(refusalWith(box(0.7, 0)), "") << "behind it";
+}
+
+TEST(Surroundings, WhatItMayReachByTurning_IsSaid) {
+  const auto warned = [](const std::string& more) {
+    return vehicleWarnings(sceneWith("position = [2, 0]\n" + more, true)).size();
+  };
+  std::string turning = box(6, 1.9);
+  turning.replace(turning.find("sprocket_speed = 2"), 18, "left = 1\nright = 2");
+  EXPECT_EQ(warned(turning), 1u);
+  EXPECT_EQ(warned(box(6, 1.9)), 0u);
+  EXPECT_EQ(warned(box(6, 1.9, "velocity = [0, -0.1, 0]\n")), 1u) << "what moves may come into its way";
+}
+
+TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {
+  const auto warnings = vehicleWarnings(sceneWith("[driver.table]\ntime = [0, 1]\nleft = [2, 2]\nright = [2, 2]\n"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("driver.table begins at 2"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(vehicleWarnings(sceneWith("[driver.table]\ntime = [0, 1]\nleft = [0, 2]\nright = [0, 2]\n")).empty());
+}
+
+} // namespace
+} // namespace grouser::setup

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vehicles that cannot be: one clear error each, with advice that works.
+#include "vehicle/running_gear.hpp"
+
+#include "base/error.hpp"
+#include "tests/vehicle/spec_variant.hpp"
+#include "vehicle/spec_file.hpp"
+#include "vehicle/wrap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <regex>
+
+using namespace grouser;
+using test::KeyChange;
+using test::SpecVariant;
+
+namespace {
+
+/// A vehicle file that is refused, and what its message must say.
+struct Impossible {
+  std::string name;
+  KeyChange change;
+  std::vector<std::string> words;
+};
+std::ostream& operator<<(std::ostream& out, const Impossible& i) { return out << i.name; }
+
+class ImpossibleVehicle : public ::testing::TestWithParam<Impossible> {};
+
+std::string refusalOf(const std::vector<KeyChange>& changes) {
+  const SpecVariant variant(changes);
+  try {
+    vehicle::readVehicleSpec(variant.path());
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A change as advice gives it, "set roller.z[1] = 0.09": for lists with the other values of the fault's own.
+KeyChange adviceIn(const std::string& message, const KeyChange& fault) {
+  std::smatch m;
+  if (!std::regex_search(message, m, std::regex(R"(set ([a-z_]+)\.([a-z_]+)(\[(\d)\])? = ([-0-9.e+]+))"))) return {};
+  if (!m[3].matched) return {m[1], m[2], m[5]};
+  std::vector<std::string> values = m[2] == "x" ? std::vector<std::string>{"0.70", "1.38", "2.06"}
+                                                : std::vector<std::string>{"0.1283", "0.1300", "0.1317"};
+  if (fault.section == "roller" && fault.key == m[2]) {
+    std::stringstream list(fault.value.substr(1));
+    for (std::string& v : values) std::getline(list, v, ',');
+    values.back() = values.back().substr(0, values.back().find(']'));
+  }
+  values[std::stoul(m[4])] = m[5];
+  return {m[1], m[2], "[" + values[0] + ", " + values[1] + ", " + values[2] + "]"};
+}
+
+} // namespace
+
+TEST_P(ImpossibleVehicle, IsRefusedByNameAndPlace) {
+  const Impossible& p = GetParam();
+  const std::string message = refusalOf({p.change});
+  ASSERT_NE(message, "") << "was accepted";
+  EXPECT_TRUE(std::regex_search(message, std::regex(R"(\.toml:\d+: [a-z_]+\.[a-z_]+ = )"))) << message;
+  for (const std::string& word : p.words)
+    EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST_P(ImpossibleVehicle, AdviceMendsIt) {
+  const Impossible& p = GetParam();
+  const std::string message = refusalOf({p.change});
+  const KeyChange advice = adviceIn(message, p.change);
+  if (advice.key.empty()) {
+    // Keys whose range stands in the table, and those that no single number mends, say what must hold instead.
+    EXPECT_TRUE(
+        std::regex_search(message, std::regex("is outside|as many values|choose|alone mends|belongs to|at least")))
+        << message;
+    return;
+  }
+  const std::string after = refusalOf({p.change, advice});
+  EXPECT_EQ(after, "") << "after: " << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Variants, ImpossibleVehicle,
+    ::testing::Values(
+        Impossible{"RoadWheelsOverlap",
+                   {"road_wheel", "spacing", "0.30"},
+                   {"road wheel 0 and road wheel 1 overlap by 80.0 mm"}},
+        Impossible{"LastWheelInIdler", {"road_wheel", "spacing", "0.60"}, {"idler and road wheel 4 overlap by"}},
+        Impossible{"TooManyWheels", {"road_wheel", "count", "7"}, {"idler and road wheel 5 overlap by"}},
+        Impossible{"FirstWheelInSprocket", {"road_wheel", "first_x", "0.3"}, {"sprocket and road wheel 0 overlap by"}},
+        Impossible{"WheelsTooFarAhead", {"road_wheel", "first_x", "0.9"}, {"idler and road wheel 4 overlap by"}},
+        Impossible{"WheelInTheRisingStrand", {"road_wheel", "first_x", "0.56"}, {"road wheel 4 and shoe", "mm"}},
+        Impossible{"WheelsTooLarge", {"road_wheel", "radius", "0.25"}, {"idler and road wheel 4 overlap by 6.8 mm"}},
+        Impossible{"WheelAboveTheStrand", {"road_wheel", "z", "-0.02"}, {"road wheel 0", "overlap by"}},
+        Impossible{"WheelsTooLow", {"road_wheel", "z", "-0.25"}, {"close only with the idler at", "mm"}},
+        Impossible{"RollerPushesUpTheTrack", {"roller", "z", "[0.15, 0.13, 0.1317]"}, {"roller 0 and shoe", "21.4 mm"}},
+        Impossible{"RollerBelowTheGround", {"roller", "z", "[0.1283, -0.6, 0.1317]"}, {"roller 1 outside the loop"}},
+        Impossible{"RollerInWheel", {"roller", "z", "[0.1283, 0.0, 0.1317]"}, {"road wheel 2 and roller 1 overlap"}},
+        Impossible{"RollerAboveTheTrack", {"roller", "z", "[0.1283, 0.6, 0.1317]"}, {"roller 1 outside the loop"}},
+        Impossible{"RollerInSprocket", {"roller", "x", "[0.3, 1.38, 2.06]"}, {"sprocket and roller 0", "12.9 mm"}},
+        Impossible{"RollersOverlap", {"roller", "x", "[0.7, 0.8, 2.06]"}, {"roller 0 and roller 1", "80.0 mm"}},
+        Impossible{"RollerInIdler", {"roller", "x", "[0.7, 1.38, 2.6]"}, {"idler and roller 2 overlap by"}},
+        Impossible{"RollersTooLarge", {"roller", "radius", "0.2"}, {"road wheel 0 and roller 0 overlap by"}},
+        Impossible{"RollerWithoutHeight", {"roller", "z", "[0.1283, 0.13]"}, {"as many values"}},
+        Impossible{"ShoeTooFew", {"shoe", "count", "45"}, {"-80.7 mm", "outside its slide", "shoe.count = 46"}},
+        Impossible{"HalfTheShoes", {"shoe", "count", "24"}, {"does not close", "-3385.7 mm"}},
+        Impossible{"TooManyShoes", {"shoe", "count", "60"}, {"close only with", "outside its slide"}},
+        Impossible{"PitchTooLong", {"shoe", "pitch", "0.16"}, {"folds neighbouring shoes by 0.6511 rad"}},
+        Impossible{"PadsWiderThanPitch", {"shoe", "pitch", "0.13"}, {"neighbouring shoes overlap by 6.0 mm"}},
+        Impossible{"PlatesLongerThanPitch", {"shoe", "half_length", "0.08"}, {"overlap by 6.0 mm", "(0, 0.077)"}},
+        Impossible{"PlatesTouchAtTheFold", {"shoe", "half_length", "0.075"}, {"plates touch, at 0.1993 rad"}},
+        Impossible{"PlatesTooHighForTheFold", {"shoe", "plate_top", "0.08"}, {"plates touch"}},
+        Impossible{"FoldBeyondThePlates", {"shoe", "maximum_fold", "1.2"}, {"plates touch, at 0.8457 rad"}},
+        Impossible{"HornsReachAxles", {"shoe", "horn_height", "0.1"}, {"10.0 mm beyond the axles"}},
+        Impossible{"PadAboveThePins", {"shoe", "pad_bottom", "0.02"}, {"is outside"}},
+        Impossible{"NegativeGrouser", {"shoe", "grouser_height", "-0.01"}, {"is outside"}},
+        Impossible{"IdlerTooFar", {"idler", "x", "3.2"}, {"-452.6 mm", "outside its slide"}},
+        Impossible{"IdlerInSprocket", {"idler", "x", "0.4"}, {"sprocket and idler overlap by 66.2 mm"}},
+        Impossible{"IdlerTooHigh", {"idler", "z", "0.3"}, {"does not close"}},
+        Impossible{"IdlerTooSmall", {"idler", "radius", "0.1"}, {"folds neighbouring shoes"}},
+        Impossible{"IdlerTooLarge", {"idler", "radius", "0.4"}, {"idler and road wheel 4 overlap by 129.8 mm"}},
+        Impossible{"IdlerSlidesIntoWheel", {"idler", "slide_min", "-0.1"}, {"road wheel 4", "idler's rear stop"}},
+        Impossible{"StopBeforeTheStart", {"idler", "slide_min", "0.02"}, {"is outside"}},
+        Impossible{"NoTravel", {"idler", "slide_max", "0"}, {"front stop"}},
+        Impossible{"TravelPastStops", {"idler", "slide_max", "-0.01"}, {"is outside"}},
+        Impossible{"NoTension", {"idler", "preload", "0"}, {"slack"}},
+        Impossible{"TensionPulls", {"idler", "preload", "-9200"}, {"is outside"}},
+        Impossible{"TensionAboveTheWeight", {"idler", "preload", "1e6"}, {"weight of 49210 N", "(0, 98420]"}},
+        Impossible{"TensionNoSpringGives", {"idler", "stiffness", "1000"}, {"pressed by 9200 mm"}},
+        Impossible{"TooFewTeeth", {"sprocket", "teeth", "8"}, {"at least 10 teeth"}},
+        Impossible{"TooManyTeeth", {"sprocket", "teeth", "20"}, {"sprocket and road wheel 0 overlap by 105.0 mm"}},
+        Impossible{"ArmsWithoutSpring", {"arm", "stiffness", "0"}, {"hull sink"}},
+        Impossible{"ArmsLiftTheHull", {"arm", "preload", "50000"}, {"lifts the hull"}},
+        Impossible{"ArmPivotsBelowTheTrack", {"arm", "pivot_angle", "-1"}, {"20.4 mm below the plates"}},
+        Impossible{"TipsOver", {"chassis", "centre", "[3.0, 0.0, 0.1]"}, {"671.8 mm ahead of all road wheels"}},
+        Impossible{"TipsSideways", {"chassis", "centre", "[1.4, 1.5, 0.1]"}, {"550.0 mm beside both tracks"}},
+        Impossible{"TracksOverlap", {"vehicle", "track_offset", "0.1"}, {"left and right shoes overlap by 80.0 mm"}},
+        Impossible{"NoMass", {"shoe", "mass", "0"}, {"is outside"}},
+        Impossible{"ImpossibleInertia", {"shoe", "inertia", "[0.064, 0.020, 0.2]"}, {"belongs to no solid body"}}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(RunningGear, ShippedVehicle_IsSound) {
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+  EXPECT_FALSE(vehicle::runningGearFault(spec).has_value());
+}
+
+/// Only splits of the shoes that can end at the idler are tried; trying all of them finds the same loop.
+TEST(RunningGear, AdviceOfClosure_IsFoundFromFarAway) {
+  for (const char* count : {"40", "52", "58"}) {
+    const std::string message = refusalOf({{"shoe", "count", count}});
+    const KeyChange advice = adviceIn(message, {});
+    EXPECT_EQ(refusalOf({{"shoe", "count", count}, advice}), "") << message;
+  }
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/part_meshes.hpp"
+
+#include "base/math.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace grouser::vehicle {
+namespace {
+
+using base::TriangleMesh;
+
+constexpr double kFits = 1e-3; // [m] difference of mesh and spec that is no fault
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double radiusAt(const Vec3d& p) { return std::sqrt(p.x * p.x + p.z * p.z); }
+
+/// The largest of `measure` over the vertices that `counts` admits; -infinity without any.
+template <class Counts, class Measure> double most(const TriangleMesh& mesh, Counts counts, Measure measure) {
+  double largest = -kInfinity;
+  for (const Vec3d& v : mesh.vertices)
+    if (counts(v)) largest = std::max(largest, measure(v));
+  return largest;
+}
+
+bool all(const Vec3d&) { return true; }
+
+SpecFault differs(const char* section, const char* key, const std::string& mesh, const char* what, double inMesh,
+                  double value) {
+  return {section, key,
+          fmt::format("[m] does not fit the mesh {}, in which {} {:.1f} mm; set {}.{} = {:.6g}, or give a mesh of this "
+                      "size",
+                      mesh, what, 1e3 * inMesh, section, key, value)};
+}
+
+std::optional<SpecFault> rimFault(const char* section, double radius, const std::string& name,
+                                  const TriangleMesh& mesh) {
+  const double rim = most(mesh, all, radiusAt);
+  if (std::fabs(rim - radius) <= kFits) return {};
+  return differs(section, "radius", name, "the rim has a radius of", rim, std::floor(1e3 * rim + 0.5) / 1e3);
+}
+
+/// What a shoe's mesh says of its pins: bosses stand beside the pads. NaN where nothing stands there.
+struct Bosses {
+  double x, radius; ///< of the joint ahead [m]
+};
+Bosses bossesOf(const VehicleSpec& s, const TriangleMesh& shoe) {
+  const auto beside = [&](const Vec3d& v) { return v.x > 0 && std::fabs(v.y) > s.shoe.padHalfWidth + kFits; };
+  const double front = most(shoe, beside, [](const Vec3d& v) { return v.x; });
+  const double rear = -most(shoe, beside, [](const Vec3d& v) { return -v.x; });
+  return {0.5 * (front + rear), 0.5 * (front - rear)};
+}
+
+std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh& mesh) {
+  const auto up = [](const Vec3d& v) { return v.z; };
+  const auto down = [](const Vec3d& v) { return -v.z; };
+  const auto middle = [&](const Vec3d& v) { return std::fabs(v.y) <= 0.5 * s.shoe.padHalfWidth; };
+  const std::string& name = s.shoe.mesh;
+  if (const Bosses b = bossesOf(s, mesh); std::isfinite(b.x) && std::fabs(b.x - 0.5 * s.shoe.pitch) > kFits)
+    return differs("shoe", "pitch", name, "the pins ahead lie at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
+  const double half = most(mesh, middle, [](const Vec3d& v) { return std::fabs(v.x); });
+  if (std::fabs(half - s.shoe.halfLength) > kFits)
+    return differs("shoe", "half_length", name, "plate and pad reach to x =", half, std::floor(1e3 * half + 0.5) / 1e3);
+  if (const double wide = most(mesh, all, [](const Vec3d& v) { return std::fabs(v.y); });
+      wide < s.shoe.padHalfWidth - kFits)
+    return differs("shoe", "pad_half_width", name, "all lies within |y| =", wide, wide);
+  // Faces of plate and pad have vertices at their height.
+  const auto hasFaceAt = [&](double z) {
+    return std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                       [&](const Vec3d& v) { return std::fabs(v.z - z) <= kFits; });
+  };
+  const double top = most(mesh, all, up), bottom = -most(mesh, all, down);
+  if (!hasFaceAt(s.shoe.plateTop)) {
+    const double plate = most(
+        mesh, [&](const Vec3d& v) { return std::fabs(v.x) > 0.95 * half; }, up);
+    return differs("shoe", "plate_top", name, "the plates end at z =", plate, plate);
+  }
+  if (!hasFaceAt(s.shoe.padBottom))
+    return differs("shoe", "pad_bottom", name, "the grousers reach to z =", bottom, bottom + s.shoe.grouserHeight);
+  if (std::fabs(top - s.shoe.plateTop - s.shoe.hornHeight) > kFits)
+    return differs("shoe", "horn_height", name, "the horn reaches above the plate by", top - s.shoe.plateTop,
+                   std::floor(1e3 * (top - s.shoe.plateTop) + 0.5) / 1e3);
+  if (std::fabs(s.shoe.padBottom - s.shoe.grouserHeight - bottom) > kFits)
+    return differs("shoe", "grouser_height", name, "the grousers reach below the pad by", s.shoe.padBottom - bottom,
+                   std::floor(1e3 * (s.shoe.padBottom - bottom) + 0.5) / 1e3);
+  return {};
+}
+
+/// Teeth stand between the pins, and pins lie in the gaps.
+std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& meshes) {
+  const double pins = s.sprocketPinRadius(), tip = most(meshes.sprocket, all, radiusAt);
+  const auto tooth = [&](const Vec3d& v) { return base::cos(s.sprocket.teeth * base::atan2(v.z, v.x)); };
+  double phase = 0;
+  int beyond = 0;
+  for (const Vec3d& v : meshes.sprocket.vertices)
+    if (radiusAt(v) > pins + 0.8 * (tip - pins)) phase += tooth(v), ++beyond;
+  if (tip < pins + kFits || tip > pins + s.shoe.pitch)
+    return SpecFault{
+        "sprocket", "teeth",
+        fmt::format("[-] and shoe.pitch = {:g} m put the pins {:.1f} mm from the axle, but the teeth of {} "
+                    "end at {:.1f} mm; choose teeth and pitch that fit the mesh, or give a mesh with these",
+                    s.shoe.pitch, 1e3 * pins, s.sprocket.mesh, 1e3 * tip)};
+  if (phase > -0.25 * beyond) // the lands lie about the middle between two gaps
+    return SpecFault{"sprocket", "teeth",
+                     fmt::format("[-]: the teeth of {} do not lie between so many pins; give the number that the mesh "
+                                 "has, with a gap on its x axis",
+                                 s.sprocket.mesh)};
+  const Bosses boss = bossesOf(s, meshes.shoe);
+  const double seat = most(
+      meshes.sprocket, [&](const Vec3d& v) { return radiusAt(v) > 0.8 * pins && tooth(v) > 0.9999; }, radiusAt);
+  if (!std::isfinite(boss.radius) || !std::isfinite(seat)) return {};
+  const double slack = pins - boss.radius - seat;
+  if (slack >= -0.5 * kFits && slack <= 3 * kFits) return {};
+  return SpecFault{
+      "shoe", "pitch",
+      fmt::format("[m] and sprocket.teeth = {} put the pins {:.1f} mm from the axle, where their bosses {} "
+                  "the gaps of {} by {:.1f} mm; choose a pitch of {:.4f} m or a mesh that fits",
+                  s.sprocket.teeth, 1e3 * pins, slack < 0 ? "overlap" : "miss", s.sprocket.mesh, 1e3 * std::fabs(slack),
+                  2 * (seat + boss.radius) * base::sin(base::kPi / s.sprocket.teeth))};
+}
+
+/// Radius of a wheel's surface within |y| <= half: of its hub between the discs [m].
+double hubRadius(const TriangleMesh& mesh, double half) {
+  double largest = 0;
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d a = mesh.vertices[mesh.indices[t + k]], b = mesh.vertices[mesh.indices[t + (k + 1) % 3]];
+      // The part of the edge that lies in the band; the radius is largest at one of its ends.
+      double from = 0, to = 1;
+      for (const double side : {-1.0, 1.0}) {
+        const double da = half - side * a.y, db = half - side * b.y; // >= 0 inside
+        if (da < 0 && db < 0) from = 1, to = 0;
+        if (da < 0 && db >= 0) from = std::max(from, da / (da - db));
+        if (da >= 0 && db < 0) to = std::min(to, da / (da - db));
+      }
+      if (from > to) continue;
+      for (const double at : {from, to}) largest = std::max(largest, radiusAt(a + (b - a) * at));
+    }
+  return largest;
+}
+
+std::optional<SpecFault> hornFault(const VehicleSpec& s, const PartMeshes& meshes) {
+  const double tip = s.shoe.plateTop + s.shoe.hornHeight;
+  const double half = most(
+      meshes.shoe, [&](const Vec3d& v) { return v.z > tip - kFits; }, [](const Vec3d& v) { return std::fabs(v.y); });
+  struct Rim {
+    const char* name;
+    double radius;
+    const TriangleMesh& mesh;
+  };
+  for (const Rim& r : {Rim{"road wheels", s.roadWheel.radius, meshes.roadWheel},
+                       Rim{"rollers", s.roller.radius, meshes.roller}, Rim{"idler", s.idler.radius, meshes.idler}})
+    if (const double overlap = hubRadius(r.mesh, half) - (r.radius - s.shoe.hornHeight); overlap > 0)
+      return SpecFault{"shoe", "horn_height",
+                       fmt::format("[m] makes the horns overlap the hub of the {} by {:.1f} mm; set shoe.horn_height "
+                                   "to at most {:.4f} with a mesh of that height",
+                                   r.name, 1e3 * overlap, s.shoe.hornHeight - overlap)};
+  return {};
+}
+
+} // namespace
+
+std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes) {
+  if (auto fault = rimFault("road_wheel", spec.roadWheel.radius, spec.roadWheel.mesh, meshes.roadWheel)) return fault;
+  if (auto fault = rimFault("roller", spec.roller.radius, spec.roller.mesh, meshes.roller)) return fault;
+  if (auto fault = rimFault("idler", spec.idler.radius, spec.idler.mesh, meshes.idler)) return fault;
+  if (auto fault = shoeMeshFault(spec, meshes.shoe)) return fault;
+  if (auto fault = teethFault(spec, meshes)) return fault;
+  if (auto fault = hornFault(spec, meshes)) return fault;
+  const double lowest = -most(meshes.chassis, all, [](const Vec3d& v) { return -v.z; });
+  if (const double below = spec.groundHeight() - lowest; below > 0)
+    return SpecFault{
+        "road_wheel", "z",
+        fmt::format("[m] leaves the hull's mesh {} {:.1f} mm below the lowest shoes; lower the road wheels, "
+                    "or give another hull",
+                    spec.chassis.mesh, 1e3 * below)};
+  return {};
+}
+
+} // namespace grouser::vehicle

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/running_gear.hpp"
+
+#include "base/math.hpp"
+#include "vehicle/wrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace grouser::vehicle {
+namespace {
+
+using base::kPi;
+
+/// Overlap of a wheel and a plate at the start that their foundation takes without a blow [m]: of the default vehicle's
+/// widest roller 1e10 N/m3 make about 1 kN of it.
+constexpr double kTouch = 1e-4;
+constexpr double kGravity = 9.80665; // [m/s2]
+
+double distance(double x0, double z0, double x1, double z1) {
+  return std::sqrt((x1 - x0) * (x1 - x0) + (z1 - z0) * (z1 - z0));
+}
+
+/// A key whose value may be changed to mend a fault.
+struct Knob {
+  std::string section, key;
+  std::string name; ///< in advice: "roller.z[1]"
+  double value{}, step{};
+  std::function<void(VehicleSpec&, double)> set;
+};
+
+struct Fault {
+  std::vector<Knob> knobs; ///< the first names the key
+  std::string what;
+  std::string advice; ///< where no knob can be turned
+  bool closure = false;
+};
+
+Knob knob(const std::string& section, const std::string& key, double value, double step,
+          std::function<void(VehicleSpec&, double)> set) {
+  return {section, key, section + "." + key, value, step, std::move(set)};
+}
+
+Knob spacing(const VehicleSpec& s) {
+  return knob("road_wheel", "spacing", s.roadWheel.spacing, 0.005,
+              [](VehicleSpec& v, double x) { v.roadWheel.spacing = x; });
+}
+Knob firstX(const VehicleSpec& s) {
+  return knob("road_wheel", "first_x", s.roadWheel.firstX, 0.005,
+              [](VehicleSpec& v, double x) { v.roadWheel.firstX = x; });
+}
+Knob wheelZ(const VehicleSpec& s) {
+  return knob("road_wheel", "z", s.roadWheel.z, 0.005, [](VehicleSpec& v, double z) { v.roadWheel.z = z; });
+}
+Knob wheelCount(const VehicleSpec& s) {
+  return knob("road_wheel", "count", s.roadWheel.count, 1,
+              [](VehicleSpec& v, double n) { v.roadWheel.count = static_cast<int>(n); });
+}
+Knob wheelRadius(const VehicleSpec& s) {
+  return knob("road_wheel", "radius", s.roadWheel.radius, 0.005,
+              [](VehicleSpec& v, double r) { v.roadWheel.radius = r; });
+}
+Knob teeth(const VehicleSpec& s) {
+  return knob("sprocket", "teeth", s.sprocket.teeth, 1,
+              [](VehicleSpec& v, double n) { v.sprocket.teeth = static_cast<int>(n); });
+}
+Knob idlerX(const VehicleSpec& s) {
+  return knob("idler", "x", s.idler.x, 0.005, [](VehicleSpec& v, double x) { v.idler.x = x; });
+}
+Knob idlerRadius(const VehicleSpec& s) {
+  return knob("idler", "radius", s.idler.radius, 0.005, [](VehicleSpec& v, double r) { v.idler.radius = r; });
+}
+Knob idlerZ(const VehicleSpec& s) {
+  return knob("idler", "z", s.idler.z, 0.005, [](VehicleSpec& v, double z) { v.idler.z = z; });
+}
+Knob pitch(const VehicleSpec& s) {
+  return knob("shoe", "pitch", s.shoe.pitch, 0.001, [](VehicleSpec& v, double p) { v.shoe.pitch = p; });
+}
+Knob plateTop(const VehicleSpec& s) {
+  return knob("shoe", "plate_top", s.shoe.plateTop, 0.001, [](VehicleSpec& v, double z) { v.shoe.plateTop = z; });
+}
+Knob rollerRadius(const VehicleSpec& s) {
+  return knob("roller", "radius", s.roller.radius, 0.005, [](VehicleSpec& v, double r) { v.roller.radius = r; });
+}
+Knob slideMin(const VehicleSpec& s) {
+  return knob("idler", "slide_min", s.idler.slideMin, 0.005, [](VehicleSpec& v, double x) { v.idler.slideMin = x; });
+}
+Knob ofRoller(const VehicleSpec& s, const char* key, std::size_t i) {
+  const bool isX = key[0] == 'x';
+  Knob k = knob("roller", key, isX ? s.roller.x[i] : s.roller.z[i], isX ? 0.005 : 0.001,
+                [isX, i](VehicleSpec& v, double p) { (isX ? v.roller.x : v.roller.z)[i] = p; });
+  k.name += fmt::format("[{}]", i);
+  return k;
+}
+
+/// What stands in a track's plane and turns.
+struct Wheel {
+  enum class Kind { sprocket, idler, road, roller } kind;
+  std::size_t number;
+  double x, z, radius;
+
+  std::string name() const {
+    switch (kind) {
+    case Kind::sprocket:
+      return "sprocket";
+    case Kind::idler:
+      return "idler";
+    case Kind::road:
+      return fmt::format("road wheel {}", number);
+    case Kind::roller:
+      return fmt::format("roller {}", number);
+    }
+    return "";
+  }
+};
+
+/// `idler`: where its axle stands [m]. The sprocket reaches to the pins that it carries; its teeth a little farther.
+std::vector<Wheel> wheelsOf(const VehicleSpec& s, double idler) {
+  using Kind = Wheel::Kind;
+  std::vector<Wheel> all{{Kind::sprocket, 0, 0, 0, s.sprocketPinRadius()},
+                         {Kind::idler, 0, idler, s.idler.z, s.idler.radius}};
+  for (int i = 0; i < s.roadWheel.count; ++i)
+    all.push_back({Kind::road, static_cast<std::size_t>(i), s.roadWheel.firstX + i * s.roadWheel.spacing, s.roadWheel.z,
+                   s.roadWheel.radius});
+  for (std::size_t i = 0; i < s.roller.x.size(); ++i)
+    all.push_back({Kind::roller, i, s.roller.x[i], s.roller.z[i], s.roller.radius});
+  return all;
+}
+
+/// What may be changed where two wheels overlap; `a` stands before `b` in wheelsOf().
+std::vector<Knob> knobsOf(const VehicleSpec& s, const Wheel& a, const Wheel& b) {
+  using Kind = Wheel::Kind;
+  if (b.kind == Kind::roller && a.kind == Kind::road)
+    return {ofRoller(s, "z", b.number), rollerRadius(s), wheelZ(s), wheelRadius(s), ofRoller(s, "x", b.number)};
+  if (b.kind == Kind::roller)
+    return {ofRoller(s, "x", b.number), rollerRadius(s), ofRoller(s, "z", b.number), idlerX(s)};
+  if (a.kind == Kind::road) return {spacing(s), wheelCount(s), wheelRadius(s)};
+  if (a.kind == Kind::sprocket && b.kind == Kind::road) return {firstX(s), wheelRadius(s), teeth(s), wheelZ(s)};
+  if (a.kind == Kind::sprocket) return {idlerX(s), idlerRadius(s), teeth(s)};
+
+  return {spacing(s), firstX(s),      slideMin(s),    wheelCount(s),
+          idlerX(s),  wheelRadius(s), idlerRadius(s), idlerZ(s)}; // idler and road wheel
+}
+
+std::optional<Fault> overlapOfWheels(const VehicleSpec& s, double idler, const char* where) {
+  const std::vector<Wheel> all = wheelsOf(s, idler);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const Wheel &a = all[i], &b = all[j];
+      const double overlap = a.radius + b.radius - distance(a.x, a.z, b.x, b.z);
+      if (overlap >= 0)
+        return Fault{knobsOf(s, a, b),
+                     fmt::format("makes {} and {} overlap by {:.1f} mm{}", a.name(), b.name(), 1e3 * overlap, where),
+                     ""};
+    }
+  return {};
+}
+
+/// How far a shoe's plates let its neighbour fold inwards until they touch [rad].
+double plateFold(const ShoeSpec& shoe) {
+  return shoe.plateTop > 0 ? 2 * base::atan2(0.5 * shoe.pitch - shoe.halfLength, shoe.plateTop) : kPi;
+}
+
+/// Shoes against each other, side by side and folded about a wheel; the tracks against each other.
+std::optional<Fault> shoeFault(const VehicleSpec& s) {
+  if (const double overlap = s.shoe.padHalfWidth - s.trackOffset; overlap >= 0)
+    return Fault{
+        {knob("vehicle", "track_offset", s.trackOffset, 0.01, [](VehicleSpec& v, double y) { v.trackOffset = y; })},
+        fmt::format("[m] makes left and right shoes overlap by {:.1f} mm", 2e3 * overlap),
+        ""};
+  const Knob half =
+      knob("shoe", "half_length", s.shoe.halfLength, 0.001, [](VehicleSpec& v, double x) { v.shoe.halfLength = x; });
+  if (const double overlap = 2 * s.shoe.halfLength - s.shoe.pitch; overlap >= 0)
+    return Fault{{half, pitch(s)},
+                 fmt::format("[m] makes the plates and pads of neighbouring shoes overlap by {:.1f} mm; it must be in "
+                             "(0, {:g})",
+                             1e3 * overlap, 0.5 * s.shoe.pitch),
+                 ""};
+  const double fold = plateFold(s.shoe);
+  if (s.shoe.maximumFold > fold)
+    return Fault{{knob("shoe", "maximum_fold", s.shoe.maximumFold, 0.01,
+                       [](VehicleSpec& v, double a) { v.shoe.maximumFold = a; }),
+                  half, plateTop(s), pitch(s)},
+                 fmt::format("[rad] lets neighbouring shoes fold on where their plates touch, at {:.4f} rad", fold),
+                 ""};
+  if (const double step = 2 * kPi / s.sprocket.teeth; step > s.shoe.maximumFold)
+    return Fault{{teeth(s)},
+                 fmt::format("folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less; at least "
+                             "{:.0f} teeth are needed",
+                             step, s.shoe.maximumFold, std::ceil(2 * kPi / s.shoe.maximumFold)),
+                 ""};
+  if (const double step = 2 * base::asin(0.5 * s.shoe.pitch / s.idlerPinRadius()); step > s.shoe.maximumFold)
+    return Fault{{idlerRadius(s), pitch(s)},
+                 fmt::format("[m] folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less", step,
+                             s.shoe.maximumFold),
+                 ""};
+  double least = std::min(s.roadWheel.radius, s.idler.radius);
+  if (!s.roller.x.empty()) least = std::min(least, s.roller.radius);
+  if (const double overlap = s.shoe.hornHeight - least; overlap >= 0)
+    return Fault{{knob("shoe", "horn_height", s.shoe.hornHeight, 0.001,
+                       [](VehicleSpec& v, double h) { v.shoe.hornHeight = h; })},
+                 fmt::format("[m] lets horns reach {:.1f} mm beyond the axles of the smallest wheels; it must be in "
+                             "(0, {:g})",
+                             1e3 * overlap, least),
+                 ""};
+  return {};
+}
+
+/// The ground run must be the lowest of the track.
+std::optional<Fault> groundLineFault(const VehicleSpec& s) {
+  const double ground = s.groundPinHeight();
+  const auto above = [&](const char* name, double pins) {
+    return Fault{
+        {wheelZ(s), wheelRadius(s)},
+        fmt::format("[m] puts the ground run's pins at z = {:.4f} m, {:.1f} mm above the lowest pins on the {}", ground,
+                    1e3 * (ground - pins), name),
+        ""};
+  };
+  if (ground >= -s.sprocketPinRadius()) return above("sprocket", -s.sprocketPinRadius());
+  if (ground >= s.idler.z - s.idlerPinRadius()) return above("idler", s.idler.z - s.idlerPinRadius());
+  const double pivot = s.roadWheel.z + s.arm.length * base::sin(s.arm.pivotAngle);
+  if (const double under = ground + s.shoe.plateTop - pivot; under >= 0)
+    return Fault{
+        {knob("arm", "pivot_angle", s.arm.pivotAngle, 0.05, [](VehicleSpec& v, double a) { v.arm.pivotAngle = a; })},
+        fmt::format("[rad] puts the arms' pivots {:.1f} mm below the plates of the ground run", 1e3 * under),
+        ""};
+  return {};
+}
+
+/// Gap between a wheel and the plates of a shoe [m]; negative where they overlap.
+double gapToShoe(const VehicleSpec& s, const Wrap& wrap, int shoe, const Wheel& wheel) {
+  const PlanePoint c = wrap.shoeCentre(shoe);
+  const double angle = wrap.shoeAngle(shoe), ax = base::cos(angle), az = base::sin(angle);
+  const double u = (wheel.x - c.x) * ax + (wheel.z - c.z) * az, w = -(wheel.x - c.x) * az + (wheel.z - c.z) * ax;
+  const double du = std::max(std::fabs(u) - s.shoe.halfLength, 0.0);
+  const double dw = std::max({w - s.shoe.plateTop, s.shoe.padBottom - w, 0.0});
+  if (du > 0 || dw > 0) return std::sqrt(du * du + dw * dw) - wheel.radius;
+  return -wheel.radius - std::min(s.shoe.plateTop - w, w - s.shoe.padBottom);
+}
+
+bool insideLoop(const Wrap& wrap, double x, double z) {
+  bool inside = false;
+  for (std::size_t i = 0; i < wrap.pins.size(); ++i) {
+    const PlanePoint a = wrap.pins[i], b = wrap.pins[(i + 1) % wrap.pins.size()];
+    if ((a.z > z) != (b.z > z) && x < a.x + (z - a.z) / (b.z - a.z) * (b.x - a.x)) inside = !inside;
+  }
+  return inside;
+}
+
+/// Wheels against the shoes of the closed loop.
+std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
+  using Kind = Wheel::Kind;
+  if (auto fault = overlapOfWheels(s, wrap.idlerX + s.idler.slideMin, " at the idler's rear stop")) return fault;
+  for (const Wheel& wheel : wheelsOf(s, wrap.idlerX)) {
+    if (wheel.kind == Kind::sprocket) continue; // it meets the pins' bosses alone
+    const std::vector<Knob> knobs =
+        wheel.kind == Kind::roller
+            ? std::vector{ofRoller(s, "z", wheel.number), rollerRadius(s), ofRoller(s, "x", wheel.number)}
+        : wheel.kind == Kind::road ? std::vector{firstX(s), spacing(s), wheelRadius(s), wheelZ(s)}
+                                   : std::vector{idlerX(s), idlerRadius(s)};
+    if (!insideLoop(wrap, wheel.x, wheel.z))
+      return Fault{knobs, fmt::format("puts the axle of {} outside the loop of the shoes", wheel.name()), ""};
+    for (int i = 0; i < s.shoe.count; ++i)
+      if (const double overlap = -gapToShoe(s, wrap, i, wheel); overlap > kTouch)
+        return Fault{knobs, fmt::format("makes {} and shoe {} overlap by {:.1f} mm", wheel.name(), i, 1e3 * overlap),
+                     ""};
+  }
+  return {};
+}
+
+/// Hull on its springs, and where its weight lies.
+std::optional<Fault> suspensionFault(const VehicleSpec& s) {
+  const double last = s.roadWheel.firstX + s.roadWheel.spacing * (s.roadWheel.count - 1);
+  const Vec3d c = s.chassis.centre;
+  const Fault tips{{knob("chassis", "centre", 0, 0, {})}, "", ""};
+  if (c.x <= s.roadWheel.firstX || c.x >= last) {
+    Fault f = tips;
+    const double beyond = c.x >= last ? c.x - last : s.roadWheel.firstX - c.x;
+    f.what = fmt::format("[m] lies {:.1f} mm {} all road wheels, so that the vehicle tips over", 1e3 * beyond,
+                         c.x >= last ? "ahead of" : "behind");
+    f.advice = fmt::format("choose its x in ({:.4f}, {:.4f})", s.roadWheel.firstX, last);
+    return f;
+  }
+  if (const double beside = std::fabs(c.y) - s.trackOffset; beside >= 0) {
+    Fault f = tips;
+    f.what = fmt::format("[m] lies {:.1f} mm beside both tracks, so that the vehicle tips over", 1e3 * beside);
+    f.advice = fmt::format("choose its y in ({:g}, {:g})", -s.trackOffset, s.trackOffset);
+    return f;
+  }
+  const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
+  const double lever = s.arm.length * base::cos(s.arm.pivotAngle);
+  const double turn = (load - s.arm.preload) * lever; // [N m] that the bar must take beyond its preload
+  constexpr double kMostTurn = 0.5;                   // [rad] until the arm hangs or stands steep
+  if (std::fabs(turn) <= kMostTurn * s.arm.stiffness && s.arm.stiffness > 0) return {};
+  const bool soft = load * lever > kMostTurn * s.arm.stiffness;
+  Fault f;
+  if (soft) {
+    f.knobs = {knob("arm", "stiffness", 0, 0, {})};
+    f.what = fmt::format(
+        "[N m/rad] lets the hull sink by {:.0f} mm on its arms under {:.0f} N a wheel",
+        s.arm.stiffness > 0 ? 1e3 * lever * std::min(1.0, std::fabs(turn) / s.arm.stiffness) : 1e3 * lever, load);
+    f.advice = fmt::format("set arm.stiffness = {:.0f}", std::ceil(std::max(load, s.arm.preload) * lever / 0.15));
+  } else {
+    f.knobs = {knob("arm", "preload", 0, 0, {})};
+    f.what = fmt::format("[N] lifts the hull by {:.0f} mm on its arms, for {:.0f} N weigh on a wheel",
+                         1e3 * lever * std::min(1.0, std::fabs(turn) / s.arm.stiffness), load);
+    f.advice = fmt::format("set arm.preload = {:.0f}", load);
+  }
+  return f;
+}
+
+/// The tensioner's spring pushes the idler forward, between its stops.
+std::optional<Fault> tensionFault(const VehicleSpec& s) {
+  const double weight = s.totalMass() * kGravity, tenth = std::floor(0.2 * weight);
+  const Fault preload{{knob("idler", "preload", 0, 0, {})}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
+  if (s.idler.preload <= 0) {
+    Fault f = preload;
+    f.what = "[N] leaves the track slack, and teeth jump; a tenth of the weight in each strand is usual";
+    return f;
+  }
+  if (s.idler.preload > 2 * weight) {
+    Fault f = preload;
+    f.what = fmt::format("[N] stretches each strand by more than the vehicle's weight of {:.0f} N; it must be in (0, "
+                         "{:.0f}], a tenth of the weight in each strand is usual",
+                         weight, 2 * weight);
+    return f;
+  }
+  if (const double travel = s.idler.preload / s.idler.stiffness; travel > 0.5 * s.idler.x)
+    return Fault{{knob("idler", "stiffness", 0, 0, {})},
+                 fmt::format("[N/m] must be pressed by {:.0f} mm to give idler.preload = {:g} N, and the track is "
+                             "{:.0f} mm long",
+                             1e3 * travel, s.idler.preload, 1e3 * s.idler.x),
+                 fmt::format("set idler.stiffness = {:.0f}", std::ceil(s.idler.preload / 0.03))};
+  if (s.idler.slideMax <= 0)
+    return Fault{{knob("idler", "slide_max", 0, 0, {})},
+                 "[m] holds the idler at its front stop, where no spring can tighten the track",
+                 "set idler.slide_max = 0.025"};
+  return {};
+}
+
+std::optional<Fault> firstFault(const VehicleSpec& s) {
+  if (auto fault = shoeFault(s)) return fault;
+  if (auto fault = overlapOfWheels(s, s.idler.x, "")) return fault;
+  if (auto fault = groundLineFault(s)) return fault;
+  if (auto fault = tensionFault(s)) return fault;
+  const std::optional<Wrap> wrap = findWrap(s);
+  if (!wrap) return Fault{{knob("shoe", "count", s.shoe.count, 1, {})}, "", "", true};
+  if (auto fault = loopFault(s, *wrap)) return fault;
+  return suspensionFault(s);
+}
+
+/// "0.385": the value of a key nearest to its own, in fine steps and then in coarse ones, with which the vehicle has no
+/// fault at all; empty: none.
+std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
+  constexpr int kFine = 80, kCoarse = 80, kRatio = 10;
+  const double from = std::floor(k.value / k.step + 0.5) * k.step;
+  for (int i = 0; i <= 2 * (kFine + kCoarse); ++i) {
+    const int n = (i + 1) / 2;
+    const double away = (n <= kFine ? n : kFine + kRatio * (n - kFine)) * k.step;
+    const double value = from + (i % 2 == 1 ? -away : away);
+    const bool place = k.key == "x" || k.key == "z" || k.key == "slide_min" || k.key == "pivot_angle";
+    if (!place && value < 0.5 * k.step) continue; // a length stays positive
+    // As it will be read from the file.
+    std::string text = fmt::format("{:.6g}", std::floor(1e9 * value + 0.5) / 1e9);
+    VehicleSpec other = spec;
+    k.set(other, std::strtod(text.c_str(), nullptr));
+    if (!firstFault(other)) return text;
+  }
+  return "";
+}
+
+/// Says what mends a fault, at the key that does.
+SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
+  const Knob& first = fault.knobs.front();
+  if (!fault.advice.empty()) return {first.section, first.key, fault.what + "; " + fault.advice};
+  std::string names;
+  for (const Knob& k : fault.knobs) {
+    if (const std::string value = mendingValue(spec, k); !value.empty())
+      return {k.section, k.key, fmt::format("{}; set {} = {}", fault.what, k.name, value)};
+    names += (names.empty() ? "" : ", ") + k.name;
+  }
+  return {first.section, first.key, fmt::format("{}; no other value of {} alone mends it", fault.what, names)};
+}
+
+} // namespace
+
+std::optional<SpecFault> runningGearFault(const VehicleSpec& spec) {
+  std::optional<Fault> fault = firstFault(spec);
+  if (!fault) return {};
+  if (fault->closure) {
+    const ClosureFault open = closureFault(spec, [](const VehicleSpec& other) { return !firstFault(other); });
+    fault->what = "[-]: " + open.gap, fault->advice = open.advice;
+    if (fault->advice.empty()) {
+      const SpecFault other = withAdvice(spec, {{idlerZ(spec), wheelZ(spec), pitch(spec), teeth(spec)}, "", ""});
+      fault->advice = other.message.substr(2);
+    }
+  }
+  return withAdvice(spec, *fault);
+}
+
+} // namespace grouser::vehicle
