@@ -156,9 +156,11 @@ std::string planText(const scene::Scene& scene) {
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {:.4g} s or less\n",
                         contact / step, resolved);
-  if (!scene.mechanism.empty())
+  if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);
+    if (const std::string note = setup::springStepNote(scene); !note.empty()) text += fmt::format("\nnote: {}\n", note);
+  }
   return text;
 }
 

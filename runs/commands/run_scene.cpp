@@ -254,9 +254,12 @@ output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
                                        options.resume->string(), begin, total));
   const double prepared = since(start);
   describeBuild(simulation, exec, beds ? &*beds : nullptr);
-  if (simulation.mechanism() && !former && comm.first())
+  if (simulation.mechanism() && !former && comm.first()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, setup.timeStep); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
+    if (const std::string note = setup::springStepNote(scene); !note.empty())
+      fmt::print(stderr, "grouser: note: {}\n", note);
+  }
 
   Recorder recorder(simulation, options, exec, former.get(), total);
   Checkpoints checkpoints(provenance, options);

@@ -27,6 +27,11 @@ Table<RunSettings> runTable() {
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
+  t.add("steps_per_period", &S::stepsPerPeriod, "-",
+        "fewest steps in a period, turn or ramp of drives and moving surfaces, between two times of a table, and in a "
+        "turn of a body: fewer are refused, and a turn that becomes too quick ends the run")
+      .atLeast(2)
+      .atMost(1e6);
   t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);
   t.add("output_interval", &S::outputInterval, "s", "between rows of the time series").above(0);
   t.add("frame_interval", &S::frameInterval, "s", "between frames for ParaView").above(0);

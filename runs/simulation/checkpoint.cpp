@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 4; // of the layout below
+constexpr int kVersion = 5; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -48,6 +48,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);
+    archive("/mechanism/judged", s.mechanism->judged);
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;
