@@ -34,8 +34,9 @@ void addTable(std::vector<TimeScale>& scales, const std::vector<double>& times, 
   for (std::size_t i = 1; i < times.size() && times[i - 1] < end; ++i)
     if (const double gap = times[i] - times[i - 1]; gap > 0 && gap < smallest) smallest = gap, at = i;
   if (at == 0) return;
-  scales.push_back(
-      {smallest, false, fmt::format("the {:.4g} s from {:.9g} to {:.9g} s", smallest, times[at - 1], times[at]), "s", fail});
+  scales.push_back({smallest, false,
+                    fmt::format("the {:.4g} s from {:.9g} to {:.9g} s", smallest, times[at - 1], times[at]), "s",
+                    fail});
 }
 
 void addPeriod(std::vector<TimeScale>& scales, double time, const char* what, const char* unit, const Fail& fail) {
@@ -119,11 +120,12 @@ void checkTimeScales(const scene::Scene& scene, double timeStep) {
   for (const TimeScale& s : timeScales(scene)) {
     const double steps = s.time / timeStep;
     if (steps >= wanted * (1 - kDigits)) continue;
-    s.fail(fmt::format("[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = {:g}, "
-                       "and show another course than the one that is meant; set run.time_step to {} s or less (\"auto\" "
-                       "does){}, or lower run.steps_per_period if you mean it",
-                       s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted, atMost(s.time / wanted),
-                       s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
+    s.fail(fmt::format(
+        "[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = {:g}, "
+        "and show another course than the one that is meant; set run.time_step to {} s or less (\"auto\" "
+        "does){}, or lower run.steps_per_period if you mean it",
+        s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted, atMost(s.time / wanted),
+        s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
   }
 }
 
