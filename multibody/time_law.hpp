@@ -39,8 +39,8 @@ struct TimeLaw {
   static TimeLaw constant(double value) { return {{value}, {}, {}, {}}; }
 };
 
-/// The first entry of a table's times that is not above the one before, 0 if there is none. With `jumps` a time may stand
-/// twice: the value jumps there, from the first of the two to the second.
+/// The first entry of a table's times that is not above the one before, 0 if there is none. With `jumps` a time may
+/// stand twice: the value jumps there, from the first of the two to the second.
 inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const bool jump = jumps && times[i] == times[i - 1] && !(i > 1 && times[i - 1] == times[i - 2]);

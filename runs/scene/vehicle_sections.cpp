@@ -63,7 +63,9 @@ Table<Driver> driverTable() {
 Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
-  t.add("time", &S::time, "s", "from the start of the drive, increasing; a time given twice is a jump").atLeast(0).required();
+  t.add("time", &S::time, "s", "from the start of the drive, increasing; a time given twice is a jump")
+      .atLeast(0)
+      .required();
   t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
   t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
   return t;

@@ -53,8 +53,9 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give two at least, or value");
   const bool jumps = d.imposes != multibody::DriveKind::kPosition;
   if (const std::size_t i = multibody::firstOutOfOrder(d.time, jumps); i > 0)
-    throw support::SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it{}", i,
-                                                    !jumps && d.time[i] == d.time[i - 1] ? ": a position cannot jump" : ""));
+    throw support::SectionFault("time",
+                                fmt::format("[s] does not increase at entry {}; sort it{}", i,
+                                            !jumps && d.time[i] == d.time[i - 1] ? ": a position cannot jump" : ""));
   // A kink in a position would be a blow.
   (d.imposes == multibody::DriveKind::kPosition ? law.table : law.ramps) = {d.time, d.values};
   if (law.empty())

@@ -76,6 +76,21 @@ AutomaticStep automaticStep(const scene::Scene& scene) {
   return automatic;
 }
 
+/// The largest share of the output interval of which frames and the end of the run are whole numbers too [s]; a
+/// thousandth of it where none is.
+double outputStep(const scene::RunSettings& run) {
+  const auto fits = [](double time, double step) {
+    const double steps = time / step;
+    return std::fabs(steps - std::round(steps)) <= 1e-6;
+  };
+  constexpr int kMostShares = 1000;
+  int shares = 1;
+  while (shares < kMostShares &&
+         !(fits(run.frameInterval, run.outputInterval / shares) && fits(run.duration, run.outputInterval / shares)))
+    ++shares;
+  return run.outputInterval / shares;
+}
+
 /// Throws InputError where a body turns too far in a step at the start.
 void checkTurns(const scene::Scene& scene, const multibody::Model& model, const multibody::State& state, double step) {
   const double most = largestTurn(scene.run);
@@ -95,14 +110,18 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   options.order = run.integratorOrder;
   options.springs = run.springs;
   options.positionTolerance = run.constraintTolerance.value_or(0);
+  options.exactGyroscopics = true;
   // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
   options.startVelocities = multibody::StartVelocities::kAccept;
   return options;
 }
 
 MechanismSetup mechanismSetup(const scene::Scene& scene) {
-  MechanismSetup setup{buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}};
+  MechanismSetup setup{
+      buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}, {}};
   for (const scene::BodySection& body : scene.mechanism.bodies) setup.boxes.push_back(body.box);
+  if (scene.run.tolerance)
+    setup.control = {*scene.run.tolerance, kLongestStep, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod)};
   return setup;
 }
 
@@ -116,6 +135,7 @@ double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multi
 }
 
 double mechanismTimeStep(const scene::Scene& scene) {
+  if (scene.run.tolerance) return outputStep(scene.run);
   const double step = scene.run.timeStep ? *scene.run.timeStep : automaticStep(scene).step;
   checkTimeScales(scene, step);
   Start trial(scene);
@@ -130,7 +150,7 @@ double mechanismTimeStep(const scene::Scene& scene) {
 }
 
 std::string springStepNote(const scene::Scene& scene) {
-  if (scene.run.timeStep) return "";
+  if (scene.run.timeStep || scene.run.tolerance) return "";
   const AutomaticStep a = automaticStep(scene);
   const double steps = scene.run.duration / a.step;
   if (steps < kManySteps || a.withoutSprings < 2 * a.step) return "";
@@ -152,6 +172,7 @@ std::string springStepNote(const scene::Scene& scene) {
 }
 
 std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep) {
+  if (scene.run.tolerance) return "";
   Start start(scene);
   std::string part;
   const double most =

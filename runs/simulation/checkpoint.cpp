@@ -49,6 +49,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);
     archive("/mechanism/judged", s.mechanism->judged);
+    archive("/mechanism/control", s.mechanism->control);
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;

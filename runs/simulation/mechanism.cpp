@@ -35,6 +35,7 @@ Mechanism::Mechanism(const setup::MechanismSetup& setup, double timeStep)
     : timeStep_(timeStep), largestTurn_(setup.largestTurn), model_(setup.model), state_(multibody::makeState(model_)),
       loads_(multibody::makeLoads(model_)), solver_(model_, setup.solver),
       startBlow_(setup::beginMotion(setup, solver_, state_, loads_)) {
+  if (setup.control) controller_ = std::make_unique<StepController>(*setup.control, setup.largestTurn);
   for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
 }
 
@@ -43,6 +44,12 @@ void Mechanism::fail(const std::string& message) const {
 }
 
 void Mechanism::advance() {
+  if (controller_) {
+    controller_->advance(solver_, state_, loads_, static_cast<double>(steps_ + 1) * timeStep_,
+                         [this] { watchDrift(); });
+    ++steps_;
+    return;
+  }
   try {
     solver_.step(state_, loads_, timeStep_);
   } catch (const base::SimulationError& error) {
@@ -52,12 +59,16 @@ void Mechanism::advance() {
     fail(error.what());
   }
   ++steps_;
+  watchDrift();
+  if (!overTension_) watchTension();
+  if (steps_ % kJudgeInterval == 0) judge();
+}
+
+void Mechanism::watchDrift() {
   const multibody::StepReport& report = solver_.lastStep();
   worst_.position = std::max(worst_.position, report.maxPositionError);
   worst_.iterations = std::max(worst_.iterations, report.iterations);
   worst_.singularSteps += report.singularRows > 0;
-  if (!overTension_) watchTension();
-  if (steps_ % kJudgeInterval == 0) judge();
 }
 
 void Mechanism::judge() {
@@ -65,8 +76,8 @@ void Mechanism::judge() {
   if (overTension_) judgeTension();
 }
 
-/// A body that turns by theta in a step precesses and swings wrongly by about theta^2 / 12 of itself: 0.8 % at a turn in
-/// 20 steps, 5 % at 0.75 rad.
+/// A body that turns by theta in a step precesses and swings wrongly by about theta^2 / 12 of itself: 0.8 % at a turn
+/// in 20 steps, 5 % at 0.75 rad.
 void Mechanism::judgeTurns() const {
   for (std::size_t b = 0; b < state_.twist.size(); ++b) {
     const double rate = norm(state_.twist[b].w), turn = timeStep_ * rate;
@@ -95,9 +106,10 @@ void Mechanism::judgeTension() {
   swingGrowth_ = now;
   for (std::int64_t i = 0; i < kJudgeInterval && swingGrown_ < kMostGrown; ++i) swingGrown_ *= growth;
   if (swingGrown_ < kMostGrown) return;
-  fail(fmt::format("swings across the pull in joints have grown {:g} times and more, since it has stayed above what the "
-                   "step bears, now by {:.3g} of it ({}): {}; set run.time_step to {} s or less",
-                   kMostGrown, r, part, tensionStepWarning_, setup::atMost(0.5 * timeStep_ / r)));
+  fail(fmt::format(
+      "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
+      "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
+      kMostGrown, r, part, tensionStepWarning_, setup::atMost(0.5 * timeStep_ / r)));
 }
 
 /// Growing forces in joints and springs lower the longest stable step. That is noted, and judged from the next
@@ -153,26 +165,34 @@ Mechanism::Drift Mechanism::drift() const {
 }
 
 std::vector<std::uint32_t> MechanismState::words() const {
-  std::vector<std::uint32_t> words(2 * bodies.size());
-  if (!bodies.empty()) std::memcpy(words.data(), bodies.data(), bodies.size() * sizeof(double));
+  std::vector<double> all = bodies;
+  if (!control.empty() && control.front() > 0) all.push_back(control.front());
+  std::vector<std::uint32_t> words(2 * all.size());
+  if (!all.empty()) std::memcpy(words.data(), all.data(), all.size() * sizeof(double));
   return words;
 }
 
 MechanismState Mechanism::save() const {
+  const StepController::Record steps = controller_ ? controller_->record() : StepController::Record{};
   return {state_.save(),
           {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)},
-          {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swingGrowth_, swingGrown_}};
+          {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swingGrowth_, swingGrown_},
+          {steps.next, static_cast<double>(steps.taken), static_cast<double>(steps.rejected), steps.smallest,
+           steps.largest}};
 }
 
 void Mechanism::restore(const MechanismState& saved) {
   state_.restore(saved.bodies);
-  if (saved.worst.size() != 3 || saved.judged.size() != 5)
+  if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5)
     throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
   steps_ = static_cast<std::int64_t>(saved.judged[0]);
   boundedTension_ = saved.judged[1];
   overTension_ = saved.judged[2] != 0, swingGrowth_ = saved.judged[3], swingGrown_ = saved.judged[4];
   if (overTension_) checkTension();
+  const std::vector<double>& c = saved.control;
+  if (controller_)
+    controller_->restore({c[0], static_cast<std::int64_t>(c[1]), static_cast<std::int64_t>(c[2]), c[3], c[4]});
 }
 
 } // namespace grouser::simulation

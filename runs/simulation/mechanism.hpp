@@ -6,8 +6,10 @@
 #include "multibody/state.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/simulation/mechanism_state.hpp"
+#include "runs/simulation/step_controller.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,7 +56,8 @@ public:
   double stableStepUnderTension(std::string* part = nullptr) {
     return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
-  /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs first needed a shorter step, and which; empty: never, nor now.
+  /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs
+  /// first needed a shorter step, and which; empty: never, nor now.
   const std::string& tensionStepWarning();
 
   /// How well the joints are closed.
@@ -67,11 +70,15 @@ public:
   Drift drift() const;
   void restartMeans() { worst_ = {}; }
 
+  /// What its steps were; null where they are fixed.
+  const StepController* controller() const { return controller_.get(); }
+
   MechanismState save() const;
   /// Throws base::InputError where the state is of another mechanism.
   void restore(const MechanismState& saved);
 
 private:
+  void watchDrift();
   void judge();
   void judgeTurns() const;
   void judgeTension();
@@ -93,7 +100,8 @@ private:
   // a step then, and by how much since it first was.
   bool overTension_ = false;
   double swingGrowth_ = 1, swingGrown_ = 1;
-  std::vector<double> startTurn_; ///< of each body in the first step [rad]
+  std::unique_ptr<StepController> controller_; ///< null: fixed steps
+  std::vector<double> startTurn_;              ///< of each body in the first step [rad]
 };
 
 } // namespace grouser::simulation
