@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <sstream>
 
 namespace grouser::multibody {
@@ -70,7 +69,9 @@ struct Solver::Impl {
   double stabilityLimit() const {
     return options.integrator == Integrator::kRattle ? detail::stabilityLimit(options.order) : 2;
   }
+  double highestRate(const State& state, const Loads& loads, std::string* spring);
   double stableStep(const State& state, const Loads& loads, std::string* spring);
+  double stopRate(const State& state, const Loads& loads, std::string* stop);
   double geometricStiffnessRate(const State& state, const Loads& loads, std::string* name);
   void checkDampers(double dt);
   void checkStable(const State& state, const Loads& loads, double dt);
@@ -85,7 +86,6 @@ struct Solver::Impl {
   StepReport last;
   std::unique_ptr<Stepper> stepper;
 
-  long long steps = 0;
   double checkedStep = 0;                   ///< largest step found stable since the last check
   double checkedDampers = 0;                ///< largest step that the dampers allow
   std::vector<AxisLaw> laws;                ///< one an axis
@@ -150,10 +150,10 @@ void Solver::Impl::checkFits(const State& state, const Loads& loads) const {
     throw base::InputError("multibody step: state or loads belong to another model; make them by makeState, makeLoads");
 }
 
-double Solver::Impl::stableStep(const State& state, const Loads& loads, std::string* spring) {
+/// Highest frequency [rad/s] of `stiffness` (one an axis) against the constrained masses.
+double Solver::Impl::highestRate(const State& state, const Loads& loads, std::string* spring) {
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
-  axisStiffness(system, model, loads, stiffness);
   double highest = 0;
   int worst = -1;
   for (const ConstraintSystem::Part& part : system.parts()) {
@@ -163,7 +163,17 @@ double Solver::Impl::stableStep(const State& state, const Loads& loads, std::str
     if (omega2 > highest) highest = omega2, worst = axis;
   }
   if (spring) *spring = worst < 0 ? "" : springName(system, model, worst);
-  return highest > 0 ? stabilityLimit() / std::sqrt(highest) : std::numeric_limits<double>::infinity();
+  return std::sqrt(highest);
+}
+
+double Solver::Impl::stableStep(const State& state, const Loads& loads, std::string* spring) {
+  axisStiffness(system, model, loads, stiffness);
+  return stabilityLimit() / highestRate(state, loads, spring);
+}
+
+double Solver::Impl::stopRate(const State& state, const Loads& loads, std::string* stop) {
+  stopStiffness(system, model, stiffness);
+  return highestRate(state, loads, stop);
 }
 
 double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loads, std::string* name) {
@@ -207,7 +217,8 @@ void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt
   constexpr long long kInterval = 512;
   if (options.integrator != Integrator::kRattle || options.springs != Springs::kExplicit) return;
   if (model.axisSprings().empty() && model.pointSprings().empty() && model.bushings().empty()) return;
-  if (dt <= checkedStep && steps % kInterval != 0) return;
+  // By the clock and not by a count of this solver's own, so that a resumed run looks at the same steps.
+  if (dt <= checkedStep && std::llround(state.time / dt) % kInterval != 0) return;
   std::string spring;
   const double limit = stableStep(state, loads, &spring);
   if (!(dt < limit)) {
@@ -235,7 +246,6 @@ void Solver::step(State& state, const Loads& loads, double dt) {
   s.last = {};
   if (state.ledger.begun == 0) beginLedger(s.model, state, loads);
   s.stepper->step(state, loads, dt);
-  ++s.steps;
 }
 
 double Solver::projectVelocities(State& state, const Loads& loads) {
@@ -260,6 +270,11 @@ double Solver::projectVelocities(State& state, const Loads& loads) {
 double Solver::stableStep(const State& state, const Loads& loads, std::string* spring) {
   impl_->checkFits(state, loads);
   return impl_->stableStep(state, loads, spring);
+}
+
+double Solver::stopRate(const State& state, const Loads& loads, std::string* stop) {
+  impl_->checkFits(state, loads);
+  return impl_->stopRate(state, loads, stop);
 }
 
 double Solver::geometricStiffnessRate(const State& state, const Loads& loads, std::string* part) {

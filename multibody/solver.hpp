@@ -42,6 +42,11 @@ public:
   /// infinite without springs. `spring`, if given, receives the name of the spring with the greatest part in it.
   double stableStep(const State& state, const Loads& loads, std::string* spring = nullptr);
 
+  /// Highest frequency [rad/s] of the end stops against the constrained masses at a state's poses, as if all of them
+  /// were touched at once; 0 without stops. A bounce off one takes pi over it at least. `stop`, if given, receives the
+  /// name of the one with the greatest part in it.
+  double stopRate(const State& state, const Loads& loads, std::string* stop = nullptr);
+
   /// Fastest rate [rad/s] at which geometric stiffness moves bodies at a state: under tension joints, springs,
   /// couplings and drives let them swing across it, under compression they let them buckle
   /// (detail/geometric_stiffness.hpp). All schemes need dt < stabilityLimit() / rate; beyond that a swing grows. 0

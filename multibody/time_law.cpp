@@ -47,6 +47,7 @@ template <class F> void forEachPiece(const TimeLaw::Table& t, bool smooth, F f) 
   const std::vector<double> M = smooth ? secondDerivatives(t) : std::vector<double>(n, 0.0);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double h = t.times[i + 1] - t.times[i], slope = (t.values[i + 1] - t.values[i]) / h;
+    if (h == 0) continue; // a jump
     f(Piece{t.times[i], t.times[i + 1], t.values[i], slope - h * (2 * M[i] + M[i + 1]) / 6, M[i] / 2,
             (M[i + 1] - M[i]) / (6 * h)});
   }
@@ -77,7 +78,7 @@ double tableIntegral(const TimeLaw::Table& table, bool smooth, double t) {
   return t < 0 ? -sum : sum;
 }
 
-void checkTable(const std::string& what, const char* key, const TimeLaw::Table& t) {
+void checkTable(const std::string& what, const char* key, const TimeLaw::Table& t, bool jumps) {
   if (t.times.empty() && t.values.empty()) return;
   if (t.times.size() != t.values.size() || t.times.size() < 2)
     throw base::InputError(what + ": " + key + " has " + std::to_string(t.times.size()) + " times and " +
@@ -85,10 +86,10 @@ void checkTable(const std::string& what, const char* key, const TimeLaw::Table& 
   for (std::size_t i = 0; i < t.times.size(); ++i) {
     if (!std::isfinite(t.times[i]) || !std::isfinite(t.values[i]))
       throw base::InputError(what + ": " + key + " has an entry that is not a finite number");
-    if (i > 0 && !(t.times[i] > t.times[i - 1]))
-      throw base::InputError(what + ": the times of its " + key + " must increase, but " + std::to_string(t.times[i]) +
-                             " s follows " + std::to_string(t.times[i - 1]) + " s");
   }
+  if (const std::size_t i = firstOutOfOrder(t.times, jumps); i > 0)
+    throw base::InputError(what + ": the times of its " + key + " must increase, but " + std::to_string(t.times[i]) +
+                           " s follows " + std::to_string(t.times[i - 1]) + " s");
 }
 
 } // namespace
@@ -155,8 +156,8 @@ void checkTimeLaw(const char* what, const TimeLaw& law) {
   for (const TimeLaw::Harmonic& h : law.harmonics)
     if (!std::isfinite(h.amplitude) || !std::isfinite(h.frequency) || !std::isfinite(h.phase))
       throw base::InputError(name + ": amplitude, frequency or phase of a harmonic is not a finite number");
-  checkTable(name, "table", law.table);
-  checkTable(name, "ramps", law.ramps);
+  checkTable(name, "table", law.table, false);
+  checkTable(name, "ramps", law.ramps, true);
 }
 
 } // namespace grouser::multibody

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace grouser::multibody {
@@ -10,7 +11,8 @@ namespace grouser::multibody {
 ///   harmonics     amplitude sin(frequency t + phase)
 ///   table         cubic spline through (times, values) that begins and ends at rest; before the first and after the
 ///                 last time the value stays: the rate never jumps. It may overshoot between unequal steps.
-///   ramps         straight lines through (times, values), constant outside: for speeds and forces
+///   ramps         straight lines through (times, values), constant outside: for speeds and forces. A time given twice
+///                 is a jump, at which the first of its two values holds.
 /// What is left empty counts 0. Evaluated by base/math.hpp: the same bits on any machine.
 struct TimeLaw {
   struct Harmonic {
@@ -19,7 +21,7 @@ struct TimeLaw {
     double phase = 0;     ///< [rad]
   };
   struct Table {
-    std::vector<double> times;  ///< [s], increasing
+    std::vector<double> times;  ///< [s], increasing, of ramps with jumps
     std::vector<double> values; ///< as many
   };
 
@@ -36,6 +38,16 @@ struct TimeLaw {
 
   static TimeLaw constant(double value) { return {{value}, {}, {}, {}}; }
 };
+
+/// The first entry of a table's times that is not above the one before, 0 if there is none. With `jumps` a time may
+/// stand twice: the value jumps there, from the first of the two to the second.
+inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps) {
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const bool jump = jumps && times[i] == times[i - 1] && !(i > 1 && times[i - 1] == times[i - 2]);
+    if (!(times[i] > times[i - 1]) && !jump) return i;
+  }
+  return 0;
+}
 
 /// Throws base::InputError naming `what` if a number is not finite, a table's times do not increase, or a table has
 /// fewer than two points or not as many values as times.

@@ -12,7 +12,7 @@ namespace grouser::vehicle {
 /// Forward is positive: a turn about +y takes the top of the sprocket to +x and its bottom to -x, so that the ground
 /// run moves back under the hull.
 struct SpeedTable {
-  std::vector<double> time;  ///< [s] from the begin of the drive, strictly rising
+  std::vector<double> time;  ///< [s] from the begin of the drive, rising; a time given twice is a jump
   std::vector<double> left;  ///< [rad/s]
   std::vector<double> right; ///< [rad/s]
 };

@@ -18,8 +18,9 @@ constexpr std::size_t kWidth = kLanes;
 constexpr Vector6 kStill{};
 
 /// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration; below, the iteration itself converges.
-constexpr double kFastSpin = 0.3;
+/// Newton's method within the iteration; below, the iteration itself converges. The second where it shall be exact, as
+/// in RATTLE.
+constexpr double kFastSpin = 0.3, kAnySpin = 1e-7;
 
 GROUSER_SIMD Vec3L axisForce(const LinkLanes& b, int a) { return b.rows.force[at(b.axisRow[at(a)])]; }
 GROUSER_SIMD Vec3L axisTorque(const LinkLanes& b, int a) { return b.rows.torque[at(b.axisRow[at(a)])]; }
@@ -177,6 +178,7 @@ void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int
 
 /// Takes the corrections into twists and impulses.
 GROUSER_SIMD_CLONES void EulerStep::correctLinks(double dt) {
+  const double fastSpin = options_.exactGyroscopics ? kAnySpin : kFastSpin;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& b = system_.links()[i];
     LinkStep& s = steps_[i];
@@ -184,7 +186,7 @@ GROUSER_SIMD_CLONES void EulerStep::correctLinks(double dt) {
     gatherNode(x_, b.node, 0, d);
     s.v += Vec3L{d[0], d[1], d[2]};
     s.w += Vec3L{d[3], d[4], d[5]};
-    const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > kFastSpin;
+    const LaneMask fast = all(dt) * squareRoot(norm2(s.w)) * s.spread > fastSpin;
     if (__builtin_expect(base::any(fast), 0))
       for (int l = 0; l < kLanes; ++l)
         if (fast[l] && !relinearised_) solveAngularVelocity(system_.inertiaOf(i), s, l, dt);

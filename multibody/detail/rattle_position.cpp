@@ -63,10 +63,13 @@ bool RattleStep::updateAxes(const Part& part, double h) {
       AxisLaw& law = laws_[at(a)];
       const double size = system_.rowSize(k, row);
       double now = 0.5 * h * h * meanForce(a, h).slope;
-      if (law.inverseCompliance != 0 && std::fabs(now) * size < kLeastInverseCompliance)
+      if ((law.inverseCompliance != 0 || now != 0) && std::fabs(now) * size < kLeastInverseCompliance)
         now = kLeastInverseCompliance / size;
-      if (std::fabs(now - law.inverseCompliance) * size <=
-          kComplianceChange * (1 + std::fabs(law.inverseCompliance) * size))
+      // What begins to touch within the stage must get an unknown of its own however soft it is: else the stop would
+      // hold energy that no force has taken out.
+      const bool begins = law.inverseCompliance == 0 && now != 0;
+      if (!begins && std::fabs(now - law.inverseCompliance) * size <=
+                         kComplianceChange * (1 + std::fabs(law.inverseCompliance) * size))
         continue;
       law.inverseCompliance = now;
       follow = true;

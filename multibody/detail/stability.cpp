@@ -21,6 +21,13 @@ void axisStiffness(const ConstraintSystem& system, const Model& model, const Loa
   }
 }
 
+void stopStiffness(const ConstraintSystem& system, const Model& model, std::vector<double>& stiffness) {
+  std::fill(stiffness.begin(), stiffness.end(), 0.0);
+  for (const AxisSpring& spring : model.axisSprings())
+    if (std::isfinite(spring.lowerLimit) || std::isfinite(spring.upperLimit))
+      stiffness[at(system.axisOf(spring.joint, spring.axis))] += spring.stopStiffness;
+}
+
 void axisDamping(const ConstraintSystem& system, const Model& model, std::vector<double>& damping) {
   for (std::size_t a = 0; a < damping.size(); ++a) damping[a] = ownDamping(system, model, system.axes()[a]);
   for (const AxisSpring& spring : model.axisSprings())

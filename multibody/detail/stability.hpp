@@ -18,6 +18,9 @@ double highestFrequency(const ConstraintSystem& system, const ConstraintSystem::
 void axisStiffness(const ConstraintSystem& system, const Model& model, const Loads& loads,
                    std::vector<double>& stiffness);
 
+/// Stiffness of the end stops, one an axis.
+void stopStiffness(const ConstraintSystem& system, const Model& model, std::vector<double>& stiffness);
+
 /// Damping of joints, springs (the greater of damper and stops) and bushings, one an axis.
 void axisDamping(const ConstraintSystem& system, const Model& model, std::vector<double>& damping);
 

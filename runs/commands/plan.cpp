@@ -153,18 +153,24 @@ std::string planText(const scene::Scene& scene) {
                         setup::kStepsPerContact);
   }
   const double steps = std::round(scene.run.duration / step);
-  text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
-                      contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
-  text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
+  if (scene.run.tolerance) {
+    text += fmt::format("  {:<24} as the error allows, {:g} m or rad a second\n", "time step", *scene.run.tolerance);
+  } else {
+    text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
+                        contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
+    text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
+  }
   if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
   if (grains) text += costText(scene, steps * static_cast<double>(grains));
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));
   for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
-  if (!scene.mechanism.empty())
+  if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);
+    if (const std::string note = setup::springStepNote(scene); !note.empty()) text += fmt::format("\nnote: {}\n", note);
+  }
   return text;
 }
 

@@ -301,6 +301,18 @@ void describeLedger(simulation::Simulation& simulation) {
                l.impulseResidual.z);
 }
 
+/// What steps an error chose.
+void describeSteps(const simulation::Mechanism& mechanism, output::Summary& summary) {
+  if (!mechanism.controller()) return;
+  const simulation::StepController::Record& r = mechanism.controller()->record();
+  fmt::print("steps     {} of {:.3g} to {:.3g} s of the mechanism's own, {} stretches done again\n", r.taken,
+             r.smallest, r.largest, r.rejected);
+  summary.figures["mechanism_steps"] = static_cast<double>(r.taken);
+  summary.figures["mechanism_stretches_rejected"] = static_cast<double>(r.rejected);
+  summary.figures["mechanism_step_smallest_s"] = r.smallest;
+  summary.figures["mechanism_step_largest_s"] = r.largest;
+}
+
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options, bool& hasFolder) {
   const Clock::time_point start = Clock::now();
@@ -328,9 +340,12 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
   if (!former && comm.first())
     for (const std::string& warning : setup::vehicleWarnings(scene))
       fmt::print(stderr, "grouser: warning: {}\n", warning);
-  if (simulation.mechanism() && !former && comm.first())
+  if (simulation.mechanism() && !former && comm.first()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, setup.timeStep); !warning.empty())
       fmt::print(stderr, "grouser: warning: {}\n", warning);
+    if (const std::string note = setup::springStepNote(scene); !note.empty())
+      fmt::print(stderr, "grouser: note: {}\n", note);
+  }
 
   Recorder recorder(simulation, options, exec, former.get(), total);
   hasFolder = true;
@@ -359,6 +374,7 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
     describeLedger(simulation);
     fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
                simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"]);
+    if (simulation.mechanism()) describeSteps(*simulation.mechanism(), summary);
     describeSharing(simulation, waiting, summary);
     recorder.writer().finish(summary);
   });

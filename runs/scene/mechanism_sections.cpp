@@ -111,7 +111,7 @@ Table<DriveSection> driveTable() {
   t.add("amplitude", &S::amplitude, "as value", "of a sine");
   t.add("frequency", &S::frequency, "Hz", "of that sine").atLeast(0).atMost(1e6);
   t.add("phase", &S::phase, "deg", "of that sine at t = 0").atLeast(-3600).atMost(3600);
-  t.add("time", &S::time, "s", "increasing; of the table").atLeast(0);
+  t.add("time", &S::time, "s", "increasing; of the table; a time given twice is a jump, but for a position").atLeast(0);
   t.add("values", &S::values, "as value",
         "of the table: straight between its times for speed and torque, a smooth spline from rest to rest for a "
         "position; constant "

@@ -27,6 +27,17 @@ Table<RunSettings> runTable() {
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
+  t.add("tolerance", &S::tolerance, "m/s or rad/s",
+        "instead of time_step, of mechanisms with rattle of order 2 and implicit springs: steps are as long as the "
+        "error "
+        "allows that they add to the place and turn of any body, this much a second")
+      .atLeast(1e-12)
+      .atMost(1);
+  t.add("steps_per_period", &S::stepsPerPeriod, "-",
+        "fewest steps in a period, turn or ramp of drives and moving surfaces, between two times of a table, and in a "
+        "turn of a body: fewer are refused, and a turn that becomes too quick ends the run")
+      .atLeast(2)
+      .atMost(1e6);
   t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);
   t.add("output_interval", &S::outputInterval, "s", "between rows of the time series").above(0);
   t.add("frame_interval", &S::frameInterval, "s", "between frames for ParaView").above(0);
@@ -88,7 +99,19 @@ void checkOrder(const Section& run, const RunSettings& settings) {
     run.fail("integrator_order", "[-] is none of 2, 4, 6, 8; choose one of these");
 }
 
-void checkRun(const Section& section, RunSettings& run, const Scene&) {
+void checkTolerance(const Section& section, const RunSettings& run, const Scene& scene) {
+  if (!run.tolerance) return;
+  if (run.timeStep) section.fail("tolerance", "[m/s or rad/s] stands beside time_step; keep one of the two");
+  if (!scene.document->root().has("body"))
+    section.fail("tolerance", "[m/s or rad/s] is of mechanisms alone: grains and vehicles take fixed steps; remove it");
+  if (run.integrator != multibody::Integrator::kRattle || run.integratorOrder != 2)
+    section.fail("tolerance", "[m/s or rad/s] needs integrator = \"rattle\" with integrator_order = 2; choose these");
+  if (run.springs != multibody::Springs::kImplicit)
+    section.fail("tolerance", "[m/s or rad/s] needs springs = \"implicit\", since steps may grow; choose that");
+}
+
+void checkRun(const Section& section, RunSettings& run, const Scene& scene) {
+  checkTolerance(section, run, scene);
   checkIntervals(section, run);
   checkOrder(section, run);
 }

@@ -32,8 +32,11 @@ struct Fraction {
 
 /// [run]
 struct RunSettings {
-  double duration = 0;            ///< [s] after the bed has settled
-  std::optional<double> timeStep; ///< [s]; empty: chosen by setup::chooseTimeStep()
+  double duration = 0;             ///< [s] after the bed has settled
+  std::optional<double> timeStep;  ///< [s]; empty: chosen by setup::chooseTimeStep()
+  std::optional<double> tolerance; ///< [m/s, rad/s] of error-controlled steps of a mechanism; empty: fixed steps
+  double stepsPerPeriod =
+      20; ///< [-] least in a period, turn or gap of what is prescribed over time, and in a body's turn
   base::Vec3d gravity{0, 0, -9.81};
   double outputInterval = 0.02;
   double frameInterval = 0.1;

@@ -4,6 +4,8 @@
 
 #include "runs/scene/detail/section_checks.hpp"
 
+#include "multibody/time_law.hpp"
+
 #include <fmt/format.h>
 
 namespace grouser::scene::detail {
@@ -76,7 +78,10 @@ Table<Driver> driverTable() {
 Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
-  t.add("time", &S::time, "s", "from the start of the drive (drive_start), increasing").atLeast(0).required();
+  t.add("time", &S::time, "s",
+        "from the start of the drive (drive_start), increasing; a time given twice is a jump")
+      .atLeast(0)
+      .required();
   t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
   t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
   return t;
@@ -114,9 +119,8 @@ void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) {
   if (table.left.size() != n || table.right.size() != n)
     section.fail(table.left.size() != n ? "left" : "right",
                  fmt::format("[rad/s] has another length than time, which has {}; make all three alike", n));
-  for (std::size_t i = 1; i < n; ++i)
-    if (!(table.time[i] > table.time[i - 1]))
-      section.fail("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+  if (const std::size_t i = multibody::firstOutOfOrder(table.time, true); i > 0)
+    section.fail("time", fmt::format("[s] does not increase at entry {}; sort it", i));
 }
 
 bool hasVehicle(const Scene& scene) { return scene.vehicle.has_value(); }

@@ -51,9 +51,11 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
     throw support::SectionFault(
         "values", fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
   if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give two at least, or value");
-  for (std::size_t i = 1; i < d.time.size(); ++i)
-    if (!(d.time[i] > d.time[i - 1]))
-      throw support::SectionFault("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+  const bool jumps = d.imposes != multibody::DriveKind::kPosition;
+  if (const std::size_t i = multibody::firstOutOfOrder(d.time, jumps); i > 0)
+    throw support::SectionFault("time",
+                                fmt::format("[s] does not increase at entry {}; sort it{}", i,
+                                            !jumps && d.time[i] == d.time[i - 1] ? ": a position cannot jump" : ""));
   // A kink in a position would be a blow.
   (d.imposes == multibody::DriveKind::kPosition ? law.table : law.ramps) = {d.time, d.values};
   if (law.empty())

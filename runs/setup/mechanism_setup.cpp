@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/setup/mechanism_model.hpp"
+#include "runs/setup/time_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,10 @@ constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
 /// The same of swings on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves room for
 /// forty times the tension of the start [-].
 constexpr double kStepsPerTensionSwing = 20;
+/// The same of the half swing that a bounce off an end stop lasts, as of a contact of grains [-].
+constexpr double kStepsPerBounce = 20;
+/// Steps from which on it is worth saying that a spring alone asks for so many [-].
+constexpr double kManySteps = 1e6;
 /// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
 constexpr double kRoundedRate = 1e-12;
 
@@ -29,7 +34,11 @@ struct Start {
     beginMotion(setup, solver, state, loads);
   }
   /// Shortest period of all springs and bushings against the masses [s]; infinite without any.
-  double shortestSwing() { return 2 * base::kPi / solver.stabilityLimit() * solver.stableStep(state, loads); }
+  double shortestSwing(std::string* spring) {
+    return 2 * base::kPi / solver.stabilityLimit() * solver.stableStep(state, loads, spring);
+  }
+  /// How long a bounce off an end stop lasts at least [s].
+  double shortestBounce() { return base::kPi / solver.stopRate(state, loads); }
   /// The same of bodies that hang on taut joints and springs.
   double shortestTensionSwing() { return 2 * base::kPi / solver.geometricStiffnessRate(state, loads); }
 
@@ -39,14 +48,58 @@ struct Start {
   multibody::Solver solver;
 };
 
-double automaticTimeStep(const scene::Scene& scene) {
+/// The step that "auto" stands for, and what it would be but for springs [s].
+struct AutomaticStep {
+  double step = 0, withoutSprings = 0;
+  double swing = 0;   ///< shortest of the springs [s]
+  std::string spring; ///< "spring 'bar'"
+};
+
+AutomaticStep automaticStep(const scene::Scene& scene) {
   Start start(scene);
-  double shortest = std::min(kStepsPerPeriod * kLongestStep, start.shortestSwing());
-  for (const multibody::Twist& V : start.state.twist) shortest = std::min(shortest, 2 * base::kPi / norm(V.w));
+  double shortest = kStepsPerPeriod * kLongestStep;
+  // Of all of these kStepsPerPeriod steps are taken, or as many as the scene wants.
+  const double ofTurns = std::min(1.0, kStepsPerPeriod / scene.run.stepsPerPeriod);
+  for (const multibody::Twist& V : start.state.twist)
+    shortest = std::min(shortest, ofTurns * 2 * base::kPi / norm(V.w));
+  for (const TimeScale& s : timeScales(scene))
+    shortest = std::min(shortest, s.time * (s.repeats ? ofTurns : kStepsPerPeriod / scene.run.stepsPerPeriod));
   shortest = std::min(shortest, kStepsPerPeriod / kStepsPerTensionSwing * start.shortestTensionSwing());
+  shortest = std::min(shortest, kStepsPerPeriod / kStepsPerBounce * start.shortestBounce());
+  AutomaticStep automatic;
+  automatic.swing = start.shortestSwing(&automatic.spring);
   // Rows fall on whole steps.
   const double row = scene.run.outputInterval;
-  return row / std::ceil(kStepsPerPeriod * row / shortest);
+  const auto shareOfRow = [row](double time) { return row / std::ceil(kStepsPerPeriod * row / time); };
+  automatic.withoutSprings = shareOfRow(shortest);
+  automatic.step = shareOfRow(std::min(shortest, automatic.swing));
+  return automatic;
+}
+
+/// The largest share of the output interval of which frames and the end of the run are whole numbers too [s]; a
+/// thousandth of it where none is.
+double outputStep(const scene::RunSettings& run) {
+  const auto fits = [](double time, double step) {
+    const double steps = time / step;
+    return std::fabs(steps - std::round(steps)) <= 1e-6;
+  };
+  constexpr int kMostShares = 1000;
+  int shares = 1;
+  while (shares < kMostShares &&
+         !(fits(run.frameInterval, run.outputInterval / shares) && fits(run.duration, run.outputInterval / shares)))
+    ++shares;
+  return run.outputInterval / shares;
+}
+
+/// Throws InputError where a body turns too far in a step at the start.
+void checkTurns(const scene::Scene& scene, const multibody::Model& model, const multibody::State& state, double step) {
+  const double most = largestTurn(scene.run);
+  for (std::size_t b = 0; b < state.twist.size(); ++b)
+    if (const double rate = norm(state.twist[b].w); rate * step > most * 1.000001)
+      scene.fail("run", "time_step",
+                 fmt::format("[s] turns body \"{}\" by {:.4g} rad a step at the start, above the {:.4g} rad of "
+                             "run.steps_per_period = {:g} steps a turn: choose {} s or less, or \"auto\"",
+                             model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod, atMost(most / rate)));
 }
 
 } // namespace
@@ -57,14 +110,18 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   options.order = run.integratorOrder;
   options.springs = run.springs;
   options.positionTolerance = run.constraintTolerance.value_or(0);
+  options.exactGyroscopics = true;
   // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
   options.startVelocities = multibody::StartVelocities::kAccept;
   return options;
 }
 
 MechanismSetup mechanismSetup(const scene::Scene& scene) {
-  MechanismSetup setup{buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, {}};
+  MechanismSetup setup{
+      buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}, {}};
   for (const scene::BodySection& body : scene.mechanism.bodies) setup.boxes.push_back(body.box);
+  if (scene.run.tolerance)
+    setup.control = {*scene.run.tolerance, kLongestStep, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod)};
   return setup;
 }
 
@@ -78,8 +135,11 @@ double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multi
 }
 
 double mechanismTimeStep(const scene::Scene& scene) {
-  const double step = scene.run.timeStep ? *scene.run.timeStep : automaticTimeStep(scene);
+  if (scene.run.tolerance) return outputStep(scene.run);
+  const double step = scene.run.timeStep ? *scene.run.timeStep : automaticStep(scene).step;
+  checkTimeScales(scene, step);
   Start trial(scene);
+  checkTurns(scene, trial.setup.model, trial.state, step);
   try {
     trial.solver.step(trial.state, trial.loads, step);
   } catch (const base::InputError& error) {
@@ -89,7 +149,30 @@ double mechanismTimeStep(const scene::Scene& scene) {
   return step;
 }
 
+std::string springStepNote(const scene::Scene& scene) {
+  if (scene.run.timeStep || scene.run.tolerance) return "";
+  const AutomaticStep a = automaticStep(scene);
+  const double steps = scene.run.duration / a.step;
+  if (steps < kManySteps || a.withoutSprings < 2 * a.step) return "";
+  std::string remedy;
+  if (scene.run.integrator == multibody::Integrator::kSymplecticEuler)
+    remedy = fmt::format("symplectic_euler takes springs implicitly: run.time_step = {:.4g} is as stable, and damps "
+                         "that swing",
+                         a.withoutSprings);
+  else if (scene.run.springs == multibody::Springs::kImplicit)
+    remedy = fmt::format("run.springs = \"implicit\" is stable at any step: with run.time_step = {:.4g} all but that "
+                         "swing is resolved, and the spring is a stiff link",
+                         a.withoutSprings);
+  else
+    remedy = fmt::format("run.springs = \"implicit\" allows run.time_step = {:.4g}, with which all but that swing is "
+                         "resolved, and the spring is a stiff link",
+                         a.withoutSprings);
+  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because {} swings in {:.3g} s; {}",
+                     scene.file.string(), a.step, steps, a.spring, a.swing, remedy);
+}
+
 std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep) {
+  if (scene.run.tolerance) return "";
   Start start(scene);
   std::string part;
   const double most =

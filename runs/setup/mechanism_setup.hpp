@@ -11,11 +11,20 @@
 
 namespace grouser::setup {
 
+/// Steps that follow the error.
+struct StepControl {
+  double tolerance = 0; ///< error that steps add a second [m/s, rad/s]
+  double first = 0;     ///< step to begin with [s]
+  double longest = 0;   ///< that drives allow [s]
+};
+
 /// A mechanism as its solver takes it.
 struct MechanismSetup {
   multibody::Model model;
   multibody::SolverOptions solver;
-  base::Vec3d gravity; ///< [m/s2]
+  base::Vec3d gravity;                ///< [m/s2]
+  double largestTurn;                 ///< of a body in a step [rad]
+  std::optional<StepControl> control; ///< empty: fixed steps
   std::vector<std::optional<base::Vec3d>>
       boxes; ///< edges of each body as it is drawn [m]; empty: as its inertia has it
 };
@@ -32,10 +41,16 @@ double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multi
                    multibody::Loads& loads);
 
 /// Step of a mechanism [s]: as the scene says, or the one that "auto" stands for: at the start a hundredth of the
-/// shortest swing of the springs or turn of a body, a twentieth of the shortest swing on taut joints; at most 1 ms, and
-/// a whole share of the output interval. Throws InputError where the integrator cannot take springs and dampers at this
-/// step, which a step shows.
+/// shortest swing of the springs, turn of a body or period of a drive, a twentieth of the shortest swing on taut joints
+/// and of a bounce off an end stop, run.steps_per_period steps of the smallest gap of a table; at most 1 ms, and a
+/// whole share of the output interval. With run.tolerance the time between two places where rows and frames fall, which
+/// steps of the mechanism's own divide. Throws InputError where the integrator cannot take springs and dampers at this
+/// step, which a step shows, or the step does not resolve drives and turns (time_scales.hpp).
 double mechanismTimeStep(const scene::Scene& scene);
+
+/// What is to be said where springs alone make "auto" choose a step that needs a million steps or more: which, and how
+/// to do without. Empty else.
+std::string springStepNote(const scene::Scene& scene);
 
 /// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the
 /// first push. Empty where the step is short enough.

@@ -13,6 +13,7 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/time_scales.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -207,9 +208,11 @@ double chooseTimeStep(const scene::Scene& scene) {
   double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit.step);
   for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
     automatic = std::min(automatic, kRayleighShare * rayleighTimeOf(scene.material(material), radius));
+  automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestStep, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
+  checkTimeScales(scene, *scene.run.timeStep);
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; });
   if (*scene.run.timeStep > limit.step) {

@@ -48,6 +48,8 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);
+    archive("/mechanism/judged", s.mechanism->judged);
+    archive("/mechanism/control", s.mechanism->control);
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "multibody/readings.hpp"
+#include "runs/setup/time_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,36 +22,106 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
 constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
+/// By how much swings across a pull above what the step bears may have grown [-]: what the joints' closure leaves open,
+/// 1e-10 m at most, is then 0.1 mm.
+constexpr double kMostGrown = 1e6;
+
+/// Turns of a step are typed with some digits [-].
+constexpr double kTurnDigits = 1e-6;
+
 } // namespace
 
 Mechanism::Mechanism(const setup::MechanismSetup& setup, double timeStep)
-    : timeStep_(timeStep), model_(setup.model), state_(multibody::makeState(model_)),
+    : timeStep_(timeStep), largestTurn_(setup.largestTurn), model_(setup.model), state_(multibody::makeState(model_)),
       loads_(multibody::makeLoads(model_)), solver_(model_, setup.solver),
-      startBlow_(setup::beginMotion(setup, solver_, state_, loads_)) {}
+      startBlow_(setup::beginMotion(setup, solver_, state_, loads_)) {
+  if (setup.control) controller_ = std::make_unique<StepController>(*setup.control, setup.largestTurn);
+  for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
+}
+
+void Mechanism::fail(const std::string& message) const {
+  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, state_.time, message));
+}
 
 void Mechanism::advance() {
+  if (controller_) {
+    controller_->advance(solver_, state_, loads_, static_cast<double>(steps_ + 1) * timeStep_,
+                         [this] { watchDrift(); });
+    ++steps_;
+    return;
+  }
   try {
     solver_.step(state_, loads_, timeStep_);
   } catch (const base::SimulationError& error) {
     throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
                                                             : fmt::format("{}; {}", error.what(), tensionStepWarning_));
+  } catch (const base::InputError& error) { // what the step bore at the start it no longer bears
+    fail(error.what());
   }
+  ++steps_;
+  watchDrift();
+  if (!overTension_) watchTension();
+  if (steps_ % kJudgeInterval == 0) judge();
+}
+
+void Mechanism::watchDrift() {
   const multibody::StepReport& report = solver_.lastStep();
   worst_.position = std::max(worst_.position, report.maxPositionError);
   worst_.iterations = std::max(worst_.iterations, report.iterations);
   worst_.singularSteps += report.singularRows > 0;
-  if (tensionStepWarning_.empty()) watchTension();
 }
 
-/// Growing forces in joints and springs lower the longest stable step. That is only noted here: a peak may pass before
-/// any oscillation has grown. The first tension that the step does not bear is kept, not the largest: later ones
-/// contain the forces of the oscillation itself.
+void Mechanism::judge() {
+  judgeTurns();
+  if (overTension_) judgeTension();
+}
+
+/// A body that turns by theta in a step precesses and swings wrongly by about theta^2 / 12 of itself: 0.8 % at a turn
+/// in 20 steps, 5 % at 0.75 rad.
+void Mechanism::judgeTurns() const {
+  for (std::size_t b = 0; b < state_.twist.size(); ++b) {
+    const double rate = norm(state_.twist[b].w), turn = timeStep_ * rate;
+    if (turn <= largestTurn_ * (1 + kTurnDigits)) continue;
+    const std::string spunUp =
+        turn > 2 * startTurn_[b] ? fmt::format(" (spun up from {:.4g} rad a step at the start)", startTurn_[b]) : "";
+    fail(fmt::format("body \"{}\" turns by {:.4g} rad a step{}, above the {:.4g} rad of run.steps_per_period = {:g} "
+                     "steps a turn, beyond which its motion is no longer resolved; set run.time_step to {} s or less, "
+                     "limit what drives it, or lower run.steps_per_period if you mean it",
+                     model_.bodies()[b].name, turn, spunUp, largestTurn_, 2 * base::kPi / largestTurn_,
+                     setup::atMost(largestTurn_ / rate)));
+  }
+}
+
+/// At r times the longest stable step a swing across the pull grows (r + sqrt(r^2 - 1))^2 times a step. What counts is
+/// the lesser growth of this judgement and the last, so that a peak between them, or at one of them, counts nothing.
+void Mechanism::judgeTension() {
+  std::string part;
+  const double r = timeStep_ / stableStepUnderTension(&part);
+  if (r <= 1) {
+    overTension_ = false, swingGrowth_ = swingGrown_ = 1;
+    tensionStepWarning_.clear();
+    return;
+  }
+  const double now = (r + std::sqrt(r * r - 1)) * (r + std::sqrt(r * r - 1)), growth = std::min(now, swingGrowth_);
+  swingGrowth_ = now;
+  for (std::int64_t i = 0; i < kJudgeInterval && swingGrown_ < kMostGrown; ++i) swingGrown_ *= growth;
+  if (swingGrown_ < kMostGrown) return;
+  fail(fmt::format(
+      "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
+      "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
+      kMostGrown, r, part, tensionStepWarning_, setup::atMost(0.5 * timeStep_ / r)));
+}
+
+/// Growing forces in joints and springs lower the longest stable step. That is noted, and judged from the next
+/// judgement on: a peak may pass before any oscillation has grown. The first tension that the step does not bear is
+/// kept, not the largest: later ones contain the forces of the oscillation itself.
 void Mechanism::watchTension() {
   double force = 0;
   for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
   for (const multibody::SpringReading& spring : state_.spring) force = std::max(force, std::fabs(spring.force));
   if (!(force > boundedTension_)) return;
   const double most = checkTension();
+  overTension_ = timeStep_ >= most;
   boundedTension_ =
       force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
 }
@@ -110,23 +181,35 @@ Mechanism::Drift Mechanism::drift() const {
 }
 
 std::vector<std::uint32_t> MechanismState::words() const {
-  if (bodies.empty()) return {};
-  const std::size_t count = bodies.size() - multibody::State::kBooks;
-  std::vector<std::uint32_t> words(2 * count);
-  std::memcpy(words.data(), bodies.data(), count * sizeof(double));
+  std::vector<double> all = bodies;
+  if (!all.empty()) all.resize(all.size() - multibody::State::kBooks);
+  if (!control.empty() && control.front() > 0) all.push_back(control.front());
+  std::vector<std::uint32_t> words(2 * all.size());
+  if (!all.empty()) std::memcpy(words.data(), all.data(), all.size() * sizeof(double));
   return words;
 }
 
 MechanismState Mechanism::save() const {
+  const StepController::Record steps = controller_ ? controller_->record() : StepController::Record{};
   return {state_.save(),
-          {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)}};
+          {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)},
+          {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swingGrowth_, swingGrown_},
+          {steps.next, static_cast<double>(steps.taken), static_cast<double>(steps.rejected), steps.smallest,
+           steps.largest}};
 }
 
 void Mechanism::restore(const MechanismState& saved) {
   state_.restore(saved.bodies);
-  if (saved.worst.size() != 3)
+  if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5)
     throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
+  steps_ = static_cast<std::int64_t>(saved.judged[0]);
+  boundedTension_ = saved.judged[1];
+  overTension_ = saved.judged[2] != 0, swingGrowth_ = saved.judged[3], swingGrown_ = saved.judged[4];
+  if (overTension_) checkTension();
+  const std::vector<double>& c = saved.control;
+  if (controller_)
+    controller_->restore({c[0], static_cast<std::int64_t>(c[1]), static_cast<std::int64_t>(c[2]), c[3], c[4]});
 }
 
 } // namespace grouser::simulation

@@ -7,7 +7,10 @@
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mechanism_state.hpp"
+#include "runs/simulation/step_controller.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,8 +23,10 @@ public:
   Mechanism(const Mechanism&) = delete;
   Mechanism& operator=(const Mechanism&) = delete;
 
-  /// One step. Throws base::SimulationError.
+  /// One step. Throws base::SimulationError, also where the motion has become too quick for the step: at every
+  /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
   void advance();
+  static constexpr std::int64_t kJudgeInterval = 50;
 
   const multibody::Model& model() const { return model_; }
   const multibody::State& state() const { return state_; }
@@ -61,7 +66,8 @@ public:
   double stableStepUnderTension(std::string* part = nullptr) {
     return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
-  /// When and where the tension of joints and springs first needed a shorter step, and which; empty: never, nor now.
+  /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs
+  /// first needed a shorter step, and which; empty: never, nor now.
   const std::string& tensionStepWarning();
 
   /// How well the joints are closed.
@@ -74,23 +80,38 @@ public:
   Drift drift() const;
   void restartMeans() { worst_ = {}; }
 
+  /// What its steps were; null where they are fixed.
+  const StepController* controller() const { return controller_.get(); }
+
   MechanismState save() const;
   /// Throws base::InputError where the state is of another mechanism.
   void restore(const MechanismState& saved);
 
 private:
+  void watchDrift();
+  void judge();
+  void judgeTurns() const;
+  void judgeTension();
   void watchTension();
   double checkTension();
+  [[noreturn]] void fail(const std::string& message) const;
 
-  const double timeStep_;
+  const double timeStep_, largestTurn_;
   const multibody::Model model_;
   multibody::State state_;
   multibody::Loads loads_;
   multibody::Solver solver_;
   double startBlow_;
   Drift worst_;
+  std::int64_t steps_ = 0;
   double boundedTension_ = 0; ///< up to this force in joints and springs the step is short enough [N]
   std::string tensionStepWarning_;
+  // While the pull is above what the step bears: whether it was when last looked at, by how much a swing across it grew
+  // a step then, and by how much since it first was.
+  bool overTension_ = false;
+  double swingGrowth_ = 1, swingGrown_ = 1;
+  std::unique_ptr<StepController> controller_; ///< null: fixed steps
+  std::vector<double> startTurn_;              ///< of each body in the first step [rad]
 };
 
 } // namespace grouser::simulation

@@ -10,6 +10,9 @@ namespace grouser::simulation {
 struct MechanismState {
   std::vector<double> bodies; ///< multibody::State::save()
   std::vector<double> worst;  ///< what the next row says of the steps since the last one
+  std::vector<double> judged; ///< what the next judgement of the pull in joints goes on from
+
+  std::vector<double> control; ///< error-controlled steps: the next [s], how many, rejected, smallest, largest [s]
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;

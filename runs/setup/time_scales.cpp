@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/time_scales.hpp"
+
+#include "base/math.hpp"
+#include "base/table.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace grouser::setup {
+
+using base::Vec3d;
+
+namespace {
+
+using Fail = std::function<void(const std::string&)>;
+
+Fail failsIn(const scene::Scene& scene, const std::string& list, std::size_t number, const std::string& key) {
+  return [&scene, list, number, key](const std::string& message) { scene.fail(list, number, key, message); };
+}
+Fail failsIn(const scene::Scene& scene, const std::string& section, const std::string& key) {
+  return [&scene, section, key](const std::string& message) { scene.fail(section, key, message); };
+}
+
+/// The smallest gap between two different times of a table that begins before `end`.
+void addTable(std::vector<TimeScale>& scales, const std::vector<double>& times, double end, const Fail& fail) {
+  double smallest = std::numeric_limits<double>::infinity();
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < times.size() && times[i - 1] < end; ++i)
+    if (const double gap = times[i] - times[i - 1]; gap > 0 && gap < smallest) smallest = gap, at = i;
+  if (at == 0) return;
+  scales.push_back({smallest, false,
+                    fmt::format("the {:.4g} s from {:.9g} to {:.9g} s", smallest, times[at - 1], times[at]), "s",
+                    fail});
+}
+
+void addPeriod(std::vector<TimeScale>& scales, double time, const char* what, const char* unit, const Fail& fail) {
+  scales.push_back({time, true, fmt::format("a {} of {:.4g} s", what, time), unit, fail});
+}
+
+void addRamp(std::vector<TimeScale>& scales, double time, const Fail& fail) {
+  if (time > 0) scales.push_back({time, false, fmt::format("the ramp of {:.4g} s", time), "s", fail});
+}
+
+/// Whether turning changes where a surface is: a rod that turns about its own axis stays where it is, and so does a
+/// plane about its normal.
+bool turnMoves(const SceneSurface& s) {
+  const Vec3d& spin = *s.section.spin;
+  const Vec3d axis = rotate(s.start.orientation, {0, 0, 1});
+  const bool round = s.geometry.shape != terrain::SurfaceShape::box && !s.mesh;
+  const Vec3d arm = s.section.pivot ? s.start.position - *s.section.pivot : Vec3d{};
+  // What numbers typed with nine digits leave.
+  constexpr double kAligned = 1e-9;
+  const bool aligned = norm(cross(spin, axis)) <= kAligned * norm(spin);
+  const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
+  const bool centred = plane || norm(cross(spin, arm)) <= kAligned * norm(spin) * norm(s.geometry.half);
+  return !(round && aligned && centred);
+}
+
+void addSurfaces(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  for (const SceneSurface& s : surfacesOf(scene)) {
+    const scene::SurfaceSection& section = s.section;
+    const auto fails = [&](const char* key) { return failsIn(scene, s.list(), s.number, key); };
+    const bool moves = section.start.value_or(0) < scene.run.duration;
+    if (moves && section.amplitude && norm2(*section.amplitude) > 0 && *section.frequency > 0)
+      addPeriod(scales, 1 / *section.frequency, "period", "Hz", fails("frequency"));
+    if (moves && section.spin && norm2(*section.spin) > 0 && turnMoves(s))
+      addPeriod(scales, 2 * base::kPi / norm(*section.spin), "turn", "rad/s", fails("spin"));
+    if (section.load && *section.load != 0) addRamp(scales, section.loadRamp.value_or(0), fails("load_ramp"));
+  }
+}
+
+void addDrives(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  const std::vector<scene::DriveSection>& drives = scene.mechanism.drives;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const scene::DriveSection& d = drives[k];
+    if (d.amplitude != 0) addPeriod(scales, 1 / d.frequency, "period", "Hz", failsIn(scene, "drive", k, "frequency"));
+    addTable(scales, d.time, scene.run.duration, failsIn(scene, "drive", k, "time"));
+  }
+}
+
+void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  if (!scene.vehicle) return;
+  const scene::Driver& d = scene.driver;
+  addRamp(scales, d.tensionRamp, failsIn(scene, "driver", "tension_ramp"));
+  if (d.tensionRamp < scene.run.duration) addRamp(scales, d.weightRamp, failsIn(scene, "driver", "weight_ramp"));
+  if (d.driveBegins() >= scene.run.duration) return;
+  addRamp(scales, d.driveRamp, failsIn(scene, "driver", "drive_ramp"));
+  if (!d.table) return;
+  const Fail atTable = [&scene](const std::string& message) {
+    if (scene.document) scene.document->root().section("driver").section("table").fail("time", message);
+    scene.fail("driver.table", "time", message);
+  };
+  addTable(scales, d.table->time, scene.run.duration - d.driveBegins(), atTable);
+}
+
+} // namespace
+
+std::vector<TimeScale> timeScales(const scene::Scene& scene) {
+  std::vector<TimeScale> scales;
+  addSurfaces(scales, scene), addDrives(scales, scene), addDriver(scales, scene);
+  return scales;
+}
+
+double resolvingStep(const std::vector<TimeScale>& scales, double stepsPerPeriod) {
+  double step = std::numeric_limits<double>::infinity();
+  for (const TimeScale& s : scales) step = std::min(step, s.time / stepsPerPeriod);
+  return step;
+}
+
+void checkTimeScales(const scene::Scene& scene, double timeStep) {
+  // Steps are printed and typed with some digits: 20 steps to a millionth are 20.
+  constexpr double kDigits = 1e-6;
+  const double wanted = scene.run.stepsPerPeriod;
+  for (const TimeScale& s : timeScales(scene)) {
+    const double steps = s.time / timeStep;
+    if (steps >= wanted * (1 - kDigits)) continue;
+    s.fail(fmt::format(
+        "[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = {:g}, "
+        "and show another course than the one that is meant; set run.time_step to {} s or less (\"auto\" "
+        "does){}, or lower run.steps_per_period if you mean it",
+        s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted, atMost(s.time / wanted),
+        s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
+  }
+}
+
+double largestTurn(const scene::RunSettings& run) { return 2 * base::kPi / run.stepsPerPeriod; }
+
+std::string atMost(double step) {
+  const std::string nearest = fmt::format("{:.4g}", step);
+  return std::strtod(nearest.c_str(), nullptr) <= step ? nearest : fmt::format("{:.4g}", 0.9995 * step);
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+/// Something that a scene prescribes over time: a run samples it once a step, and sees another motion or force where
+/// steps are too few (100 N m at 1001 Hz are a constant torque at steps of 1 / 1001 s).
+struct TimeScale {
+  double time = 0;       ///< a period or turn, or the gap between two times of a table or ramp [s]
+  bool repeats = false;  ///< a period or turn
+  std::string what;      ///< "a turn of 0.02 s"
+  const char* unit = ""; ///< of the key
+  /// Throws InputError at the key that says it, with this message.
+  std::function<void(const std::string& message)> fail;
+};
+
+/// All of them that begin before the run ends: sines of drives and surfaces, turns of surfaces that are not round about
+/// their own axis, gaps of the tables of drives and driver, ramps of a surface's load and of the driver. Two equal
+/// times of a table, and a ramp of 0 s, are a jump, and have no gap.
+std::vector<TimeScale> timeScales(const scene::Scene& scene);
+
+/// The longest step with run.steps_per_period steps in each of them [s]; infinite where there is none.
+double resolvingStep(const std::vector<TimeScale>& scales, double stepsPerPeriod);
+
+/// Throws InputError where one has fewer than run.steps_per_period steps of `timeStep`: place, steps found, and the
+/// step that would do.
+void checkTimeScales(const scene::Scene& scene, double timeStep);
+
+/// The radians that a body or surface may turn in a step: a full turn in run.steps_per_period steps.
+double largestTurn(const scene::RunSettings& run);
+
+/// `step` to four digits, never above it.
+std::string atMost(double step);
+
+} // namespace grouser::setup

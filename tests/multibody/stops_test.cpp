@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// End stops: what they give back, how exactly, and how that goes with the step.
+#include "mechanisms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace grouser::multibody::test {
+namespace {
+
+double energyOf(const Mechanism& p) {
+  const Totals t = totals(p.model, p.state, p.loads);
+  return t.kinetic + t.gravity + t.elastic;
+}
+
+SolverOptions rattle(int order = 2) {
+  SolverOptions o;
+  o.integrator = Integrator::kRattle, o.order = order, o.springs = Springs::kImplicit;
+  return o;
+}
+
+/// A slider that falls on a stop below.
+Mechanism bouncingSlider(double stiffness, double damping) {
+  Mechanism p;
+  p.model.addBody(makeBody("slider", 2, Mat3d::diagonal({0.1, 0.1, 0.1}), {{0, 0, 0}, {}}));
+  p.model.addJointAt("rail", JointType::kPrismatic, kWorld, 0, frameWithZ({}, {0, 0, 1}));
+  AxisSpring stop;
+  stop.name = "stop", stop.joint = 0, stop.lowerLimit = -0.1, stop.stopStiffness = stiffness,
+  stop.stopDamping = damping;
+  p.model.addAxisSpring(stop);
+  p.start();
+  return p;
+}
+
+/// A double pendulum whose upper rod meets a stop, so that the row turns and masses change.
+Mechanism bouncingPendulum(double stiffness) {
+  Mechanism p;
+  p.model.addBody(makeBody("rod", 1, Mat3d::diagonal({0.01, 0.08, 0.08}), {{0.5, 0, 0}, {}}));
+  p.model.addBody(makeBody("bob", 0.5, Mat3d::diagonal({0.01, 0.02, 0.02}), {{1.25, 0, 0}, {}}));
+  p.model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({0, 0, 0}, kY));
+  p.model.addJointAt("elbow", JointType::kRevolute, 0, 1, frameWithZ({1, 0, 0}, kY));
+  AxisSpring stop;
+  stop.name = "stop", stop.joint = 0, stop.lowerLimit = -1, stop.upperLimit = 1, stop.stopStiffness = stiffness;
+  p.model.addAxisSpring(stop);
+  AxisSpring second = stop;
+  second.name = "elbow stop", second.joint = 1, second.lowerLimit = -0.4, second.upperLimit = 0.4;
+  p.model.addAxisSpring(second);
+  p.start();
+  return p;
+}
+
+/// Largest change of energy over so many bounces off the stop of joint 0 [J].
+double energyChange(Mechanism p, double dt, int bounces, double until) {
+  Solver solver(p.model, rattle());
+  const double start = energyOf(p);
+  double worst = 0, before = 0;
+  while (bounces > 0 && p.state.time < until) {
+    solver.step(p.state, p.loads, dt);
+    const double now = p.state.joint[0].springForce;
+    if (now != 0 && before == 0) --bounces;
+    before = now;
+    worst = std::max(worst, std::fabs(energyOf(p) - start));
+  }
+  EXPECT_TRUE(bounces == 0 || p.state.time >= until);
+  return worst;
+}
+
+TEST(MultibodyStops, SliderReturnsItsEnergyOverAThousandBouncesAtAnyStep) {
+  // omega dt from 0.02 to 7: the stop's force is a discrete gradient of its energy, and nothing else is stiff.
+  // Round-off of up to 5e5 steps, 2e-15 of 2 J each (measured 1e-10 J).
+  for (const auto& [stiffness, dt] : {std::pair{1e4, 1e-2}, {1e4, 1e-3}, {1e6, 1e-2}, {1e6, 1e-3}, {1e6, 7e-4}})
+    EXPECT_LT(energyChange(bouncingSlider(stiffness, 0), dt, 1000, 1e9), 2e-9) << stiffness << " " << dt;
+}
+
+TEST(MultibodyStops, DoublePendulumBetweenStopsHoldsItsEnergyToSecondOrder) {
+  // Rows turn and masses change while a stop is touched; the motion is chaotic. Measured 9e3 dt^2 to 1.3e4 dt^2 [J].
+  for (const double dt : {1e-3, 5e-4, 2.5e-4})
+    EXPECT_LT(energyChange(bouncingPendulum(1e4), dt, 1000, 60), 3e4 * dt * dt) << dt;
+}
+
+TEST(MultibodyStops, BouncesKeepTimeToSecondOrder) {
+  // Between two stops of stiffness k a slider flies for L / v, and each bounce lasts pi / omega.
+  const double mass = 2, k = 1e4, v = 0.7, omega = std::sqrt(k / mass), half = 0.1;
+  const double flight = 2 * half / v, bounce = base::kPi / omega, end = 7.31;
+  double rest = end - half / v, side = 1;
+  while (rest > flight + bounce) rest -= flight + bounce, side = -side;
+  ASSERT_GT(rest, bounce) << "ends in flight";
+  const double exact = side * (half - v * (rest - bounce));
+  for (const int steps : {1462, 2924, 5848, 11696}) {
+    Mechanism p;
+    p.model.addBody(makeBody("slider", mass, Mat3d::diagonal({0.1, 0.1, 0.1}), {{0, 0, 0}, {}}, {0, 0, v}));
+    p.model.addJointAt("rail", JointType::kPrismatic, kWorld, 0, frameWithZ({}, {0, 0, 1}));
+    AxisSpring stop;
+    stop.name = "stops", stop.joint = 0, stop.lowerLimit = -half, stop.upperLimit = half, stop.stopStiffness = k;
+    p.model.addAxisSpring(stop);
+    p.start();
+    p.loads.gravity = {};
+    Solver solver(p.model, rattle());
+    const double dt = end / steps;
+    for (int i = 0; i < steps; ++i) solver.step(p.state, p.loads, dt);
+    // 22 bounces; the midpoint rule makes each longer by pi / omega (omega dt)^2 / 12, of 15 mm altogether, and the
+    // first and last step of a touch move it by as much.
+    EXPECT_NEAR(p.state.joint[0].position, exact, 22 * v * bounce * (omega * dt) * (omega * dt) / 6 + 1e-12) << steps;
+    EXPECT_NEAR(std::fabs(p.state.joint[0].rate), v, 1e-12 * steps);
+  }
+}
+
+TEST(MultibodyStops, DampedStopGivesBackTheClosedFormOfItsRestitution) {
+  // Damped on the way in alone: x_max = v / omega exp(-zeta acos(zeta) / sqrt(1 - zeta^2)), and v_out = omega x_max.
+  const double mass = 2, k = 1e6, omega = std::sqrt(k / mass);
+  for (const double zeta : {0.05, 0.3, 0.8}) {
+    const double exact = std::exp(-zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta));
+    double error[2];
+    for (int fine = 0; fine < 2; ++fine) {
+      const double dt = (fine ? 0.01 : 0.02) / omega;
+      // The worst over where in a step the touch begins.
+      error[fine] = 0;
+      for (int phase = 0; phase < 8; ++phase) {
+        Mechanism p = bouncingSlider(k, 2 * zeta * mass * omega);
+        setTwist(p.model, p.state, 0, {{0, 0, -1}, {}});
+        p.loads.gravity = {};
+        p.state.pose[0].position.z = p.state.joint[0].position = -0.1 + (2 + phase / 8.0) * dt;
+        Solver solver(p.model, rattle());
+        for (int i = 0; i < (fine ? 700 : 350); ++i) solver.step(p.state, p.loads, dt);
+        EXPECT_EQ(p.state.joint[0].springForce, 0);
+        error[fine] = std::max(error[fine], std::fabs(p.state.joint[0].rate - exact));
+      }
+    }
+    EXPECT_LT(error[0], 0.02 * 0.02) << zeta; // (omega dt)^2
+    EXPECT_LT(error[1], 0.01 * 0.01) << zeta;
+  }
+}
+
+} // namespace
+} // namespace grouser::multibody::test
