@@ -40,6 +40,7 @@ struct CompensatedVector {
 ///   integration error = drives + external loads - dissipated - potential - elastic - kineticWork
 /// is what forces that should conserve energy, constraints that should not work and the gyroscopic terms leave.
 /// balance() in readings.hpp puts it together.
+/// Who adds a way to push a body books it in detail/euler_ledger.cpp and detail/rattle_ledger.cpp.
 struct Ledger {
   /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: gravity and springs the
   /// loss of their energies, drives and dampers force times path over each stage, external loads as kSymplecticEuler.
