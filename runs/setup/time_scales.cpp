@@ -90,7 +90,7 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   addRamp(scales, d.tensionRamp, failsIn(scene, "driver", "tension_ramp"));
   if (d.tensionRamp < scene.run.duration) addRamp(scales, d.weightRamp, failsIn(scene, "driver", "weight_ramp"));
   if (d.driveBegins() >= scene.run.duration) return;
-  addRamp(scales, d.driveRamp, failsIn(scene, "driver", "drive_ramp"));
+  addRamp(scales, d.rampOfDrive(), failsIn(scene, "driver", "drive_ramp"));
   if (!d.table) return;
   const Fail atTable = [&scene](const std::string& message) {
     if (scene.document) scene.document->root().section("driver").section("table").fail("time", message);

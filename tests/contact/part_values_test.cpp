@@ -56,12 +56,17 @@ TEST(SlidingContact, DissipatesTheForceTimesTheWayLessWhatTheSpringHolds) {
   law.stiffness = 1e5, law.tangentialStiffness = 1e5 * 2 / 7, law.tangentialDamping = 1000, law.friction = 0.4;
   const double m = 0.01, overlap = 1e-4, dt = 1e-6, v = 0.3, normal = law.stiffness * overlap;
   Vec3d shear;
-  double booked = 0, work = 0;
+  double booked = 0, work = 0, bookedBefore = 0, workBefore = 0;
   for (int n = 0; n < 1000; ++n) {
     const BasicContactGeometry<double> touch{{0, 0, -1}, overlap, {0.6 * v, -0.8 * v, 0}, m, 0.005};
     const auto r = contactForce<kGeneral>(law, touch, dt, shear);
-    booked += r.dissipated, work -= dot(r.force, touch.velocity) * dt;
-    if (n < 600) continue; // 0.14 mm of spring at 0.3 um a step
+    // With the slip in the middle of the step, as this force alone would make it: 7/2 of its work on the mass.
+    const base::Vec3d tangential{r.force.x, r.force.y, 0};
+    booked += r.damped + r.rubbed, work -= dot(tangential, touch.velocity + tangential * (3.5 * 0.5 * dt / m)) * dt;
+    if (n < 600) { // 0.14 mm of spring at 0.3 um a step
+      bookedBefore = booked, workBefore = work;
+      continue;
+    }
     // On Coulomb's cone, against the slip; the spring is as long as it holds that force.
     EXPECT_NEAR(r.force.x, -0.6 * 0.4 * normal, 1e-12 * normal);
     EXPECT_NEAR(r.force.y, 0.8 * 0.4 * normal, 1e-12 * normal);
@@ -69,7 +74,8 @@ TEST(SlidingContact, DissipatesTheForceTimesTheWayLessWhatTheSpringHolds) {
     EXPECT_NEAR(norm(shear), 0.4 * normal / law.tangentialStiffness, 1e-15);
   }
   const double stored = 0.5 * 0.4 * normal * 0.4 * normal / law.tangentialStiffness;
-  EXPECT_NEAR(booked, work - stored, 1e-12 * work);
+  EXPECT_NEAR(booked - bookedBefore, work - workBefore, 1e-12 * work) << "all work is lost where it slides";
+  EXPECT_NEAR(booked, work - stored, 1e-3 * work) << "the first steps stick: springs work with their force at the end";
   // Turned back at a tenth of the speed it holds like a spring and a dashpot, until the limit on the other side.
   const double slow = 0.1 * v, ct = 1000 * m;
   for (int n = 1; n <= 20; ++n) {

@@ -291,7 +291,9 @@ TEST(MultibodyLedger, ADampedStopTakesWhatTheCarrierLoses) {
     EXPECT_EQ(b.jointDamping, 0);
     EXPECT_EQ(b.springDamping, 0);
     EXPECT_NEAR(b.stopDamping + b.integrationError, -b.kineticGain, 1e-12);
-    if (options.integrator == Integrator::kRattle) EXPECT_NEAR(b.integrationError, 0, 1e-12);
+    if (options.integrator == Integrator::kRattle) {
+      EXPECT_NEAR(b.integrationError, 0, 1e-12);
+    }
   }
 }
 

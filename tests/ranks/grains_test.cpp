@@ -192,7 +192,12 @@ TEST(GrainsOnRanks, LedgerIsThatOfOneRank) {
   EXPECT_EQ(a.rotational, b.rotational);
   EXPECT_EQ(a.potential, b.potential);
   EXPECT_EQ(a.elastic, b.elastic);
-  EXPECT_EQ(a.books, b.books);
+  EXPECT_EQ(a.dissipated(), b.dissipated());
+  EXPECT_EQ(a.work, b.work);
+  EXPECT_EQ(a.turnover, b.turnover);
+  EXPECT_EQ(a.momentum, b.momentum);
+  EXPECT_EQ(a.impulse, b.impulse);
+  EXPECT_EQ(a.angularImpulse, b.angularImpulse);
   EXPECT_EQ(a.contacts, b.contacts);
   EXPECT_EQ(a.boundaryContacts, b.boundaryContacts);
   EXPECT_EQ(a.deepestOverlap, b.deepestOverlap);

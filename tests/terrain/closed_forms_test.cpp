@@ -115,7 +115,7 @@ base::Vec3d spunBy(const base::Vec3d& torque, const base::Vec3d& spin, int steps
   const base::Exec exec = base::cpuExec(1);
   Grains grains(exec, m, {}, {{{}, {}, spin}});
   const std::vector<std::uint32_t> range{1}; // one load, the first
-  const std::vector<contact::GrainLoad> load{{{}, torque.as<float>(), 0, 0}};
+  const std::vector<contact::GrainLoad> load{{{}, torque.as<float>(), 0}};
   std::vector<std::int64_t> received(3, 0);
   const contact::GrainLoadsView view{range.data(), load.data(), base::fixedPointFor(1, 36), received.data()};
   for (int n = 0; n < steps; ++n) {

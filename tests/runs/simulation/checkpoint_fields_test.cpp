@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every member of the saved state, with a value of its own, through the file; and which of them the hash takes. Members
 // are found by the compiler: one that is added and not stored is seen here.
+#include "multibody/state.hpp"
 #include "record_fields.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/checkpoint.hpp"
@@ -28,6 +29,9 @@ SimulationState filled() {
   terrain::GrainState& g = *s.grains;
   g.total = 3, g.id = {0, 1, 2}, g.contacts = {1, 0, 2};
   g.layout = {1, 1, 1, 1, 1, 1, 1}, g.wallBits = {1, 1, 1};
+  // Behind what moves the bodies stand as many books, which no hash takes.
+  for (std::vector<double>* bodies : {&s.vehicle->bodies, &s.mechanism->bodies})
+    for (std::size_t k = 0; k < multibody::State::kBooks; ++k) bodies->push_back(++next);
   return s;
 }
 
@@ -106,13 +110,17 @@ const NamedChange kHashed[] = {
 /// Sums for rows and alarms: they say nothing of the next step.
 const NamedChange kUnhashed[] = {
     {"travel since the list", [](SimulationState& s) { s.grains->travelled[1].x ^= 1; }},
-    {"dissipated", [](SimulationState& s) { s.grains->dissipated[1] += 1; }},
+    {"books", [](SimulationState& s) { s.grains->books[1] += 1; }},
+    {"energy guard", [](SimulationState& s) { s.guard[1] += 1; }},
+    {"ledger at the start", [](SimulationState& s) { s.ledgerAtStart[1] += 1; }},
     {"crossings", [](SimulationState& s) { s.grains->crossings[1].y += 1; }},
     {"skin", [](SimulationState& s) { s.grains->skin += 1; }},
     {"work of a surface", [](SimulationState& s) { s.surfaces->surfaces[0].work += 1; }},
     {"mean force of a surface", [](SimulationState& s) { s.surfaces->surfaces[0].force.x += 1; }},
     {"sums of the track", [](SimulationState& s) { s.vehicle->track.sums[0].elastic += 1; }},
     {"mean ground force", [](SimulationState& s) { s.vehicle->groundForces[1].z += 1; }},
+    {"book of the vehicle's bodies", [](SimulationState& s) { s.vehicle->bodies.back() += 1; }},
+    {"book of the mechanism", [](SimulationState& s) { s.mechanism->bodies.back() += 1; }},
     {"worst gap", [](SimulationState& s) { s.mechanism->worst[0] += 1; }},
 };
 

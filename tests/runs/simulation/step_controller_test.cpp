@@ -79,8 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, Tolerance,
                          testing::Values(Case{"pendulum.toml", 5, 1e-3, 1e-9, 3},
                                          Case{"andrews.toml", 0.03, 1e-1, 1e-6, 1e-3},
                                          Case{"door.toml", 1.5, 1e-4, 1e-8, 2, "joint.0.limits=[-0.1, 0.5]"}),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           const std::string name = info.param.scene;
+                         [](const testing::TestParamInfo<Case>& which) {
+                           const std::string name = which.param.scene;
                            return name.substr(0, name.find('.'));
                          });
 
