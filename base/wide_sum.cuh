@@ -53,8 +53,8 @@ GROUSER_HD void atomicAdd(WideSum* sum, std::int64_t value) {
 template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
   const auto threads = cooperative_groups::coalesced_threads();
   for (int k = 0; k < kCount; ++k) {
-    const long long sum = cooperative_groups::reduce(threads, static_cast<long long>(values[k]),
-                                                     cooperative_groups::plus<long long>());
+    const long long sum =
+        cooperative_groups::reduce(threads, static_cast<long long>(values[k]), cooperative_groups::plus<long long>());
     if (threads.thread_rank() == 0 && sum != 0) atomicAdd(sums + k, sum);
   }
 }

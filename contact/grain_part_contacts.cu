@@ -269,8 +269,7 @@ GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.da
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = allSums();
   const auto energy = [&](std::size_t k) { return model_.energy.value(q[k]); };
-  return {q[0],      energy(1), energy(2),
-          energy(3), energy(4), model_.force.value({q[5], q[6], q[7]}) * model_.timeStep};
+  return {q[0], energy(1), energy(2), energy(3), energy(4), model_.force.value({q[5], q[6], q[7]}) * model_.timeStep};
 }
 
 std::vector<GrainPartContacts::Press> GrainPartContacts::pressing(std::uint32_t grain) const {

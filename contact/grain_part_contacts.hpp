@@ -56,10 +56,10 @@ public:
   };
   std::vector<Press> pressing(std::uint32_t grain) const;
   struct Ledger {
-    std::int64_t contacts{};     ///< patches in touch at the last compute
-    double elastic{};            ///< held in their springs [J]
+    std::int64_t contacts{};             ///< patches in touch at the last compute
+    double elastic{};                    ///< held in their springs [J]
     double damped{}, rubbed{}, rolled{}; ///< dissipated since the start [J]
-    base::Vec3d impulseOnGrains; ///< since the start [N s], from the loads the grains were given
+    base::Vec3d impulseOnGrains;         ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const; ///< of all ranks, which all call it
   /// Of all ranks, which all call it. For hashes and checkpoints. Throws InputError when what was saved is of other

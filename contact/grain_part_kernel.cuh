@@ -90,8 +90,8 @@ private:
   struct PairLoad {
     GrainLoad onGrain{};
     base::Vec3l torqueOnPart{};
-    double elastic = 0;  ///< held in springs [J]
-    float lost[3] = {};  ///< dissipated by dashpots, sliding and rolling resistance [J]
+    double elastic = 0; ///< held in springs [J]
+    float lost[3] = {}; ///< dissipated by dashpots, sliding and rolling resistance [J]
   };
 
   GROUSER_HD Ball ballOf(int i) const {
@@ -183,8 +183,8 @@ private:
     if ((kFeatures & kGeneral) && law.rollingFriction > 0) {
       const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
       const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
-      const base::Vec3f torque = rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt,
-                                               springs.rolled, sum.lost[2]);
+      const base::Vec3f torque =
+          rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt, springs.rolled, sum.lost[2]);
       const float k = rollingStiffness(law, reaction.normalStiffness, radius);
       sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
       // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.

@@ -39,7 +39,9 @@ GrainBookkeeping::GrainBookkeeping(const base::Exec& exec, const GrainConstants&
   books_ = base::Array<base::WideSum>(exec, std::size_t{kBookBanks} * kBooks);
 }
 
-void GrainBookkeeping::describe(GrainKernelData& d) { d.books = kept() ? books_.data() : nullptr, d.bookScale = scale_; }
+void GrainBookkeeping::describe(GrainKernelData& d) {
+  d.books = kept() ? books_.data() : nullptr, d.bookScale = scale_;
+}
 
 GrainBookkeeping::Sums GrainBookkeeping::sums(const base::Comm& comm) const {
   Sums sums{};
@@ -88,8 +90,7 @@ void GrainBookkeeping::restore(const std::vector<std::int64_t>& saved, const bas
   if (!kept()) return;
   std::vector<base::WideSum> banks(books_.size());
   if (comm.first())
-    for (std::size_t b = 0; b < kBooks; ++b)
-      banks[b] = {static_cast<std::uint64_t>(saved[2 * b]), saved[2 * b + 1]};
+    for (std::size_t b = 0; b < kBooks; ++b) banks[b] = {static_cast<std::uint64_t>(saved[2 * b]), saved[2 * b + 1]};
   books_.assign(banks);
 }
 

@@ -19,8 +19,8 @@ struct GrainKernelData {
   unsigned features;
   std::int64_t diameterUnits, diameterUnits2, halfSkinUnits2;
   double timeStep, stepPerMass, stepPerInertia, unitsPerSpeed; // dt, dt/m, dt/I, dt/unit
-  double unitLength, mass, inertia; ///< [m], [kg], [kg m2]: of the largest grain
-  float unitsPerLength; ///< a power of two
+  double unitLength, mass, inertia;                            ///< [m], [kg], [kg m2]: of the largest grain
+  float unitsPerLength;                                        ///< a power of two
   float diameter, maxOverlap, maxSpeed2;
   float maxOverlapShare;   ///< of a grain's own radius, where they differ [-]
   base::Vec3d gravityStep; // g dt
@@ -54,7 +54,7 @@ struct GrainKernelData {
   std::uint32_t* boundaryContactMask; ///< a bit for each boundary
   base::Vec3d* fromSurfaces;          ///< [N] forces of the surfaces, by place in the list of grains near boundaries
   contact::PartLoad* surfaceLoads;    ///< sums of this step
-  base::WideSum* books; ///< [kBookBanks][kBooks]; null where none are kept
+  base::WideSum* books;               ///< [kBookBanks][kBooks]; null where none are kept
   BookScale bookScale;
   contact::GrainLoadsView loads;
   StepFlags* flags;        ///< of this step

@@ -44,7 +44,8 @@ template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features
 }
 
 /// With or without books. On a CPU a thread takes several grains before it adds to the books that all share.
-template <template <unsigned, class> class Body, template <unsigned, class> class Booked, unsigned kFeatures, class Real>
+template <template <unsigned, class> class Body, template <unsigned, class> class Booked, unsigned kFeatures,
+          class Real>
 void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d, const ForceData<Real>& f,
              std::int64_t count, bool booked) {
   using Books = Booked<kFeatures, Real>;
@@ -79,11 +80,13 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                                      std::int64_t near, const GrainModel& model) {
   const unsigned features = model.specialised ? d.features & kAtBoundaries : kGeneral;
-  runOneOf<BoundaryContacts, BookedBoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near);
+  runOneOf<BoundaryContacts, BookedBoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f,
+                                                     near);
 }
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                                      std::int64_t near, const GrainModel&) {
-  runOneOf<BoundaryContacts, BookedBoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts", d, f, near);
+  runOneOf<BoundaryContacts, BookedBoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts",
+                                                     d, f, near);
 }
 
 bool hasOwnKernel(unsigned features, Precision precision) {

@@ -90,10 +90,10 @@ private:
       const std::int64_t reach = has(kManyRadii) ? own.units + other.units : d.diameterUnits;
       if (distance2 >= reach * reach) continue;
       const base::Vec3d apart = Kernel::apart(d.position[i], d.position[j]).template as<double>();
-      const double overlap = contact::spherePair(apart, static_cast<double>(distance2),
-                                                 static_cast<double>(reach * reach - distance2),
-                                                 static_cast<double>(reach), d.unitLength)
-                                 .overlap;
+      const double overlap =
+          contact::spherePair(apart, static_cast<double>(distance2), static_cast<double>(reach * reach - distance2),
+                              static_cast<double>(reach), d.unitLength)
+              .overlap;
       const double ri = static_cast<double>(own.radius), rj = static_cast<double>(other.radius);
       const Law& law = has(kManyMaterials) ? f.pairLaws[own.material * d.materials + other.material] : f.law;
       const bool touched = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
@@ -211,14 +211,10 @@ GrainLedger measureLedger(GrainSystem& system) {
   base::Array<base::WideSum> sums(system.exec, std::size_t{Sums::kBanks} * Sums::kSums);
   base::Array<std::uint64_t> extremes(system.exec, std::vector<std::uint64_t>(3, ~std::uint64_t{0}));
   const auto measure = [&]<class Real>(const ForceData<Real>& f) {
-    base::forEach(system.exec, "measure grains", static_cast<std::int64_t>(system.arrays.slots()),
-                  MeasureGrain<Real>{{system.kernelData(), f},
-                                     energy,
-                                     momentum,
-                                     angular,
-                                     sums.data(),
-                                     extremes.data(),
-                                     system.ghosts()});
+    base::forEach(
+        system.exec, "measure grains", static_cast<std::int64_t>(system.arrays.slots()),
+        MeasureGrain<Real>{
+            {system.kernelData(), f}, energy, momentum, angular, sums.data(), extremes.data(), system.ghosts()});
   };
   if (model.precision == Precision::single)
     measure(system.forceData<float>());

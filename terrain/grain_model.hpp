@@ -78,10 +78,10 @@ struct GrainLedger {
   base::Vec3d momentum;                ///< now [kg m/s]
   base::Vec3d angularMomentum;         ///< now, about the origin of the world [kg m2/s]
   base::Vec3d impulse, angularImpulse; ///< by gravity, walls and floor [N s], [N m s about the origin]
-  std::int64_t contacts{};         ///< pairs of grains in touch
-  std::int64_t boundaryContacts{}; ///< grains in touch with walls, floor and surfaces
-  double deepestOverlap{};         ///< [m]
-  double fastest{};                ///< [m/s]
+  std::int64_t contacts{};             ///< pairs of grains in touch
+  std::int64_t boundaryContacts{};     ///< grains in touch with walls, floor and surfaces
+  double deepestOverlap{};             ///< [m]
+  double fastest{};                    ///< [m/s]
 };
 
 } // namespace grouser::terrain

@@ -179,8 +179,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
                           : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
       const contact::RollingMotion<Real> motion{normal, own.spin - other.spin, touch.effectiveRadius, inertia};
       Real rolled = 0;
-      sum.torque += contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle,
-                                           rolled);
+      sum.torque +=
+          contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle, rolled);
       sum.rolled += Real(0.5) * rolled;
       storeVector(history.at + 3, angle.template as<float>());
     }

@@ -9,7 +9,8 @@ namespace grouser::terrain {
 GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, const Boundaries& around,
                          const std::vector<GrainSpec>& start, const PartitionOptions& partition)
     : exec(device), comm(partition.comm), constants(model, around, start),
-      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), books(exec, constants), boundaries(exec, constants, around),
+      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), books(exec, constants),
+      boundaries(exec, constants, around),
       neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period),
       count(0) {
   const std::vector<base::Position> places = placesOf(start, 0, constants);

@@ -290,8 +290,11 @@ void describeLedger(simulation::Simulation& simulation) {
              l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.integrationError, l.residual);
   const simulation::Dissipated& d = l.dissipated;
   std::string causes;
-  for (const auto& [cause, loss] : {std::pair{"damping", d.damping}, {"friction", d.friction}, {"rolling", d.rolling},
-                                    {"parts", d.parts}, {"joints", d.joints}})
+  for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
+                                    {"friction", d.friction},
+                                    {"rolling", d.rolling},
+                                    {"parts", d.parts},
+                                    {"joints", d.joints}})
     if (loss != 0) causes += fmt::format("{}{} {:.4g}", causes.empty() ? "" : ", ", cause, loss);
   if (!causes.empty()) fmt::print("          dissipated by {}\n", causes);
   const auto shown = [](const base::Vec3d& v) { return fmt::format("({:.2g}, {:.2g}, {:.2g})", v.x, v.y, v.z); };

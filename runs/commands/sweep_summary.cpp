@@ -149,7 +149,7 @@ void addSurfaces(const Steady& steady, const std::vector<std::string>& names, st
 std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const Columns& columns) {
   const Steady steady(file, from);
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
-                              {"energy residual [J]", steady.last("ledger/residual")}};
+                              {"integration error [J]", steady.last("ledger/integration_error")}};
   if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : kNone});
   addSurfaces(steady, columns.surfaces, figures);
   if (!columns.vehicle) return figures;

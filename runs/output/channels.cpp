@@ -44,7 +44,8 @@ std::vector<Channel> ledgerChannels() {
       {"ledger/dissipated_rolling", "J", "by rolling resistance of grains", 1, {}},
       {"ledger/dissipated_parts", "J", "by contacts of rigid parts with each other and with rigid ground", 1, {}},
       {"ledger/dissipated_joints", "J", "by dampers and end stops of joints and springs", 1, {}},
-      {"ledger/integration_error", "J",
+      {"ledger/integration_error",
+       "J",
        "lost (or, where negative, made) by steps of finite length: drive work less kinetic, potential, elastic and "
        "dissipated",
        1,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The energy ledger, as changes since the first step of the run: what went in, where it is, what does not balance."""
+"""The energy ledger, as changes since the first step of the run: what went in, where it is, and what the length of the
+steps has cost."""
 import drawing
 import series
 
@@ -24,9 +25,9 @@ def plot(run):
     energy.set_title("Changes since the first step of the run")
     energy.set_ylabel("change of energy [J]")
     energy.legend(loc="upper left")
-    residual = run.get("ledger/residual")
-    if series.finite(residual):
-        rest.plot(run.time, residual, color="tab:purple")
-    rest.set_ylabel("sum minus work [J]")
+    error = run.get("ledger/integration_error")
+    if series.finite(error):
+        rest.plot(run.time, error, color="tab:purple")
+    rest.set_ylabel("integration error [J]")
     rest.set_xlabel("time [s]")
     return figure

@@ -43,7 +43,7 @@ def plot(run):
     energy.set_ylabel("[J]")
     if energy.get_legend_handles_labels()[0]:
         energy.legend(fontsize=7)
-    rest.plot(run.time, run.get("ledger/residual"), color="tab:purple")
+    rest.plot(run.time, run.get("ledger/integration_error"), color="tab:purple")
     rest.set_title("energy that does not balance", fontsize=10)
     rest.set_ylabel("[J]")
     for name, label in (("position_error", "gap [m, rad]"), ("velocity_error", "opening rate [m/s, rad/s]")):

@@ -78,8 +78,7 @@ Table<Driver> driverTable() {
 Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
-  t.add("time", &S::time, "s",
-        "from the start of the drive (drive_start), increasing; a time given twice is a jump")
+  t.add("time", &S::time, "s", "from the start of the drive (drive_start), increasing; a time given twice is a jump")
       .atLeast(0)
       .required();
   t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();

@@ -13,9 +13,9 @@ namespace grouser::simulation {
 /// has been exchanged since the last look: work on each body in each step, dissipation, and work of drives. It looks at
 /// fixed step numbers, so its verdict does not depend on rows of output, devices, batches or ranks.
 ///
-/// Sound runs of grains at their limit step lose up to a tenth and make up to 3 percent in an interval (lost at impacts,
-/// whose beginning and end fall between steps); an unstable one makes most of what it exchanges, from the first doubling
-/// of its swing on.
+/// Sound runs of grains at their limit step lose up to a tenth and make up to 3 percent in an interval (lost at
+/// impacts, whose beginning and end fall between steps); an unstable one makes most of what it exchanges, from the
+/// first doubling of its swing on.
 class EnergyGuard {
 public:
   static constexpr std::int64_t kInterval = 512; ///< steps between two looks; whole batches of grains alone

@@ -148,15 +148,17 @@ std::string Simulation::causeOf(const terrain::GrainFault& fault) {
   using terrain::Fault;
   if (fault.fault != Fault::overlap && fault.fault != Fault::speed) return {};
   if (const std::string verdict = energyVerdict(ledger()); !verdict.empty())
-    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step", timeStep());
+    return verdict +
+           fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step", timeStep());
   if (fault.fault == Fault::speed) return {};
   std::string parts;
   if (vehicle_)
     for (const std::string& part : vehicle_->contacts().pressing(fault.id)) parts += (parts.empty() ? "" : ", ") + part;
   if (!parts.empty())
-    return fmt::format("it is pinched, pressed by {}; the step is not to blame: use stiffer grains (material stiffness), "
-                       "larger ones, or raise run.max_overlap",
-                       parts);
+    return fmt::format(
+        "it is pinched, pressed by {}; the step is not to blame: use stiffer grains (material stiffness), "
+        "larger ones, or raise run.max_overlap",
+        parts);
   return "the energies balance, so the step is not to blame: what presses it, or its speed, is too much for contacts "
          "so soft; use stiffer ones (material stiffness), or raise run.max_overlap";
 }

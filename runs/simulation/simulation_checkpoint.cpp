@@ -37,7 +37,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
       settled_(state.settled), steps_(state.steps) {
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
-      state.mechanism.has_value() != setup_.mechanism.has_value() || 
+      state.mechanism.has_value() != setup_.mechanism.has_value() ||
       state.surfaces.has_value() != (ground_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (hasBed()) keepSurface(ground_, state.surface);

@@ -12,11 +12,11 @@ namespace grouser::simulation {
 
 /// What a rigid surface must remember beyond its law of motion.
 struct SurfaceState {
-  double offset{}, speed{};  ///< of one that forces move, along its axis [m], [m/s]
-  double work{};             ///< since the start, by what moves it [J]
+  double offset{}, speed{};            ///< of one that forces move, along its axis [m], [m/s]
+  double work{};                       ///< since the start, by what moves it [J]
   base::Vec3d impulse, angularImpulse; ///< on the grains since the start [N s], [N m s about the origin of the world]
-  base::Vec3d force, torque; ///< sums over the steps since the last row [N], [N m]
-  double power{};            ///< the same [W]
+  base::Vec3d force, torque;           ///< sums over the steps since the last row [N], [N m]
+  double power{};                      ///< the same [W]
 };
 
 /// All surfaces of a scene.

@@ -124,7 +124,8 @@ void Surfaces::addTo(Ledger& ledger) const {
   if (meshes_) {
     const contact::GrainPartContacts::Ledger m = meshes_->ledger();
     ledger.elastic += m.elastic, ledger.partContacts += m.contacts;
-    ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed, ledger.dissipated.rolling += m.rolled;
+    ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed,
+        ledger.dissipated.rolling += m.rolled;
   }
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const SurfaceState& s = states_.surfaces[i];

@@ -218,7 +218,8 @@ std::vector<std::string> VehicleContacts::pressing(std::uint32_t grain) const {
   std::vector<std::string> names;
   if (!bed_) return names;
   for (const contact::GrainPartContacts::Press& p : bed_->pressing(grain))
-    names.push_back(fmt::format("the {} ({:.2g} mm)", assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
+    names.push_back(fmt::format("the {} ({:.2g} mm)",
+                                assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
                                 1e3 * static_cast<double>(p.overlap)));
   return names;
 }

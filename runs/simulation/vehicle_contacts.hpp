@@ -49,10 +49,10 @@ public:
 
   /// Energies of the contacts [J].
   struct Ledger {
-    double elastic{};       ///< held now
-    double dissipated{};    ///< since the start, of parts with each other and with rigid ground
+    double elastic{};                    ///< held now
+    double dissipated{};                 ///< since the start, of parts with each other and with rigid ground
     double damped{}, rubbed{}, rolled{}; ///< since the start, of parts with grains
-    std::int64_t patches{}; ///< of parts on parts and on ground
+    std::int64_t patches{};              ///< of parts on parts and on ground
     std::int64_t grainContacts{};
     base::Vec3d impulseOnParts; ///< from the grains since the start [N s]
     base::Vec3d impulseOnGrains;

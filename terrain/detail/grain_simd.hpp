@@ -301,8 +301,8 @@ private:
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };
 
-template <class Some> GROUSER_SIMD void runAndBook(const GrainKernelData& d, const ForceData<float>& f, int first,
-                                                   int last) {
+template <class Some>
+GROUSER_SIMD void runAndBook(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   Some some(d, f);
   some.run(first, last);
   addToBooks(d, first, some.books());

@@ -220,7 +220,7 @@ TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
                          " --set run.duration=0.1 --set output.plots=false --set output.picture=false");
   EXPECT_EQ(o.code, 0) << o.errors;
   const std::string summary = contents(folder_ / "s" / "summary.csv"), header = summary.substr(0, summary.find('\n'));
-  EXPECT_NE(header.find("energy residual [J]"), std::string::npos) << header;
+  EXPECT_NE(header.find("integration error [J]"), std::string::npos) << header;
   for (const char* ofVehicles : {"teeth", "slip", "sinkage", "impulse"})
     EXPECT_EQ(header.find(ofVehicles), std::string::npos) << header;
 }

@@ -44,7 +44,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
   std::vector<output::Channel> channels = {
       {"vehicle/gross_traction", "N", "", 1, {}},    {"vehicle/drawbar_pull", "N", "", 1, {}},
       {"vehicle/motion_resistance", "N", "", 1, {}}, {"ledger/drive_work", "J", "", 1, {}},
-      {"ledger/residual", "J", "", 1, {}},           {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
+      {"ledger/integration_error", "J", "", 1, {}},  {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
     for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
       channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
@@ -71,7 +71,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
     }
     row.set("vehicle/gross_traction", 2800 + 640 * u), row.set("vehicle/drawbar_pull", 2000 + 300 * u);
     row.set("vehicle/motion_resistance", 800 + 340 * u);
-    row.set("ledger/drive_work", 1000 + 7 * r), row.set("ledger/residual", -0.25 * r);
+    row.set("ledger/drive_work", 1000 + 7 * r), row.set("ledger/integration_error", -0.25 * r);
     row.set("ledger/impulse_residual", base::Vec3d{0.02 * r, -0.03 * r, 0.06 * r});
     writer.row(row.row());
   }
@@ -99,7 +99,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
   expectNine(number("tension mean [N]"), (3 * 2000 + 3 * 5000 + 2 * 700) / 6.0, "tension");
   expectNine(number("tension peak [N]"), 10000, "largest tension");
   expectNine(number("drive work [J]"), 1210, "work at the end");
-  expectNine(number("energy residual [J]"), -7.5, "residual at the end");
+  expectNine(number("integration error [J]"), -7.5, "error at the end");
   expectNine(number("impulse residual [N s]"), 2.1, "|(0.6, -0.9, 1.8)| at the end");
   expectNine(number("steady from [s]"), 2, "steady from");
 }

@@ -241,7 +241,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
 
   std::vector<output::Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
-                                           {"ledger/residual", "J", "", 1, {}},
+                                           {"ledger/integration_error", "J", "", 1, {}},
                                            {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
     for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
@@ -267,7 +267,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
               std::vector<double>{isSteady ? 1000.0 : 77e3, isSteady && r == 25 ? 6000 * of : 1000.0});
     }
     row.set("vehicle/motion_resistance", isSteady ? 50 + 10 * (r % 2 ? 1 : -1) : 77);
-    row.set("ledger/residual", 0.1 * r);
+    row.set("ledger/integration_error", 0.1 * r);
     row.set("ledger/impulse_residual", base::Vec3d{0, 3, 4});
     writer.row(row.row());
   }
@@ -292,7 +292,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   EXPECT_NEAR(number("tension mean [N]"), 1000 + (5000 + 17000) / 44.0, 1e-5) << "11 rows, 2 tracks, 2 shoes";
   EXPECT_NEAR(number("tension peak [N]"), 18000, 1e-4);
   EXPECT_NEAR(number("motion resistance [N]"), 50 - 10 / 11.0, 1e-7);
-  EXPECT_NEAR(number("energy residual [J]"), 3, 1e-8) << "at the end";
+  EXPECT_NEAR(number("integration error [J]"), 3, 1e-8) << "at the end";
   EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
   EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "what the results lack is empty";
 }

@@ -159,7 +159,8 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
     for (int i = 0; i < 200; ++i) one.step(), resumed.step();
     EXPECT_EQ(one.stateHash(), resumed.stateHash());
     const auto ledger = one.ledger();
-    EXPECT_LT(std::fabs(ledger.integrationError), 0.02 * std::fabs(ledger.potential) + 1e-3) << "first order in the step";
+    EXPECT_LT(std::fabs(ledger.integrationError), 0.02 * std::fabs(ledger.potential) + 1e-3)
+        << "first order in the step";
   }
 }
 

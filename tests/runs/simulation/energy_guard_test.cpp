@@ -58,9 +58,9 @@ std::string heap(int number, const std::string& material, const std::string& vel
                                  "[[grains]]\nform = \"random\"\nlow = [-0.04, -0.04, 0]\nhigh = [0.04, 0.04, 0.15]\n"
                                  "number = {}\nradius = 0.005\nvelocity = {}\nmaterial = \"soil\"\n",
                                  material, number, velocity);
-  for (const char* plane : {"[0, 0, 0]\nnormal = [0, 0, 1]", "[-0.04, 0, 0]\nnormal = [1, 0, 0]",
-                            "[0.04, 0, 0]\nnormal = [-1, 0, 0]", "[0, -0.04, 0]\nnormal = [0, 1, 0]",
-                            "[0, 0.04, 0]\nnormal = [0, -1, 0]"})
+  for (const char* plane :
+       {"[0, 0, 0]\nnormal = [0, 0, 1]", "[-0.04, 0, 0]\nnormal = [1, 0, 0]", "[0.04, 0, 0]\nnormal = [-1, 0, 0]",
+        "[0, -0.04, 0]\nnormal = [0, 1, 0]", "[0, 0.04, 0]\nnormal = [0, -1, 0]"})
     text += fmt::format("[[plane]]\npoint = {}\nmaterial = \"soil\"\n", plane);
   return text;
 }
@@ -93,17 +93,15 @@ TEST_P(Heaps, AreStoppedFarBeyondIt) {
 
 INSTANTIATE_TEST_SUITE_P(
     EnergyGuard, Heaps,
-    ::testing::Values(Material{"Plain", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5", "[0, 0, 0]"},
-                      Material{"Elastic", "stiffness = 2e4\nrestitution = 1\nfriction = 0", "[0, 0, 0]"},
-                      Material{"ElasticRough", "stiffness = 2e4\nrestitution = 1\nfriction = 0.5", "[0, 0, 0]"},
-                      Material{"Lossy", "stiffness = 2e4\nrestitution = 0.1\nfriction = 0.9", "[0, 0, -1]"},
-                      Material{"Rolling", "stiffness = 2e4\nrestitution = 0.4\nfriction = 0.5\nrolling_friction = 0.2",
-                               "[0, 0, 0]"},
-                      Material{"Sticky", "stiffness = 2e4\nrestitution = 0.4\nfriction = 0.5\ncohesion = 0.05",
-                               "[0, 0, 0]"},
-                      Material{"Pulling", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5\nattraction = true",
-                               "[0, 0, 0]"},
-                      Material{"Stiff", "stiffness = 1e6\nrestitution = 0.3\nfriction = 0.8", "[0.5, 0, -1]"}),
+    ::testing::Values(
+        Material{"Plain", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5", "[0, 0, 0]"},
+        Material{"Elastic", "stiffness = 2e4\nrestitution = 1\nfriction = 0", "[0, 0, 0]"},
+        Material{"ElasticRough", "stiffness = 2e4\nrestitution = 1\nfriction = 0.5", "[0, 0, 0]"},
+        Material{"Lossy", "stiffness = 2e4\nrestitution = 0.1\nfriction = 0.9", "[0, 0, -1]"},
+        Material{"Rolling", "stiffness = 2e4\nrestitution = 0.4\nfriction = 0.5\nrolling_friction = 0.2", "[0, 0, 0]"},
+        Material{"Sticky", "stiffness = 2e4\nrestitution = 0.4\nfriction = 0.5\ncohesion = 0.05", "[0, 0, 0]"},
+        Material{"Pulling", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5\nattraction = true", "[0, 0, 0]"},
+        Material{"Stiff", "stiffness = 1e6\nrestitution = 0.3\nfriction = 0.8", "[0.5, 0, -1]"}),
     [](const auto& heap) { return std::string(heap.param.name); });
 
 TEST(EnergyGuard, VerdictFallsAtTheSameStepInBatchesAndAlone) {

@@ -23,9 +23,10 @@ std::string material(double restitution, double friction, const std::string& mor
 }
 
 std::string oneBall(double height, const std::string& motion) {
-  return fmt::format("[[grain]]\nposition = [0, 0, {}]\n{}\nradius = {}\nmaterial = \"soil\"\n[[plane]]\npoint = [0, 0, "
-                     "0]\nmaterial = \"soil\"\n",
-                     height, motion, kRadius);
+  return fmt::format(
+      "[[grain]]\nposition = [0, 0, {}]\n{}\nradius = {}\nmaterial = \"soil\"\n[[plane]]\npoint = [0, 0, "
+      "0]\nmaterial = \"soil\"\n",
+      height, motion, kRadius);
 }
 
 /// 250 grains that fall into a box.
@@ -61,8 +62,7 @@ TEST(LedgerOfGrains, ElasticBounceThatSticksDissipatesNothing) {
     EXPECT_EQ(l.dissipated.total(), 0) << step;
     EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover) << "rounding, at a step of " << step;
   }
-  const Ledger sticks =
-      after(material(1, 10) + oneBall(0.06, "velocity = [0.5, 0, -1]\nspin = [0, 3, 1]"), 0.2, 1e-5);
+  const Ledger sticks = after(material(1, 10) + oneBall(0.06, "velocity = [0.5, 0, -1]\nspin = [0, 3, 1]"), 0.2, 1e-5);
   EXPECT_EQ(sticks.dissipated.damping, 0);
   EXPECT_LT(sticks.dissipated.friction, 1e-4 * sticks.turnover);
 }
@@ -105,7 +105,8 @@ TEST(LedgerOfGrains, SlidingBallLosesTwoSeventhsOfItsEnergyToFriction) {
   const std::string ball = oneBall(kRadius - ballMass() * kGravity / 1e5, "velocity = [1, 0, 0]");
   for (const double step : {4e-5, 1e-5}) {
     const Ledger l = after(material(0.5, 0.3) + ball, 0.15, step);
-    // Of the step: the first and the last of its 2400 steps of sliding; of the model: the arm is shorter by the overlap.
+    // Of the step: the first and the last of its 2400 steps of sliding; of the model: the arm is shorter by the
+    // overlap.
     EXPECT_NEAR(l.dissipated.friction / loss, 1, 2 * step / 0.097 + 1e-3);
     EXPECT_LT(l.dissipated.damping, 1e-3 * loss);
     EXPECT_LT(std::fabs(l.integrationError), 2e-3 * loss);
