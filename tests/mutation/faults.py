@@ -73,7 +73,7 @@ class Results:
         """Whether a fault need not be tried again: what was seen stays so, all else is of these very sources."""
         entry = self.found.get(fault.key())
         return bool(entry) and (entry['verdict'] == 'results' or
-                                (entry['digest'] == digest and entry['verdict'] != 'open'))
+                                (entry['digest'] == digest and entry['verdict'] in ('hash', 'none')))
 
     def add(self, fault, verdict, tests, digest):
         self.found[fault.key()] = {'name': fault.name, 'verdict': verdict, 'tests': tests, 'digest': digest,
