@@ -3,6 +3,7 @@
 #include "vehicle/assembly.hpp"
 #include "vehicle/driver.hpp"
 
+#include "base/math.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -30,6 +31,9 @@ TEST(Controls, GoToTheTensionersBarsAndSprocketsOfTheirSide) {
     EXPECT_EQ(t.y > 0, track == 0) << "left first";
     EXPECT_EQ(loads.axisSprings[static_cast<std::size_t>(t.tensioner)].loadFactor, 0.25);
     for (const int bar : t.armSprings) EXPECT_EQ(loads.axisSprings[static_cast<std::size_t>(bar)].loadFactor, 0.5);
+    // 5 kN on the wheel at the end of an arm of 0.25 m that leans by 20 degrees; the bar holds against it.
+    const multibody::AxisSpring& bar = v.model.axisSprings()[static_cast<std::size_t>(t.armSprings[1])];
+    EXPECT_NEAR(bar.preload, -5000 * 0.25 * base::cos(base::kPi / 9), 1e-9);
     EXPECT_EQ(loads.drives[static_cast<std::size_t>(t.drive)].speed, track == 0 ? 3 : -7);
   }
 }
