@@ -63,7 +63,6 @@ struct Pushes {
       for (int k = 0; k < 2; ++k)
         load.push_back({quantum.quantise(Vec3d{die(id, 8) - 0.5, die(id, 9) - 0.5, die(id, 10)} * (0.01 * (k + 1))),
                         {1e-5f, 0, -2e-5f},
-                        1e-6f,
                         1e-5f});
     }
     return {range.data(), load.data(), quantum, received};
