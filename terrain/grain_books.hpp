@@ -63,6 +63,13 @@ struct WallBooks {
   std::int64_t of[kBooks - kGrainBooks] = {};
 };
 
+/// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
+/// rounding `unrounded`, which is v_old + faster, to the velocity that is kept makes of it.
+GROUSER_HD double halfSquareGained(double faster, double unrounded, double kept) {
+  const double rounding = kept - unrounded;
+  return faster * (unrounded - 0.5 * faster) + rounding * (unrounded + 0.5 * rounding);
+}
+
 /// The sums are kept several times over, so that threads which add at the same time rarely meet: [kBookBanks][kBooks].
 inline constexpr int kBookBanks = 64;
 GROUSER_HD base::WideSum* bankOf(base::WideSum* books, int item) { return books + (item % kBookBanks) * kBooks; }

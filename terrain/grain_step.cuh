@@ -221,8 +221,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
-  /// The work on a grain in this step: m dv . (v_old + v_new) / 2, and the same of the spin. `massShare`: of the mass
-  /// of the model.
+  /// `work` on a grain in this step. `massShare`: of the mass of the model.
   GROUSER_HD void book(const base::Position& place, double work, double massShare, const Lost& lost,
                        GrainBooks& books) const {
     const double q = d.bookScale.perEnergy;
@@ -272,8 +271,11 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
       const double faster = force[a] * stepPerMass + d.gravityStep[a], turning = torque[a] * stepPerInertia;
       const double speed = addCompensated(v[a], rv, faster);
-      gained += faster * (speed - 0.5 * faster);
-      if (Kernel::hasHistory() || has(kLoads)) turned += turning * (addCompensated(w[a], rw, turning) - 0.5 * turning);
+      if (has(kLedger)) gained += halfSquareGained(faster, speed, withRemainder(v[a], rv));
+      if (Kernel::hasHistory() || has(kLoads)) {
+        const double turn = addCompensated(w[a], rw, turning);
+        if (has(kLedger)) turned += halfSquareGained(turning, turn, withRemainder(w[a], rw));
+      }
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.

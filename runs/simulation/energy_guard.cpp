@@ -8,32 +8,31 @@
 
 namespace grouser::simulation {
 
-namespace {
-
-/// Without the work of drives, which has a sign.
-double exchanged(const Ledger& l) { return l.turnover + l.dissipated.total(); }
-
-} // namespace
+namespace {} // namespace
 
 std::string EnergyGuard::judge(const Ledger& now, double held) const {
-  const double lost = now.integrationError - integrationError_;
-  const double moved = exchanged(now) - exchanged_ + std::fabs(now.driveWork - driveWork_);
-  const double quiet = kRounding * held + kQuiet * exchanged(now);
-  if (lost <= kMostLost * moved + quiet && -lost <= kMostMade * moved + quiet) return {};
+  const double lost = now.integrationError - last_.error, taken = now.dissipated.total() - last_.dissipated;
+  const double moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
+  const double quiet = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total()));
   if (!std::isfinite(lost) || !std::isfinite(moved)) return "the energies are no numbers any more";
-  return fmt::format("the steps have {} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were "
-                     "exchanged",
-                     lost > 0 ? "lost" : "made", std::fabs(lost), kInterval, moved);
+  const auto since = [&](const char* what, double energy) {
+    return fmt::format("{} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were exchanged", what,
+                       energy, kInterval, moved);
+  };
+  if (lost > kMostLost * moved + quiet) return since("the steps have lost", lost);
+  if (-lost > kMostMade * moved + quiet) return since("the steps have made", -lost);
+  if (-taken > kMostGiven * moved + quiet) return since("steps too long for dampers have let these make", -taken);
+  return {};
 }
 
 void EnergyGuard::look(const Ledger& now) {
-  integrationError_ = now.integrationError, exchanged_ = exchanged(now), driveWork_ = now.driveWork;
+  last_ = {now.integrationError, now.turnover, now.dissipated.total(), now.driveWork};
 }
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
-  if (saved.size() != 3)
+  if (saved.size() != 4)
     throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
-  integrationError_ = saved[0], exchanged_ = saved[1], driveWork_ = saved[2];
+  last_ = {saved[0], saved[1], saved[2], saved[3]};
 }
 
 } // namespace grouser::simulation

@@ -257,7 +257,7 @@ private:
     if (!ordinary) return false;
 
     if (kWithLedger) {
-      const Double4 gained = faster * (speed - faster * 0.5), turned = turning * (turn - turning * 0.5);
+      const Double4 gained = halfSquaresGained(faster, speed, v, rv), turned = halfSquaresGained(turning, turn, w, rw);
       double sum = 0, sumTurned = 0; // in the order of GrainStep
       for (int a = 0; a < 3; ++a) sum += gained[a];
       if (kWithFriction || data_.features & kLoads)
@@ -272,6 +272,16 @@ private:
     if (squareOf(q - base::bitsAs<Int4>(base::load3(data_.reference + i))) > data_.halfSkinUnits2)
       __atomic_store_n(&data_.flags->stale, 1u, __ATOMIC_RELAXED);
     return true;
+  }
+
+  /// halfSquareGained() of the axes.
+  GROUSER_SIMD static Double4 halfSquaresGained(const Double4& faster, const Double4& unrounded, const Float4& value,
+                                                const Int4& remainder) {
+    const Double4 kept =
+        base::toDouble(value) +
+        base::toDouble(remainder) * (base::toDouble(base::bitsAs<Float4>(binadeOf(value))) * kRemainderOfBinade);
+    const Double4 rounding = kept - unrounded;
+    return faster * (unrounded - faster * 0.5) + rounding * (unrounded + rounding * 0.5);
   }
 
   /// GrainStep::book().

@@ -91,6 +91,22 @@ TEST_P(Heaps, AreStoppedFarBeyondIt) {
   EXPECT_THROW(while (simulation.time() < 0.5) simulation.step(); simulation.checkEnergy(), base::SimulationError);
 }
 
+TEST_P(Heaps, DISABLED_Explore) {
+  for (double share : {1.5, 2.5, 3.5, 5.0, 7.0, 10.0}) {
+    Simulation simulation = simulationAt(heap(200, GetParam().text, GetParam().velocity), share);
+    std::string what = "ran";
+    try {
+      while (simulation.time() < 0.5) simulation.step();
+      simulation.checkEnergy();
+    } catch (const std::exception& e) {
+      what = e.what();
+    }
+    const Ledger l = simulation.ledger();
+    printf("%s share %.1f step %g: IE %.3g T %.3g D %.3g PE %.3g  %s\n", GetParam().name, share, simulation.timeStep(),
+           l.integrationError, l.turnover, l.dissipated.total(), l.potential, what.c_str());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     EnergyGuard, Heaps,
     ::testing::Values(
