@@ -14,13 +14,14 @@ namespace grouser::simulation {
 /// fixed step numbers, so its verdict does not depend on rows of output, devices, batches or ranks.
 ///
 /// Sound runs of grains at their limit step lose up to a tenth and make up to 3 percent in an interval (lost at
-/// impacts, whose beginning and end fall between steps); an unstable one makes most of what it exchanges, from the
-/// first doubling of its swing on.
+/// impacts, whose beginning and end fall between steps). Steps that are too long make a tenth and more, and let
+/// dampers, whose force then outlives the motion that it acts against, give energy instead of taking it.
 class EnergyGuard {
 public:
   static constexpr std::int64_t kInterval = 512; ///< steps between two looks; whole batches of grains alone
-  static constexpr double kMostMade = 0.25;      ///< share of the energy exchanged [-]
+  static constexpr double kMostMade = 0.1;       ///< share of the energy exchanged [-]
   static constexpr double kMostLost = 0.5;
+  static constexpr double kMostGiven = 0.02; ///< by what dissipates
   /// Share of all energy exchanged so far that is never an alarm [-]: what rests exchanges next to nothing.
   static constexpr double kQuiet = 1e-3;
 
@@ -32,12 +33,15 @@ public:
   /// Remembers `now` for the next judgement.
   void look(const Ledger& now);
 
-  std::vector<double> save() const { return {integrationError_, exchanged_, driveWork_}; }
+  std::vector<double> save() const { return {last_.error, last_.turnover, last_.dissipated, last_.driveWork}; }
   /// Throws base::InputError where it is not what save() gave.
   void restore(const std::vector<double>& saved);
 
 private:
-  double integrationError_{}, exchanged_{}, driveWork_{}; ///< at the last look [J]
+  struct Look {
+    double error{}, turnover{}, dissipated{}, driveWork{}; ///< [J]
+  };
+  Look last_;
 };
 
 } // namespace grouser::simulation
