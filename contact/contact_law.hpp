@@ -129,12 +129,13 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 /// or SIMD numbers of these: one source for the kernels of both devices and for many contacts at a time.
 /// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit.
 ///
-/// What is dissipated is booked with the velocities in the middle of the step, by which symplectic Euler changes the
-/// kinetic energy exactly, F . (v_old + v_new) / 2 dt, as this contact alone would make them: second order in the step
+/// Work of dashpots is booked with the velocity in the middle of the step, by which symplectic Euler changes the
+/// kinetic energy exactly, F . (v_old + v_new) / 2 dt, as this contact alone would make it: second order in the step
 /// for a single collision. A contact that sticks dissipates by its dashpots alone; of one that slides it is all work
-/// but what its spring gains. What turning the spring into the tangent plane takes away is an error of the step's
-/// length, not a loss, and is booked nowhere here. With Hertz' law a loaded tangential spring gains or loses energy as
-/// k_t follows the contact radius, however short the step: that is the law's own, and booked as sliding.
+/// but what its spring gains, with the slip at the start of the step: what is held at Coulomb's limit by other contacts
+/// must not seem to move. What turning the spring into the tangent plane takes away is an error of the step's length,
+/// not a loss, and is booked nowhere here. With Hertz' law a loaded tangential spring gains or loses energy as k_t
+/// follows the contact radius, however short the step: that is the law's own, and booked as sliding.
 template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law,
                                                                                 const BasicContactGeometry<T>& touch,
                                                                                 ScalarOf<T> dt, base::Vec3<T>& shear) {
@@ -190,7 +191,7 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
   const base::Vec3<T> middle = slip + tangential * (Scalar(3.5) * halfStepPerMass);
   const T gained = Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
   reaction.damped += slides ? zero : dot(dashpots, middle) * dt;
-  reaction.rubbed -= slides ? dot(tangential, middle) * dt + gained : zero;
+  reaction.rubbed -= slides ? dot(tangential, slip) * dt + gained : zero;
   reaction.force += tangential;
   return reaction;
 }

@@ -33,8 +33,8 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<T>& law, T norma
 /// shortened to fit and the dashpot is off. Below, the dashpot may at most fill the torque up to the limit: in the
 /// paper it may exceed it many times, so that a fast ball loses percents of its energy in the moment of touch. Spin
 /// about the normal is not resisted. `pressing` and `normalStiffness` are the reaction's. Returns the torque on i [N
-/// m]; on j it is the exact opposite. Adds what it dissipates, with the spin in the middle of the step as this torque
-/// alone would make it: by the dashpot, and at the limit all work but what the spring gains.
+/// m]; on j it is the exact opposite. Adds what it dissipates: by the dashpot, with the spin in the middle of the step
+/// as this torque alone would make it, and at the limit all work but what the spring gains.
 template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<T>& law, const RollingMotion<T>& m, T pressing,
                                                           T normalStiffness, T dt, base::Vec3<T>& angle,
                                                           T& dissipated) {
@@ -48,21 +48,24 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<T>& law
   const T limit = law.rollingFriction * m.radius * (pressing > 0 ? pressing : T(0));
   const T size2 = dot(torque, torque);
   const bool slides = size2 > limit * limit;
-  base::Vec3<T> lossy = torque; // the part of the torque whose work is lost
+  base::Vec3<T> damping{};
   if (slides) {
     torque *= limit / squareRoot(size2);
     angle = stiffness > 0 ? torque * (T(-1) / stiffness) : base::Vec3<T>{};
-    lossy = torque;
   } else {
+    const base::Vec3<T> spring = torque;
     torque -= rolling * (T(2) * law.rollingDamping * squareRoot(m.inertia * stiffness));
     const T both2 = dot(torque, torque);
     if (both2 > limit * limit) torque *= limit / squareRoot(both2);
-    lossy = torque - lossy;
+    damping = torque - spring;
   }
-  // About their centres spheres are 7/2 times easier to turn than about the point of contact.
-  const base::Vec3<T> middle = rolling + torque * (T(1.75) * dt / m.inertia);
-  dissipated -= dot(lossy, middle) * dt;
-  if (slides) dissipated -= T(0.5) * (stiffness * dot(angle, angle) - storedBefore);
+  if (slides) {
+    dissipated -= dot(torque, rolling) * dt + T(0.5) * (stiffness * dot(angle, angle) - storedBefore);
+  } else {
+    // About their centres spheres are 7/2 times easier to turn than about the point of contact.
+    const base::Vec3<T> middle = rolling + torque * (T(1.75) * dt / m.inertia);
+    dissipated -= dot(damping, middle) * dt;
+  }
   return torque;
 }
 

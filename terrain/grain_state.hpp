@@ -13,7 +13,7 @@ namespace grouser::terrain {
 
 /// Which fields the grains of a scene have.
 struct GrainLayout {
-  std::int64_t ledger{};     ///< 1: dissipation is summed
+  std::int64_t ledger{};     ///< 1: books are kept
   std::int64_t boundaries{}; ///< planes and floor together
   std::int64_t friction{};   ///< 1: contacts have springs
   std::int64_t rolling{};    ///< 1: contacts have rolling angles too

@@ -37,7 +37,7 @@ struct BedBench {
   double settleTime = 0.5;  ///< [s]
   std::int64_t steps = 0;   ///< of one batch; 0: as many as take about a second
   int batches = 5;
-  bool ledger = false; ///< sum dissipation grain by grain, as a run does
+  bool ledger = false; ///< keep the books of energies, as a run does
   bool hash = false;   ///< take the state hash at the end
   base::PeerUse peerMemory = base::PeerUse::automatic;
 };

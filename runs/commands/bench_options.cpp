@@ -62,7 +62,7 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   support::addChoice(
       *bed, "--peer-memory", b.peerMemory,
       "several ranks: GPUs of one machine read each other's memory where they can, never, or not without");
-  bed->add_flag("--ledger", b.ledger, "sum dissipation grain by grain, as runs do");
+  bed->add_flag("--ledger", b.ledger, "keep the books of energies, as runs do");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(*bed, *command);
   bed->callback([command, words = invocation.words] {

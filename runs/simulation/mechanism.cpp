@@ -72,8 +72,8 @@ void Mechanism::watchDrift() {
 }
 
 void Mechanism::judge() {
-  judgeTurns();
   if (overTension_) judgeTension();
+  judgeTurns();
 }
 
 /// A body that turns far in a step precesses too slowly: one of moments 1, 1, 2 with spin (0.5, 0, 1) by 0.07 % at 0.1
@@ -86,9 +86,10 @@ void Mechanism::judgeTurns() const {
         turn > 2 * startTurn_[b] ? fmt::format(" (spun up from {:.4g} rad a step at the start)", startTurn_[b]) : "";
     fail(fmt::format("body \"{}\" turns by {:.4g} rad a step{}, above the {:.4g} rad of run.steps_per_period = {:g} "
                      "steps a turn, beyond which its motion is no longer resolved; set run.time_step to {} s or less, "
-                     "limit what drives it, or lower run.steps_per_period if you mean it",
+                     "limit what drives it, or lower run.steps_per_period if you mean it{}",
                      model_.bodies()[b].name, turn, spunUp, largestTurn_, 2 * base::kPi / largestTurn_,
-                     setup::atMost(largestTurn_ / rate)));
+                     setup::atMost(largestTurn_ / rate),
+                     tensionStepWarning_.empty() ? "" : "; " + tensionStepWarning_));
   }
 }
 
@@ -99,7 +100,6 @@ void Mechanism::judgeTension() {
   const double r = timeStep_ / stableStepUnderTension(&part);
   if (r <= 1) {
     overTension_ = false, swingGrowth_ = swingGrown_ = 1;
-    tensionStepWarning_.clear();
     return;
   }
   const double now = (r + std::sqrt(r * r - 1)) * (r + std::sqrt(r * r - 1)), growth = std::min(now, swingGrowth_);
@@ -130,7 +130,7 @@ void Mechanism::watchTension() {
 double Mechanism::checkTension() {
   std::string part;
   const double most = stableStepUnderTension(&part);
-  if (timeStep_ >= most)
+  if (timeStep_ >= most && tensionStepWarning_.empty())
     tensionStepWarning_ =
         fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
   return most;

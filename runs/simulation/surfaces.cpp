@@ -96,6 +96,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
       const double mass = free->mass, given = free->loadAt(time), before = s.speed;
       s.speed += (dot(load.force + gravity_ * mass, freeAxis(i)) + given) / mass * timeStep_;
       s.offset += s.speed * timeStep_;
+      s.turnover += 0.5 * mass * std::fabs(s.speed * s.speed - before * before);
       checkSpeed(i, step, grains.system().constants.smallestRadius);
       power += given * 0.5 * (before + s.speed);
     }
@@ -133,7 +134,7 @@ void Surfaces::addTo(Ledger& ledger) const {
     ledger.momentumResidual -= s.impulse, ledger.angularResidual -= s.angularImpulse;
     if (!surfaces_[i].free) continue;
     const double mass = surfaces_[i].free->mass, kinetic = 0.5 * mass * s.speed * s.speed;
-    ledger.kinetic += kinetic, ledger.work += kinetic;
+    ledger.kinetic += kinetic, ledger.work += kinetic, ledger.turnover += s.turnover;
     ledger.potential -= mass * dot(gravity_, freeAxis(i)) * s.offset;
   }
 }

@@ -34,6 +34,7 @@ scene::Scene sceneOf(const scene::MechanismSections& sections, const Choice& cho
   scene.run.gravity = gravity;
   scene.run.integrator = choice.integrator, scene.run.springs = choice.springs;
   scene.mechanism = sections;
+  scene.run.stepsPerPeriod = 2; // stability is what is looked for, however little is resolved
   return scene;
 }
 

@@ -47,7 +47,7 @@ TEST(Driver, SpeedTable_IsLinearBetweenAndConstantOutside) {
 }
 
 TEST(Driver, BadOptions_AreRefused) {
-  EXPECT_THROW(Driver({.speeds = {{0, 0}, {1, 1}, {1, 1}}}), base::InputError);
+  EXPECT_THROW(Driver({.speeds = {{1, 0}, {1, 1}, {1, 1}}}), base::InputError);
   EXPECT_THROW(Driver({.speeds = {{0, 1}, {1}, {1, 1}}}), base::InputError);
   EXPECT_THROW(Driver({.tensionRamp = -1}), base::InputError);
   EXPECT_THROW(Driver({.weightRamp = 2}), base::InputError);

@@ -118,7 +118,8 @@ TEST_F(CommandLine, FullDiskIsSaidAndLeavesNoPart) {
 TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
   writeGrain();
   int begun = 0, complete = 0;
-  for (const int blocks : {0, 1, 4, 8, 12, 16, 24, 32, 48, 64, 512}) { // files of at most so many times 512 bytes
+  for (const int blocks :
+       {0, 1, 4, 8, 16, 32, 64, 128, 192, 256, 320, 384, 448, 1024}) { // files of at most so many times 512 bytes
     const std::string folder = "full" + std::to_string(blocks);
     const Outcome o = call("run grain.toml --out " + folder, "ulimit -f " + std::to_string(blocks) + "; ");
     if (o.code == 0) {

@@ -82,7 +82,7 @@ TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   for (const std::string& more : {std::string(), csv, frames, picture, many}) {
     const Outcome free = run("--hash --out free --force" + more);
     ASSERT_EQ(free.code, 0) << free.errors;
-    for (const int kib : {1, 10, 45, 90, 130, 160, 200, 400, 1000, 1500}) {
+    for (const int kib : {1, 10, 45, 90, 130, 160, 200, 240, 300, 400, 600, 1000, 1500}) {
       const std::string out = "full" + std::to_string(kib);
       fs::remove_all(folder_ / out);
       const Outcome o = run("--out " + out + more, "ulimit -c 0; ulimit -f " + std::to_string(2 * kib) + "; ");

@@ -163,16 +163,16 @@ void expectRestored(const scene::Scene& scene, std::int64_t steps) {
 
 TEST(RestoredSimulation, OfAVehicleOnRigidGroundSavesWhatItWasGiven) {
   expectRestored(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
-                                  {"vehicle.sphere_radius=0.04", "vehicle.clearance=1e-6", "driver.tension_ramp=0.001",
-                                   "driver.weight_ramp=0.001", "driver.drive_ramp=0.002"}),
+                                  {"vehicle.sphere_radius=0.04", "vehicle.clearance=1e-6", "driver.tension_ramp=0.002",
+                                   "driver.weight_ramp=0.002", "driver.drive_ramp=0.002"}),
                  45);
 }
 
 TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
   const scene::Scene scene =
       setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
-                       {"vehicle.sphere_radius=0.04", "vehicle.clearance=1e-6", "driver.tension_ramp=0.001",
-                        "driver.weight_ramp=0.001", "driver.drive_ramp=0.002"});
+                       {"vehicle.sphere_radius=0.04", "vehicle.clearance=1e-6", "driver.tension_ramp=0.002",
+                        "driver.weight_ramp=0.002", "driver.drive_ramp=0.002"});
   Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   while (simulation.steps() < 20) simulation.step();
   const VehicleState first = *simulation.save().vehicle;

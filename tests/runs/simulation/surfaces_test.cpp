@@ -124,7 +124,7 @@ TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
     setup::chooseTimeStep(light);
     FAIL();
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is above 1.55e-06 s, where the stiffest contact of the scene (lid of"),
+    EXPECT_NE(std::string(error.what()).find("is above 1.54e-06 s, where the stiffest contact of the scene (lid of"),
               std::string::npos)
         << error.what(); // on the springs of all four grains
   }
