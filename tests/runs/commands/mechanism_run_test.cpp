@@ -178,9 +178,10 @@ polynomial = [0, -1e6]
     std::smatch named;
     ASSERT_TRUE(std::regex_search(o.errors, named, std::regex("bore so much that only steps below ([0-9.e-]+) s")))
         << o.errors;
-    // The pull is looked at when it has grown by a twentieth, and the root of that goes into the step; two digits.
+    // The pull is looked at when it has grown by a twentieth, and the root of that goes into the step; two digits. A
+    // peak of the links' own swing may be the first to pass the limit.
     EXPECT_LE(std::stod(named[1]), limit * 1.01) << step;
-    EXPECT_GE(std::stod(named[1]), limit * 0.93) << step;
+    EXPECT_GE(std::stod(named[1]), limit * 0.8) << step;
   }
 }
 
