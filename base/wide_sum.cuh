@@ -31,7 +31,7 @@ struct alignas(16) WideSum {
 };
 
 /// Adds to a sum that threads share.
-GROUSER_HD void atomicAdd(WideSum* sum, std::int64_t value) {
+GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
   const auto addend = static_cast<std::uint64_t>(value);
 #if defined(__CUDA_ARCH__)
   const std::uint64_t old =
@@ -55,7 +55,7 @@ template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, co
   for (int k = 0; k < kCount; ++k) {
     const long long sum =
         cooperative_groups::reduce(threads, static_cast<long long>(values[k]), cooperative_groups::plus<long long>());
-    if (threads.thread_rank() == 0 && sum != 0) atomicAdd(sums + k, sum);
+    if (threads.thread_rank() == 0 && sum != 0) atomicAddWide(sums + k, sum);
   }
 }
 #endif

@@ -176,7 +176,7 @@ template <unsigned kFeatures, class Real> struct BookedBoundaryContacts {
     for (std::int64_t k = first; k < last; ++k) contacts.run(static_cast<int>(k), books);
     base::WideSum* const bank = bankOf(contacts.d.books, item) + kGrainBooks;
     for (int b = 0; b < kBooks - kGrainBooks; ++b)
-      if (books.of[b] != 0) base::atomicAdd(bank + b, books.of[b]);
+      if (books.of[b] != 0) base::atomicAddWide(bank + b, books.of[b]);
 #endif
   }
 };

@@ -153,7 +153,7 @@ private:
 #if defined(__CUDA_ARCH__)
     base::atomicAddTogether(bank, share);
 #else
-    for (int k = 0; k < kSums; ++k) base::atomicAdd(bank + k, share[k]);
+    for (int k = 0; k < kSums; ++k) base::atomicAddWide(bank + k, share[k]);
 #endif
   }
 };

@@ -327,7 +327,7 @@ template <unsigned kFeatures, class Real> struct BookedGrainStep {
     for (std::int64_t k = first; k < last; ++k) step.run(static_cast<int>(k), books);
     base::WideSum* const bank = bankOf(step.d.books, item);
     for (int b = 0; b < kGrainBooks; ++b)
-      if (books.of[b] != 0) base::atomicAdd(bank + b, books.of[b]);
+      if (books.of[b] != 0) base::atomicAddWide(bank + b, books.of[b]);
 #endif
   }
 };
