@@ -14,7 +14,7 @@ namespace grouser::simulation {
 struct SurfaceState {
   double offset{}, speed{};            ///< of one that forces move, along its axis [m], [m/s]
   double work{};                       ///< since the start, by what moves it [J]
-  double turnover{};         ///< of one that forces move: its absolute work in each step, since the start [J]
+  double turnover{};                   ///< of one that forces move: its absolute work in each step, since the start [J]
   base::Vec3d impulse, angularImpulse; ///< on the grains since the start [N s], [N m s about the origin of the world]
   base::Vec3d force, torque;           ///< sums over the steps since the last row [N], [N m]
   double power{};                      ///< the same [W]
