@@ -5,11 +5,6 @@
 
 #include <cstdint>
 
-#if defined(__CUDACC__)
-#include <cooperative_groups.h>
-#include <cooperative_groups/reduce.h>
-#endif
-
 namespace grouser::base {
 
 /// An order-free sum of 64-bit integers that does not overflow: two's complement in 128 bits.
@@ -49,14 +44,25 @@ GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
 }
 
 #if defined(__CUDACC__)
-/// The same for the threads of a warp together, those that are here: `kCount` sums side by side.
-template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
-  const auto threads = cooperative_groups::coalesced_threads();
+/// The same for the threads of a warp together, those that are here: `kCount` sums side by side. The processor sums 32
+/// bits at once, so the numbers go in limbs of 26: two for numbers below 2^51, three for all below 2^63.
+template <int kLimbs, int kCount>
+__device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
+#if __CUDA_ARCH__ >= 800
+  constexpr int kBits = 26;
+  constexpr std::int64_t kMask = (std::int64_t{1} << kBits) - 1;
+  const unsigned here = __activemask();
+  const bool first = static_cast<int>(threadIdx.x & 31u) == __ffs(static_cast<int>(here)) - 1;
   for (int k = 0; k < kCount; ++k) {
-    const long long sum =
-        cooperative_groups::reduce(threads, static_cast<long long>(values[k]), cooperative_groups::plus<long long>());
-    if (threads.thread_rank() == 0 && sum != 0) atomicAddWide(sums + k, sum);
+    std::int64_t sum = __reduce_add_sync(here, static_cast<int>(values[k] >> kBits * (kLimbs - 1))); // with the sign
+    for (int limb = kLimbs - 2; limb >= 0; --limb)
+      sum = (sum << kBits) + __reduce_add_sync(here, static_cast<unsigned>(values[k] >> kBits * limb & kMask));
+    if (first && sum != 0) atomicAddWide(sums + k, sum);
   }
+#else
+  for (int k = 0; k < kCount; ++k)
+    if (values[k] != 0) atomicAddWide(sums + k, values[k]);
+#endif
 }
 #endif
 

@@ -21,6 +21,10 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     GrainSize<Real> size;
     std::uint32_t before; ///< boundaries that it touched in the last step
   };
+  /// By dashpots, sliding and rolling resistance [J].
+  struct Losses {
+    Real damped = 0, rubbed = 0, rolled = 0;
+  };
   struct Reaction {
     Vec force, rolling; ///< on the grain [N], torque of rolling resistance [N m]
   };
@@ -39,53 +43,62 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
     const double radius = static_cast<double>(grain.size.radius);
     BoundaryLoad<Real> sum{};
+    Losses lost;
     std::uint32_t now = 0;
     for (int b = 0; b < d.wallCount; ++b) {
       const double distance = dot(d.walls[b].normal, x) - d.walls[b].offset;
       const Real overlap = static_cast<Real>(radius - distance);
       if (overlap <= 0) continue;
       now |= 1u << b;
-      touchFixed(grain, b, d.walls[b].normal.template as<Real>(), overlap, sum);
+      touchFixed(grain, b, d.walls[b].normal.template as<Real>(), overlap, sum, lost);
     }
     if (has(kFloor) && !d.floor.clearOf(x, radius)) {
       const FootPoint foot = d.floor.closestPoint(x);
       const Real overlap = static_cast<Real>(radius - foot.distance);
       if (overlap > 0) {
         now |= 1u << d.wallCount;
-        touchFixed(grain, d.wallCount, foot.normal.template as<Real>(), overlap, sum);
+        touchFixed(grain, d.wallCount, foot.normal.template as<Real>(), overlap, sum, lost);
       }
     }
-    if (now != 0) book(grain, sum, books);
-    if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum);
+    if (now != 0) bookWalls(grain, sum, books);
+    if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum, lost);
+    if (now != 0) bookLosses(lost, books);
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
   }
 
 private:
   /// Force and, about the origin of the world, torque of walls and floor.
-  GROUSER_HD void book(const Grain& grain, const BoundaryLoad<Real>& sum, WallBooks& books) const {
+  GROUSER_HD void bookWalls(const Grain& grain, const BoundaryLoad<Real>& sum, WallBooks& books) const {
     const base::Vec3d force = sum.force.template as<double>();
     const base::Vec3d torque = cross(grain.x, force) + sum.torque.template as<double>();
     for (int a = 0; a < 3; ++a) {
-      books.of[a] += wholeQuanta(d.bookScale.perForce * force[a]);
-      books.of[3 + a] += wholeQuanta(d.bookScale.perTorque * torque[a]);
+      books.add(kWallForce + a, wholeQuanta(d.bookScale.perForce * force[a]));
+      books.add(kWallTorque + a, wholeQuanta(d.bookScale.perTorque * torque[a]));
     }
   }
 
+  GROUSER_HD void bookLosses(const Losses& lost, WallBooks& books) const {
+    const double q = d.bookScale.perEnergy;
+    books.add(kDamped, wholeQuanta(q * static_cast<double>(lost.damped)));
+    books.add(kRubbed, wholeQuanta(q * static_cast<double>(lost.rubbed)));
+    books.add(kRolled, wholeQuanta(q * static_cast<double>(lost.rolled)));
+  }
+
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
-                             BoundaryLoad<Real>& sum) const {
+                             BoundaryLoad<Real>& sum, Losses& lost) const {
     const Vec normal = -outward; // from the grain to the wall
     const Vec arm = normal * (grain.size.radius - overlap);
     const contact::BasicContactGeometry<Real> touch{normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass,
                                                     grain.size.radius};
-    const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum);
+    const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum, lost);
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(arm, reaction.force);
     if (has(contact::kRollingFriction)) sum.torque += reaction.rolling;
   }
 
   /// Surfaces that may move. The grain gets the force in whole quanta, the surface exactly the opposite.
-  GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, BoundaryLoad<Real>& sum) const {
+  GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, BoundaryLoad<Real>& sum, Losses& lost) const {
     std::uint32_t now = 0;
     base::Vec3d force;
     const int first = d.boundaryCount - d.surfaceCount;
@@ -102,7 +115,7 @@ private:
       const Vec velocity = grain.v + cross(grain.w, arm) - motion.velocityAt(point).template as<Real>();
       const contact::BasicContactGeometry<Real> touch{normal, overlap, velocity, grain.size.mass, grain.size.radius};
       const Reaction reaction =
-          react(grain, boundary, touch, grain.w - motion.spin.template as<Real>(), &d.placements[s].turned, sum);
+          react(grain, boundary, touch, grain.w - motion.spin.template as<Real>(), &d.placements[s].turned, sum, lost);
       const base::Vec3l quanta = d.surfaceForce.quantise(reaction.force.template as<double>());
       const base::Vec3d exact = d.surfaceForce.value(quanta);
       force += exact;
@@ -124,7 +137,7 @@ private:
 
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
-                            const Vec& spin, const base::Mat3d* turned, BoundaryLoad<Real>& sum) const {
+                            const Vec& spin, const base::Mat3d* turned, BoundaryLoad<Real>& sum, Losses& lost) const {
     const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + grain.size.material];
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory()
@@ -135,7 +148,7 @@ private:
     if (held) shear = loaded(history, turned);
     const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
     if (Kernel::hasHistory()) store(history, turned, shear);
-    sum.damped += reaction.damped, sum.rubbed += reaction.rubbed;
+    lost.damped += reaction.damped, lost.rubbed += reaction.rubbed;
     Reaction result{reaction.force, {}};
     if (has(contact::kRollingFriction)) {
       Vec angle{};
@@ -143,7 +156,7 @@ private:
       const contact::RollingMotion<Real> motion{touch.normal, spin, grain.size.radius,
                                                 Real(1.4) * grain.size.mass * grain.size.radius * grain.size.radius};
       result.rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
-                                              angle, sum.rolled);
+                                              angle, lost.rolled);
       store(history + 3, turned, angle);
     }
     if (touch.overlap > sum.deepest) sum.deepest = touch.overlap;
@@ -170,12 +183,12 @@ template <unsigned kFeatures, class Real> struct BookedBoundaryContacts {
     WallBooks books;
 #if defined(__CUDA_ARCH__)
     contacts.run(item, books);
-    base::atomicAddTogether(bankOf(contacts.d.books, static_cast<int>(blockIdx.x)) + kGrainBooks, books.of);
+    base::atomicAddTogether<2>(bankOf(contacts.d.books, static_cast<int>(blockIdx.x)) + kFirstOfWalls, books.of);
 #else
     const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
     for (std::int64_t k = first; k < last; ++k) contacts.run(static_cast<int>(k), books);
-    base::WideSum* const bank = bankOf(contacts.d.books, item) + kGrainBooks;
-    for (int b = 0; b < kBooks - kGrainBooks; ++b)
+    base::WideSum* const bank = bankOf(contacts.d.books, item) + kFirstOfWalls;
+    for (int b = 0; b < kBooks - kFirstOfWalls; ++b)
       if (books.of[b] != 0) base::atomicAddWide(bank + b, books.of[b]);
 #endif
   }

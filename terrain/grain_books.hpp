@@ -14,16 +14,18 @@
 /// that the two check each other. All sums are of integers: order-free, the same for any device, threads and ranks.
 namespace grouser::terrain {
 
-/// The sums.
+/// The sums. Kernels of grains add to the first kGrainBooks, those of walls, floor and surfaces to all from
+/// kFirstOfWalls on.
 enum Book : int {
   kWork,     ///< by all forces on the grains
   kTurnover, ///< the same without signs, a grain and a step each
-  kDamped,   ///< taken by dashpots of contacts
-  kRubbed,   ///< by sliding
-  kRolled,   ///< by rolling resistance
   kMass,     ///< of the grains, a step each, from which gravity's impulse follows
   kMoment,   ///< x, y, z: mass times place, a step each, from which gravity's torque follows
-  kGrainBooks = kMoment + 3,
+  kFirstOfWalls = kMoment + 3,
+  kDamped = kFirstOfWalls, ///< taken by dashpots of contacts
+  kRubbed,                 ///< by sliding
+  kRolled,                 ///< by rolling resistance
+  kGrainBooks,
   /// x, y, z: of walls and floor on the grains, a step each
   kWallForce = kGrainBooks,
   kWallTorque = kWallForce + 3, ///< about the origin of the world
@@ -60,7 +62,8 @@ struct GrainBooks {
   std::int64_t of[kGrainBooks] = {};
 };
 struct WallBooks {
-  std::int64_t of[kBooks - kGrainBooks] = {};
+  std::int64_t of[kBooks - kFirstOfWalls] = {};
+  GROUSER_HD void add(int book, std::int64_t quanta) { of[book - kFirstOfWalls] += quanta; }
 };
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what

@@ -13,8 +13,8 @@ using base::Vec4f;
 /// What walls and floor do to one grain in one step.
 template <class Real> struct BoundaryLoad {
   base::Vec3<Real> force, torque; ///< [N], [N m] about the centre
-  Real damped, rubbed, rolled;    ///< dissipated by dashpots, sliding and rolling resistance [J]
   Real deepest;                   ///< overlap [m]
+  Real unused;                    ///< of a record of whole 16 bytes
 };
 
 /// How often a grain has left through the upper side along x and y and entered through the lower one, less the reverse:

@@ -193,7 +193,6 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const BoundaryLoad<Real>& load = f.boundaryLoads[place - 1];
     sum.force += load.force;
     sum.torque += load.torque;
-    sum.damped += load.damped, sum.rubbed += load.rubbed, sum.rolled += load.rolled;
     if (static_cast<float>(load.deepest) > sum.deepest) sum.deepest = static_cast<float>(load.deepest);
   }
 
@@ -321,7 +320,7 @@ template <unsigned kFeatures, class Real> struct BookedGrainStep {
     GrainBooks books;
 #if defined(__CUDA_ARCH__)
     step.run(item, books);
-    base::atomicAddTogether(bankOf(step.d.books, static_cast<int>(blockIdx.x)), books.of);
+    base::atomicAddTogether<2>(bankOf(step.d.books, static_cast<int>(blockIdx.x)), books.of);
 #else
     const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
     for (std::int64_t k = first; k < last; ++k) step.run(static_cast<int>(k), books);

@@ -187,11 +187,10 @@ private:
       torque += turning_[c];
       most = turning_[c] > most ? turning_[c] : most;
     }
-    float damped = force[3], rolled = 0, deepest = samePlace_[g] ? data_.diameter : most[3];
+    float deepest = samePlace_[g] ? data_.diameter : most[3];
     if (const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
-      damped += load.damped, rubbed += load.rubbed, rolled += load.rolled;
       if (load.deepest > deepest) deepest = load.deepest;
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
@@ -201,7 +200,7 @@ private:
       addLoadsOf(data_, forces_, i, f3, t3, deepest);
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
-    const Lost lost{static_cast<double>(damped), static_cast<double>(rubbed), static_cast<double>(rolled)};
+    const Lost lost{static_cast<double>(force[3]), static_cast<double>(rubbed), 0};
     if (!advanceSimd(i, f4, t4, deepest, lost))
       advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest, lost, books_);
   }
@@ -291,7 +290,6 @@ private:
     books_.of[kTurnover] += wholeQuanta(q * __builtin_fabs(work));
     books_.of[kDamped] += wholeQuanta(q * lost.damped);
     if (kWithFriction) books_.of[kRubbed] += wholeQuanta(q * lost.rubbed);
-    if (lost.rolled != 0) books_.of[kRolled] += wholeQuanta(q * lost.rolled);
     books_.of[kMass] += kMassQuanta;
     base::Position p;
     __builtin_memcpy(&p, &place, sizeof p);
