@@ -33,7 +33,14 @@ template <int kWidth, bool kWithFriction, bool kWithLedger> class GrainSimd {
 public:
   GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces) : data_(data), forces_(forces) {}
 
-  GROUSER_SIMD const GrainBooks& books() const { return books_; } ///< of the grains that have been advanced
+  /// Of the grains that have been advanced.
+  GROUSER_SIMD GrainBooks books() const {
+    GrainBooks books = books_;
+    books.of[kWork] += energies_[0], books.of[kTurnover] += energies_[1];
+    books.of[kDamped] += energies_[2], books.of[kRubbed] += energies_[3];
+    books.of[kMass] += booked_ * kMassQuanta;
+    return books;
+  }
 
   GROUSER_SIMD void run(int first, int last) {
     // A copy that no store can change: what follows from it alone is worked out once, not for each contact.
@@ -58,6 +65,7 @@ private:
   using Float = Simd<float, kWidth>;
   using Int = Simd<std::int32_t, kWidth>;
   using Long = Simd<std::int64_t, kWidth>;
+  using Long4 = Simd<std::int64_t, 4>;
   using Vec = base::Vec3<Float>;
   static constexpr unsigned kLaw = kWithFriction ? contact::kFriction : 0u;
   static constexpr int kGrains = 64, kContacts = 192; ///< of a block
@@ -283,14 +291,15 @@ private:
     return faster * (unrounded - faster * 0.5) + rounding * (unrounded + rounding * 0.5);
   }
 
-  /// GrainStep::book().
+  /// GrainStep::book(), with wholeQuanta() of four energies side by side.
   GROUSER_SIMD void book(const Int4& place, double work, const Lost& lost) {
-    const double q = data_.bookScale.perEnergy;
-    books_.of[kWork] += wholeQuanta(q * work);
-    books_.of[kTurnover] += wholeQuanta(q * __builtin_fabs(work));
-    books_.of[kDamped] += wholeQuanta(q * lost.damped);
-    if (kWithFriction) books_.of[kRubbed] += wholeQuanta(q * lost.rubbed);
-    books_.of[kMass] += kMassQuanta;
+    constexpr double kMost = 0x1p51, kShift = 0x1.8p52;
+    const Double4 most = base::broadcast<Double4>(kMost);
+    Double4 quanta = Double4{work, __builtin_fabs(work), lost.damped, lost.rubbed} * data_.bookScale.perEnergy;
+    quanta = quanta > -most ? quanta : -most;
+    quanta = quanta < most ? quanta : most;
+    energies_ += base::bitsAs<Long4>(quanta + kShift) - base::bitsAs<Long4>(base::broadcast<Double4>(kShift));
+    ++booked_;
     base::Position p;
     __builtin_memcpy(&p, &place, sizeof p);
     const base::Vec3l u = base::toUnits(p);
@@ -299,7 +308,9 @@ private:
 
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
-  GrainBooks books_;
+  GrainBooks books_;        ///< moments, and what is rare
+  Long4 energies_{};        ///< work, turnover, damped, rubbed
+  std::int64_t booked_ = 0; ///< grains
   int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];
   bool samePlace_[kGrains];
