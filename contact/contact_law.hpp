@@ -165,8 +165,7 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
     reaction.rubbed -= Scalar(0.5) * storedBefore * (Scalar(1) - squareRoot(share > zero ? share : zero));
   }
   shear += slip * base::broadcast<T>(dt);
-  const base::Vec3<T> dashpots = slip * c.tangentialDamping;
-  base::Vec3<T> tangential = shear * -c.tangentialStiffness - dashpots;
+  base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
   const T limit = law.friction * (pressing > zero ? pressing : zero);
   const T size2 = dot(tangential, tangential);
   const auto slides = size2 > limit * limit;
@@ -187,11 +186,12 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
         shear = base::select(beyond, shear * (limit / squareRoot(spring2)), shear);
     }
   }
-  // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres.
-  const base::Vec3<T> middle = slip + tangential * (Scalar(3.5) * halfStepPerMass);
+  // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres: slip + 7/2 F h is the
+  // slip in the middle of the step.
+  const T along = dot(tangential, slip), square = dot(slip, slip) + along * (Scalar(3.5) * halfStepPerMass);
   const T gained = Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
-  reaction.damped += slides ? zero : dot(dashpots, middle) * dt;
-  reaction.rubbed -= slides ? dot(tangential, slip) * dt + gained : zero;
+  reaction.damped += slides ? zero : c.tangentialDamping * square * dt;
+  reaction.rubbed -= slides ? along * dt + gained : zero;
   reaction.force += tangential;
   return reaction;
 }

@@ -177,11 +177,13 @@ private:
                                                      base::broadcast<Float>(0.5f * f.radius)};
     const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
     if (kWithFriction) {
-      spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z, spring[3] = 0.5f * reaction.rubbed;
+      spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z,
+      spring[3] = kWithLedger ? 0.5f * reaction.rubbed : Float{};
       base::storeRows(spring_ + c, spring);
     }
     const Vec torque = cross(arm, reaction.force);
-    Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z, 0.5f * reaction.damped};
+    Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z,
+                       kWithLedger ? 0.5f * reaction.damped : Float{}};
     Float torques[4] = {torque.x, torque.y, torque.z, pair.overlap};
     base::storeRows(moving_ + c, forces), base::storeRows(turning_ + c, torques);
   }
