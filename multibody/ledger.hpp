@@ -66,4 +66,14 @@ struct Ledger {
   double integrationError() const;
 };
 
+/// What one step, or one stage of it, adds to the books.
+struct StepBooks {
+  double kinetic = 0, turnover = 0;
+  base::Vec3d linear, angular; ///< impulses from outside
+  double jointDamping = 0, springDamping = 0, stopDamping = 0;
+  double external = 0, potential = 0, elastic = 0;
+
+  void addTo(Ledger& ledger) const;
+};
+
 } // namespace grouser::multibody

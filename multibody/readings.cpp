@@ -102,4 +102,17 @@ Balance balance(const Model& model, const State& state, const Loads& loads) {
   return b;
 }
 
+void StepBooks::addTo(Ledger& ledger) const {
+  ledger.kineticWork += kinetic;
+  ledger.externalWork += external;
+  ledger.potentialGain += potential;
+  ledger.elasticGain += elastic;
+  ledger.turnover += turnover;
+  ledger.jointDamping += jointDamping;
+  ledger.springDamping += springDamping;
+  ledger.stopDamping += stopDamping;
+  ledger.linearImpulse += linear;
+  ledger.angularImpulse += angular;
+}
+
 } // namespace grouser::multibody

@@ -12,6 +12,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
+  using Books = WallBooks;
 
   /// One grain of the list.
   struct Grain {
@@ -170,27 +171,6 @@ private:
   GROUSER_HD static void store(float* history, const base::Mat3d* turned, const Vec& spring) {
     storeVector(history, turned ? transposedTimes(*turned, spring.template as<double>()).template as<float>()
                                 : spring.template as<float>());
-  }
-};
-
-/// The same where books are kept: of as many grains as one thread takes at a time.
-template <unsigned kFeatures, class Real> struct BookedBoundaryContacts {
-  static constexpr int kOnCpu = 32;
-  BoundaryContacts<kFeatures, Real> contacts;
-  std::int64_t count;
-
-  GROUSER_HD void operator()(int item) const {
-    WallBooks books;
-#if defined(__CUDA_ARCH__)
-    contacts.run(item, books);
-    base::atomicAddTogether<2>(bankOf(contacts.d.books, static_cast<int>(blockIdx.x)) + kFirstOfWalls, books.of);
-#else
-    const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
-    for (std::int64_t k = first; k < last; ++k) contacts.run(static_cast<int>(k), books);
-    base::WideSum* const bank = bankOf(contacts.d.books, item) + kFirstOfWalls;
-    for (int b = 0; b < kBooks - kFirstOfWalls; ++b)
-      if (books.of[b] != 0) base::atomicAddWide(bank + b, books.of[b]);
-#endif
   }
 };
 

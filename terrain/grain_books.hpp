@@ -57,14 +57,14 @@ struct Lost {
   double damped, rubbed, rolled;
 };
 
-/// What several grains have added.
-struct GrainBooks {
-  std::int64_t of[kGrainBooks] = {};
+/// What several grains have added to the sums from kBegin to kEnd.
+template <int kBegin, int kEnd> struct BooksOf {
+  static constexpr int kFirst = kBegin, kCount = kEnd - kBegin;
+  std::int64_t of[kCount] = {};
+  GROUSER_HD void add(int book, std::int64_t quanta) { of[book - kFirst] += quanta; }
 };
-struct WallBooks {
-  std::int64_t of[kBooks - kFirstOfWalls] = {};
-  GROUSER_HD void add(int book, std::int64_t quanta) { of[book - kFirstOfWalls] += quanta; }
-};
+using GrainBooks = BooksOf<0, kGrainBooks>;
+using WallBooks = BooksOf<kFirstOfWalls, kBooks>;
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
 /// rounding `unrounded`, which is v_old + faster, to the velocity that is kept makes of it.
@@ -75,6 +75,35 @@ GROUSER_HD double halfSquareGained(double faster, double unrounded, double kept)
 
 /// The sums are kept several times over, so that threads which add at the same time rarely meet: [kBookBanks][kBooks].
 inline constexpr int kBookBanks = 64;
-GROUSER_HD base::WideSum* bankOf(base::WideSum* books, int item) { return books + (item % kBookBanks) * kBooks; }
+
+/// Adds to one of the banks; `item`: a number that tells the callers apart.
+template <class Books> GROUSER_HD void addToBank(base::WideSum* books, int item, const Books& some) {
+  base::WideSum* const bank = books + (item % kBookBanks) * kBooks + Books::kFirst;
+#if defined(__CUDA_ARCH__)
+  base::atomicAddTogether<2>(bank, some.of);
+#else
+  for (int b = 0; b < Books::kCount; ++b)
+    if (some.of[b] != 0) base::atomicAddWide(bank + b, some.of[b]);
+#endif
+}
+
+/// A kernel that keeps books: of as many grains as one thread takes at a time. `Body` has run(k, books).
+template <class Body> struct Booked {
+  static constexpr int kOnCpu = 32;
+  Body body;
+  std::int64_t count;
+
+  GROUSER_HD void operator()(int item) const {
+    typename Body::Books books;
+#if defined(__CUDA_ARCH__)
+    body.run(item, books);
+    addToBank(body.d.books, static_cast<int>(blockIdx.x), books);
+#else
+    const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
+    for (std::int64_t k = first; k < last; ++k) body.run(static_cast<int>(k), books);
+    addToBank(body.d.books, item, books);
+#endif
+  }
+};
 
 } // namespace grouser::terrain

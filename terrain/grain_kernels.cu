@@ -44,23 +44,19 @@ template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features
 }
 
 /// With or without books. On a CPU a thread takes several grains before it adds to the books that all share.
-template <template <unsigned, class> class Body, template <unsigned, class> class Booked, unsigned kFeatures,
-          class Real>
-void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d, const ForceData<Real>& f,
-             std::int64_t count, bool booked) {
-  using Books = Booked<kFeatures, Real>;
-  if (!booked) return base::forEach(exec, name, count, Body<kFeatures, Real>{{d, f}});
-  const std::int64_t items = exec.onCpu() ? (count + Books::kOnCpu - 1) / Books::kOnCpu : count;
-  base::forEach(exec, name, items, Books{{{d, f}}, count});
+template <class Body, class Real> void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
+                                               const ForceData<Real>& f, std::int64_t count) {
+  const Body body{{d, f}};
+  if (!d.books) return base::forEach(exec, name, count, body);
+  const std::int64_t items = exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
+  base::forEach(exec, name, items, Booked<Body>{body, count});
 }
 
-template <template <unsigned, class> class Body, template <unsigned, class> class Booked, class Real, unsigned... kSets>
+template <template <unsigned, class> class Body, class Real, unsigned... kSets>
 void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, const char* name,
               const GrainKernelData& d, const ForceData<Real>& f, std::int64_t count) {
-  const bool booked = d.books != nullptr;
-  const bool special =
-      ((features == kSets && (runBody<Body, Booked, kSets>(exec, name, d, f, count, booked), true)) || ...);
-  if (!special) runBody<Body, Booked, kGeneral>(exec, name, d, f, count, booked);
+  const bool special = ((features == kSets && (runBody<Body<kSets, Real>>(exec, name, d, f, count), true)) || ...);
+  if (!special) runBody<Body<kGeneral, Real>>(exec, name, d, f, count);
 }
 
 } // namespace
@@ -70,23 +66,21 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
   const unsigned features = model.specialised ? d.features & ~kFloor : kGeneral;
   if (const int width = exec.onCpu() ? simdWidth(features, f.law, model.mostSimdLanes) : 1; width > 1)
     return runGrainSimd(exec, d, f, count, width);
-  runOneOf<GrainStep, BookedGrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
+  runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                               std::int64_t count, const GrainModel&) {
-  runOneOf<GrainStep, BookedGrainStep>(NoKernels{}, d.features, exec, "grain step", d, f, count);
+  runOneOf<GrainStep>(NoKernels{}, d.features, exec, "grain step", d, f, count);
 }
 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                                      std::int64_t near, const GrainModel& model) {
   const unsigned features = model.specialised ? d.features & kAtBoundaries : kGeneral;
-  runOneOf<BoundaryContacts, BookedBoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f,
-                                                     near);
+  runOneOf<BoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near);
 }
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                                      std::int64_t near, const GrainModel&) {
-  runOneOf<BoundaryContacts, BookedBoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts",
-                                                     d, f, near);
+  runOneOf<BoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts", d, f, near);
 }
 
 bool hasOwnKernel(unsigned features, Precision precision) {

@@ -64,9 +64,7 @@ void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base
 }
 
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
-  base::WideSum* const bank = bankOf(d.books, first / kGrainsATime);
-  for (int b = 0; b < kGrainBooks; ++b)
-    if (books.of[b] != 0) base::atomicAddWide(bank + b, books.of[b]);
+  addToBank(d.books, first / kGrainsATime, books);
 }
 
 } // namespace detail

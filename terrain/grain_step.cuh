@@ -13,6 +13,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
+  using Books = GrainBooks;
 
   struct Sum {
     Vec force, torque;
@@ -307,27 +308,6 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     else if (speed2 > d.maxSpeed2)
       fault = Fault::speed;
     if (fault != Fault::none) base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
-  }
-};
-
-/// The same where books are kept: of as many grains as one thread takes at a time.
-template <unsigned kFeatures, class Real> struct BookedGrainStep {
-  static constexpr int kOnCpu = 32;
-  GrainStep<kFeatures, Real> step;
-  std::int64_t count;
-
-  GROUSER_HD void operator()(int item) const {
-    GrainBooks books;
-#if defined(__CUDA_ARCH__)
-    step.run(item, books);
-    base::atomicAddTogether<2>(bankOf(step.d.books, static_cast<int>(blockIdx.x)), books.of);
-#else
-    const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
-    for (std::int64_t k = first; k < last; ++k) step.run(static_cast<int>(k), books);
-    base::WideSum* const bank = bankOf(step.d.books, item);
-    for (int b = 0; b < kGrainBooks; ++b)
-      if (books.of[b] != 0) base::atomicAddWide(bank + b, books.of[b]);
-#endif
   }
 };
 

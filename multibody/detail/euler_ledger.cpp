@@ -163,14 +163,4 @@ void EulerStep::bookSeveralPlaces(const State& state) {
   }
 }
 
-void EulerStep::closeBooks(Ledger& ledger) const {
-  ledger.kineticWork += books_.kinetic;
-  ledger.turnover += books_.turnover;
-  ledger.jointDamping += books_.jointDamping;
-  ledger.springDamping += books_.springDamping;
-  ledger.stopDamping += books_.stopDamping;
-  ledger.linearImpulse += books_.linear;
-  ledger.angularImpulse += books_.angular;
-}
-
 } // namespace grouser::multibody::detail

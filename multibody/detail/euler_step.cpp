@@ -303,7 +303,7 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
   } else if (mixing_.on()) {
     bookMixedSpins(state);
   }
-  closeBooks(state.ledger);
+  books_.addTo(state.ledger);
 }
 
 void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {

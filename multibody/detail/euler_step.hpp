@@ -92,12 +92,6 @@ private:
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
     Vec3d ground, groundMoment; ///< impulse of what cannot move
   };
-  /// Of a step; what ledger.hpp has.
-  struct StepBooks {
-    double kinetic = 0, turnover = 0;
-    Vec3d linear, angular;
-    double jointDamping = 0, springDamping = 0, stopDamping = 0;
-  };
   /// Motion of the point p_B in B relative to A, and of B relative to A.
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
   // euler_ledger.cpp
@@ -110,7 +104,6 @@ private:
   void bookWork(double work);
   void bookMixedSpins(const State& state);
   void bookSeveralPlaces(const State& state);
-  void closeBooks(Ledger& ledger) const;
   void finishLinks(State& state, const Loads& loads, double dt);
   void finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads, double dt,
                     LinkWork& work) const;

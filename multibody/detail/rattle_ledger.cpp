@@ -91,17 +91,4 @@ void RattleStep::book(int b, const Mat3d& inertia, const Kick& kick, const Loads
   books_.angular += cross(kick.place, weight + load) + torque;
 }
 
-void RattleStep::closeBooks(Ledger& ledger) const {
-  ledger.kineticWork += books_.kinetic;
-  ledger.externalWork += books_.external;
-  ledger.potentialGain += books_.potential;
-  ledger.elasticGain += books_.elastic;
-  ledger.turnover += books_.turnover;
-  ledger.jointDamping += books_.jointDamping;
-  ledger.springDamping += books_.springDamping;
-  ledger.stopDamping += books_.stopDamping;
-  ledger.linearImpulse += books_.linear;
-  ledger.angularImpulse += books_.angular;
-}
-
 } // namespace grouser::multibody::detail

@@ -101,7 +101,6 @@ private:
     Vec3d place;           ///< of the centre of mass
   };
   void book(int b, const Mat3d& inertia, const Kick& kick, const Loads& loads, double h);
-  void closeBooks(Ledger& ledger) const;
 
   // Readings (rattle_velocity.cpp).
   void readReactions(const Part& part, State& state, const Loads& loads);
@@ -135,12 +134,7 @@ private:
   std::vector<Vec3d> gyro_;           ///< gyroscopic momentum at the current iterate, one a movable body
   std::vector<double> inertiaSpread_; ///< one a movable body
   /// Of one stage; what ledger.hpp has.
-  struct StageBooks {
-    double kinetic = 0, external = 0, potential = 0, elastic = 0, turnover = 0;
-    double jointDamping = 0, springDamping = 0, stopDamping = 0;
-    Vec3d linear, angular;
-  };
-  StageBooks books_;
+  StepBooks books_;
   std::vector<char> toGround_;  ///< of each constraint: one of its sides cannot move
   std::vector<Vector6> kick_;   ///< known impulses of the second half kick, one a movable body
   std::vector<Vec3d> meanSpin_; ///< between the two half kicks, one a movable body

@@ -153,7 +153,7 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
   }
   for (const int k : part.constraints)
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) finishAxis(a, state, h);
-  closeBooks(ledger);
+  books_.addTo(ledger);
   for (const int node : part.bodies) {
     const int b = system_.bodyOf(node);
     state.twist[at(b)] = twist_[at(b)];

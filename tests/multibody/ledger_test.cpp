@@ -355,7 +355,7 @@ TEST(MultibodyLedger, AHangingChainIsBalancedByItsHook) {
   Mechanism m = chain(true);
   Solver solver(m.model, accepting({}));
   const double step = 1e-3;
-  Vec3d hook, moment;
+  Vec3d hook;
   for (int i = 0; i < 3000; ++i) {
     solver.step(m.state, m.loads, step);
     hook += step * m.state.joint[0].force;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -105,7 +106,13 @@ TEST(MultibodyState, EveryNumberOfTheBooksIsSavedAndRestored) {
 
   Mechanism other = vehicleLike();
   other.state.restore(saved);
-  EXPECT_EQ(std::memcmp(&other.state.ledger, &l, sizeof l), 0);
+  const auto numbers = [](const Ledger& ledger) {
+    static_assert(sizeof(Ledger) % sizeof(double) == 0);
+    std::array<double, sizeof(Ledger) / sizeof(double)> all;
+    std::memcpy(all.data(), &ledger, sizeof ledger);
+    return all;
+  };
+  EXPECT_EQ(numbers(other.state.ledger), numbers(l));
   // The trailing State::kBooks numbers are the books but for the five plain sums.
   const std::vector<double> fresh = vehicleLike().state.save();
   std::size_t changed = 0;

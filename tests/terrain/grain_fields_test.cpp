@@ -51,7 +51,7 @@ TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
   EXPECT_EQ(row.places, inFiles);
   const std::size_t columns = inFiles.size() + 1; // and `id`
   EXPECT_EQ(sizeof(GrainState), sizeof(GrainLayout) + sizeof state.total + columns * sizeof(std::vector<int>) +
-                                    sizeof state.books + sizeof state.skin + sizeof state.rebuilds);
+                                    sizeof(decltype(state.books)) + sizeof state.skin + sizeof state.rebuilds);
 }
 
 TEST(GrainFields, WidthsFollowFromTheLayout) {

@@ -54,10 +54,9 @@ TEST(UnequalCells, AQuadraticHasItsOwnHeightsSlopesAndCurvatures) {
 TEST(UnequalCells, AStepAcrossIsFeltInItsOwnDirectionOnly) {
   // Only one column, or one row, is raised.
   for (const bool column : {true, false}) {
-    std::vector<double> heights(static_cast<std::size_t>(kColumns * kRows), 0.0);
+    std::vector<double> heights;
     for (int j = 0; j < kRows; ++j)
-      for (int i = 0; i < kColumns; ++i)
-        if (column ? i == 6 : j == 6) heights[static_cast<std::size_t>(j * kColumns + i)] = 0.1;
+      for (int i = 0; i < kColumns; ++i) heights.push_back((column ? i == 6 : j == 6) ? 0.1 : 0.0);
     const HeightField field(kArea, kColumns, kRows, heights);
     const double x = column ? -1.5 + 6 * 0.25 : 0.3, y = column ? 3.7 : 3 + 6 * 0.05;
     EXPECT_NEAR(field.height(x, y), 0.1, 10 * kEps);
