@@ -52,13 +52,17 @@ __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&val
   constexpr int kBits = 26;
   constexpr std::int64_t kMask = (std::int64_t{1} << kBits) - 1;
   const unsigned here = __activemask();
-  const bool first = static_cast<int>(threadIdx.x & 31u) == __ffs(static_cast<int>(here)) - 1;
+  const int threads = __popc(here), own = __popc(here & ((1u << (threadIdx.x & 31u)) - 1));
+  // A thread adds one of the sums: one after the other they would each wait for memory.
+  std::int64_t mine = 0;
   for (int k = 0; k < kCount; ++k) {
     std::int64_t sum = __reduce_add_sync(here, static_cast<int>(values[k] >> kBits * (kLimbs - 1))); // with the sign
     for (int limb = kLimbs - 2; limb >= 0; --limb)
       sum = (sum << kBits) + __reduce_add_sync(here, static_cast<unsigned>(values[k] >> kBits * limb & kMask));
-    if (first && sum != 0) atomicAddWide(sums + k, sum);
+    if (k == own) mine = sum;
+    if (k >= threads && own == 0) atomicAddWide(sums + k, sum); // more sums than threads
   }
+  if (own < kCount && mine != 0) atomicAddWide(sums + own, mine);
 #else
   for (int k = 0; k < kCount; ++k)
     if (values[k] != 0) atomicAddWide(sums + k, values[k]);
