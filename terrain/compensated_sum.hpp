@@ -27,15 +27,27 @@ inline constexpr int kPlacesPerUnit = 1024, kLeastPlace = -512, kMostPlace = 511
 /// Units of one step beyond which a speed is a fault, and no integer is made of it.
 inline constexpr double kMostUnitsPerStep = 1e9;
 
+GROUSER_HD float floatOfBits(std::int32_t bits) {
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// The bits of the power of two below |v|.
+GROUSER_HD std::int32_t binadeOf(float v) {
+  std::int32_t bits;
+  memcpy(&bits, &v, sizeof bits);
+  bits &= 0x7F800000;
+  return bits < kLeastBinade ? kLeastBinade : bits;
+}
+
 /// Quantum of a velocity's remainder: 2^-39 of the power of two below |v|, which is 2^-16 of the float's last place.
 GROUSER_HD double remainderQuantum(float v) {
-  std::uint32_t bits;
-  memcpy(&bits, &v, sizeof bits);
-  bits &= 0x7F800000u;
-  if (bits < std::uint32_t{kLeastBinade}) bits = kLeastBinade;
-  float binade;
-  memcpy(&binade, &bits, sizeof binade);
-  return static_cast<double>(binade) * kRemainderOfBinade;
+  return static_cast<double>(floatOfBits(binadeOf(v))) * kRemainderOfBinade;
+}
+/// Its inverse.
+GROUSER_HD double perRemainderQuantum(float v) {
+  return static_cast<double>(floatOfBits((254 << 23) - binadeOf(v))) * (1 / kRemainderOfBinade);
 }
 
 /// The number and what rounding has cut off.
@@ -43,14 +55,21 @@ GROUSER_HD double withRemainder(float value, std::int16_t remainder) {
   return static_cast<double>(value) + remainder * remainderQuantum(value);
 }
 
-/// value + remainder += increment. Returns the new sum in double.
-GROUSER_HD double addCompensated(float& value, std::int16_t& remainder, double increment) {
+/// A new sum in double, and what the number that is kept, with its remainder, is above it: both exact.
+struct CompensatedStep {
+  double sum, rounding;
+};
+
+/// value + remainder += increment.
+GROUSER_HD CompensatedStep addCompensated(float& value, std::int16_t& remainder, double increment) {
   const double sum = withRemainder(value, remainder) + increment;
   value = static_cast<float>(sum);
-  double r = floor((sum - static_cast<double>(value)) / remainderQuantum(value) + 0.5);
+  // Dividing by a power of two is multiplying by its inverse, to the last bit.
+  const double rest = (sum - static_cast<double>(value)) * perRemainderQuantum(value);
+  double r = floor(rest + 0.5);
   r = r > kMostRemainder ? kMostRemainder : r < kLeastRemainder ? kLeastRemainder : r;
   remainder = static_cast<std::int16_t>(r);
-  return sum;
+  return {sum, (r - rest) * remainderQuantum(value)};
 }
 
 GROUSER_HD std::int16_t lowRemainder(std::uint32_t word) { return static_cast<std::int16_t>(word & 0xFFFFu); }

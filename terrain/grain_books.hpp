@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 #include "base/wide_sum.cuh"
+#include "terrain/compensated_sum.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -67,10 +68,9 @@ using GrainBooks = BooksOf<0, kGrainBooks>;
 using WallBooks = BooksOf<kFirstOfWalls, kBooks>;
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
-/// rounding `unrounded`, which is v_old + faster, to the velocity that is kept makes of it.
-GROUSER_HD double halfSquareGained(double faster, double unrounded, double kept) {
-  const double rounding = kept - unrounded;
-  return faster * (unrounded - 0.5 * faster) + rounding * (unrounded + 0.5 * rounding);
+/// rounding makes of it, whose square is beyond a double's digits.
+GROUSER_HD double halfSquareGained(double faster, const CompensatedStep& now) {
+  return faster * (now.sum - 0.5 * faster) + now.rounding * now.sum;
 }
 
 /// The sums are kept several times over, so that threads which add at the same time rarely meet: [kBookBanks][kBooks].

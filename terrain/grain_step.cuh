@@ -254,7 +254,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
                           const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) const {
     base::Vec3f v = now.velocity.xyz(), w = now.spin.xyz();
-    double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia, gained = 0, turned = 0;
+    double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
+    base::Vec3d gained, turned; // half squares
     double massShare = 1, inertia = d.inertia;
     float maxOverlap = d.maxOverlap;
     if (has(kManyRadii)) {
@@ -270,19 +271,22 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     for (int a = 0; a < 3; ++a) {
       std::int16_t rv = lowRemainder(kept.axis[a]), rw = highRemainder(kept.axis[a]);
       const double faster = force[a] * stepPerMass + d.gravityStep[a], turning = torque[a] * stepPerInertia;
-      const double speed = addCompensated(v[a], rv, faster);
-      if (has(kLedger)) gained += halfSquareGained(faster, speed, withRemainder(v[a], rv));
+      const CompensatedStep speed = addCompensated(v[a], rv, faster);
+      if (has(kLedger)) gained[a] = halfSquareGained(faster, speed);
       if (Kernel::hasHistory() || has(kLoads)) {
-        const double turn = addCompensated(w[a], rw, turning);
-        if (has(kLedger)) turned += halfSquareGained(turning, turn, withRemainder(w[a], rw));
+        const CompensatedStep turn = addCompensated(w[a], rw, turning);
+        if (has(kLedger)) turned[a] = halfSquareGained(turning, turn);
       }
       kept.axis[a] = packRemainders(rv, rw);
-      const double displacement = speed * d.unitsPerSpeed;
+      const double displacement = speed.sum * d.unitsPerSpeed;
       // A speed that is no number must not reach the integer conversion.
       if (displacement > -kMostUnitsPerStep && displacement < kMostUnitsPerStep)
         moved[a] += advanceKeeping(displacement, kept.position, a);
     }
-    if (has(kLedger)) book(now.position, d.mass * massShare * gained + inertia * turned, massShare, lost, books);
+    if (has(kLedger)) {
+      const base::Vec3d work = gained * (d.mass * massShare) + turned * inertia;
+      book(now.position, (work.x + work.z) + work.y, massShare, lost, books); // as lanes are added
+    }
     if (has(kPeriodic)) crossSides(i, moved, r);
     const base::Position q = base::fromUnits(moved);
     d.nextPosition[i] = q;

@@ -36,9 +36,12 @@ public:
   /// Of the grains that have been advanced.
   GROUSER_SIMD GrainBooks books() const {
     GrainBooks books = books_;
-    books.of[kWork] += energies_[0], books.of[kTurnover] += energies_[1];
-    books.of[kDamped] += energies_[2], books.of[kRubbed] += energies_[3];
-    books.of[kMass] += booked_ * kMassQuanta;
+    for (int l = 0; l < 4; ++l) {
+      books.of[kWork] += work_[l], books.of[kTurnover] += turnover_[l];
+      books.of[kDamped] += damped_[l], books.of[kRubbed] += rubbed_[l];
+      for (int a = 0; a < 3; ++a) books.of[kMoment + a] += moment_[a][l];
+    }
+    books.of[kMass] += advanced_ * kMassQuanta;
     return books;
   }
 
@@ -47,7 +50,7 @@ public:
     const ForceData<float> f = forces_;
     for (int k = first; k < last;) {
       const int from = k;
-      grains_ = contacts_ = 0;
+      grains_ = contacts_ = toBook_ = 0;
       do find(k++);
       while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts);
       begin_[grains_] = contacts_;
@@ -58,6 +61,7 @@ public:
       if (kWithFriction)
         for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]), spring_[c]);
       for (int g = 0; g < grains_; ++g) advance(g, slotOf(from + g));
+      if (kWithLedger) bookAll();
     }
   }
 
@@ -217,16 +221,21 @@ private:
 
   /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing
   /// by one is multiplying by its inverse, to the last bit.
-  GROUSER_SIMD static Double4 addCompensatedAxes(Float4& value, Int4& remainder, const Double4& increment) {
+  struct CompensatedAxes {
+    Double4 sum, rounding;
+  };
+  GROUSER_SIMD static CompensatedAxes addCompensatedAxes(Float4& value, Int4& remainder, const Double4& increment) {
     const Double4 sum =
         base::toDouble(value) +
         base::toDouble(remainder) * (base::toDouble(base::bitsAs<Float4>(binadeOf(value))) * kRemainderOfBinade) +
         increment;
     value = base::toFloat(sum);
-    const Float4 perBinade = base::bitsAs<Float4>((254 << 23) - binadeOf(value));
+    const Int4 binade = binadeOf(value);
+    const Float4 perBinade = base::bitsAs<Float4>((254 << 23) - binade);
     const Double4 rest = (sum - base::toDouble(value)) * (base::toDouble(perBinade) * (1 / kRemainderOfBinade));
     remainder = base::clamped(base::toInt(base::roundedDown(rest + 0.5)), kLeastRemainder, kMostRemainder);
-    return sum;
+    return {sum,
+            (base::toDouble(remainder) - rest) * (base::toDouble(base::bitsAs<Float4>(binade)) * kRemainderOfBinade)};
   }
   GROUSER_SIMD static Int4 binadeOf(const Float4& v) {
     const Int4 bits = base::bitsAs<Int4>(v) & 0x7F800000, least = base::broadcast<Int4>(kLeastBinade);
@@ -240,10 +249,10 @@ private:
     Int4 rv = kept << 16 >> 16, rw = kept >> 16;
     const Double4 gravity{data_.gravityStep.x, data_.gravityStep.y, data_.gravityStep.z, 0};
     const Double4 faster = force * data_.stepPerMass + gravity, turning = torque * data_.stepPerInertia;
-    const Double4 speed = addCompensatedAxes(v, rv, faster);
-    Double4 turn{};
+    const CompensatedAxes speed = addCompensatedAxes(v, rv, faster);
+    CompensatedAxes turn{};
     if (kWithFriction || data_.features & kLoads) turn = addCompensatedAxes(w, rw, turning);
-    Double4 displacement = speed * data_.unitsPerSpeed;
+    Double4 displacement = speed.sum * data_.unitsPerSpeed;
     const auto near = (displacement > -kMostUnitsPerStep) & (displacement < kMostUnitsPerStep);
     displacement = near ? displacement : Double4{}; // a speed that is no number must not reach the integer conversion
 
@@ -266,12 +275,10 @@ private:
     if (!ordinary) return false;
 
     if (kWithLedger) {
-      const Double4 gained = halfSquaresGained(faster, speed, v, rv), turned = halfSquaresGained(turning, turn, w, rw);
-      double sum = 0, sumTurned = 0; // in the order of GrainStep
-      for (int a = 0; a < 3; ++a) sum += gained[a];
-      if (kWithFriction || data_.features & kLoads)
-        for (int a = 0; a < 3; ++a) sumTurned += turned[a];
-      book(p, data_.mass * sum + data_.inertia * sumTurned, lost);
+      Double4 work = halfSquaresGained(faster, speed) * data_.mass + halfSquaresGained(turning, turn) * data_.inertia;
+      work[3] = lost.damped;
+      workOf_[toBook_] = work, rubbedOf_[toBook_] = lost.rubbed, placeOf_[toBook_] = p;
+      ++toBook_;
     }
     Int4 keep = (rv & 0xFFFF) | rw << 16;
     keep[3] = (kept[3] & ~0x3FFFFFFF) | r[0] | r[1] << 10 | r[2] << 20;
@@ -284,42 +291,57 @@ private:
   }
 
   /// halfSquareGained() of the axes.
-  GROUSER_SIMD static Double4 halfSquaresGained(const Double4& faster, const Double4& unrounded, const Float4& value,
-                                                const Int4& remainder) {
-    const Double4 kept =
-        base::toDouble(value) +
-        base::toDouble(remainder) * (base::toDouble(base::bitsAs<Float4>(binadeOf(value))) * kRemainderOfBinade);
-    const Double4 rounding = kept - unrounded;
-    return faster * (unrounded - faster * 0.5) + rounding * (unrounded + rounding * 0.5);
+  GROUSER_SIMD static Double4 halfSquaresGained(const Double4& faster, const CompensatedAxes& now) {
+    return faster * (now.sum - faster * 0.5) + now.rounding * now.sum;
   }
 
-  /// GrainStep::book(), with wholeQuanta() of four energies side by side.
-  GROUSER_SIMD void book(const Int4& place, double work, const Lost& lost) {
-    constexpr double kMost = 0x1p51, kShift = 0x1.8p52;
-    const Double4 most = base::broadcast<Double4>(kMost);
-    Double4 quanta = Double4{work, __builtin_fabs(work), lost.damped, lost.rubbed} * data_.bookScale.perEnergy;
+  /// GrainStep::book() of the block's grains, four side by side: one by one each would wait for the one before.
+  GROUSER_SIMD void bookAll() {
+    advanced_ += toBook_;
+    for (int g = toBook_; g % 4 != 0; ++g) workOf_[g] = Double4{}, rubbedOf_[g] = 0, placeOf_[g] = Int4{};
+    for (int g = 0; g < toBook_; g += 4) {
+      Double4 work[4] = {workOf_[g], workOf_[g + 1], workOf_[g + 2], workOf_[g + 3]};
+      base::transpose(work); // by axis; what is damped
+      const Double4 all = (work[0] + work[2]) + work[1];
+      work_ += quantaOf(all), turnover_ += quantaOf(all < 0.0 ? -all : all);
+      damped_ += quantaOf(work[3]);
+      if (kWithFriction) rubbed_ += quantaOf(load<Double4>(rubbedOf_ + g));
+      Int4 place[4] = {placeOf_[g], placeOf_[g + 1], placeOf_[g + 2], placeOf_[g + 3]};
+      base::transpose(place);
+      for (int a = 0; a < 3; ++a) moment_[a] += axisOf(place[a], place[3], a);
+    }
+  }
+  /// wholeQuanta() of four energies.
+  GROUSER_SIMD Long4 quantaOf(const Double4& energies) const {
+    const Double4 most = base::broadcast<Double4>(0x1p51), shift = base::broadcast<Double4>(0x1.8p52);
+    Double4 quanta = energies * data_.bookScale.perEnergy;
     quanta = quanta > -most ? quanta : -most;
     quanta = quanta < most ? quanta : most;
-    energies_ += base::bitsAs<Long4>(quanta + kShift) - base::bitsAs<Long4>(base::broadcast<Double4>(kShift));
-    ++booked_;
-    base::Position p;
-    __builtin_memcpy(&p, &place, sizeof p);
-    const base::Vec3l u = base::toUnits(p);
-    books_.of[kMoment] += u.x, books_.of[kMoment + 1] += u.y, books_.of[kMoment + 2] += u.z;
+    return base::bitsAs<Long4>(quanta + shift) - base::bitsAs<Long4>(shift);
+  }
+  /// base::axisOf() of four places.
+  GROUSER_SIMD static Long4 axisOf(const Int4& low, const Int4& high, int axis) {
+    const Int4 top = high << (22 - 10 * axis) >> 22;
+    return base::convert<std::int64_t>(top) << 32 |
+           base::convert<std::int64_t>(base::bitsAs<Simd<std::uint32_t, 4>>(low));
   }
 
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
-  GrainBooks books_;        ///< moments, and what is rare
-  Long4 energies_{};        ///< work, turnover, damped, rubbed
-  std::int64_t booked_ = 0; ///< grains
-  int grains_ = 0, contacts_ = 0;
+  GrainBooks books_; ///< of what is rare
+  Long4 work_{}, turnover_{}, damped_{}, rubbed_{}, moment_[3] = {};
+  std::int64_t advanced_ = 0; ///< grains
+  int grains_ = 0, contacts_ = 0, toBook_ = 0;
   int begin_[kGrains + 1];
   bool samePlace_[kGrains];
   // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
   static constexpr int kRows = kContacts + kWidth;
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], spring_[kRows];
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
+  // Of the block's grains that wait to be booked.
+  Double4 workOf_[kGrains]; ///< by axis, and what is damped
+  double rubbedOf_[kGrains];
+  Int4 placeOf_[kGrains];
 };
 
 template <class Some>

@@ -16,7 +16,7 @@ using Remainder = std::int16_t; ///< as addCompensated() takes it
 struct Sum {
   float value = 0;
   Remainder remainder = 0;
-  double add(double increment) { return addCompensated(value, remainder, increment); }
+  double add(double increment) { return addCompensated(value, remainder, increment).sum; }
 };
 
 TEST(CompensatedSum, AMillionSmallStepsAreNotLost) {
