@@ -69,6 +69,7 @@ struct Pushes {
   }
 };
 
+/// State and books.
 std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, int steps, double skin = 0.5) {
   GrainModel m = modelOf(kind);
   m.mostSimdLanes = lanes, m.skin = skin;
@@ -84,7 +85,11 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
     grains.step(kind.loads ? &loads : nullptr);
   }
   EXPECT_TRUE(skin > 0.2 || grains.system().rebuilds > 5) << "the list is rebuilt on the way";
-  return grains.state().words();
+  const GrainState state = grains.state();
+  std::vector<std::uint32_t> words = state.words();
+  for (const std::int64_t sum : state.books)
+    words.push_back(static_cast<std::uint32_t>(sum)), words.push_back(static_cast<std::uint32_t>(sum >> 32));
+  return words;
 }
 
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
