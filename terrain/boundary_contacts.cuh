@@ -82,8 +82,8 @@ private:
   GROUSER_HD void bookLosses(const Losses& lost, WallBooks& books) const {
     const double q = d.bookScale.perEnergy;
     books.add(kDamped, wholeQuanta(q * static_cast<double>(lost.damped)));
-    books.add(kRubbed, wholeQuanta(q * static_cast<double>(lost.rubbed)));
-    books.add(kRolled, wholeQuanta(q * static_cast<double>(lost.rolled)));
+    if (has(contact::kFriction)) books.add(kRubbed, wholeQuanta(q * static_cast<double>(lost.rubbed)));
+    if (has(contact::kRollingFriction)) books.add(kRolled, wholeQuanta(q * static_cast<double>(lost.rolled)));
   }
 
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
