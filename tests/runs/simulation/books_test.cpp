@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The books of runs whose losses, works and momenta are known in closed form, or balance whatever happens.
+#include "ledger_fixture.hpp"
+#include "runs/simulation/vehicle_rig.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::simulation {
+namespace {
+
+using namespace test; // fixtures
+
+// From rest to rest the work of a spring under symplectic Euler is that of its two lengths, however long the step:
+// sum of k x_n (v_n + v_n+1) / 2 dt = sum of k x_n (x_n+1 - x_n-1) / 2. So is that of the weight, and what the dashpot
+// has taken is what remains, half of the weight's work, if it is booked with the speed in the middle of the step.
+TEST(LedgerOfOneGrain, BallSetDownLosesHalfOfItsWeightsWorkAtAnyStep) {
+  const double k = 1e3, weight = ballMass() * kGravity, loss = weight * weight / (2 * k);
+  for (const double step : {1e-3, 2e-4, 5e-5}) {
+    const Ledger l = after(material(0.2, 0, "", k) + oneBall(kRadius, ""), 0.25, step);
+    EXPECT_NEAR(l.dissipated.damping / loss, 1, 1e-5) << step << ": places are whole units, 2e-6 of the way";
+    EXPECT_EQ(l.dissipated.friction + l.dissipated.rolling, 0);
+    EXPECT_NEAR(l.elastic / loss, 1, 1e-5);
+    EXPECT_NEAR(l.potential / loss, -2, 1e-5);
+    EXPECT_NEAR(l.integrationError / loss, 0, 1e-5);
+  }
+}
+
+TEST(LedgerOfOneGrain, BallInACornerLosesAtBothWalls) {
+  // Two planes at 45 degrees: in z their springs are together as stiff as one.
+  const double k = 1e3, weight = ballMass() * kGravity, loss = weight * weight / (2 * k);
+  const std::string corner = planeThrough("[0, 0, 0]", "[1, 0, 1]") + planeThrough("[0, 0, 0]", "[-1, 0, 1]");
+  const Ledger l = after(material(0.2, 0, "", k) + ballAt(fmt::format("[0, 0, {}]", kRadius * std::sqrt(2.0))) + corner,
+                         0.25, 2e-4);
+  EXPECT_NEAR(l.dissipated.damping / loss, 1, 1e-5);
+  EXPECT_NEAR(l.integrationError / loss, 0, 1e-5);
+}
+
+/// A ball that lies on a plane when a side wind of 3 m/s2 sets in.
+Ledger blown(const std::string& more, double duration, double step, double stiffness) {
+  const double overlap = ballMass() * kGravity / stiffness;
+  return after(material(0.2, 1, more, stiffness) + oneBall(kRadius - overlap, ""), duration, step,
+               fmt::format("gravity = [3, 0, {}]\nprecision = \"double\"", -kGravity));
+}
+
+TEST(LedgerOfOneGrain, BallThatBeginsToRollLosesHalfOfWhatItsTangentialSpringIsGiven) {
+  // The contact point's slip is a swing of the mass 1 / (1/m + a^2 / I), a the arm, under that mass's share of the
+  // wind: a ball set down sideways.
+  const double k = 1e4, kt = 2.0 / 7 * k, arm = kRadius - ballMass() * kGravity / k;
+  const double share = 1 / (1 + 2.5 * (arm / kRadius) * (arm / kRadius)), force = share * ballMass() * 3;
+  for (const double step : {5e-4, 1e-4, 2e-5}) {
+    const Ledger l = blown("tangential_damping_ratio = 1", 0.1, step, k);
+    EXPECT_NEAR(l.dissipated.damping / (force * force / (2 * kt)), 1, 2e-3) << step << ": an arm of R - 1e-3 R";
+    EXPECT_EQ(l.dissipated.friction + l.dissipated.rolling, 0);
+  }
+}
+
+TEST(LedgerOfOneGrain, BallHeldByRollingResistanceLosesHalfOfTheWindsWork) {
+  // It ends at rest, with the wind in its tangential spring and the wind's moment in its rolling spring.
+  const double k = 1e4, arm = kRadius - ballMass() * kGravity / k, force = ballMass() * 3;
+  const double rolling = 2.25 * k * (0.5 * kRadius) * (0.5 * kRadius), moment = force * arm;
+  const double loss = force * force / (2 * 2.0 / 7 * k) + moment * moment / (2 * rolling);
+  const Ledger l = blown("rolling_friction = 0.5\nrolling_damping_ratio = 0.5", 0.3, 2e-5, k);
+  EXPECT_LT(std::fabs(l.kinetic), 1e-6 * loss) << "it rests";
+  EXPECT_GT(l.dissipated.rolling, 0.1 * loss);
+  EXPECT_GT(l.dissipated.damping, 0.05 * loss);
+  EXPECT_EQ(l.dissipated.friction, 0);
+  EXPECT_NEAR(l.dissipated.total() / loss, 1, 5e-3) << "either as if the other did not act within the step";
+  EXPECT_NEAR(l.elastic / loss, 1, 5e-3);
+  EXPECT_LT(std::fabs(l.integrationError), 5e-3 * loss);
+}
+
+TEST(LedgerOfOneGrain, BallThatFliesUpAndDownHasExchangedItsEnergyTwice) {
+  // Thrown up at 1 m/s, until it is back: m v^2 / 2 and back, while the work of both is 0.
+  const double energy = 0.5 * ballMass();
+  const Ledger l = after(material(0.5, 0) + ballAt("[0, 0, 1]", "velocity = [0, 0, 1]"), 2 / kGravity, 1e-5);
+  EXPECT_NEAR(l.turnover / energy, 2, 1e-4) << "20,000 steps, of which one turns round";
+  EXPECT_NEAR(l.work / energy, 0, 2e-4);
+  EXPECT_NEAR(l.potential / energy, 0, 2e-4);
+}
+
+TEST(LedgerOfOneGrain, FallLeavesOverNoMoreThanTheQuantaOfItsBooks) {
+  // At one speed after the other the same gain is rounded the same way: 40 bits of 1 to 2 m/s, 20,000 times, are
+  // 2e-10 J. In the books a step's work is whole quanta, 2^-50 of k R^2 or so.
+  const double k = 100;
+  const Ledger l = after(material(0.5, 0, "", k) + ballAt("[0, 0, 1]", "velocity = [0, 0, -1]"), 0.1, 5e-6);
+  EXPECT_LT(std::fabs(l.residual), 1e-13);
+  EXPECT_GT(l.turnover, 1e-2);
+}
+
+/// 120 grains of two sizes and two materials that fall into a box far from the origin, past a plane that rises under
+/// them.
+std::string mixedBox() {
+  std::string text = material(0.5, 0.5, "rolling_friction = 0.1") +
+                     "[material.stone]\ndensity = 4000\nstiffness = 2e5\nrestitution = 0.3\nfriction = 0.3\n"
+                     "rolling_friction = 0.2\n";
+  for (const char* kind : {"number = 80\nradius = 0.004\nmaterial = \"soil\"\nlow = [0.3, -0.5, 0.2]\n"
+                           "high = [0.36, -0.44, 0.32]\nvelocity = [0.5, -0.3, -1]",
+                           "number = 40\nradius = 0.006\nmaterial = \"stone\"\nlow = [0.3, -0.5, 0.33]\n"
+                           "high = [0.36, -0.44, 0.45]\nvelocity = [-0.4, 0.2, -2]"})
+    text += std::string("[[grains]]\nform = \"random\"\n") + kind + "\n";
+  return text + planeThrough("[0.3, 0, 0]", "[1, 0, 0]") + planeThrough("[0.36, 0, 0]", "[-1, 0, 0]") +
+         planeThrough("[0, -0.5, 0]", "[0, 1, 0]") + planeThrough("[0, -0.44, 0]", "[0, -1, 0]") +
+         planeThrough("[0, 0, 0.19]", "[0, 0.1, 1]");
+}
+
+TEST(LedgerOfGrains, OfManySizesBalancesInEnergyAndMomenta) {
+  const auto simulation = made(sceneOf(mixedBox(), 0.15, 1e-5));
+  while (simulation->steps() < 15000) simulation->step();
+  const Ledger l = simulation->ledger();
+  const double mass = 80 * 2500 * 4.0 / 3 * base::kPi * 6.4e-8 + 40 * 4000 * 4.0 / 3 * base::kPi * 2.16e-7;
+  EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+  EXPECT_LT(std::fabs(l.integrationError), 0.05 * l.dissipated.total());
+  EXPECT_GT(l.dissipated.rolling, 0.001 * l.dissipated.total());
+  // Of what the weight alone has given; masses are booked as 30 bits of the largest.
+  EXPECT_LT(norm(l.momentumResidual), 1e-8 * mass * kGravity * 0.15);
+  EXPECT_LT(norm(l.angularResidual), 1e-8 * mass * kGravity * 0.15 * 0.6) << "at 0.6 m";
+}
+
+/// Two balls that slide and bounce on a block that moves and turns, far from the origin; `head`: what it is.
+std::string onABlock(const std::string& head) {
+  return material(0.3, 0.6, "rolling_friction = 0.1") + head +
+         "position = [0.5, -0.3, 0.15]\naxis = [0, 0, 1]\nangle = 20\nmaterial = \"soil\"\nname = \"block\"\n"
+         "velocity = [0.05, 0, 0.02]\nspin = [0, 0, 2]\n" +
+         ballAt("[0.51, -0.3, 0.2101]") + ballAt("[0.48, -0.29, 0.23]", "velocity = [0.1, 0.05, 0]");
+}
+
+TEST(LedgerOfSurfaces, MomentaBalanceWithWhatMoves) {
+  const std::string box = "[[box]]\nsize = [0.1, 0.1, 0.1]\n",
+                    plane = planeThrough("[0.5, 0, 0.19]", "[0, 0, 1]", "velocity = [0.02, 0, 0.01]");
+  for (const std::string& things : {onABlock(box), onABlock(box) + plane}) {
+    const Ledger l = after(things, 0.2, 2e-5);
+    const double impulse = 2 * ballMass() * kGravity * 0.2;
+    EXPECT_GT(l.dissipated.friction, 0) << "it drags them";
+    EXPECT_NE(l.driveWork, 0);
+    EXPECT_LT(norm(l.momentumResidual), 1e-9 * impulse);
+    EXPECT_LT(norm(l.angularResidual), 1e-8 * impulse * 0.6) << "at 0.6 m; torques are whole quanta of surfaces";
+    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+  }
+}
+
+const std::string kLid = "[[box]]\nname = \"lid\"\nposition = [0, 0, 1]\nsize = [0.1, 0.1, 0.02]\nmaterial = \"soil\"\n"
+                         "free = \"z\"\nmass = 2\nload = -50\n";
+
+TEST(LedgerOfSurfaces, LidThatFallsUnderItsLoadGainsWhatWeightAndLoadGive) {
+  // In 0.3 s it goes 34.81 m/s2 0.3 s fast; load and weight give their shares of that energy.
+  const double speed = (25 + kGravity) * 0.3, energy = 0.5 * 2 * speed * speed;
+  for (const double step : {1e-3, 1e-4}) {
+    const Ledger l = after(material(0.5, 0.5) + kLid + ballAt("[1, 0, 0]"), 0.3, step, "gravity = [0, 0, -9.81]");
+    const double ball = 0.5 * ballMass() * kGravity * kGravity * 0.09;
+    EXPECT_NEAR(l.driveWork / energy, 25 / (25 + kGravity), 1e-9) << step;
+    EXPECT_NEAR((l.kinetic - ball) / energy, 1, 1e-9);
+    EXPECT_NEAR((l.turnover - ball) / energy, 1, 1e-9) << "all of it is given, none taken";
+    EXPECT_NEAR(l.integrationError / energy, 0, 2 * step / 0.3) << "of the places alone";
+  }
+}
+
+TEST(RestoredBooks, GoOnWithTheSameNumbers) {
+  const std::string box = "[[box]]\nsize = [0.1, 0.1, 0.1]\n";
+  for (const std::string& things : {mixedBox(), onABlock(box), material(0.5, 0.5) + oneBall(0.02, "")}) {
+    const scene::Scene scene = sceneOf(things, 0.2, 2e-5);
+    const auto straight = made(scene), first = made(scene);
+    while (straight->steps() < 6000) straight->step();
+    while (first->steps() < 3700) first->step();
+    Simulation second(setup::simulationSetup(scene), base::cpuExec(1), first->save());
+    EXPECT_EQ(second.ledger().counted(), first->ledger().counted());
+    while (second.steps() < 6000) second.step();
+    const Ledger a = straight->ledger(), b = second.ledger();
+    EXPECT_EQ(a.counted(), b.counted());
+    EXPECT_EQ(a.residual, b.residual);
+    EXPECT_EQ(a.integrationError, b.integrationError);
+    EXPECT_LT(a.work, 0) << "the books hold negative sums";
+  }
+}
+
+std::unique_ptr<Simulation> vehicleOf(const std::string& scene, const std::vector<std::string>& overrides, double end) {
+  auto s = made(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + scene, overrides));
+  while (s->time() < end - 0.5 * s->timeStep()) s->step();
+  return s;
+}
+
+TEST(LedgerOfAVehicle, OnItsBedBalancesInMomenta) {
+  const auto s = vehicleOf("coupled.toml", {}, 0.12);
+  const Ledger l = s->ledger();
+  const double mass = s->vehicle()->assembly().mass;
+  EXPECT_GT(norm(s->vehicle()->contacts().ledger().impulseOnParts), 100) << "the bed bears it";
+  // Of a few kN over 0.1 s.
+  std::printf("residuals %g N s, %g N m s, mass %g, energy left over %g of %g, error %g, parts %g, all %g\n",
+              norm(l.momentumResidual), norm(l.angularResidual), mass, l.residual, l.turnover, l.integrationError,
+              l.dissipated.parts, l.dissipated.total());
+  EXPECT_LT(norm(l.momentumResidual), 1e-6);
+  EXPECT_LT(norm(l.angularResidual), 1e-5);
+  EXPECT_LT(std::fabs(l.residual), 1e-6 * l.turnover);
+}
+
+TEST(LedgerOfAVehicle, OnRigidGroundCountsWhatItsPartsHoldAndLose) {
+  for (const double end : {1e-4, 0.02, 0.2}) {
+    const auto s = vehicleOf("rigid.toml", {"vehicle.sphere_radius=0.02"}, end);
+    const Ledger l = s->ledger();
+    std::printf("%g s: kinetic %g, potential %g, elastic %g (parts hold %g), parts %g, joints %g, error %g, turnover "
+                "%g, drive %g\n",
+                end, l.kinetic, l.potential, l.elastic, s->vehicle()->contacts().ledger().elastic, l.dissipated.parts,
+                l.dissipated.joints, l.integrationError, l.turnover, l.driveWork);
+    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+  }
+}
+
+} // namespace
+} // namespace grouser::simulation
