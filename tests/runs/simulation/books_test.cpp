@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The books of runs whose losses, works and momenta are known in closed form, or balance whatever happens.
-#include "ledger_fixture.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
+#include "tests/runs/simulation/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ledger of scenes of grains: it closes to rounding at every step, books the true losses, and what the length of
 // the steps costs falls with them.
-#include "ledger_fixture.hpp"
+#include "tests/runs/simulation/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>
 
