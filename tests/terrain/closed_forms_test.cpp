@@ -41,6 +41,7 @@ TEST(RollingSwing, OfABallOnAPlaneDiesOutAsItsDampingRatioSays) {
   const double mu = 0.05, zeta = 0.3, g = 9.81;
   GrainModel m = roughBall(2e-6, 5, 0);
   m.law.rollingFriction = mu, m.law.rollingDamping = zeta;
+  m.law.tangentialDamping = 1.2 * std::sqrt(m.law.stiffness / m.mass);
   const double k = m.law.stiffness, R = m.radius, overlap = m.mass * g / k;
   const double o = std::sqrt(2.25 * k * mu * mu / (1.4 * m.mass)), p = o * std::sqrt(1 - zeta * zeta);
   const double w0 = 0.3 * o * m.mass * g / (2.25 * k * mu * R); // 0.3 of what its limit lets it swing
