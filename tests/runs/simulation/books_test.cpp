@@ -17,7 +17,7 @@ const char* const kCritical = "attraction = true\ntangential_damping_ratio = 1";
 
 TEST(LedgerOfOneGrain, BallCaughtByACriticalDashpotLosesAllOfItsEnergyAtAnyStep) {
   const double energy = 0.5 * ballMass();
-  for (const double step : {1e-4, 2e-5, 5e-6}) {
+  for (const double step : {5e-5, 2e-5, 5e-6}) {
     const Ledger l = after(material(0, 0, kCritical) + oneBall(kRadius, "velocity = [0, 0, -1]"), 0.02, step,
                            "gravity = [0, 0, 0]\nprecision = \"double\"");
     EXPECT_NEAR(l.dissipated.damping / energy, 1, 1e-6) << step << ": places are whole units";
@@ -64,7 +64,7 @@ TEST(LedgerOfOneGrain, BallThatSwingsOnItsRollingSpringLosesAllOfItsEnergy) {
   const double energy = 0.5 * ballMass() * spin * spin * (arm * arm + 0.4 * kRadius * kRadius);
   const Ledger l = pushed(fmt::format("velocity = [{:.17g}, 0, 0]\nspin = [0, {:.17g}, 0]", spin * arm, spin),
                           "rolling_friction = 0.5\nrolling_damping_ratio = 0.5", 0.3, 1e-5, k);
-  EXPECT_NEAR(l.kinetic / energy, -1, 1e-6) << "it rests";
+  EXPECT_NEAR(l.kinetic / energy, -1, 1e-4) << "it rests";
   EXPECT_GT(l.dissipated.rolling, 0.3 * energy);
   EXPECT_GT(l.dissipated.damping, 0.3 * energy);
   EXPECT_EQ(l.dissipated.friction, 0);
@@ -90,8 +90,7 @@ TEST(LedgerOfOneGrain, FallLeavesOverNoMoreThanTheQuantaOfItsBooks) {
   EXPECT_GT(l.turnover, 1e-2);
 }
 
-/// 120 grains of two sizes and two materials that fall into a box far from the origin, past a plane that rises under
-/// them.
+/// 120 grains of two sizes and two materials that fall into a box far from the origin, onto a floor that slopes.
 std::string mixedBox() {
   std::string text = material(0.5, 0.5, "rolling_friction = 0.1") +
                      "[material.stone]\ndensity = 4000\nstiffness = 2e5\nrestitution = 0.3\nfriction = 0.3\n"
@@ -103,7 +102,7 @@ std::string mixedBox() {
     text += std::string("[[grains]]\nform = \"random\"\n") + kind + "\n";
   return text + planeThrough("[0.3, 0, 0]", "[1, 0, 0]") + planeThrough("[0.36, 0, 0]", "[-1, 0, 0]") +
          planeThrough("[0, -0.5, 0]", "[0, 1, 0]") + planeThrough("[0, -0.44, 0]", "[0, -1, 0]") +
-         planeThrough("[0, 0, 0.19]", "[0, 0.1, 1]");
+         planeThrough("[0.33, -0.47, 0.18]", "[0, 0.1, 1]");
 }
 
 TEST(LedgerOfGrains, OfManySizesBalancesInEnergyAndMomenta) {
@@ -137,7 +136,7 @@ TEST(LedgerOfSurfaces, MomentaBalanceWithWhatMoves) {
     EXPECT_NE(l.driveWork, 0);
     EXPECT_LT(norm(l.momentumResidual), 1e-9 * impulse);
     EXPECT_LT(norm(l.angularResidual), 1e-8 * impulse * 0.6) << "at 0.6 m; torques are whole quanta of surfaces";
-    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+    EXPECT_LT(std::fabs(l.residual), 1e-8 * l.turnover) << "kinetic energies are read off in whole quanta of 1e-12 J";
   }
 }
 
@@ -147,7 +146,7 @@ const std::string kLid = "[[box]]\nname = \"lid\"\nposition = [0, 0, 1]\nsize = 
 TEST(LedgerOfSurfaces, LidThatFallsUnderItsLoadGainsWhatWeightAndLoadGive) {
   // In 0.3 s it goes 34.81 m/s2 0.3 s fast; load and weight give their shares of that energy.
   const double speed = (25 + kGravity) * 0.3, energy = 0.5 * 2 * speed * speed;
-  for (const double step : {1e-3, 1e-4}) {
+  for (const double step : {1e-4, 2e-5}) {
     const Ledger l = after(material(0.5, 0.5) + kLid + ballAt("[1, 0, 0]"), 0.3, step, "gravity = [0, 0, -9.81]");
     const double ball = 0.5 * ballMass() * kGravity * kGravity * 0.09;
     EXPECT_NEAR(l.driveWork / energy, 25 / (25 + kGravity), 1e-9) << step;
@@ -160,13 +159,13 @@ TEST(LedgerOfSurfaces, LidThatFallsUnderItsLoadGainsWhatWeightAndLoadGive) {
 TEST(RestoredBooks, GoOnWithTheSameNumbers) {
   const std::string box = "[[box]]\nsize = [0.1, 0.1, 0.1]\n";
   for (const std::string& things : {mixedBox(), onABlock(box), material(0.5, 0.5) + oneBall(0.02, "")}) {
-    const scene::Scene scene = sceneOf(things, 0.2, 2e-5);
+    const scene::Scene scene = sceneOf(things, 0.2, 1e-5);
     const auto straight = made(scene), first = made(scene);
-    while (straight->steps() < 6000) straight->step();
-    while (first->steps() < 3700) first->step();
+    while (straight->steps() < 12000) straight->step();
+    while (first->steps() < 7400) first->step();
     Simulation second(setup::simulationSetup(scene), base::cpuExec(1), first->save());
     EXPECT_EQ(second.ledger().counted(), first->ledger().counted());
-    while (second.steps() < 6000) second.step();
+    while (second.steps() < 12000) second.step();
     const Ledger a = straight->ledger(), b = second.ledger();
     EXPECT_EQ(a.counted(), b.counted());
     EXPECT_EQ(a.residual, b.residual);
@@ -182,29 +181,31 @@ std::unique_ptr<Simulation> vehicleOf(const std::string& scene, const std::vecto
 }
 
 TEST(LedgerOfAVehicle, OnItsBedBalancesInMomenta) {
-  const auto s = vehicleOf("coupled.toml", {}, 0.12);
+  const auto s = vehicleOf("coupled.toml", {}, 0.08);
   const Ledger l = s->ledger();
-  const double mass = s->vehicle()->assembly().mass;
-  EXPECT_GT(norm(s->vehicle()->contacts().ledger().impulseOnParts), 100) << "the bed bears it";
-  // Of a few kN over 0.1 s.
-  std::printf("residuals %g N s, %g N m s, mass %g, energy left over %g of %g, error %g, parts %g, all %g\n",
-              norm(l.momentumResidual), norm(l.angularResidual), mass, l.residual, l.turnover, l.integrationError,
-              l.dissipated.parts, l.dissipated.total());
-  EXPECT_LT(norm(l.momentumResidual), 1e-6);
-  EXPECT_LT(norm(l.angularResidual), 1e-5);
-  EXPECT_LT(std::fabs(l.residual), 1e-6 * l.turnover);
+  const double impulse = s->vehicle()->assembly().mass * kGravity * 0.08;
+  EXPECT_GT(norm(s->vehicle()->contacts().ledger().impulseOnParts), 0.01 * impulse) << "the bed bears it";
+  EXPECT_LT(norm(l.momentumResidual), 1e-8 * impulse);
+  EXPECT_LT(norm(l.angularResidual), 1e-8 * impulse * 3) << "at 3 m";
+  EXPECT_LT(std::fabs(l.residual), 1e-8 * l.turnover);
 }
 
 TEST(LedgerOfAVehicle, OnRigidGroundCountsWhatItsPartsHoldAndLose) {
-  for (const double end : {1e-4, 0.02, 0.2}) {
-    const auto s = vehicleOf("rigid.toml", {"vehicle.sphere_radius=0.02"}, end);
-    const Ledger l = s->ledger();
-    std::printf("%g s: kinetic %g, potential %g, elastic %g (parts hold %g), parts %g, joints %g, error %g, turnover "
-                "%g, drive %g\n",
-                end, l.kinetic, l.potential, l.elastic, s->vehicle()->contacts().ledger().elastic, l.dissipated.parts,
-                l.dissipated.joints, l.integrationError, l.turnover, l.driveWork);
-    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
-  }
+  const std::vector<std::string> coarse = {"vehicle.sphere_radius=0.02"};
+  // Its shoes press on its wheels from the start: that is nothing that the first step has made.
+  const auto begun = vehicleOf("rigid.toml", coarse, 1e-4);
+  EXPECT_GT(begun->vehicle()->contacts().ledger().elastic, 0.05);
+  EXPECT_LT(std::fabs(begun->ledger().elastic), 1e-3);
+  // 0.2 s on, the track is taut and its weight comes on.
+  const auto s = vehicleOf("rigid.toml", coarse, 0.2);
+  const Ledger l = s->ledger();
+  const double held = s->vehicle()->contacts().ledger().elastic;
+  EXPECT_GT(held, 1);
+  EXPECT_GT(l.dissipated.parts, 0.5);
+  EXPECT_LT(std::fabs(l.integrationError), 0.02 * (held + l.dissipated.parts)) << "at 1e-4 s";
+  EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+  const multibody::Balance b = s->vehicle()->bodiesBalance();
+  EXPECT_NEAR(l.elastic, b.elasticGain + held, 0.3) << "but for what the start held";
 }
 
 } // namespace
