@@ -39,8 +39,8 @@ TEST(ContactBooks, SlidingLosesItsWorkLessWhatItsSpringGains) {
       // Springs from none to one at the limit, and steps by as much.
       const Vec3d before = numbers.across() * (0.7 * limit / kt), slip = numbers.across() * (limit / kt / dt);
       Vec3d shear = before;
-      const auto r = contactForce<kGeneral>(law, {{0, 0, 1}, overlap, slip + Vec3d{0, 0, approach}, mass, radius}, dt,
-                                            shear);
+      const auto r =
+          contactForce<kGeneral>(law, {{0, 0, 1}, overlap, slip + Vec3d{0, 0, approach}, mass, radius}, dt, shear);
       const Vec3d force{r.force.x, r.force.y, 0};
       const double work = -dot(force, slip) * dt, turned = kt * dot(before, before);
       if (norm(before + slip * dt) * kt <= law.friction * r.pressing) { // it sticks

@@ -36,8 +36,8 @@ TEST(SlidingWithDamping, EndsInADampedSwingOfTheTangentialSpring) {
 }
 
 TEST(RollingSwing, OfABallOnAPlaneDiesOutAsItsDampingRatioSays) {
-  // About the contact point 7/5 m R^2 swings on the rolling spring: w = w0 e^(-zeta o t) (cos p t - zeta o / p sin p t),
-  // p = o sqrt(1 - zeta^2). Its tangential spring is 250 times as stiff.
+  // About the contact point 7/5 m R^2 swings on the rolling spring: w = w0 e^(-zeta o t) (cos p t - zeta o / p sin p
+  // t), p = o sqrt(1 - zeta^2). Its tangential spring is 250 times as stiff.
   const double mu = 0.05, zeta = 0.3, g = 9.81;
   GrainModel m = roughBall(2e-6, 5, 0);
   m.law.rollingFriction = mu, m.law.rollingDamping = zeta;

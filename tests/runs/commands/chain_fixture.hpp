@@ -45,7 +45,8 @@ point = [0, 0, -1.5]
 name = "winch"
 joint = "rail"
 imposes = "torque"
-)" + pull + "\n";
+)" + pull +
+         "\n";
 }
 
 } // namespace grouser::test

@@ -258,9 +258,9 @@ TEST(MeetingPairs, SayWhatDoesNothing) {
 
 TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
   // damping = 500 /s acts on the pair's mass, m / 2, and on a wall on m.
-  const std::vector<MeetingPair> pairs = meetingPairs(
-      parsed("[run]\nduration = 1\n[material.ball]\nstiffness = 2e5\ndamping = 500\nattraction = true\n"
-             "[[plane]]\nmaterial = \"ball\"\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\nmaterial = \"ball\"\n"));
+  const std::vector<MeetingPair> pairs = meetingPairs(parsed(
+      "[run]\nduration = 1\n[material.ball]\nstiffness = 2e5\ndamping = 500\nattraction = true\n"
+      "[[plane]]\nmaterial = \"ball\"\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\nmaterial = \"ball\"\n"));
   ASSERT_EQ(pairs.size(), 2u);
   const double m = base::sphereMass(2500, 0.02);
   for (const auto& [pair, mass] : {std::pair{pairs[0], m / 2}, std::pair{pairs[1], m}}) {
@@ -271,10 +271,10 @@ TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
 }
 
 TEST(MeetingPairs, OfHertzGrainsHaveTheirEffectiveModulus) {
-  const std::vector<MeetingPair> pairs = meetingPairs(
-      parsed("[run]\nduration = 1\n[material.glass]\nlaw = \"hertz\"\nyoung = 6e7\n"
-             "poisson = 0.25\nrestitution = 0.6\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\n"
-             "material = \"glass\"\n"));
+  const std::vector<MeetingPair> pairs =
+      meetingPairs(parsed("[run]\nduration = 1\n[material.glass]\nlaw = \"hertz\"\nyoung = 6e7\n"
+                          "poisson = 0.25\nrestitution = 0.6\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\n"
+                          "material = \"glass\"\n"));
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_NEAR(pairs[0].stiffness, 6e7 / (2 * (1 - 0.0625)), 1) << "E / (2 (1 - nu^2)) of two alike";
   EXPECT_NEAR(pairs[0].restitution, 0.6, 1e-6);

@@ -11,8 +11,8 @@ namespace {
 using namespace test; // fixtures
 
 // Where a spring is as long at the end as at the start, its work under symplectic Euler is none, however long the step:
-// sum of k x_n (v_n + v_n+1) / 2 dt = sum of k x_n (x_n+1 - x_n-1) / 2. What the dashpot has taken is all that was lost,
-// if it is booked with the speed in the middle of the step.
+// sum of k x_n (v_n + v_n+1) / 2 dt = sum of k x_n (x_n+1 - x_n-1) / 2. What the dashpot has taken is all that was
+// lost, if it is booked with the speed in the middle of the step.
 const char* const kCritical = "attraction = true\ntangential_damping_ratio = 1";
 
 TEST(LedgerOfOneGrain, BallCaughtByACriticalDashpotLosesAllOfItsEnergyAtAnyStep) {
@@ -39,8 +39,7 @@ TEST(LedgerOfOneGrain, BallCaughtInACornerLosesAtBothWalls) {
 
 /// A ball that lies on a plane, its weight borne, and is set in motion.
 Ledger pushed(const std::string& motion, const std::string& more, double duration, double step, double stiffness) {
-  return after(material(0.2, 1, more, stiffness) +
-                   oneBall(kRadius - ballMass() * kGravity / stiffness, motion),
+  return after(material(0.2, 1, more, stiffness) + oneBall(kRadius - ballMass() * kGravity / stiffness, motion),
                duration, step);
 }
 
@@ -59,7 +58,8 @@ TEST(LedgerOfOneGrain, BallThatSticksAndRollsOnLosesTheEnergyOfItsSlip) {
 
 TEST(LedgerOfOneGrain, BallThatSwingsOnItsRollingSpringLosesAllOfItsEnergy) {
   // Rolling so slowly that its resistance stays below the limit: it swings to rest, its springs as at the start.
-  const double k = 1e4, arm = kRadius - ballMass() * kGravity / k, rate = std::sqrt(2.25 * k * 0.25 / (1.4 * ballMass()));
+  const double k = 1e4, arm = kRadius - ballMass() * kGravity / k,
+               rate = std::sqrt(2.25 * k * 0.25 / (1.4 * ballMass()));
   const double spin = 0.3 * rate * ballMass() * kGravity / (2.25 * k * 0.5 * kRadius);
   const double energy = 0.5 * ballMass() * spin * spin * (arm * arm + 0.4 * kRadius * kRadius);
   const Ledger l = pushed(fmt::format("velocity = [{:.17g}, 0, 0]\nspin = [0, {:.17g}, 0]", spin * arm, spin),

@@ -14,9 +14,9 @@ double drivesOff(int rowEvery, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides = {"vehicle.sphere_radius=0.02", "driver.tension_ramp=0.03",
                                         "driver.weight_ramp=0.05", "driver.rest_time_limit=1.0"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  Simulation s(setup::simulationSetup(
-                   setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides)),
-               base::cpuExec(1), [](double, double) {});
+  Simulation s(
+      setup::simulationSetup(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides)),
+      base::cpuExec(1), [](double, double) {});
   while (!s.vehicle()->driveStart()) {
     s.step();
     if (rowEvery > 0 && s.steps() % rowEvery == 0) s.restartMeans();
@@ -30,9 +30,7 @@ TEST(DriveAtRest, BeginsAtOneTimeWhateverTheRows) {
   EXPECT_EQ(drivesOff(33), start);
 }
 
-TEST(DriveAtRest, BeginsUnderAnotherGravityToo) {
-  EXPECT_LT(drivesOff(0, {"run.gravity=[0, 0, -3.7]"}), 1.0);
-}
+TEST(DriveAtRest, BeginsUnderAnotherGravityToo) { EXPECT_LT(drivesOff(0, {"run.gravity=[0, 0, -3.7]"}), 1.0); }
 
 } // namespace
 } // namespace grouser::simulation

@@ -18,8 +18,7 @@ constexpr double kRadius = 0.01, kDensity = 2500, kGravity = 9.81;
 
 inline double ballMass() { return kDensity * 4.0 / 3 * base::kPi * kRadius * kRadius * kRadius; }
 
-inline std::string material(double restitution, double friction, const std::string& more = {},
-                            double stiffness = 1e5) {
+inline std::string material(double restitution, double friction, const std::string& more = {}, double stiffness = 1e5) {
   return fmt::format("[material.soil]\ndensity = {}\nstiffness = {}\nrestitution = {}\nfriction = {}\n{}\n", kDensity,
                      stiffness, restitution, friction, more);
 }

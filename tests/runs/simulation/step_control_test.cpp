@@ -20,9 +20,9 @@ constexpr double kTolerance = 1e-4; ///< [m/s, rad/s]
 
 /// The pendulum of runs/mechanisms, whose steps follow an error.
 struct Pendulum {
-  setup::MechanismSetup setup = setup::mechanismSetup(
-      setup::loadScene(GROUSER_SOURCE_DIR "/runs/mechanisms/pendulum.toml",
-                       {"run.time_step=auto", "run.integrator_order=2", "run.tolerance=1e-4"}));
+  setup::MechanismSetup setup =
+      setup::mechanismSetup(setup::loadScene(GROUSER_SOURCE_DIR "/runs/mechanisms/pendulum.toml",
+                                             {"run.time_step=auto", "run.integrator_order=2", "run.tolerance=1e-4"}));
   multibody::Solver solver{setup.model, setup.solver};
   State state = multibody::makeState(setup.model);
   multibody::Loads loads = multibody::makeLoads(setup.model);
@@ -44,9 +44,9 @@ double errorOf(Pendulum& p, const State& before, const State& after) {
   double most = 0;
   for (std::size_t b = 0; b < fine.pose.size(); ++b) {
     const base::Quat turn = fine.pose[b].orientation * after.pose[b].orientation.conjugate();
-    most = std::max({most,
-                     norm(fine.pose[b].position - after.pose[b].position) + h * norm(fine.twist[b].v - after.twist[b].v),
-                     2 * norm(base::Vec3d{turn.x, turn.y, turn.z}) + h * norm(fine.twist[b].w - after.twist[b].w)});
+    most = std::max(
+        {most, norm(fine.pose[b].position - after.pose[b].position) + h * norm(fine.twist[b].v - after.twist[b].v),
+         2 * norm(base::Vec3d{turn.x, turn.y, turn.z}) + h * norm(fine.twist[b].w - after.twist[b].w)});
   }
   return most;
 }
