@@ -191,6 +191,18 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
   EXPECT_EQ(refusal({"material.soil.restitution=0", "material.soil.attraction=true"}), "");
 }
 
+TEST(Restitution, ZeroOfAFloorIsRefusedToo) {
+  const std::string bed = "[run]\nduration = 1\n[material.soil]\nstiffness = 1e6\n[material.rock]\nstiffness = 1e7\n"
+                          "restitution = 0\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1, 1]\n"
+                          "height_range = [0, 0.1]\nmaterial = \"soil\"\nground_material = \"rock\"\n"
+                          "grain_radius = 0.05\nlayers = 1\n";
+  const auto refusal = [&](const std::vector<std::string>& overrides) {
+    return messageOf([&] { simulationSetup(parsed(bed, overrides)); });
+  };
+  EXPECT_NE(refusal({}).find("material.rock.restitution"), std::string::npos) << refusal({});
+  EXPECT_EQ(refusal({"material.rock.restitution=0.2"}), "");
+}
+
 const char* const kPairs = R"([run]
 duration = 0.1
 [material.soil]
