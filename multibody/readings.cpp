@@ -89,8 +89,9 @@ void beginLedger(const Model& model, State& state, const Loads& loads) {
 Balance balance(const Model& model, const State& state, const Loads& loads) {
   const Ledger& l = state.ledger;
   Balance b;
+  b.now = totals(model, state, loads);
   if (l.begun == 0) return b;
-  const Totals t = totals(model, state, loads);
+  const Totals& t = b.now;
   b.driveWork = l.driveWork, b.externalWork = l.externalWork;
   b.kineticGain = t.kinetic - l.startKinetic, b.potentialGain = l.potentialGain, b.elasticGain = l.elasticGain;
   b.jointDamping = l.jointDamping, b.springDamping = l.springDamping, b.stopDamping = l.stopDamping;

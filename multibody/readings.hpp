@@ -30,6 +30,7 @@ double elasticEnergy(const Model& model, const State& state, const Loads& loads)
 /// What loads that are scaled or turned put in (ramps of springs and of gravity) counts neither as stored nor as work:
 /// gains are summed at the loads of each step.
 struct Balance {
+  Totals now; ///< of the state itself
   double driveWork = 0, externalWork = 0;
   double kineticGain = 0, potentialGain = 0, elasticGain = 0;
   double jointDamping = 0;  ///< lost by the dampers of joints

@@ -153,8 +153,8 @@ double Mechanism::axisSpringForce(int index) const {
 }
 
 Mechanism::Ledger Mechanism::ledger() const {
-  const multibody::Totals t = multibody::totals(model_, state_, loads_);
   const multibody::Balance b = multibody::balance(model_, state_, loads_);
+  const multibody::Totals& t = b.now;
   Ledger ledger;
   ledger.driveWork = b.driveWork;
   ledger.kinetic = t.kinetic, ledger.potential = t.gravity, ledger.elastic = t.elastic;

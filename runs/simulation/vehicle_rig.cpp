@@ -2,7 +2,6 @@
 #include "runs/simulation/vehicle_rig.hpp"
 
 #include "base/error.hpp"
-#include "multibody/readings.hpp"
 
 #include <fmt/format.h>
 
@@ -110,30 +109,15 @@ std::string VehicleRig::alarm() {
   return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
 }
 
-VehicleRig::BodiesLedger VehicleRig::bodiesLedger() const {
-  BodiesLedger ledger;
-  ledger.contacts = contacts_->ledger();
-  ledger.kinetic = multibody::totals(assembly_.model, state_, loads_).kinetic;
-  const multibody::Balance b = multibody::balance(assembly_.model, state_, loads_);
-  ledger.driveWork = b.driveWork, ledger.externalWork = b.externalWork;
-  ledger.potentialGain = b.potentialGain, ledger.elastic = b.elasticGain;
-  ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
-  ledger.integrationError = b.integrationError, ledger.leftOver = b.leftOver, ledger.turnover = b.turnover;
-  ledger.linearLeftOver = b.linearLeftOver, ledger.angularLeftOver = b.angularLeftOver;
-  ledger.dissipated = ledger.bodiesDissipated() + ledger.contacts.dissipated;
-  return ledger;
-}
-
 void VehicleRig::addTo(Ledger& ledger) const {
-  const BodiesLedger b = bodiesLedger();
-  const VehicleContacts::Ledger& c = b.contacts;
-  const multibody::Totals bodies = multibody::totals(assembly_.model, state_, loads_);
-  ledger.kinetic += b.kinetic, ledger.work += b.kinetic - b.leftOver, ledger.turnover += b.turnover;
+  const multibody::Balance b = bodiesBalance();
+  const VehicleContacts::Ledger c = contacts_->ledger();
+  ledger.kinetic += b.now.kinetic, ledger.work += b.now.kinetic - b.leftOver, ledger.turnover += b.turnover;
   ledger.driveWork += b.driveWork;
-  ledger.potential += b.potentialGain, ledger.elastic += b.elastic + c.elastic;
+  ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
   ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
-  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.bodiesDissipated();
-  ledger.momentum += bodies.linearMomentum, ledger.angularMomentum += bodies.angularMomentum;
+  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.dissipated();
+  ledger.momentum += b.now.linearMomentum, ledger.angularMomentum += b.now.angularMomentum;
   // The grains' own residual still lacks what the parts gave them.
   ledger.momentumResidual += b.linearLeftOver - c.impulseOnGrains;
   ledger.angularResidual += b.angularLeftOver + c.angularOnParts;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/ledger.hpp"
@@ -53,26 +54,8 @@ public:
   /// and drives off: to be called at fixed steps.
   std::string alarm();
 
-  /// Energies of the bodies and of the contacts of parts with parts and ground [J], since the start but for `kinetic`.
-  /// Of the bodies alone, with kineticGain = kinetic - that of the start:
-  ///   kineticGain + potentialGain + elastic + bodiesDissipated() + integrationError = driveWork + externalWork +
-  ///   leftOver
-  struct BodiesLedger {
-    double kinetic{};       ///< of the bodies, now
-    double driveWork{};     ///< of the sprockets' drives
-    double externalWork{};  ///< of contact loads: impulse times the mean of the velocities before and after each step
-    double potentialGain{}; ///< of gravity, at each step's weight: what the ramp of the weight puts in is not counted
-    double elastic{};       ///< gain of springs, at each step's preloads: their ramps not counted
-    double jointDamping{}, springDamping{}, stopDamping{}; ///< what dampers of joints, of springs, of end stops took
-    double bodiesDissipated() const { return jointDamping + springDamping + stopDamping; }
-    double integrationError{}; ///< of the multibody part: what springs, constraints and gyroscopic terms leave
-    double leftOver{};         ///< of its kinetic energy: rounding
-    double turnover{};         ///< sum of the absolute works in it
-    base::Vec3d linearLeftOver, angularLeftOver; ///< of its momenta: rounding [N s, N m s]
-    double dissipated{};                         ///< bodiesDissipated() and in contacts of parts
-    VehicleContacts::Ledger contacts;
-  };
-  BodiesLedger bodiesLedger() const;
+  /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
+  multibody::Balance bodiesBalance() const { return multibody::balance(assembly_.model, state_, loads_); }
   /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
   void addTo(Ledger& ledger) const;
 

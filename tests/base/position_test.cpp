@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/fixed_point.hpp"
 #include "base/math.hpp"
+#include "base/period.hpp"
 #include "base/position.hpp"
 
 #include <gtest/gtest.h>
@@ -65,6 +66,21 @@ TEST(FixedPoint, SumsDoNotDependOnOrder) {
     backward += f.quantise(values[values.size() - 1 - i]);
   }
   EXPECT_EQ(forward, backward);
+}
+
+TEST(Period, PlacesOnTheUpperBoundaryAreThoseOnTheLowerOne) {
+  const Period period{{-500, 0, 0}, {2000, 0, 0}};
+  const auto back = [&](std::int64_t u) { return period.periodsBack(0, u); };
+  EXPECT_EQ(back(-501), 1);
+  EXPECT_EQ(back(-500), 0);
+  EXPECT_EQ(back(1499), 0);
+  EXPECT_EQ(back(1500), -1);
+  EXPECT_EQ(period.periodsBack(1, 1 << 30), 0) << "it has none along y";
+  EXPECT_EQ(period.wrapped({1500, 7, -9}), (Vec3l{-500, 7, -9}));
+  // Half a period away two images are as near: always the same one of them.
+  EXPECT_EQ(period.apart(fromUnits({-500, 0, 0}), fromUnits({500, 0, 0})), (Vec3l{-1000, 0, 0}));
+  EXPECT_EQ(period.apart(fromUnits({500, 0, 0}), fromUnits({-500, 0, 0})), (Vec3l{-1000, 0, 0}));
+  EXPECT_EQ(period.apart(fromUnits({-400, 0, 0}), fromUnits({1400, 0, 0})), (Vec3l{-200, 0, 0}));
 }
 
 TEST(ElementaryFunctions, AgreeWithTheCLibraryToAFewUlp) {

@@ -75,15 +75,19 @@ class Results:
         return bool(entry) and (entry['verdict'] == 'results' or
                                 (entry['digest'] == digest and entry['verdict'] in ('hash', 'none')))
 
-    def add(self, fault, verdict, tests, digest):
-        self.found[fault.key()] = {'name': fault.name, 'verdict': verdict, 'tests': tests, 'digest': digest,
-                                   'confirmed': False}
+    def add(self, fault, verdict, tests, program, digest):
+        """`program`: that in which the tests are."""
+        self.found[fault.key()] = {'name': fault.name, 'verdict': verdict, 'tests': tests, 'program': program,
+                                   'digest': digest, 'confirmed': False}
         self.save()
 
     def newly_seeing(self, digest):
-        """Tests that have seen something and were not yet run without any fault."""
-        return sorted({t for e in self.found.values() if e['verdict'] == 'results' and not e['confirmed'] and
-                       e['digest'] == digest for t in e['tests']})
+        """Tests that have seen something and were not yet run without any fault, by their program."""
+        seeing = {}
+        for e in self.found.values():
+            if e['verdict'] == 'results' and not e['confirmed'] and e['digest'] == digest:
+                seeing.setdefault(e.get('program', 'all'), set()).update(e['tests'])
+        return {program: sorted(tests) for program, tests in sorted(seeing.items())}
 
     def confirm(self, digest):
         for entry in self.found.values():

@@ -108,12 +108,10 @@ class Workshop:
         """Red ones among those that compare a stored hash."""
         return self.call('all', ':'.join(self.hashes), self.noisy, False)
 
-    def red_without_fault(self, tests):
+    def red_without_fault(self, program, tests):
         """Those that are red now that no fault stands in the copy."""
-        if not tests:
-            return []
-        self.build('all')
-        return [t for t in self.call('all', ':'.join(tests), [], False) if t in tests]
+        self.build(program)
+        return [t for t in self.call(program, ':'.join(tests), [], False) if t in tests]
 
     def call(self, program, pattern, but, first):
         path = self.build_folder / 'bin' / self.program_name(program)

@@ -24,6 +24,16 @@ struct Outcome {
                                                                                             : out + errors;
   }
   bool hasHash() const { return hash().rfind("state-hash ", 0) == 0; }
+
+  /// What the program calls an error, in its own words: the rest of that line; empty where there is none, or another
+  /// after it.
+  std::string error() const {
+    const std::string before = "grouser: error: ";
+    const std::size_t at = errors.find(before);
+    if (at == std::string::npos || errors.find(before, at + 1) != std::string::npos) return "";
+    const std::size_t from = at + before.size();
+    return errors.substr(from, errors.find('\n', from) - from);
+  }
 };
 
 /// The program lies beside the tests.

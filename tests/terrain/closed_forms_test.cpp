@@ -35,6 +35,27 @@ TEST(SlidingWithDamping, EndsInADampedSwingOfTheTangentialSpring) {
   EXPECT_GT(s0 * w, 5e-4) << "the swing is far above what is allowed";
 }
 
+TEST(RollingSwing, OfABallOnAPlaneDiesOutAsItsDampingRatioSays) {
+  // About the contact point 7/5 m R^2 swings on the rolling spring: w = w0 e^(-zeta o t) (cos p t - zeta o / p sin p
+  // t), p = o sqrt(1 - zeta^2). Its tangential spring is 250 times as stiff.
+  const double mu = 0.05, zeta = 0.3, g = 9.81;
+  GrainModel m = roughBall(2e-6, 5, 0);
+  m.law.rollingFriction = mu, m.law.rollingDamping = zeta;
+  m.law.tangentialDamping = 1.2 * std::sqrt(m.law.stiffness / m.mass);
+  const double k = m.law.stiffness, R = m.radius, overlap = m.mass * g / k;
+  const double o = std::sqrt(2.25 * k * mu * mu / (1.4 * m.mass)), p = o * std::sqrt(1 - zeta * zeta);
+  const double w0 = 0.3 * o * m.mass * g / (2.25 * k * mu * R); // 0.3 of what its limit lets it swing
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, R - overlap}, {w0 * R, 0, 0}, {0, w0, 0}}});
+  std::int64_t taken = 0;
+  for (const double angle : {0.5, 1.0, 2.0, 3.0, 4.5, 6.0}) {
+    const auto n = static_cast<std::int64_t>(std::lround(angle / p / m.timeStep));
+    advance(grains, n - taken), taken = n;
+    const double t = static_cast<double>(n) * m.timeStep;
+    const double w = w0 * base::exp(-zeta * o * t) * (base::cos(p * t) - zeta * o / p * base::sin(p * t));
+    EXPECT_NEAR(grains.snapshot().spin[0].y, w, 0.02 * w0) << angle << ": what the tangential spring gives way";
+  }
+}
+
 /// Direction in which a grain is dragged in its first step, when all slips.
 base::Vec3d dragged(const GrainModel& m, const Boundaries& boundaries, const std::vector<GrainSpec>& start,
                     const std::vector<SurfacePose>& poses, const base::Vec3d& normal) {

@@ -52,11 +52,10 @@ protected:
   std::string expectFailedSoundly(const Outcome& o, const std::string& out, const std::string& more,
                                   const std::string& hash) {
     EXPECT_EQ(o.code, 3) << o.errors;
-    const std::size_t error = o.errors.find("grouser: error: ");
-    if (error == std::string::npos) return "";
-    EXPECT_EQ(o.errors.find("grouser: error: ", error + 1), std::string::npos) << o.errors;
-    EXPECT_NE(o.errors.find("is the disk full"), std::string::npos) << o.errors;
-    const std::string message = o.errors.substr(error + 16, o.errors.find('\n', error) - error - 16);
+    const std::string message = o.error();
+    EXPECT_NE(message, "") << "one message: " << o.errors;
+    if (message.empty()) return "";
+    EXPECT_NE(message.find("is the disk full"), std::string::npos) << o.errors;
     if (fs::exists(folder_ / out)) {
       const std::string manifest = contents(folder_ / out / "manifest.json");
       EXPECT_NE(manifest.find("\"status\": \"failed\""), std::string::npos) << message << "\n" << manifest;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mechanism whose motion becomes too quick for its step ends with the true cause, at a step that depends on the
 // motion alone.
-#include "base/math.hpp"
+#include "tests/runs/commands/chain_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <fstream>
 #include <regex>
 #include <string>
@@ -65,45 +64,9 @@ TEST_F(MechanismJudge, RotorThatIsSpunUpEndsTheRunWhereATurnHasTooFewSteps) {
   EXPECT_EQ(call("run rotor.toml --force --out r --set run.steps_per_period=15" + kBare).code, 0);
 }
 
-/// Ten links of 1 kg with a weight at the end, pulled besides as `drive` says.
-std::string chainScene(double weight, const std::string& drive) {
-  std::string text = "version = 1\n[run]\nduration = 0.2\noutput_interval = 0.01\ngravity = [0, 0, -9.81]\n";
-  for (int i = 0; i <= 10; ++i) {
-    const bool tip = i == 10;
-    const std::string name = tip ? "weight" : fmt::format("link {}", i);
-    text += fmt::format("[[body]]\nname = \"{}\"\nmass = {}\nposition = [0, 0, {}]\n{}\n", name, tip ? weight : 1,
-                        -0.15 * (tip ? i : i + 0.5), tip ? "point = true" : "inertia = [0.002, 0.002, 0.0002]");
-    text += fmt::format("[[joint]]\nname = \"pin {}\"\nbodies = [\"{}\", \"{}\"]\npoint = [0, 0, {}]\n{}\n", i,
-                        i == 0 ? "world" : fmt::format("link {}", i - 1), name, -0.15 * i,
-                        tip ? "type = \"spherical\"" : "axis = [0, 1, 0]");
-  }
-  if (drive.empty()) return text;
-  return text + R"([[body]]
-name = "block"
-mass = 1
-inertia = [0.01, 0.01, 0.01]
-position = [0, 0, -1.5]
-[[joint]]
-name = "rail"
-type = "prismatic"
-bodies = ["world", "block"]
-point = [0, 0, -1.5]
-axis = [0, 0, 1]
-[[joint]]
-name = "hook"
-type = "spherical"
-bodies = ["weight", "block"]
-point = [0, 0, -1.5]
-[[drive]]
-name = "winch"
-joint = "rail"
-imposes = "torque"
-)" + drive;
-}
-
 TEST_F(MechanismJudge, PullThatStaysAboveWhatTheStepBearsEndsTheRunEvenWhereNothingSwingsYet) {
   // Straight and at rest the chain hangs still, at 2.6 times the longest stable step of 7.6e-5 s.
-  write("chain.toml", chainScene(1e6, ""));
+  write("chain.toml", chainScene(1e6));
   for (const char* interval : {"0.01", "0.003"}) {
     const Outcome o = call("run chain.toml --force --out r --set run.time_step=2e-4 --set run.output_interval=" +
                            std::string(interval) + kBare);
@@ -119,11 +82,11 @@ TEST_F(MechanismJudge, PullThatStaysAboveWhatTheStepBearsEndsTheRunEvenWhereNoth
 
 TEST_F(MechanismJudge, PullThatPassesSoonIsNoError) {
   // 5e-4 s bear some 2.3e5 N; a peak of 2.6e5 N is above that for three steps.
-  write("pulse.toml", chainScene(1, "time = [0, 0.05, 0.06, 0.07]\nvalues = [0, 0, -2.6e5, 0]\n"));
+  write("pulse.toml", chainScene(1) + winch("time = [0, 0.05, 0.06, 0.07]\nvalues = [0, 0, -2.6e5, 0]"));
   const Outcome o = call("run pulse.toml --out r --set run.time_step=5e-4" + kBare);
   EXPECT_EQ(o.code, 0) << o.errors;
   // The same pull for good.
-  write("pull.toml", chainScene(1, "time = [0, 0.05, 0.06, 0.07]\nvalues = [0, 0, -2.6e5, -2.6e5]\n"));
+  write("pull.toml", chainScene(1) + winch("time = [0, 0.05, 0.06, 0.07]\nvalues = [0, 0, -2.6e5, -2.6e5]"));
   const Outcome stays = call("run pull.toml --out s --set run.time_step=5e-4" + kBare);
   EXPECT_EQ(stays.code, 3) << stays.errors;
   EXPECT_NE(stays.errors.find("bore so much that only steps below 0.00049 s"), std::string::npos) << stays.errors;

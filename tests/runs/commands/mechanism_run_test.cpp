@@ -2,6 +2,7 @@
 // A mechanism as a user runs it: results, hash, resume, plan, sweep.
 #include "base/math.hpp"
 #include "runs/support/hdf5_file.hpp"
+#include "tests/runs/commands/chain_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <regex>
 #include <string>
@@ -108,26 +108,13 @@ TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
   EXPECT_NE(stiff.out.find("time step                3.135e-05 s"), std::string::npos) << stiff.out;
 }
 
-/// Ten links of 1 kg with a weight at the end, leaning by a thousandth.
-std::string chainScene(double weight) {
-  std::string text = "version = 1\n[run]\nduration = 0.2\noutput_interval = 0.01\ngravity = [9.81e-3, 0, -9.81]\n";
-  for (int i = 0; i <= 10; ++i) {
-    const bool tip = i == 10;
-    const std::string name = tip ? "weight" : fmt::format("link {}", i);
-    text += fmt::format("[[body]]\nname = \"{}\"\nmass = {}\nposition = [0, 0, {}]\n{}\n", name, tip ? weight : 1,
-                        -0.15 * (tip ? i : i + 0.5), tip ? "point = true" : "inertia = [0.002, 0.002, 0.0002]");
-    text += fmt::format("[[joint]]\nname = \"pin {}\"\nbodies = [\"{}\", \"{}\"]\npoint = [0, 0, {}]\n{}\n", i,
-                        i == 0 ? "world" : fmt::format("link {}", i - 1), name, -0.15 * i,
-                        tip ? "type = \"spherical\"" : "axis = [0, 1, 0]");
-  }
-  return text;
-}
+constexpr double kLean = 9.81e-3; ///< a thousandth of gravity
 
 TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
   // 2 / omega of the fastest swing in closed form, as `study multibody --stability` has it; a twentieth of the swing is
   // pi / 10 of that, of which rows of 0.01 s take a whole share. Light chains are left with 1 ms.
   for (const auto& [weight, stable] : {std::pair{1.0, 0.02801}, {1e2, 0.00744}, {1e4, 7.627e-4}, {1e6, 7.629e-5}}) {
-    std::ofstream(folder_ / "chain.toml") << chainScene(weight);
+    std::ofstream(folder_ / "chain.toml") << chainScene(weight, kLean);
     const Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kBare);
     ASSERT_EQ(o.code, 0) << weight << ": " << o.errors;
     const double step =
@@ -139,7 +126,7 @@ TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
 }
 
 TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCan) {
-  std::ofstream(folder_ / "chain.toml") << chainScene(1e6);
+  std::ofstream(folder_ / "chain.toml") << chainScene(1e6, kLean);
   const Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kBare);
   EXPECT_EQ(o.code, 3) << o.errors;
   EXPECT_NE(o.errors.find("at 0.0002 s joint 'pin 5' bore so much that only steps below 7.6e-05 s are stable"),
@@ -149,28 +136,7 @@ TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCa
 
 TEST_F(MechanismRun, PullThatGrowsSlowlyBeyondWhatAStepBearsIsNamedToo) {
   // A winch on a rail pulls the chain's end by 1e6 N/s. A run is at its end a few swings after the step's limit.
-  std::ofstream(folder_ / "winch.toml") << chainScene(1) << R"([[body]]
-name = "block"
-mass = 1
-inertia = [0.01, 0.01, 0.01]
-position = [0, 0, -1.5]
-[[joint]]
-name = "rail"
-type = "prismatic"
-bodies = ["world", "block"]
-point = [0, 0, -1.5]
-axis = [0, 0, 1]
-[[joint]]
-name = "hook"
-type = "spherical"
-bodies = ["weight", "block"]
-point = [0, 0, -1.5]
-[[drive]]
-name = "winch"
-joint = "rail"
-imposes = "torque"
-polynomial = [0, -1e6]
-)";
+  std::ofstream(folder_ / "winch.toml") << chainScene(1, kLean) << winch("polynomial = [0, -1e6]");
   for (const auto& [step, limit] : {std::pair{"5e-4", 0.0005}, {"2.5e-4", 0.00025}}) {
     const Outcome o =
         call("run winch.toml --force --out r --set run.duration=2 --set run.time_step=" + std::string(step) + kBare);
@@ -187,7 +153,7 @@ polynomial = [0, -1e6]
 
 TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
   // Straight and at rest, the chain would hang still at any step: until the first push.
-  std::ofstream(folder_ / "chain.toml") << chainScene(1e6);
+  std::ofstream(folder_ / "chain.toml") << chainScene(1e6, kLean);
   const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
                     warning = "at the start joint 'pin 5' bears so much that swings across it grow with steps above "
                               "7.6e-05 s";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What errors advise is accepted as it is printed; which restitutions are possible; what acts between which materials.
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "base/random.hpp"
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
@@ -10,6 +11,7 @@
 #include "runs/setup/meeting_pairs.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -189,6 +191,18 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
   EXPECT_EQ(refusal({"material.soil.restitution=0", "material.soil.attraction=true"}), "");
 }
 
+TEST(Restitution, ZeroOfAFloorIsRefusedToo) {
+  const std::string bed = "[run]\nduration = 1\n[material.soil]\nstiffness = 1e6\n[material.rock]\nstiffness = 1e7\n"
+                          "restitution = 0\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1, 1]\n"
+                          "height_range = [0, 0.1]\nmaterial = \"soil\"\nground_material = \"rock\"\n"
+                          "grain_radius = 0.05\nlayers = 1\n";
+  const auto refusal = [&](const std::vector<std::string>& overrides) {
+    return messageOf([&] { simulationSetup(parsed(bed, overrides)); });
+  };
+  EXPECT_NE(refusal({}).find("material.rock.restitution"), std::string::npos) << refusal({});
+  EXPECT_EQ(refusal({"material.rock.restitution=0.2"}), "");
+}
+
 const char* const kPairs = R"([run]
 duration = 0.1
 [material.soil]
@@ -252,6 +266,42 @@ TEST(MeetingPairs, SayWhatDoesNothing) {
   const std::string given =
       commands::planText(parsed(std::string(kPairs) + "[contact.\"soil|rough\"]\nrolling_friction = 0.2\n"));
   EXPECT_EQ(given.find("rolling_friction = 0.3 of material.rough does nothing"), std::string::npos) << given;
+}
+
+TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
+  // damping = 500 /s acts on the pair's mass, m / 2, and on a wall on m.
+  const std::vector<MeetingPair> pairs = meetingPairs(parsed(
+      "[run]\nduration = 1\n[material.ball]\nstiffness = 2e5\ndamping = 500\nattraction = true\n"
+      "[[plane]]\nmaterial = \"ball\"\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\nmaterial = \"ball\"\n"));
+  ASSERT_EQ(pairs.size(), 2u);
+  const double m = base::sphereMass(2500, 0.02);
+  for (const auto& [pair, mass] : {std::pair{pairs[0], m / 2}, std::pair{pairs[1], m}}) {
+    const double c = 500 * mass, zeta = c / (2 * std::sqrt(2e5 * mass));
+    EXPECT_NEAR(pair.restitution, std::exp(-base::kPi * zeta / std::sqrt(1 - zeta * zeta)), 1e-9) << pair.what;
+  }
+  EXPECT_GT(std::fabs(pairs[0].restitution - pairs[1].restitution), 0.01);
+}
+
+TEST(MeetingPairs, OfHertzGrainsHaveTheirEffectiveModulus) {
+  const std::vector<MeetingPair> pairs =
+      meetingPairs(parsed("[run]\nduration = 1\n[material.glass]\nlaw = \"hertz\"\nyoung = 6e7\n"
+                          "poisson = 0.25\nrestitution = 0.6\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\n"
+                          "material = \"glass\"\n"));
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_NEAR(pairs[0].stiffness, 6e7 / (2 * (1 - 0.0625)), 1) << "E / (2 (1 - nu^2)) of two alike";
+  EXPECT_NEAR(pairs[0].restitution, 0.6, 1e-6);
+}
+
+TEST(MeetingPairs, OfTheVehicleHaveTheFrictionOfItsFile) {
+  for (const MeetingPair& pair : meetingPairs(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml")))
+    if (pair.what == "grain on the vehicle") {
+      const double given =
+          vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml").contact.frictionGround;
+      EXPECT_EQ(pair.law.friction, given);
+      EXPECT_NE(given, 0.5) << "that of the soil";
+      return;
+    }
+  FAIL() << "grains meet the vehicle";
 }
 
 } // namespace

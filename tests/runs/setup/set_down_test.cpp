@@ -71,6 +71,17 @@ TEST(SetDown, OnASlope_LiesAlongIt) {
   }
 }
 
+TEST(SetDown, OnAMereSideSlope_LiesAlongIt) {
+  for (const double slope : {0.1763, -0.1}) {
+    const auto ground = [&](double, double y) { return slope * y; };
+    const base::Pose pose = setDown(spec(), {2, 0.5, 0}, 0.002, ground);
+    const Vec3d up = rotate(pose.orientation, {0, 0, 1});
+    EXPECT_NEAR(up.x, 0, 1e-12);
+    EXPECT_NEAR(up.y, -slope / std::sqrt(1 + slope * slope), 1e-12);
+    EXPECT_NEAR(clearanceOver(pose, ground), 0.002, 1e-12);
+  }
+}
+
 TEST(SetDown, OverARidge_IsClearOfItsTop) {
   // A ridge across the way and a side slope: the plane is the mean one, the clearance that of the ridge.
   const auto ground = [](double x, double y) {

@@ -69,6 +69,12 @@ TEST(TimeScales, SineDriveBelowTwentyStepsAPeriodIsRefusedWithPlaceNumberAndReme
   EXPECT_NE(errorOf(scene, {fmt::format("run.time_step={}", 1.01 * stepAskedFor(error))}), "no error");
 }
 
+TEST(TimeScales, SineThatBeginsDownwardsIsNoSlower) {
+  EXPECT_NE(errorOf(rotor("amplitude = -100\nfrequency = 1001\n"), {"run.time_step=9.99000999e-4"})
+                .find("drive.0.frequency = 1001 [Hz] is under-resolved"),
+            std::string::npos);
+}
+
 TEST(TimeScales, FewerStepsAreTakenWhereTheSceneSaysSoAndMoreWhereItWantsThem) {
   const std::string scene = rotor("amplitude = 100\nfrequency = 10\n");
   EXPECT_NE(errorOf(scene, {"run.time_step=0.02"}), "no error") << "5 steps a period";

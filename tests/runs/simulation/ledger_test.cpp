@@ -1,33 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ledger of scenes of grains: it closes to rounding at every step, books the true losses, and what the length of
 // the steps costs falls with them.
-#include "base/math.hpp"
-#include "runs/setup/load_scene.hpp"
-#include "runs/simulation/simulation.hpp"
+#include "tests/runs/simulation/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fmt/format.h>
+#include <cstdio>
+#include <vector>
 
 namespace grouser::simulation {
 namespace {
 
-constexpr double kRadius = 0.01, kDensity = 2500, kGravity = 9.81;
-
-double ballMass() { return kDensity * 4.0 / 3 * base::kPi * kRadius * kRadius * kRadius; }
-
-std::string material(double restitution, double friction, const std::string& more = {}) {
-  return fmt::format("[material.soil]\ndensity = {}\nstiffness = 1e5\nrestitution = {}\nfriction = {}\n{}\n", kDensity,
-                     restitution, friction, more);
-}
-
-std::string oneBall(double height, const std::string& motion) {
-  return fmt::format(
-      "[[grain]]\nposition = [0, 0, {}]\n{}\nradius = {}\nmaterial = \"soil\"\n[[plane]]\npoint = [0, 0, "
-      "0]\nmaterial = \"soil\"\n",
-      height, motion, kRadius);
-}
+using namespace test; // fixtures
 
 /// 250 grains that fall into a box.
 std::string boxOfGrains() {
@@ -38,16 +23,6 @@ std::string boxOfGrains() {
                             "point = [0, 0.04, 0]\nnormal = [0, -1, 0]"})
     text += fmt::format("[[plane]]\n{}\nmaterial = \"soil\"\n", plane);
   return text;
-}
-
-/// The ledger at the end. `run`: more keys of that section.
-Ledger after(const std::string& things, double duration, double step, const std::string& run = {}) {
-  const std::string text = fmt::format("version = 1\n[run]\nduration = {}\ntime_step = {}\n{}\n{}", duration, step,
-                                       run.empty() ? "precision = \"double\"" : run, things);
-  const scene::Scene scene = setup::parseScene(text, "ledger.toml");
-  Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
-  while (simulation.time() < duration - 0.5 * step) simulation.step();
-  return simulation.ledger();
 }
 
 /// Order p with which |error| = C step^p fits three halvings.
@@ -136,7 +111,14 @@ TEST(LedgerOfGrains, BoxOfGrainsClosesAtEveryStep) {
     EXPECT_LT(norm(l.momentumResidual), 1e-8 * 250 * ballMass() / 8 * kGravity * 0.25) << "of the weight's impulse";
     EXPECT_LT(norm(l.angularResidual), 1e-8 * 250 * ballMass() / 8 * kGravity * 0.25 * 0.1) << "at 0.1 m";
     errors.push_back(l.integrationError / l.dissipated.total());
+    // The table of docs/ledger.md.
+    std::printf("step %.1e s: dissipated %.4e J (damping %.1f %%, friction %.1f %%), integration error %.2e J, %.2f %% "
+                "of it, left over %.0e of the turnover\n",
+                step, l.dissipated.total(), 100 * l.dissipated.damping / l.dissipated.total(),
+                100 * l.dissipated.friction / l.dissipated.total(), l.integrationError, 100 * errors.back(),
+                std::fabs(l.residual) / l.turnover);
   }
+  std::printf("order of the integration error %.2f\n", orderOf(errors));
   EXPECT_GT(orderOf(errors), 0.7) << errors.front() << " to " << errors.back();
   EXPECT_LT(errors.back(), 0.01);
   const Ledger single = after(material(0.5, 0.5) + boxOfGrains(), 0.25, 8e-6, "precision = \"single\"");

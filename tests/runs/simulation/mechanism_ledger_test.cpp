@@ -86,14 +86,14 @@ TEST(MechanismLedger, OfAVehiclesBodiesClosesToRounding) {
   Simulation simulation(setupOf("tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.02"}), base::cpuExec(1),
                         [](double, double) {});
   while (simulation.time() < 0.03) simulation.step();
-  const VehicleRig::BodiesLedger l = simulation.vehicle()->bodiesLedger();
+  const multibody::Balance l = simulation.vehicle()->bodiesBalance();
   EXPECT_GT(l.turnover, 1);
   EXPECT_NE(l.externalWork, 0) << "it stands on the ground";
-  EXPECT_NE(l.elastic, 0);
+  EXPECT_NE(l.elasticGain, 0);
   EXPECT_GT(l.springDamping, 0);
   EXPECT_LE(std::fabs(l.leftOver), kRounding * l.turnover);
-  // It begins at rest.
-  EXPECT_NEAR(l.kinetic + l.potentialGain + l.elastic + l.bodiesDissipated() + l.integrationError,
+  EXPECT_EQ(l.kineticGain, l.now.kinetic) << "it begins at rest";
+  EXPECT_NEAR(l.kineticGain + l.potentialGain + l.elasticGain + l.dissipated() + l.integrationError,
               l.driveWork + l.externalWork, kRounding * l.turnover);
   EXPECT_LE(norm(l.linearLeftOver), 1e-9) << "of some 1e4 N s";
   EXPECT_LE(norm(l.angularLeftOver), 1e-8);
