@@ -2,6 +2,8 @@
 #include "vehicle/part_meshes.hpp"
 
 #include "base/math.hpp"
+#include "vehicle/hull_clearance.hpp"
+#include "vehicle/part_masses.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,14 +62,20 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   const auto down = [](const Vec3d& v) { return -v.z; };
   const auto middle = [&](const Vec3d& v) { return std::fabs(v.y) <= 0.5 * s.shoe.padHalfWidth; };
   const std::string& name = s.shoe.mesh;
+  // First: other lengths are looked for beside the pads, and between them.
+  const double wide = most(mesh, all, [](const Vec3d& v) { return std::fabs(v.y); });
+  if (wide < s.shoe.padHalfWidth - kFits)
+    return differs("shoe", "pad_half_width", name, "all lies within |y| =", wide, std::floor(1e3 * wide + 0.5) / 1e3);
+  const double pads = most(
+      mesh, [&](const Vec3d& v) { return std::fabs(v.z - s.shoe.padBottom) <= kFits; },
+      [](const Vec3d& v) { return std::fabs(v.y); });
+  if (std::isfinite(pads) && std::fabs(pads - s.shoe.padHalfWidth) > kFits)
+    return differs("shoe", "pad_half_width", name, "the pads reach to |y| =", pads, std::floor(1e3 * pads + 0.5) / 1e3);
   if (const Bosses b = bossesOf(s, mesh); std::isfinite(b.x) && std::fabs(b.x - 0.5 * s.shoe.pitch) > kFits)
     return differs("shoe", "pitch", name, "the pins ahead lie at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
   const double half = most(mesh, middle, [](const Vec3d& v) { return std::fabs(v.x); });
   if (std::fabs(half - s.shoe.halfLength) > kFits)
     return differs("shoe", "half_length", name, "plate and pad reach to x =", half, std::floor(1e3 * half + 0.5) / 1e3);
-  if (const double wide = most(mesh, all, [](const Vec3d& v) { return std::fabs(v.y); });
-      wide < s.shoe.padHalfWidth - kFits)
-    return differs("shoe", "pad_half_width", name, "all lies within |y| =", wide, wide);
   // Faces of plate and pad have vertices at their height.
   const auto hasFaceAt = [&](double z) {
     return std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
@@ -171,6 +179,7 @@ std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& me
   if (auto fault = shoeMeshFault(spec, meshes.shoe)) return fault;
   if (auto fault = teethFault(spec, meshes)) return fault;
   if (auto fault = hornFault(spec, meshes)) return fault;
+  if (auto fault = massFault(spec, meshes)) return fault;
   const double lowest = -most(meshes.chassis, all, [](const Vec3d& v) { return -v.z; });
   if (const double below = spec.groundHeight() - lowest; below > 0)
     return SpecFault{
@@ -178,7 +187,7 @@ std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& me
         fmt::format("[m] leaves the hull's mesh {} {:.1f} mm below the lowest shoes; lower the road wheels, "
                     "or give another hull",
                     spec.chassis.mesh, 1e3 * below)};
-  return {};
+  return hullFault(spec, meshes);
 }
 
 } // namespace grouser::vehicle

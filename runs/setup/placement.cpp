@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/placement.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
 #include "spheredecomp/decompose.hpp"
@@ -83,16 +84,26 @@ Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& sp
 void checkParts(const scene::Scene& scene) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   const double radius = scene.vehicle->sphereRadius;
-  const auto read = [&](const std::string& name) {
-    return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+  const auto read = [&](const char* section, const std::string& name) {
+    try {
+      return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+    } catch (const base::InputError& error) {
+      vehicle::refuse(scene.vehicle->spec,
+                      {section, "mesh", fmt::format("in vehicle.mesh_folder is no mesh for it: {}", error.what())});
+    }
   };
   vehicle::PartMeshes meshes;
-  meshes.chassis = read(spec.chassis.mesh);
-  using Named = std::pair<const std::string&, base::TriangleMesh&>;
-  for (const auto& [name, mesh] : {Named{spec.shoe.mesh, meshes.shoe}, Named{spec.sprocket.mesh, meshes.sprocket},
-                                   Named{spec.roadWheel.mesh, meshes.roadWheel}, Named{spec.roller.mesh, meshes.roller},
-                                   Named{spec.idler.mesh, meshes.idler}}) {
-    mesh = read(name);
+  meshes.chassis = read("chassis", spec.chassis.mesh);
+  struct Named {
+    const char* section;
+    const std::string& name;
+    base::TriangleMesh& mesh;
+  };
+  for (const auto& [section, name, mesh] :
+       {Named{"shoe", spec.shoe.mesh, meshes.shoe}, Named{"sprocket", spec.sprocket.mesh, meshes.sprocket},
+        Named{"road_wheel", spec.roadWheel.mesh, meshes.roadWheel}, Named{"roller", spec.roller.mesh, meshes.roller},
+        Named{"idler", spec.idler.mesh, meshes.idler}}) {
+    mesh = read(section, name);
     const auto [low, high] = spheredecomp::bounds(mesh);
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (radius > 0.5 * longest)
