@@ -356,6 +356,11 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
                              "{:.0f} mm long",
                              1e3 * travel, s.idler.preload, 1e3 * s.idler.x),
                  fmt::format("set idler.stiffness = {:.0f}", std::ceil(s.idler.preload / 0.03))};
+  if (s.idler.stopStiffness < s.idler.stiffness)
+    return Fault{{named("idler", "stop_stiffness", "N/m")},
+                 fmt::format("is softer than the tensioner's spring, idler.stiffness = {:g} N/m, and stops nothing",
+                             s.idler.stiffness),
+                 fmt::format("set idler.stop_stiffness = {:.3g}", 10 * s.idler.stiffness)};
   if (s.idler.slideMax <= 0)
     return Fault{{named("idler", "slide_max", "m")},
                  "holds the idler at its front stop, where no spring can tighten the track",

@@ -82,6 +82,11 @@ Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& sp
 }
 
 void checkParts(const scene::Scene& scene) {
+  if (scene.vehicle->chassis == scene::ChassisMount::free && scene.terrain && norm(scene.run.gravity) > 0 &&
+      scene.run.gravity.z >= 0)
+    scene.fail(
+        "run", "gravity",
+        "[m/s2] does not pull the vehicle to the ground; give it a z below 0, or set vehicle.chassis = \"fixed\"");
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   const double radius = scene.vehicle->sphereRadius;
   const auto read = [&](const char* section, const std::string& name) {

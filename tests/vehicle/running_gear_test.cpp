@@ -147,6 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"IdlerOutOfSight", {"idler", "x", "15"}, {"shoe.count = 46 [-]: the track does not close"}},
         Impossible{"FoldOfNoChain", {"shoe", "maximum_fold", "0.1"}, {"shoe.maximum_fold = 0.1 [rad]", "63 teeth"}},
         Impossible{"PlatesFarTooHigh", {"shoe", "plate_top", "0.2"}, {"shoe.plate_top = 0.2 [m] lets"}},
+        Impossible{"StopThatStopsNothing", {"idler", "stop_stiffness", "1e-3"}, {"softer than the tensioner's spring"}},
         Impossible{"SoftAsFoam", {"contact", "foundation_modulus", "1e6"}, {"a tenth of their 60 mm", "4.60e+07"}},
         Impossible{"HeavierThanAPlanet", {"chassis", "mass", "1e300"}, {"is outside [0.001, 1e+06]"}},
         Impossible{"MassOfNothing", {"chassis", "mass", "nan"}, {"not finite; give"}},

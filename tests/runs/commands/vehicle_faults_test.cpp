@@ -79,6 +79,26 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
   }
 }
 
+TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
+  test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
+  const test::Outcome up = call("plan scene.toml --set run.gravity=[0,0,9.81]");
+  EXPECT_EQ(up.code, 2);
+  EXPECT_NE(up.errors.find("--set: run.gravity = [0, 0, 9.81] [m/s2] does not pull the vehicle to the ground"),
+            std::string::npos)
+      << up.errors;
+  EXPECT_EQ(call("plan scene.toml --set run.gravity=[-1.7,0,-9.6]").code, 0) << "a slope";
+  EXPECT_EQ(call("plan scene.toml --set run.gravity=[0,0,0]").code, 0);
+}
+
+TEST_F(VehicleFaults, PlanSaysWhichMaterialsDoNothing) {
+  test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
+  EXPECT_NE(
+      call("plan scene.toml")
+          .out.find("note: material.ground acts on nothing here: between vehicle and rigid ground all contact data "
+                    "are the vehicle file's"),
+      std::string::npos);
+}
+
 struct Sound {
   std::string name;
   std::vector<KeyChange> changes;
