@@ -2,8 +2,6 @@
 #include "vehicle/part_meshes.hpp"
 
 #include "base/math.hpp"
-#include "vehicle/hull_clearance.hpp"
-#include "vehicle/part_masses.hpp"
 
 #include <algorithm>
 #include <array>
@@ -179,7 +177,6 @@ std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& me
   if (auto fault = shoeMeshFault(spec, meshes.shoe)) return fault;
   if (auto fault = teethFault(spec, meshes)) return fault;
   if (auto fault = hornFault(spec, meshes)) return fault;
-  if (auto fault = massFault(spec, meshes)) return fault;
   const double lowest = -most(meshes.chassis, all, [](const Vec3d& v) { return -v.z; });
   if (const double below = spec.groundHeight() - lowest; below > 0)
     return SpecFault{
@@ -187,7 +184,7 @@ std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& me
         fmt::format("[m] leaves the hull's mesh {} {:.1f} mm below the lowest shoes; lower the road wheels, "
                     "or give another hull",
                     spec.chassis.mesh, 1e3 * below)};
-  return hullFault(spec, meshes);
+  return {};
 }
 
 } // namespace grouser::vehicle

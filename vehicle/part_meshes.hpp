@@ -15,8 +15,8 @@ struct PartMeshes {
 };
 
 /// Where a mesh has other lengths than the spec says: what is placed by one and touches by the other overlaps or hangs
-/// free at the start. Also teeth that do not take the pins, horns that reach into a wheel's hub, masses that no such
-/// body has, and a hull that reaches below the tracks or into them. Empty for meshes that fit, to a millimetre.
+/// free at the start. Also teeth that do not take the pins, horns that reach into a wheel's hub and a hull that reaches
+/// below the tracks. Empty for meshes that fit, to a millimetre.
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -7,6 +7,8 @@
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "vehicle/assembly.hpp"
+#include "vehicle/hull_clearance.hpp"
+#include "vehicle/part_masses.hpp"
 #include "vehicle/part_meshes.hpp"
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
@@ -120,8 +122,9 @@ void checkParts(const scene::Scene& scene) {
                  fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
                              spheredecomp::kMostLatticePoints));
   }
-  if (const std::optional<vehicle::SpecFault> fault = vehicle::meshFault(spec, meshes))
-    vehicle::refuse(scene.vehicle->spec, *fault);
+  for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
+    if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))
+      vehicle::refuse(scene.vehicle->spec, *fault);
 }
 
 base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
