@@ -72,6 +72,7 @@ struct Solver::Impl {
   double highestRate(const State& state, const Loads& loads, std::string* spring);
   double stableStep(const State& state, const Loads& loads, std::string* spring);
   double stopRate(const State& state, const Loads& loads, std::string* stop);
+  double dampingRate(const State& state, const Loads& loads, std::string* damper);
   double geometricStiffnessRate(const State& state, const Loads& loads, std::string* name);
   void checkDampers(double dt);
   void checkStable(const State& state, const Loads& loads, double dt);
@@ -176,6 +177,12 @@ double Solver::Impl::stopRate(const State& state, const Loads& loads, std::strin
   return highestRate(state, loads, stop);
 }
 
+double Solver::Impl::dampingRate(const State& state, const Loads& loads, std::string* damper) {
+  axisDamping(system, model, stiffness);
+  const double rate = highestRate(state, loads, damper);
+  return rate * rate;
+}
+
 double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loads, std::string* name) {
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
@@ -225,7 +232,7 @@ void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt
     std::ostringstream message;
     message << "multibody step from t = " << state.time << " s: dt = " << dt << " s is beyond the stability limit "
             << limit << " s of explicit springs, set by " << spring
-            << "; take a shorter step, a softer spring, or implicit springs (springs = implicit)";
+            << "; take a shorter step, a softer spring, or run.springs = \"implicit\"";
     throw base::InputError(message.str());
   }
   checkedStep = dt;
@@ -275,6 +282,11 @@ double Solver::stableStep(const State& state, const Loads& loads, std::string* s
 double Solver::stopRate(const State& state, const Loads& loads, std::string* stop) {
   impl_->checkFits(state, loads);
   return impl_->stopRate(state, loads, stop);
+}
+
+double Solver::dampingRate(const State& state, const Loads& loads, std::string* damper) {
+  impl_->checkFits(state, loads);
+  return impl_->dampingRate(state, loads, damper);
 }
 
 double Solver::geometricStiffnessRate(const State& state, const Loads& loads, std::string* part) {

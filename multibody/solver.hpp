@@ -47,6 +47,12 @@ public:
   /// name of the one with the greatest part in it.
   double stopRate(const State& state, const Loads& loads, std::string* stop = nullptr);
 
+  /// Highest rate [1/s] of the dampers, those of joints and end stops with them, against the constrained masses: a
+  /// velocity that only they brake dies away in 1 / this. 0 without any. kRattle takes them by the midpoint: from a
+  /// step of 2 / this on the velocity changes its sign in every step and hardly dies away; kSymplecticEuler takes any
+  /// step. `damper`, if given, receives the name of the one with the greatest part in it.
+  double dampingRate(const State& state, const Loads& loads, std::string* damper = nullptr);
+
   /// Fastest rate [rad/s] at which geometric stiffness moves bodies at a state: under tension joints, springs,
   /// couplings and drives let them swing across it, under compression they let them buckle
   /// (detail/geometric_stiffness.hpp). All schemes need dt < stabilityLimit() / rate; beyond that a swing grows. 0

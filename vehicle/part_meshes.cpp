@@ -60,14 +60,20 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   const auto down = [](const Vec3d& v) { return -v.z; };
   const auto middle = [&](const Vec3d& v) { return std::fabs(v.y) <= 0.5 * s.shoe.padHalfWidth; };
   const std::string& name = s.shoe.mesh;
+  // First: other lengths are looked for beside the pads, and between them.
+  const double pads = most(
+      mesh, [&](const Vec3d& v) { return std::fabs(v.z - s.shoe.padBottom) <= kFits; },
+      [](const Vec3d& v) { return std::fabs(v.y); });
+  if (std::isfinite(pads) && std::fabs(pads - s.shoe.padHalfWidth) > kFits)
+    return differs("shoe", "pad_half_width", name, "the pads reach to |y| =", pads, std::floor(1e3 * pads + 0.5) / 1e3);
+  const double wide = most(mesh, all, [](const Vec3d& v) { return std::fabs(v.y); });
+  if (wide < s.shoe.padHalfWidth - kFits)
+    return differs("shoe", "pad_half_width", name, "all lies within |y| =", wide, std::floor(1e3 * wide + 0.5) / 1e3);
   if (const Bosses b = bossesOf(s, mesh); std::isfinite(b.x) && std::fabs(b.x - 0.5 * s.shoe.pitch) > kFits)
     return differs("shoe", "pitch", name, "the pins ahead lie at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
   const double half = most(mesh, middle, [](const Vec3d& v) { return std::fabs(v.x); });
   if (std::fabs(half - s.shoe.halfLength) > kFits)
     return differs("shoe", "half_length", name, "plate and pad reach to x =", half, std::floor(1e3 * half + 0.5) / 1e3);
-  if (const double wide = most(mesh, all, [](const Vec3d& v) { return std::fabs(v.y); });
-      wide < s.shoe.padHalfWidth - kFits)
-    return differs("shoe", "pad_half_width", name, "all lies within |y| =", wide, wide);
   // Faces of plate and pad have vertices at their height.
   const auto hasFaceAt = [&](double z) {
     return std::any_of(mesh.vertices.begin(), mesh.vertices.end(),

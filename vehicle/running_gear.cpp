@@ -28,7 +28,7 @@ double distance(double x0, double z0, double x1, double z1) {
 
 /// A key whose value may be changed to mend a fault.
 struct Knob {
-  std::string section, key;
+  std::string section, key, unit;
   std::string name; ///< in advice: "roller.z[1]"
   double value{}, step{};
   std::function<void(VehicleSpec&, double)> set;
@@ -41,9 +41,14 @@ struct Fault {
   bool closure = false;
 };
 
+/// A length, unless `unit` says otherwise.
 Knob knob(const std::string& section, const std::string& key, double value, double step,
-          std::function<void(VehicleSpec&, double)> set) {
-  return {section, key, section + "." + key, value, step, std::move(set)};
+          std::function<void(VehicleSpec&, double)> set, const std::string& unit = "m") {
+  return {section, key, unit, section + "." + key, value, step, std::move(set)};
+}
+/// A key that only advice in words can mend.
+Knob named(const std::string& section, const std::string& key, const std::string& unit) {
+  return knob(section, key, 0, 0, {}, unit);
 }
 
 Knob spacing(const VehicleSpec& s) {
@@ -58,16 +63,18 @@ Knob wheelZ(const VehicleSpec& s) {
   return knob("road_wheel", "z", s.roadWheel.z, 0.005, [](VehicleSpec& v, double z) { v.roadWheel.z = z; });
 }
 Knob wheelCount(const VehicleSpec& s) {
-  return knob("road_wheel", "count", s.roadWheel.count, 1,
-              [](VehicleSpec& v, double n) { v.roadWheel.count = static_cast<int>(n); });
+  return knob(
+      "road_wheel", "count", s.roadWheel.count, 1,
+      [](VehicleSpec& v, double n) { v.roadWheel.count = static_cast<int>(n); }, "-");
 }
 Knob wheelRadius(const VehicleSpec& s) {
   return knob("road_wheel", "radius", s.roadWheel.radius, 0.005,
               [](VehicleSpec& v, double r) { v.roadWheel.radius = r; });
 }
 Knob teeth(const VehicleSpec& s) {
-  return knob("sprocket", "teeth", s.sprocket.teeth, 1,
-              [](VehicleSpec& v, double n) { v.sprocket.teeth = static_cast<int>(n); });
+  return knob(
+      "sprocket", "teeth", s.sprocket.teeth, 1,
+      [](VehicleSpec& v, double n) { v.sprocket.teeth = static_cast<int>(n); }, "-");
 }
 Knob idlerX(const VehicleSpec& s) {
   return knob("idler", "x", s.idler.x, 0.005, [](VehicleSpec& v, double x) { v.idler.x = x; });
@@ -96,6 +103,19 @@ Knob ofRoller(const VehicleSpec& s, const char* key, std::size_t i) {
                 [isX, i](VehicleSpec& v, double p) { (isX ? v.roller.x : v.roller.z)[i] = p; });
   k.name += fmt::format("[{}]", i);
   return k;
+}
+
+/// All rollers as high.
+Knob rollersZ(const VehicleSpec& s) {
+  Knob k = knob("roller", "z", s.roller.z.empty() ? 0 : s.roller.z.front(), 0.001,
+                [](VehicleSpec& v, double z) { std::fill(v.roller.z.begin(), v.roller.z.end(), z); });
+  k.name = "every entry of roller.z";
+  return k;
+}
+Knob maximumFold(const VehicleSpec& s) {
+  return knob(
+      "shoe", "maximum_fold", s.shoe.maximumFold, 0.01, [](VehicleSpec& v, double a) { v.shoe.maximumFold = a; },
+      "rad");
 }
 
 /// What stands in a track's plane and turns.
@@ -136,7 +156,8 @@ std::vector<Wheel> wheelsOf(const VehicleSpec& s, double idler) {
 std::vector<Knob> knobsOf(const VehicleSpec& s, const Wheel& a, const Wheel& b) {
   using Kind = Wheel::Kind;
   if (b.kind == Kind::roller && a.kind == Kind::road)
-    return {ofRoller(s, "z", b.number), rollerRadius(s), wheelZ(s), wheelRadius(s), ofRoller(s, "x", b.number)};
+    return {ofRoller(s, "z", b.number), rollersZ(s), rollerRadius(s), wheelZ(s), wheelRadius(s),
+            ofRoller(s, "x", b.number)};
   if (b.kind == Kind::roller)
     return {ofRoller(s, "x", b.number), rollerRadius(s), ofRoller(s, "z", b.number), idlerX(s)};
   if (a.kind == Kind::road) return {spacing(s), wheelCount(s), wheelRadius(s)};
@@ -171,32 +192,30 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
   if (const double overlap = s.shoe.padHalfWidth - s.trackOffset; overlap >= 0)
     return Fault{
         {knob("vehicle", "track_offset", s.trackOffset, 0.01, [](VehicleSpec& v, double y) { v.trackOffset = y; })},
-        fmt::format("[m] makes left and right shoes overlap by {:.1f} mm", 2e3 * overlap),
+        fmt::format("makes left and right shoes overlap by {:.1f} mm", 2e3 * overlap),
         ""};
   const Knob half =
       knob("shoe", "half_length", s.shoe.halfLength, 0.001, [](VehicleSpec& v, double x) { v.shoe.halfLength = x; });
   if (const double overlap = 2 * s.shoe.halfLength - s.shoe.pitch; overlap >= 0)
     return Fault{{half, pitch(s)},
-                 fmt::format("[m] makes the plates and pads of neighbouring shoes overlap by {:.1f} mm; it must be in "
-                             "(0, {:g})",
+                 fmt::format("makes the plates and pads of neighbouring shoes overlap by {:.1f} mm; shoe.half_length "
+                             "must be in (0, {:g})",
                              1e3 * overlap, 0.5 * s.shoe.pitch),
                  ""};
   const double fold = plateFold(s.shoe);
   if (s.shoe.maximumFold > fold)
-    return Fault{{knob("shoe", "maximum_fold", s.shoe.maximumFold, 0.01,
-                       [](VehicleSpec& v, double a) { v.shoe.maximumFold = a; }),
-                  half, plateTop(s), pitch(s)},
-                 fmt::format("[rad] lets neighbouring shoes fold on where their plates touch, at {:.4f} rad", fold),
+    return Fault{{maximumFold(s), half, plateTop(s), pitch(s)},
+                 fmt::format("lets neighbouring shoes fold on where their plates touch, at {:.4f} rad", fold),
                  ""};
   if (const double step = 2 * kPi / s.sprocket.teeth; step > s.shoe.maximumFold)
-    return Fault{{teeth(s)},
+    return Fault{{teeth(s), maximumFold(s)},
                  fmt::format("folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less; at least "
                              "{:.0f} teeth are needed",
                              step, s.shoe.maximumFold, std::ceil(2 * kPi / s.shoe.maximumFold)),
                  ""};
   if (const double step = 2 * base::asin(0.5 * s.shoe.pitch / s.idlerPinRadius()); step > s.shoe.maximumFold)
-    return Fault{{idlerRadius(s), pitch(s)},
-                 fmt::format("[m] folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less", step,
+    return Fault{{idlerRadius(s), pitch(s), maximumFold(s)},
+                 fmt::format("folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less", step,
                              s.shoe.maximumFold),
                  ""};
   double least = std::min(s.roadWheel.radius, s.idler.radius);
@@ -204,7 +223,7 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
   if (const double overlap = s.shoe.hornHeight - least; overlap >= 0)
     return Fault{{knob("shoe", "horn_height", s.shoe.hornHeight, 0.001,
                        [](VehicleSpec& v, double h) { v.shoe.hornHeight = h; })},
-                 fmt::format("[m] lets horns reach {:.1f} mm beyond the axles of the smallest wheels; it must be in "
+                 fmt::format("lets horns reach {:.1f} mm beyond the axles of the smallest wheels; it must be in "
                              "(0, {:g})",
                              1e3 * overlap, least),
                  ""};
@@ -214,21 +233,22 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
 /// The ground run must be the lowest of the track.
 std::optional<Fault> groundLineFault(const VehicleSpec& s) {
   const double ground = s.groundPinHeight();
-  const auto above = [&](const char* name, double pins) {
-    return Fault{
-        {wheelZ(s), wheelRadius(s)},
-        fmt::format("[m] puts the ground run's pins at z = {:.4f} m, {:.1f} mm above the lowest pins on the {}", ground,
-                    1e3 * (ground - pins), name),
-        ""};
+  const auto above = [&](const char* name, double pins, const Knob& other, const Knob& another) {
+    return Fault{{wheelZ(s), other, another, wheelRadius(s)},
+                 fmt::format("puts the ground run's pins at z = {:.4f} m, {:.1f} mm above the lowest pins on the {}",
+                             ground, 1e3 * (ground - pins), name),
+                 ""};
   };
-  if (ground >= -s.sprocketPinRadius()) return above("sprocket", -s.sprocketPinRadius());
-  if (ground >= s.idler.z - s.idlerPinRadius()) return above("idler", s.idler.z - s.idlerPinRadius());
+  if (ground >= -s.sprocketPinRadius()) return above("sprocket", -s.sprocketPinRadius(), teeth(s), pitch(s));
+  if (ground >= s.idler.z - s.idlerPinRadius())
+    return above("idler", s.idler.z - s.idlerPinRadius(), idlerZ(s), idlerRadius(s));
   const double pivot = s.roadWheel.z + s.arm.length * base::sin(s.arm.pivotAngle);
   if (const double under = ground + s.shoe.plateTop - pivot; under >= 0)
-    return Fault{
-        {knob("arm", "pivot_angle", s.arm.pivotAngle, 0.05, [](VehicleSpec& v, double a) { v.arm.pivotAngle = a; })},
-        fmt::format("[rad] puts the arms' pivots {:.1f} mm below the plates of the ground run", 1e3 * under),
-        ""};
+    return Fault{{knob(
+                     "arm", "pivot_angle", s.arm.pivotAngle, 0.05,
+                     [](VehicleSpec& v, double a) { v.arm.pivotAngle = a; }, "rad")},
+                 fmt::format("puts the arms' pivots {:.1f} mm below the plates of the ground run", 1e3 * under),
+                 ""};
   return {};
 }
 
@@ -277,18 +297,18 @@ std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
 std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   const double last = s.roadWheel.firstX + s.roadWheel.spacing * (s.roadWheel.count - 1);
   const Vec3d c = s.chassis.centre;
-  const Fault tips{{knob("chassis", "centre", 0, 0, {})}, "", ""};
+  const Fault tips{{named("chassis", "centre", "m")}, "", ""};
   if (c.x <= s.roadWheel.firstX || c.x >= last) {
     Fault f = tips;
     const double beyond = c.x >= last ? c.x - last : s.roadWheel.firstX - c.x;
-    f.what = fmt::format("[m] lies {:.1f} mm {} all road wheels, so that the vehicle tips over", 1e3 * beyond,
+    f.what = fmt::format("lies {:.1f} mm {} all road wheels, so that the vehicle tips over", 1e3 * beyond,
                          c.x >= last ? "ahead of" : "behind");
     f.advice = fmt::format("choose its x in ({:.4f}, {:.4f})", s.roadWheel.firstX, last);
     return f;
   }
   if (const double beside = std::fabs(c.y) - s.trackOffset; beside >= 0) {
     Fault f = tips;
-    f.what = fmt::format("[m] lies {:.1f} mm beside both tracks, so that the vehicle tips over", 1e3 * beside);
+    f.what = fmt::format("lies {:.1f} mm beside both tracks, so that the vehicle tips over", 1e3 * beside);
     f.advice = fmt::format("choose its y in ({:g}, {:g})", -s.trackOffset, s.trackOffset);
     return f;
   }
@@ -300,14 +320,14 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   const bool soft = load * lever > kMostTurn * s.arm.stiffness;
   Fault f;
   if (soft) {
-    f.knobs = {knob("arm", "stiffness", 0, 0, {})};
+    f.knobs = {named("arm", "stiffness", "N m/rad")};
     f.what = fmt::format(
-        "[N m/rad] lets the hull sink by {:.0f} mm on its arms under {:.0f} N a wheel",
+        "lets the hull sink by {:.0f} mm on its arms under {:.0f} N a wheel",
         s.arm.stiffness > 0 ? 1e3 * lever * std::min(1.0, std::fabs(turn) / s.arm.stiffness) : 1e3 * lever, load);
     f.advice = fmt::format("set arm.stiffness = {:.0f}", std::ceil(std::max(load, s.arm.preload) * lever / 0.15));
   } else {
-    f.knobs = {knob("arm", "preload", 0, 0, {})};
-    f.what = fmt::format("[N] lifts the hull by {:.0f} mm on its arms, for {:.0f} N weigh on a wheel",
+    f.knobs = {named("arm", "preload", "N")};
+    f.what = fmt::format("lifts the hull by {:.0f} mm on its arms, for {:.0f} N weigh on a wheel",
                          1e3 * lever * std::min(1.0, std::fabs(turn) / s.arm.stiffness), load);
     f.advice = fmt::format("set arm.preload = {:.0f}", load);
   }
@@ -317,30 +337,50 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
 /// The tensioner's spring pushes the idler forward, between its stops.
 std::optional<Fault> tensionFault(const VehicleSpec& s) {
   const double weight = s.totalMass() * kGravity, tenth = std::floor(0.2 * weight);
-  const Fault preload{{knob("idler", "preload", 0, 0, {})}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
+  const Fault preload{{named("idler", "preload", "N")}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
   if (s.idler.preload <= 0) {
     Fault f = preload;
-    f.what = "[N] leaves the track slack, and teeth jump; a tenth of the weight in each strand is usual";
+    f.what = "leaves the track slack, and teeth jump; a tenth of the weight in each strand is usual";
     return f;
   }
   if (s.idler.preload > 2 * weight) {
     Fault f = preload;
-    f.what = fmt::format("[N] stretches each strand by more than the vehicle's weight of {:.0f} N; it must be in (0, "
+    f.what = fmt::format("stretches each strand by more than the vehicle's weight of {:.0f} N; it must be in (0, "
                          "{:.0f}], a tenth of the weight in each strand is usual",
                          weight, 2 * weight);
     return f;
   }
   if (const double travel = s.idler.preload / s.idler.stiffness; travel > 0.5 * s.idler.x)
-    return Fault{{knob("idler", "stiffness", 0, 0, {})},
-                 fmt::format("[N/m] must be pressed by {:.0f} mm to give idler.preload = {:g} N, and the track is "
+    return Fault{{named("idler", "stiffness", "N/m")},
+                 fmt::format("must be pressed by {:.0f} mm to give idler.preload = {:g} N, and the track is "
                              "{:.0f} mm long",
                              1e3 * travel, s.idler.preload, 1e3 * s.idler.x),
                  fmt::format("set idler.stiffness = {:.0f}", std::ceil(s.idler.preload / 0.03))};
+  if (s.idler.stopStiffness < s.idler.stiffness)
+    return Fault{{named("idler", "stop_stiffness", "N/m")},
+                 fmt::format("is softer than the tensioner's spring, idler.stiffness = {:g} N/m, and stops nothing",
+                             s.idler.stiffness),
+                 fmt::format("set idler.stop_stiffness = {:.3g}", 10 * s.idler.stiffness)};
   if (s.idler.slideMax <= 0)
-    return Fault{{knob("idler", "slide_max", 0, 0, {})},
-                 "[m] holds the idler at its front stop, where no spring can tighten the track",
+    return Fault{{named("idler", "slide_max", "m")},
+                 "holds the idler at its front stop, where no spring can tighten the track",
                  "set idler.slide_max = 0.025"};
   return {};
+}
+
+/// Plates that the wheels roll on, under their share of the weight: a strip of width w under a wheel of radius R
+/// carries 4/3 w sqrt(2 R) d^1.5 times the modulus at an overlap of d.
+std::optional<Fault> foundationFault(const VehicleSpec& s) {
+  const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
+  const double strip = 8.0 / 3 * s.shoe.padHalfWidth * std::sqrt(2 * s.roadWheel.radius);
+  const double most = 0.1 * (s.shoe.plateTop - s.shoe.padBottom); // [m]
+  const double least = load / (strip * most * std::sqrt(most));
+  if (s.contact.foundationModulus >= least) return {};
+  return Fault{{named("contact", "foundation_modulus", "N/m3")},
+               fmt::format("is so soft that road wheels sink into the shoes by more than a tenth of their {:.0f} mm "
+                           "under {:.0f} N each; at least {:.2e} is needed",
+                           10e3 * most, load, least),
+               fmt::format("set contact.foundation_modulus = {:.1e}", 10 * least)};
 }
 
 std::optional<Fault> firstFault(const VehicleSpec& s) {
@@ -349,15 +389,16 @@ std::optional<Fault> firstFault(const VehicleSpec& s) {
   if (auto fault = groundLineFault(s)) return fault;
   if (auto fault = tensionFault(s)) return fault;
   const std::optional<Wrap> wrap = findWrap(s);
-  if (!wrap) return Fault{{knob("shoe", "count", s.shoe.count, 1, {})}, "", "", true};
+  if (!wrap) return Fault{{named("shoe", "count", "-")}, "", "", true};
   if (auto fault = loopFault(s, *wrap)) return fault;
-  return suspensionFault(s);
+  if (auto fault = suspensionFault(s)) return fault;
+  return foundationFault(s);
 }
 
 /// "0.385": the value of a key nearest to its own, in fine steps and then in coarse ones, with which the vehicle has no
 /// fault at all; empty: none.
 std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
-  constexpr int kFine = 80, kCoarse = 80, kRatio = 10;
+  constexpr int kFine = 400, kCoarse = 80, kRatio = 10;
   const double from = std::floor(k.value / k.step + 0.5) * k.step;
   for (int i = 0; i <= 2 * (kFine + kCoarse); ++i) {
     const int n = (i + 1) / 2;
@@ -376,15 +417,19 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
 
 /// Says what mends a fault, at the key that does.
 SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
+  const auto said = [&fault](const Knob& k, const std::string& advice) {
+    return SpecFault{k.section, k.key,
+                     fmt::format("[{}]{} {}; {}", k.unit, fault.closure ? ":" : "", fault.what, advice)};
+  };
   const Knob& first = fault.knobs.front();
-  if (!fault.advice.empty()) return {first.section, first.key, fault.what + "; " + fault.advice};
+  if (!fault.advice.empty()) return said(first, fault.advice);
   std::string names;
   for (const Knob& k : fault.knobs) {
     if (const std::string value = mendingValue(spec, k); !value.empty())
-      return {k.section, k.key, fmt::format("{}; set {} = {}", fault.what, k.name, value)};
+      return said(k, fmt::format("set {} = {}", k.name, value));
     names += (names.empty() ? "" : ", ") + k.name;
   }
-  return {first.section, first.key, fmt::format("{}; no other value of {} alone mends it", fault.what, names)};
+  return said(first, fmt::format("no other value of {} alone mends it", names));
 }
 
 } // namespace
@@ -394,11 +439,14 @@ std::optional<SpecFault> runningGearFault(const VehicleSpec& spec) {
   if (!fault) return {};
   if (fault->closure) {
     const ClosureFault open = closureFault(spec, [](const VehicleSpec& other) { return !firstFault(other); });
-    fault->what = "[-]: " + open.gap, fault->advice = open.advice;
-    if (fault->advice.empty()) {
-      const SpecFault other = withAdvice(spec, {{idlerZ(spec), wheelZ(spec), pitch(spec), teeth(spec)}, "", ""});
-      fault->advice = other.message.substr(2);
-    }
+    fault->what = open.gap, fault->advice = open.advice;
+    for (const Knob& k : {idlerZ(spec), wheelZ(spec), pitch(spec), teeth(spec)})
+      if (fault->advice.empty())
+        if (const std::string value = mendingValue(spec, k); !value.empty())
+          fault->advice = fmt::format("set {} = {}", k.name, value);
+    if (fault->advice.empty())
+      fault->advice = "no other value of idler.x, shoe.count, idler.z, road_wheel.z, shoe.pitch, sprocket.teeth alone "
+                      "mends it";
   }
   return withAdvice(spec, *fault);
 }

@@ -18,7 +18,6 @@ void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   if (spec.roller.x.size() != spec.roller.z.size())
     root.section("roller").fail("z", "must have as many values as roller.x, one a roller");
   const auto principal = [&root](const std::string& section, const std::string& key, const Vec3d& i) {
-    if (i.x <= 0 || i.y <= 0 || i.z <= 0) root.section(section).fail(key, "must be positive in all three components");
     if (i.x > i.y + i.z || i.y > i.z + i.x || i.z > i.x + i.y)
       root.section(section).fail(key, "belongs to no solid body: no principal moment exceeds the sum of the other two");
   };

@@ -10,8 +10,10 @@ using base::Table;
 
 /// Mass and inertia keys, the same for every part. A pointer to a base's member serves the derived struct as well.
 template <class S> void addMass(Table<S>& table) {
-  table.add("mass", static_cast<double S::*>(&MassSpec::mass), "kg", "mass").above(0).required();
+  table.add("mass", static_cast<double S::*>(&MassSpec::mass), "kg", "mass").atLeast(1e-3).atMost(1e6).required();
   table.add("inertia", static_cast<Vec3d S::*>(&MassSpec::inertia), "kg m2", "principal moments about x, y, z")
+      .above(0)
+      .atMost(1e8)
       .required();
 }
 template <class S> void addSurface(Table<S>& table) {
@@ -38,7 +40,10 @@ Table<VehicleSpec> vehicleTable() {
 Table<ChassisSpec> chassisTable() {
   Table<ChassisSpec> t("chassis", "Hull with everything that rides in it");
   addSurface(t);
-  t.add("centre", &ChassisSpec::centre, "m", "centre of mass from the middle of the sprockets' axle line").required();
+  t.add("centre", &ChassisSpec::centre, "m", "centre of mass from the middle of the sprockets' axle line")
+      .atLeast(-20)
+      .atMost(20)
+      .required();
   return t;
 }
 
@@ -78,9 +83,9 @@ Table<RoadWheelSpec> roadWheelTable() {
   Table<RoadWheelSpec> t("road_wheel", "Road wheels of one track");
   t.add("count", &RoadWheelSpec::count, "-", "wheels a track").atLeast(2).atMost(12).required();
   t.add("radius", &RoadWheelSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
-  t.add("first_x", &RoadWheelSpec::firstX, "m", "axle of the rearmost wheel").required();
+  t.add("first_x", &RoadWheelSpec::firstX, "m", "axle of the rearmost wheel").atLeast(-20).atMost(20).required();
   t.add("spacing", &RoadWheelSpec::spacing, "m", "from axle to axle").above(0).atMost(5).required();
-  t.add("z", &RoadWheelSpec::z, "m", "axle height").required();
+  t.add("z", &RoadWheelSpec::z, "m", "axle height").atLeast(-20).atMost(20).required();
   addSurface(t);
   return t;
 }
@@ -92,9 +97,12 @@ Table<ArmSpec> armTable() {
       .atLeast(-1)
       .atMost(1)
       .required();
-  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar").atLeast(0).required();
-  t.add("damping", &ArmSpec::damping, "N m s/rad", "damper about the pivot").atLeast(0).required();
-  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position").atLeast(0).required();
+  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar").atLeast(0).atMost(1e9).required();
+  t.add("damping", &ArmSpec::damping, "N m s/rad", "damper about the pivot").atLeast(0).atMost(1e9).required();
+  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position")
+      .atLeast(0)
+      .atMost(1e7)
+      .required();
   addMass(t);
   return t;
 }
@@ -102,8 +110,8 @@ Table<ArmSpec> armTable() {
 Table<RollerSpec> rollerTable() {
   Table<RollerSpec> t("roller", "Support rollers of one track");
   t.add("radius", &RollerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
-  t.add("x", &RollerSpec::x, "m", "axles").required();
-  t.add("z", &RollerSpec::z, "m", "axles").required();
+  t.add("x", &RollerSpec::x, "m", "axles").atLeast(-20).atMost(20).required();
+  t.add("z", &RollerSpec::z, "m", "axles").atLeast(-20).atMost(20).required();
   addSurface(t);
   return t;
 }
@@ -111,17 +119,20 @@ Table<RollerSpec> rollerTable() {
 Table<IdlerSpec> idlerTable() {
   Table<IdlerSpec> t("idler", "Idler in front, on a carrier that slides along x against the tensioner");
   t.add("radius", &IdlerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
-  t.add("x", &IdlerSpec::x, "m", "drawn place of the axle; the wrap finds the exact one").above(0).required();
-  t.add("z", &IdlerSpec::z, "m", "axle height").required();
+  t.add("x", &IdlerSpec::x, "m", "drawn place of the axle; the wrap finds the exact one")
+      .above(0)
+      .atMost(20)
+      .required();
+  t.add("z", &IdlerSpec::z, "m", "axle height").atLeast(-20).atMost(20).required();
   t.add("slide_min", &IdlerSpec::slideMin, "m", "stop to the rear").atMost(0).atLeast(-0.5).required();
   t.add("slide_max", &IdlerSpec::slideMax, "m", "stop to the front").atLeast(0).atMost(0.5).required();
-  t.add("stiffness", &IdlerSpec::stiffness, "N/m", "tensioner spring").above(0).required();
-  t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damper").atLeast(0).required();
-  t.add("preload", &IdlerSpec::preload, "N", "spring force at the wrap's place").atLeast(0).required();
-  t.add("stop_stiffness", &IdlerSpec::stopStiffness, "N/m", "of both stops").above(0).required();
-  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m", "of both stops").atLeast(0).required();
-  t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "sliding carrier").above(0).required();
-  t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "of the carrier").required();
+  t.add("stiffness", &IdlerSpec::stiffness, "N/m", "tensioner spring").above(0).atMost(1e10).required();
+  t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damper").atLeast(0).atMost(1e9).required();
+  t.add("preload", &IdlerSpec::preload, "N", "spring force at the wrap's place").atLeast(0).atMost(1e7).required();
+  t.add("stop_stiffness", &IdlerSpec::stopStiffness, "N/m", "of both stops").above(0).atMost(1e12).required();
+  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m", "of both stops").atLeast(0).atMost(1e9).required();
+  t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "sliding carrier").atLeast(1e-3).atMost(1e6).required();
+  t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "of the carrier").above(0).atMost(1e8).required();
   addSurface(t);
   return t;
 }
@@ -130,6 +141,7 @@ Table<ContactSpec> contactTable() {
   Table<ContactSpec> t("contact", "Part against part, and part against rigid ground");
   t.add("foundation_modulus", &ContactSpec::foundationModulus, "N/m3", "force = modulus x sum of area x overlap")
       .above(0)
+      .atMost(1e14)
       .required();
   t.add("relaxation_time", &ContactSpec::relaxationTime, "s", "stress = modulus x (overlap + time x rate)")
       .atLeast(0)

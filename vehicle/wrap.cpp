@@ -214,18 +214,31 @@ int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& 
   return 0;
 }
 
-/// A place of the idler with which it is, to 0.1 mm, the nearest that is found in steps of 5 mm; 0: none within 0.6 m.
+/// Where the idler would have to stand for a way about the wheels as long as the loop of shoes [m].
+double idlerXOfLength(VehicleSpec spec) {
+  const double loop = spec.shoe.count * spec.shoe.pitch;
+  double low = spec.roadWheel.firstX, high = low + loop;
+  for (int i = 0; i < 40; ++i) {
+    spec.idler.x = 0.5 * (low + high);
+    (hullLength(spec) < loop ? low : high) = spec.idler.x;
+  }
+  return spec.idler.x;
+}
+
+/// A place of the idler with which it is, to 0.1 mm, the nearest that is found in steps of 5 mm; 0: none within 0.6 m,
+/// nor about where the loop asks for it.
 double soundIdlerX(VehicleSpec spec, const std::optional<Wrap>& nearest,
                    const std::function<bool(const VehicleSpec&)>& sound) {
-  const double drawn = spec.idler.x;
+  const double drawn = spec.idler.x, asked = idlerXOfLength(spec);
   const auto fits = [&](double x) {
     spec.idler.x = std::floor(1e4 * x + 0.5) / 1e4;
     return x > 0 && sound(spec);
   };
   if (nearest && fits(nearest->idlerX)) return spec.idler.x;
-  for (int k = 1; k <= 120; ++k)
-    for (const double side : {-1.0, 1.0})
-      if (fits(drawn + side * 0.005 * k)) return spec.idler.x;
+  for (const double about : {drawn, asked})
+    for (int k = 0; k <= 120; ++k)
+      for (const double side : {-1.0, 1.0})
+        if (fits(about + side * 0.005 * k)) return spec.idler.x;
   return 0;
 }
 

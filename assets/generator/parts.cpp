@@ -10,9 +10,9 @@ namespace grouser::assets {
 
 TriangleMesh chassis() {
   TriangleMesh mesh;
-  // Lower hull between the tracks, with a sloped nose and a raised tail.
+  // Lower hull between the tracks, 15 mm beside the shoes' bosses, with a sloped nose and a raised tail.
   prism(mesh, {{-0.05, -0.20}, {2.35, -0.20}, {2.95, 0.12}, {2.85, 0.30}, {2.60, 0.40}, {-0.25, 0.40}, {-0.25, 0.00}},
-        -0.85, 0.85);
+        -0.76, 0.76);
   // Upper hull over the tracks: 6 cm above the tips of the grousers on the top run.
   prism(mesh, {{-0.25, 0.36}, {2.70, 0.36}, {2.20, 0.75}, {-0.15, 0.75}}, -1.25, 1.25);
   return mesh;

@@ -3,6 +3,7 @@
 #include "runs/bench/bench.hpp"
 #include "runs/setup/load_scene.hpp"
 
+#include "base/error.hpp"
 #include "runs/bench/report.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/device_choice.hpp"
@@ -12,9 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace grouser::bench {
 
@@ -33,15 +36,49 @@ Json jsonOf(const BatchTimes& times) {
           {"max", times.most()}};
 }
 
-/// Steps of the simulation, with progress.
-void advance(simulation::Simulation& simulation, std::int64_t steps, const char* what) {
-  support::Progress progress(what, simulation.comm().first());
-  for (std::int64_t i = 0; i < steps; ++i) {
+/// The vehicle's drive in what is timed.
+struct Drive {
+  std::optional<double> start; ///< empty: it has not driven off [s]
+  double ramp = 0;             ///< [s]
+};
+
+/// When the timing begins [s]; empty while a vehicle for which it waits has not driven off.
+std::optional<double> timedFrom(const StepBenchOptions& o, const simulation::Simulation& simulation, double ramp) {
+  const bool waits = simulation.vehicle() && (o.fromDrive || !o.after);
+  if (!waits) return o.after.value_or(0);
+  const std::optional<double> start = simulation.vehicle()->driveStart();
+  if (!start) return std::nullopt;
+  return *start + o.after.value_or(ramp);
+}
+
+/// Steps until the timing begins, with progress; returns when that is [s].
+double advance(simulation::Simulation& simulation, const StepBenchOptions& o, double ramp) {
+  support::Progress progress("up to speed", simulation.comm().first());
+  while (true) {
+    const std::optional<double> from = timedFrom(o, simulation, ramp);
+    const std::int64_t end = from ? std::llround(*from / simulation.timeStep()) : simulation.steps() + 1;
+    if (simulation.steps() >= end) return simulation.time();
     simulation.step();
     if (progress.due())
-      progress.update(static_cast<double>(i + 1) / static_cast<double>(steps),
-                      fmt::format("t {:.3f} s", simulation.time()));
+      progress.update(from ? simulation.time() / *from : 0,
+                      fmt::format("t {:.3f} s{}", simulation.time(), from ? "" : ", before the vehicle rests"));
   }
+}
+
+/// What the vehicle did between two times, in a word and in words.
+std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
+  if (!drive.start || *drive.start >= to)
+    return {"standing", "the vehicle stands, and drives off later: --after drive times the driving"};
+  if (*drive.start > from)
+    return {"driving off", fmt::format("the vehicle drives off at t = {:g} s, while it is timed: --after drive times "
+                                       "the driving alone",
+                                       *drive.start)};
+  const std::string since = fmt::format("the vehicle drives since t = {:g} s", *drive.start);
+  constexpr double kStep = 1e-9; // [s]: rounding of times
+  if (from < *drive.start + drive.ramp - kStep)
+    return {"speeding up",
+            fmt::format("{}, and its sprockets come up to speed until {:g} s", since, *drive.start + drive.ramp)};
+  return {"driving", since};
 }
 
 /// Contacts a step, by kind, and what is listed as near: means over the instrumented pass.
@@ -61,10 +98,6 @@ struct Contacts {
   }
   double mean(double sum) const { return counts ? sum / counts : 0; }
 };
-
-double defaultStart(const scene::Scene& scene) {
-  return scene.vehicle ? scene.driver.driveBegins() + scene.driver.rampOfDrive() : 0;
-}
 
 Json printParts(const StepBench& bench) {
   const double n = static_cast<double>(bench.steps());
@@ -270,14 +303,23 @@ void benchStepCommand(const BenchCommand& command) {
   double preparation = 0;
   const std::unique_ptr<simulation::Simulation> simulation = prepare(scene, exec, command.comm(), preparation);
   json.update(describeScene(scene, *simulation, preparation));
-  const double from = o.after < 0 ? defaultStart(scene) : o.after;
-  advance(*simulation, std::llround(from / simulation->timeStep()), "up to speed");
+  if (o.fromDrive && !simulation->vehicle())
+    throw base::InputError(
+        fmt::format("--after drive: {} has no [vehicle] that drives off; give a time in seconds", scene.file.string()));
+  const double ramp = scene.driver.rampOfDrive(), from = advance(*simulation, o, ramp);
   const BatchTimes times = timeBatches(*simulation, o, exec);
   StepBench bench(*simulation, exec);
   const Contacts contacts = instrument(bench, *simulation, o.steps);
 
   printTimes(times, o, from, command.comm().size());
   json["timed_from_s"] = from;
+  if (const simulation::VehicleRig* rig = simulation->vehicle()) {
+    const Drive drive{rig->driveStart(), ramp};
+    const auto [word, words] = phaseOf(drive, from, simulation->time());
+    fmt::print("timed     {}\n", words);
+    json["timed"] = word;
+    json["drive_start_s"] = drive.start ? Json(*drive.start) : Json(nullptr);
+  }
   json["preparation_wall_s"] = preparation;
   json["microseconds_a_step"] = jsonOf(times);
   json["instrumented_microseconds_a_step"] = printParts(bench);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,10 @@ BedFigures benchBed(const BedBench& bench, const base::Exec& exec, const base::C
 struct StepBenchOptions {
   std::int64_t steps = 1000; ///< of one batch, and of the instrumented pass
   int batches = 5;
-  double after = -1; ///< simulated time before anything is timed [s]; negative: until the drive is up to speed
+  /// Simulated time before anything is timed [s]: of the run, or where `fromDrive` after the vehicle drove off. Empty:
+  /// until the drive is up to speed.
+  std::optional<double> after;
+  bool fromDrive = false;
 };
 
 /// Steps a simulation and measures each stage, waiting for the device after it: the same bits, slower.

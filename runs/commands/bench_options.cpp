@@ -8,6 +8,7 @@
 #include "runs/support/option_checks.hpp"
 
 #include <memory>
+#include <string>
 
 namespace grouser::commands {
 
@@ -71,6 +72,24 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   });
 }
 
+/// The time of --after, which may stand after "drive+".
+std::string timeIn(const std::string& word) {
+  if (word == "drive") return "0";
+  return word.rfind("drive+", 0) == 0 ? word.substr(6) : word;
+}
+
+/// What is wrong with the word of --after; "" where nothing is.
+std::string startFault(const std::string& word) {
+  std::string time = timeIn(word);
+  if (support::notNegative("a time in seconds")(time).empty()) return "";
+  return word + " is neither a time in seconds of at least 0, nor drive, nor such as drive+0.5";
+}
+
+void setStart(bench::StepBenchOptions& o, const std::string& word) {
+  o.fromDrive = word.rfind("drive", 0) == 0;
+  o.after = std::stod(timeIn(word));
+}
+
 void addStep(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::BenchCommand>();
   bench::BenchCommand& c = *command;
@@ -82,8 +101,11 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
   step->add_option("--batches", c.step.batches, "timed batches")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  step->add_option("--after", c.step.after, "simulated time before timing [s]; default: until the drive is up to speed")
-      ->check(support::notNegative("a time in seconds"));
+  step->add_option_function<std::string>(
+          "--after", [command](const std::string& word) { setStart(command->step, word); },
+          "simulated time before timing [s]; drive, or drive+T: T seconds after the vehicle drove off; default: until "
+          "the drive is up to speed")
+      ->check(CLI::Validator([](const std::string& word) { return startFault(word); }, "TIME|drive|drive+TIME"));
   addCommon(*step, c);
   step->callback([command, words = invocation.words] {
     requireSameWords("bench step", words, command->ranks->comm());

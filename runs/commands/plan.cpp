@@ -138,6 +138,7 @@ std::string planText(const scene::Scene& scene) {
     setup::placeVehicle(scene, spec);
     text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
                         spec.shoe.count, spec.pitchRadius());
+    setup::checkParts(scene);
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);

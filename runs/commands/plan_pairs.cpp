@@ -27,6 +27,13 @@ std::string pairsText(const scene::Scene& scene) {
                         p.law.rollingFriction, p.cohesion);
     for (const std::string& off : p.off) notes += fmt::format("  note: {}: {}\n", p.what, off);
   }
+  for (const scene::Material& m : scene.materials)
+    if (std::none_of(pairs.begin(), pairs.end(),
+                     [&](const setup::MeetingPair& p) { return p.grain == m.name || p.partner == m.name; }))
+      notes += fmt::format("  note: material.{} acts on nothing here{}\n", m.name,
+                           scene.vehicle && pairs.empty()
+                               ? ": between vehicle and rigid ground all contact data are the vehicle file's"
+                               : "");
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
     if (text.empty()) text += "\nwhat acts where they meet\n";

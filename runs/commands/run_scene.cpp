@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fmt/format.h>
 
 namespace grouser::commands {
@@ -27,6 +28,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Of all threads of this process since it began [s].
+double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// A signal that any rank has received. All must agree on the step at which they stop, so all are asked together: as
 /// often as answers within a fifth of a second take, since launchers that pass an interrupt on kill after one second.
@@ -360,23 +364,26 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
   output::Summary summary;
   record(simulation, recorder, checkpoints, [&] {
     const Clock::time_point driving = Clock::now();
-    const double waitedBefore = comm.waited();
+    const double waitedBefore = comm.waited(), cpuBefore = cpuTime();
     if (!former) recorder.row(), recorder.frame(), checkpoints.remember(simulation, recorder.writer());
     drive(simulation, recorder, checkpoints, total);
     const double drove = since(driving), waiting = (comm.waited() - waitedBefore) / drove;
+    const double cpu = 1e-6 * static_cast<double>(comm.sumOf(std::llround(1e6 * (cpuTime() - cpuBefore))));
     if (setup.output.picture) recorder.picture(setup.output.pictureWidth);
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = since(start);
     describeDrive(simulation, summary);
     summary.figures["wall_preparation_s"] = prepared;
-    summary.figures["wall_steps_s"] = drove;
+    summary.figures["wall_steps_s"] = drove, summary.figures["cpu_steps_s"] = cpu;
     summary.figures["microseconds_a_step"] =
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
     describeLedger(simulation);
-    fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step)\n", prepared, drove,
-               simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"]);
+    fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step), {:.1f} s of CPU "
+               "time\n",
+               prepared, drove, simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"],
+               cpu);
     if (simulation.mechanism()) describeSteps(*simulation.mechanism(), summary);
     describeSharing(simulation, waiting, summary);
     recorder.writer().finish(summary);

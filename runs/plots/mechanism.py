@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A mechanism: paths of the bodies' centres in the plane in which they spread most, energies, what does not balance, and
-how well the joints stay closed."""
+"""A mechanism: paths of the bodies' centres in the plane in which they spread most, energies, integration error, and how
+well the joints stay closed."""
 import numpy
 
 import drawing
@@ -44,15 +44,18 @@ def plot(run):
     if energy.get_legend_handles_labels()[0]:
         energy.legend(fontsize=7)
     rest.plot(run.time, run.get("ledger/integration_error"), color="tab:purple")
-    rest.set_title("energy that does not balance", fontsize=10)
+    rest.set_title("integration error: lost by the length of the steps", fontsize=10, loc="right")
     rest.set_ylabel("[J]")
     for name, label in (("position_error", "gap [m, rad]"), ("velocity_error", "opening rate [m/s, rad/s]")):
         values = run.get(f"constraints/{name}")
         if series.finite(values) and (values > 0).any():
             gap.semilogy(run.time, numpy.where(values > 0, values, numpy.nan), label=label)
-    gap.set_title("joints: largest since the row before", fontsize=10)
+    gap.set_title("joints: largest opening since the row before", fontsize=10)
     if gap.get_legend_handles_labels()[0]:
         gap.legend(fontsize=7)
+    else:
+        gap.set_yticks([])
+        gap.text(0.5, 0.5, "closed to the last bit", transform=gap.transAxes, ha="center", va="center")
     for axis in (energy, rest, gap):
         axis.set_xlabel("time [s]")
     return figure

@@ -92,7 +92,7 @@ def heights(run):
     return figure
 
 
-DEFINITION = ("Sinkage: undisturbed surface of the bed minus the pad plate's lowest point; "
+DEFINITION = ("Sinkage: along the normal of the undisturbed surface, down to the middle of the pad plate's underside;\n"
               "negative while grousers carry the pad above the surface")
 
 

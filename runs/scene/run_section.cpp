@@ -34,8 +34,9 @@ Table<RunSettings> runTable() {
       .atLeast(1e-12)
       .atMost(1);
   t.add("steps_per_period", &S::stepsPerPeriod, "-",
-        "fewest steps in a period, turn or ramp of drives and moving surfaces, between two times of a table, and in a "
-        "turn of a body: fewer are refused, and a turn that becomes too quick ends the run")
+        "fewest steps in a period, turn or ramp of drives and moving surfaces, between two times of a table, in a turn "
+        "of a body, a swing of a vehicle's springs, and in twice a bounce off an end stop: fewer are refused, and a "
+        "turn that becomes too quick ends the run")
       .atLeast(2)
       .atMost(1e6);
   t.add("gravity", &S::gravity, "m/s2", "acceleration of free fall").atLeast(-1000).atMost(1000);

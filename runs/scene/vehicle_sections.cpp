@@ -4,6 +4,7 @@
 
 #include "runs/scene/detail/section_checks.hpp"
 
+#include "base/rounded.hpp"
 #include "multibody/time_law.hpp"
 
 #include <fmt/format.h>
@@ -103,6 +104,7 @@ void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
 }
 
 void checkDriver(const Section& section, Driver& d, const Scene& scene) {
+  constexpr double kTyped = 1e-9; // [s]: 0.1 and 0.2 are 0.3
   if (!scene.vehicle) section.fail("", "has nothing to drive; add a section [vehicle], or remove this one");
   if (d.left.has_value() != d.right.has_value())
     section.fail(d.left ? "left" : "right", fmt::format("[rad/s] stands without {}; give both, or sprocket_speed alone",
@@ -110,6 +112,11 @@ void checkDriver(const Section& section, Driver& d, const Scene& scene) {
   if ((d.sprocketSpeed ? 1 : 0) + (d.left ? 1 : 0) + (section.has("table") ? 1 : 0) > 1)
     section.fail(d.sprocketSpeed ? "sprocket_speed" : "left",
                  "[rad/s] is one of several speeds given; keep one of sprocket_speed, left with right, [driver.table]");
+  if (const double ramps = d.tensionRamp + d.weightRamp; d.driveBegins() < ramps - kTyped)
+    section.fail("drive_start",
+                 fmt::format("[s] is before tension and weight are on, driver.tension_ramp + driver.weight_ramp = "
+                             "{:.6g} s; set it to {} or more, or \"auto\", or shorten the ramps",
+                             ramps, base::roundedUp(ramps, 6)));
 }
 
 void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) {

@@ -209,7 +209,6 @@ void checkCompany(const scene::Scene& scene) {
 void checkGround(const scene::Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
   checkCompany(scene);
-  if (scene.vehicle) checkParts(scene);
   checkVehicleSurroundings(scene);
   checkSpeeds(scene, timeStep);
   checkSurfacesBetweenSides(scene);
@@ -223,7 +222,6 @@ void checkGround(const scene::Scene& scene, double timeStep) {
 
 GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   checkCompany(scene);
-  if (scene.vehicle) checkParts(scene);
   checkVehicleSurroundings(scene);
   checkSpeeds(scene, timeStep);
   checkSurfacesBetweenSides(scene);

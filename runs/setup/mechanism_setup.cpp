@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace grouser::setup {
 
@@ -23,6 +24,8 @@ constexpr double kStepsPerTensionSwing = 20;
 constexpr double kStepsPerBounce = 20;
 /// Steps from which on it is worth saying that a spring alone asks for so many [-].
 constexpr double kManySteps = 1e6;
+/// Steps are printed and typed with some digits: 20 steps to a millionth are 20 [-].
+constexpr double kDigits = 1e-6;
 /// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
 constexpr double kRoundedRate = 1e-12;
 
@@ -39,6 +42,11 @@ struct Start {
   }
   /// How long a bounce off an end stop lasts at least [s].
   double shortestBounce() { return base::kPi / solver.stopRate(state, loads); }
+  /// Longest step for which the dampers brake without a change of sign [s]; infinite where any step does.
+  double longestDamped(std::string* damper = nullptr) {
+    if (setup.solver.integrator != multibody::Integrator::kRattle) return std::numeric_limits<double>::infinity();
+    return 2 / solver.dampingRate(state, loads, damper);
+  }
   /// The same of bodies that hang on taut joints and springs.
   double shortestTensionSwing() { return 2 * base::kPi / solver.geometricStiffnessRate(state, loads); }
 
@@ -48,11 +56,12 @@ struct Start {
   multibody::Solver solver;
 };
 
-/// The step that "auto" stands for, and what it would be but for springs [s].
+/// The step that "auto" stands for, and what it would be but for springs and dampers [s].
 struct AutomaticStep {
-  double step = 0, withoutSprings = 0;
-  double swing = 0;   ///< shortest of the springs [s]
-  std::string spring; ///< "spring 'bar'"
+  double step = 0, withoutSprings = 0, withoutDampers = 0;
+  double swing = 0;           ///< shortest of the springs [s]
+  double decay = 0;           ///< what the strongest damper brakes dies away in this [s]
+  std::string spring, damper; ///< "spring 'bar'"
 };
 
 AutomaticStep automaticStep(const scene::Scene& scene) {
@@ -71,8 +80,12 @@ AutomaticStep automaticStep(const scene::Scene& scene) {
   // Rows fall on whole steps.
   const double row = scene.run.outputInterval;
   const auto shareOfRow = [row](double time) { return row / std::ceil(kStepsPerPeriod * row / time); };
-  automatic.withoutSprings = shareOfRow(shortest);
-  automatic.step = shareOfRow(std::min(shortest, automatic.swing));
+  automatic.decay = 0.5 * start.longestDamped(&automatic.damper);
+  // Dampers: half the limit, as of grains.
+  const double decays = kStepsPerPeriod * automatic.decay;
+  automatic.withoutSprings = shareOfRow(std::min(shortest, decays));
+  automatic.withoutDampers = shareOfRow(std::min(shortest, automatic.swing));
+  automatic.step = shareOfRow(std::min({shortest, automatic.swing, decays}));
   return automatic;
 }
 
@@ -100,6 +113,35 @@ void checkTurns(const scene::Scene& scene, const multibody::Model& model, const 
                  fmt::format("[s] turns body \"{}\" by {:.4g} rad a step at the start, above the {:.4g} rad of "
                              "run.steps_per_period = {:g} steps a turn: choose {} s or less, or \"auto\"",
                              model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod, atMost(most / rate)));
+}
+
+/// Throws InputError where a bounce off an end stop, half a swing, has too few steps.
+void checkStops(const scene::Scene& scene, Start& start, double step) {
+  std::string stop;
+  const double rate = start.solver.stopRate(start.state, start.loads, &stop);
+  const double bounce = base::kPi / rate, wanted = 0.5 * scene.run.stepsPerPeriod;
+  if (rate == 0 || bounce / step >= wanted * (1 - kDigits)) return;
+  scene.fail("run", "time_step",
+             fmt::format("[s] is too long for the end stops of {}: a bounce off them, half a swing, lasts {:.4g} s, "
+                         "which is {:.3g} steps and not {:g}, half of run.steps_per_period; choose {} s or less "
+                         "(\"auto\": {} s), softer stops (stop_stiffness), run.tolerance instead of time_step, or "
+                         "lower run.steps_per_period if you mean it",
+                         stop, bounce, bounce / step, wanted, atMost(bounce / wanted),
+                         atMost(automaticStep(scene).step)));
+}
+
+/// Throws InputError where a damper would turn a velocity round in every step instead of braking it.
+void checkDampers(const scene::Scene& scene, Start& start, double step) {
+  if (scene.run.integratorOrder > 2) return; // the solver refuses these, at shorter steps
+  std::string damper;
+  const double most = start.longestDamped(&damper);
+  if (step <= most * (1 + kDigits)) return;
+  scene.fail("run", "time_step",
+             fmt::format("[s] is too long for the damper of {}: what it brakes dies away in {:.3g} s, and with rattle "
+                         "it would change its direction in every step beyond {} s instead; choose that or less "
+                         "(\"auto\": {} s), a weaker damper, or run.integrator = \"symplectic_euler\", which takes "
+                         "dampers implicitly",
+                         damper, 0.5 * most, atMost(most), atMost(automaticStep(scene).step)));
 }
 
 } // namespace
@@ -140,6 +182,7 @@ double mechanismTimeStep(const scene::Scene& scene) {
   checkTimeScales(scene, step);
   Start trial(scene);
   checkTurns(scene, trial.setup.model, trial.state, step);
+  checkStops(scene, trial, step), checkDampers(scene, trial, step);
   try {
     trial.solver.step(trial.state, trial.loads, step);
   } catch (const base::InputError& error) {
@@ -149,11 +192,43 @@ double mechanismTimeStep(const scene::Scene& scene) {
   return step;
 }
 
+namespace {
+
+/// Of a step that is given: whose swing it does not resolve, for nothing refuses that.
+std::string unresolvedSpring(const scene::Scene& scene) {
+  Start start(scene);
+  std::string spring;
+  const double swing = start.shortestSwing(&spring), steps = swing / *scene.run.timeStep;
+  if (steps >= scene.run.stepsPerPeriod * (1 - kDigits)) return "";
+  const bool euler = scene.run.integrator == multibody::Integrator::kSymplecticEuler;
+  return fmt::format("{}: {} swings in {:.3g} s, {:.3g} steps of run.time_step = {:g} s: {}; for the swing itself "
+                     "choose {} s or less",
+                     scene.file.string(), spring, swing, steps, *scene.run.timeStep,
+                     euler ? "symplectic_euler is stable there, and damps that swing"
+                     : scene.run.springs == multibody::Springs::kImplicit
+                         ? "implicit springs are stable there, and show that swing too slow"
+                         : "explicit springs are stable there, and show that swing too quick",
+                     atMost(swing / scene.run.stepsPerPeriod));
+}
+
+/// Of "auto" where a damper alone asks for very many steps.
+std::string damperNote(const scene::Scene& scene, const AutomaticStep& a) {
+  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because what the damper of {} brakes "
+                     "dies away in {:.3g} s; run.integrator = \"symplectic_euler\" takes dampers implicitly, and is "
+                     "stable at run.time_step = {:.4g}",
+                     scene.file.string(), a.step, scene.run.duration / a.step, a.damper, a.decay, a.withoutDampers);
+}
+
+} // namespace
+
 std::string springStepNote(const scene::Scene& scene) {
-  if (scene.run.timeStep || scene.run.tolerance) return "";
+  if (scene.run.tolerance) return "";
+  if (scene.run.timeStep) return unresolvedSpring(scene);
   const AutomaticStep a = automaticStep(scene);
   const double steps = scene.run.duration / a.step;
-  if (steps < kManySteps || a.withoutSprings < 2 * a.step) return "";
+  if (steps < kManySteps) return "";
+  if (a.withoutDampers >= 2 * a.step) return damperNote(scene, a);
+  if (a.withoutSprings < 2 * a.step) return "";
   std::string remedy;
   if (scene.run.integrator == multibody::Integrator::kSymplecticEuler)
     remedy = fmt::format("symplectic_euler takes springs implicitly: run.time_step = {:.4g} is as stable, and damps "

@@ -42,14 +42,15 @@ double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multi
 
 /// Step of a mechanism [s]: as the scene says, or the one that "auto" stands for: at the start a hundredth of the
 /// shortest swing of the springs, turn of a body or period of a drive, a twentieth of the shortest swing on taut joints
-/// and of a bounce off an end stop, run.steps_per_period steps of the smallest gap of a table; at most 1 ms, and a
-/// whole share of the output interval. With run.tolerance the time between two places where rows and frames fall, which
-/// steps of the mechanism's own divide. Throws InputError where the integrator cannot take springs and dampers at this
-/// step, which a step shows, or the step does not resolve drives and turns (time_scales.hpp).
+/// and of a bounce off an end stop, run.steps_per_period steps of the smallest gap of a table, of rattle the time in
+/// which the strongest damper brakes; at most 1 ms, and a whole share of the output interval. With run.tolerance the
+/// time between two places where rows and frames fall, which steps of the mechanism's own divide. Throws InputError
+/// where the integrator cannot take springs and dampers at this step, or the step does not resolve drives and turns
+/// (time_scales.hpp) or a bounce off an end stop.
 double mechanismTimeStep(const scene::Scene& scene);
 
-/// What is to be said where springs alone make "auto" choose a step that needs a million steps or more: which, and how
-/// to do without. Empty else.
+/// What is to be said where springs or dampers alone make "auto" choose a step that needs a million steps or more:
+/// which, and how to do without; and where a step that is given does not resolve the swing of a spring. Empty else.
 std::string springStepNote(const scene::Scene& scene);
 
 /// What is to be said of a step above what joints and springs bear at the start: at rest it may do well, until the

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/placement.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "vehicle/assembly.hpp"
+#include "vehicle/hull_clearance.hpp"
+#include "vehicle/part_masses.hpp"
 #include "vehicle/part_meshes.hpp"
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
@@ -81,18 +84,33 @@ Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& sp
 }
 
 void checkParts(const scene::Scene& scene) {
+  if (scene.vehicle->chassis == scene::ChassisMount::free && scene.terrain && norm(scene.run.gravity) > 0 &&
+      scene.run.gravity.z >= 0)
+    scene.fail(
+        "run", "gravity",
+        "[m/s2] does not pull the vehicle to the ground; give it a z below 0, or set vehicle.chassis = \"fixed\"");
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
   const double radius = scene.vehicle->sphereRadius;
-  const auto read = [&](const std::string& name) {
-    return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+  const auto read = [&](const char* section, const std::string& name) {
+    try {
+      return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+    } catch (const base::InputError& error) {
+      vehicle::refuse(scene.vehicle->spec,
+                      {section, "mesh", fmt::format("in vehicle.mesh_folder is no mesh for it: {}", error.what())});
+    }
   };
   vehicle::PartMeshes meshes;
-  meshes.chassis = read(spec.chassis.mesh);
-  using Named = std::pair<const std::string&, base::TriangleMesh&>;
-  for (const auto& [name, mesh] : {Named{spec.shoe.mesh, meshes.shoe}, Named{spec.sprocket.mesh, meshes.sprocket},
-                                   Named{spec.roadWheel.mesh, meshes.roadWheel}, Named{spec.roller.mesh, meshes.roller},
-                                   Named{spec.idler.mesh, meshes.idler}}) {
-    mesh = read(name);
+  meshes.chassis = read("chassis", spec.chassis.mesh);
+  struct Named {
+    const char* section;
+    const std::string& name;
+    base::TriangleMesh& mesh;
+  };
+  for (const auto& [section, name, mesh] :
+       {Named{"shoe", spec.shoe.mesh, meshes.shoe}, Named{"sprocket", spec.sprocket.mesh, meshes.sprocket},
+        Named{"road_wheel", spec.roadWheel.mesh, meshes.roadWheel}, Named{"roller", spec.roller.mesh, meshes.roller},
+        Named{"idler", spec.idler.mesh, meshes.idler}}) {
+    mesh = read(section, name);
     const auto [low, high] = spheredecomp::bounds(mesh);
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (radius > 0.5 * longest)
@@ -104,8 +122,9 @@ void checkParts(const scene::Scene& scene) {
                  fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
                              spheredecomp::kMostLatticePoints));
   }
-  if (const std::optional<vehicle::SpecFault> fault = vehicle::meshFault(spec, meshes))
-    vehicle::refuse(scene.vehicle->spec, *fault);
+  for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
+    if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))
+      vehicle::refuse(scene.vehicle->spec, *fault);
 }
 
 base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/simulation_setup.hpp"
 
+#include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/step_limit.hpp"
 
@@ -9,6 +10,8 @@ namespace grouser::setup {
 SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
   SimulationSetup setup;
   checkRestitutions(scene);
+  // Before the step: what does not fit its mesh may ask for a wrong one.
+  if (scene.vehicle) checkParts(scene);
   setup.timeStep = chooseTimeStep(scene);
   setup.gravity = scene.run.gravity;
   setup.ground = groundSetup(scene, setup.timeStep, ranks);

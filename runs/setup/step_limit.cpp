@@ -111,6 +111,26 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Gra
   }
 }
 
+/// The foundation between parts: shoes on rigid ground, and wheels on shoes.
+void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
+  const vehicle::ContactSpec& c = s.contact;
+  // A shoe that lies on its whole pad: the stiffest that the foundation can be.
+  const double pad = c.foundationModulus * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
+  consider(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
+           "lower contact.foundation_modulus in vehicle.spec");
+  // A wheel that lies in the plate by a millimetre, far more than the weight presses it in.
+  constexpr double kDeep = 1e-3; // [m]
+  const auto wheel = [&](const char* name, double mass, double radius) {
+    const double area = 4 * s.shoe.padHalfWidth * std::sqrt(2 * radius * kDeep);
+    const double stiffness = c.foundationModulus * area * (1 / mass + 1 / s.shoe.mass);
+    consider(limit, stiffness, stiffness * c.relaxationTime, fmt::format("{} of {:g} kg on shoes", name, mass),
+             "raise its mass or lower contact.foundation_modulus in vehicle.spec");
+  };
+  wheel("road wheel", s.roadWheel.mass, s.roadWheel.radius);
+  wheel("idler", s.idler.mass, s.idler.radius);
+  if (!s.roller.x.empty()) wheel("roller", s.roller.mass, s.roller.radius);
+}
+
 } // namespace
 
 StepLimit stepLimit(const scene::Scene& scene) {
@@ -124,14 +144,7 @@ StepLimit stepLimit(const scene::Scene& scene) {
                     scene.run.impactSpeed);
   }
   considerFreeSurfaces(limit, scene, kinds);
-  if (scene.vehicle) {
-    // A shoe that lies on its whole pad: the stiffest that the foundation can be.
-    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-    const double area = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
-    const double stiffness = spec.contact.foundationModulus * area / spec.shoe.mass;
-    consider(limit, stiffness, stiffness * spec.contact.relaxationTime, "shoe on rigid ground or wheel",
-             "lower contact.foundation_modulus in vehicle.spec");
-  }
+  if (scene.vehicle) considerVehicle(limit, vehicle::readVehicleSpec(scene.vehicle->spec));
   return limit;
 }
 

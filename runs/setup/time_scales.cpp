@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "base/table.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 
@@ -99,11 +100,34 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   addTable(scales, d.table->time, scene.run.duration - d.driveBegins(), atTable);
 }
 
+/// Swings of the vehicle's own springs and stops, of the parts alone that they hold: what hangs on them makes them
+/// slower. The solver takes them implicitly, which is stable at any step and damps what is not resolved.
+void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  if (!scene.vehicle) return;
+  const std::string& file = scene.vehicle->spec;
+  const vehicle::VehicleSpec s = vehicle::readVehicleSpec(file);
+  const auto add = [&](const char* section, const char* key, const char* unit, double stiffness, double inertia) {
+    if (!(stiffness > 0)) return;
+    const double period = 2 * base::kPi * std::sqrt(inertia / stiffness);
+    scales.push_back({period, true, fmt::format("a swing of {:.4g} s", period), unit,
+                      [file, section, key](const std::string& message) {
+                        vehicle::refuse(file, {section, key, message});
+                      }});
+  };
+  // About the pivot: the arm, and the wheel at its end, which turns freely on its axle.
+  const double arm = s.arm.inertia.y + s.arm.mass * 0.25 * s.arm.length * s.arm.length +
+                     s.roadWheel.mass * s.arm.length * s.arm.length;
+  add("arm", "stiffness", "N m/rad", s.arm.stiffness, arm);
+  add("idler", "stiffness", "N/m", s.idler.stiffness, s.idler.carrierMass + s.idler.mass);
+  add("idler", "stop_stiffness", "N/m", s.idler.stopStiffness, s.idler.carrierMass + s.idler.mass);
+}
+
 } // namespace
 
 std::vector<TimeScale> timeScales(const scene::Scene& scene) {
   std::vector<TimeScale> scales;
   addSurfaces(scales, scene), addDrives(scales, scene), addDriver(scales, scene);
+  addVehicle(scales, scene);
   return scales;
 }
 

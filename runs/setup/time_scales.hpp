@@ -10,10 +10,11 @@
 namespace grouser::setup {
 
 /// Something that a scene prescribes over time: a run samples it once a step, and sees another motion or force where
-/// steps are too few (100 N m at 1001 Hz are a constant torque at steps of 1 / 1001 s).
+/// steps are too few (100 N m at 1001 Hz are a constant torque at steps of 1 / 1001 s). Also a swing of a vehicle's
+/// springs.
 struct TimeScale {
   double time = 0;       ///< a period or turn, or the gap between two times of a table or ramp [s]
-  bool repeats = false;  ///< a period or turn
+  bool repeats = false;  ///< a period, turn or swing
   std::string what;      ///< "a turn of 0.02 s"
   const char* unit = ""; ///< of the key
   /// Throws InputError at the key that says it, with this message.
@@ -21,8 +22,9 @@ struct TimeScale {
 };
 
 /// All of them that begin before the run ends: sines of drives and surfaces, turns of surfaces that are not round about
-/// their own axis, gaps of the tables of drives and driver, ramps of a surface's load and of the driver. Two equal
-/// times of a table, and a ramp of 0 s, are a jump, and have no gap.
+/// their own axis, gaps of the tables of drives and driver, ramps of a surface's load and of the driver; and the
+/// swings of a vehicle's torsion bars, tensioner and its stops. Two equal times of a table, and a ramp of 0 s, are a
+/// jump, and have no gap.
 std::vector<TimeScale> timeScales(const scene::Scene& scene);
 
 /// The longest step with run.steps_per_period steps in each of them [s]; infinite where there is none.

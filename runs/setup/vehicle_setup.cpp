@@ -3,6 +3,8 @@
 
 #include "vehicle/spec_file.hpp"
 
+#include <algorithm>
+
 namespace grouser::setup {
 
 namespace {
@@ -10,7 +12,9 @@ namespace {
 vehicle::DriverOptions driverOptions(const scene::Driver& d) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
-  options.driveStart = d.driveBegins(), options.driveRamp = d.rampOfDrive();
+  // The sum of ramps that were typed may be a bit above the start that was.
+  options.driveStart = std::max(d.driveBegins(), d.tensionRamp + d.weightRamp);
+  options.driveRamp = d.rampOfDrive();
   if (!d.driveStart) options.rest = vehicle::RestBounds{d.restSpeed, d.restLoad, d.restTimeLimit};
   const scene::SpeedTable table = d.speeds();
   options.speeds = {table.time, table.left, table.right};

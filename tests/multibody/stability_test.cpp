@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace grouser::multibody::test {
 namespace {
@@ -69,6 +70,48 @@ TEST(Stability, ExplicitSpringsAreStableUpToTheStatedStepAndRefusedBeyond) {
         EXPECT_NE(message.find("implicit"), std::string::npos) << message;
       }
     }
+}
+
+/// Velocity of the lighter mass over its first, after each of some steps; dampers alone act.
+std::vector<double> braked(double damping, Integrator integrator, double dt, double* rate = nullptr) {
+  Mechanism m = twoSprings(1e-9, 3);
+  m.model = Model();
+  m.model.addBody(makeBody("light", 1, Mat3d::diagonal({1, 1, 1}), {{1, 0, 0}, {}}, {3, 0, 0}));
+  m.model.addBody(makeBody("heavy", 3, Mat3d::diagonal({1, 1, 1}), {{2, 0, 0}, {}}, {-1, 0, 0}));
+  m.model.addJointAt("rail 1", JointType::kPrismatic, kWorld, 0, frameWithZ({1, 0, 0}, {1, 0, 0}));
+  m.model.addJointAt("rail 2", JointType::kPrismatic, kWorld, 1, frameWithZ({2, 0, 0}, {1, 0, 0}));
+  PointSpring damper;
+  damper.name = "between", damper.bodyA = 0, damper.bodyB = 1, damper.damping = damping, damper.restLength = 1;
+  m.model.addPointSpring(damper);
+  m.start();
+  m.loads.gravity = {};
+  SolverOptions options;
+  options.integrator = integrator, options.springs = Springs::kImplicit;
+  Solver solver(m.model, options);
+  std::string name;
+  if (rate) *rate = solver.dampingRate(m.state, m.loads, &name);
+  EXPECT_TRUE(!rate || name == "spring 'between'") << name;
+  std::vector<double> velocities;
+  for (int i = 0; i < 4; ++i) {
+    solver.step(m.state, m.loads, dt);
+    velocities.push_back(m.state.twist[0].v.x / 3);
+  }
+  return velocities;
+}
+
+/// No momentum in all, so that the reduced mass of 3/4 kg counts: rate 4/3 c. Of rattle a step multiplies a velocity by
+/// (2 - rate dt) / (2 + rate dt): beyond 2 / rate it turns round each time.
+TEST(Stability, DampingRateIsThatOfTheReducedMassAndTwoOverItIsWhereRattleTurnsVelocitiesRound) {
+  double rate = 0;
+  braked(300, Integrator::kRattle, 1e-6, &rate);
+  EXPECT_NEAR(rate, 400, 1e-4 * 400); // of the power iteration
+  for (const double share : {0.5, 0.95, 1.05, 100.0}) {
+    const std::vector<double> v = braked(300, Integrator::kRattle, share * 2 / rate);
+    const double factor = (1 - share) / (1 + share);
+    double expected = 1;
+    for (const double now : v) EXPECT_NEAR(now, expected *= factor, 1e-3) << share; // the lever is its length at half
+  }
+  for (const double now : braked(300, Integrator::kSymplecticEuler, 1)) EXPECT_GE(now, -1e-9) << "any step";
 }
 
 TEST(Stability, CompositionsAreStableUpToTheirOwnLimitsAndNotBeyond) {

@@ -7,6 +7,7 @@
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -41,17 +42,20 @@ std::string refusalOf(const std::vector<KeyChange>& changes) {
 /// A change as advice gives it, "set roller.z[1] = 0.09": for lists with the other values of the fault's own.
 KeyChange adviceIn(const std::string& message, const KeyChange& fault) {
   std::smatch m;
-  if (!std::regex_search(message, m, std::regex(R"(set ([a-z_]+)\.([a-z_]+)(\[(\d)\])? = ([-0-9.e+]+))"))) return {};
-  if (!m[3].matched) return {m[1], m[2], m[5]};
-  std::vector<std::string> values = m[2] == "x" ? std::vector<std::string>{"0.70", "1.38", "2.06"}
+  if (!std::regex_search(message, m,
+                         std::regex(R"(set (every entry of )?([a-z_]+)\.([a-z_]+)(\[(\d)\])? = ([-0-9.e+]+))")))
+    return {};
+  if (m[1].matched) return {m[2], m[3], fmt::format("[{0}, {0}, {0}]", m[6].str())};
+  if (!m[4].matched) return {m[2], m[3], m[6]};
+  std::vector<std::string> values = m[3] == "x" ? std::vector<std::string>{"0.70", "1.38", "2.06"}
                                                 : std::vector<std::string>{"0.1283", "0.1300", "0.1317"};
-  if (fault.section == "roller" && fault.key == m[2]) {
+  if (fault.section == "roller" && fault.key == m[3]) {
     std::stringstream list(fault.value.substr(1));
     for (std::string& v : values) std::getline(list, v, ',');
     values.back() = values.back().substr(0, values.back().find(']'));
   }
-  values[std::stoul(m[4])] = m[5];
-  return {m[1], m[2], "[" + values[0] + ", " + values[1] + ", " + values[2] + "]"};
+  values[std::stoul(m[5])] = m[6];
+  return {m[2], m[3], "[" + values[0] + ", " + values[1] + ", " + values[2] + "]"};
 }
 
 } // namespace
@@ -72,8 +76,8 @@ TEST_P(ImpossibleVehicle, AdviceMendsIt) {
   const KeyChange advice = adviceIn(message, p.change);
   if (advice.key.empty()) {
     // Keys whose range stands in the table, and those that no single number mends, say what must hold instead.
-    EXPECT_TRUE(
-        std::regex_search(message, std::regex("is outside|as many values|choose|alone mends|belongs to|at least")))
+    EXPECT_TRUE(std::regex_search(
+        message, std::regex("is outside|not finite|as many values|choose|alone mends|belongs to|at least")))
         << message;
     return;
   }
@@ -137,6 +141,18 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"TipsOver", {"chassis", "centre", "[3.0, 0.0, 0.1]"}, {"671.8 mm ahead of all road wheels"}},
         Impossible{"TipsSideways", {"chassis", "centre", "[1.4, 1.5, 0.1]"}, {"550.0 mm beside both tracks"}},
         Impossible{"TracksOverlap", {"vehicle", "track_offset", "0.1"}, {"left and right shoes overlap by 80.0 mm"}},
+        Impossible{"RollersAllInTheWheels", {"roller", "z", "[0.0, 0.0, 0.0]"}, {"set every entry of roller.z = "}},
+        Impossible{"IdlerAsLargeAsTheVehicle", {"idler", "radius", "2"}, {"idler.radius = 2 [m]", "423.2 mm"}},
+        Impossible{"IdlerBelowTheGround", {"idler", "z", "-0.3"}, {"idler.z = -0.3 [m]", "149.2 mm above"}},
+        Impossible{"IdlerOutOfSight", {"idler", "x", "15"}, {"shoe.count = 46 [-]: the track does not close"}},
+        Impossible{"FoldOfNoChain", {"shoe", "maximum_fold", "0.1"}, {"shoe.maximum_fold = 0.1 [rad]", "63 teeth"}},
+        Impossible{"PlatesFarTooHigh", {"shoe", "plate_top", "0.2"}, {"shoe.plate_top = 0.2 [m] lets"}},
+        Impossible{"StopThatStopsNothing", {"idler", "stop_stiffness", "1e-3"}, {"softer than the tensioner's spring"}},
+        Impossible{"SoftAsFoam", {"contact", "foundation_modulus", "1e6"}, {"a tenth of their 60 mm", "4.60e+07"}},
+        Impossible{"HeavierThanAPlanet", {"chassis", "mass", "1e300"}, {"is outside [0.001, 1e+06]"}},
+        Impossible{"MassOfNothing", {"chassis", "mass", "nan"}, {"not finite; give"}},
+        Impossible{"InertiaBelowZero", {"shoe", "inertia", "[-1, 1, 1]"}, {"is outside (0, 1e+08]"}},
+        Impossible{"BarOfDiamond", {"arm", "stiffness", "1e308"}, {"is outside [0, 1e+09]"}},
         Impossible{"NoMass", {"shoe", "mass", "0"}, {"is outside"}},
         Impossible{"ImpossibleInertia", {"shoe", "inertia", "[0.064, 0.020, 0.2]"}, {"belongs to no solid body"}}),
     [](const auto& tested) { return tested.param.name; });

@@ -127,8 +127,45 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   EXPECT_GT(s["contacts_a_step"]["grain_boundary"].get<double>(), 0) << "the bottom layer lies on the floor";
   EXPECT_GT(s["host_peak_bytes"].get<double>(), 1e6);
 
+  EXPECT_EQ(s["timed"], "standing");
+  EXPECT_TRUE(s["drive_start_s"].is_null() || s["drive_start_s"].get<double>() > 0.03);
+  EXPECT_NE(step.out.find("timed     the vehicle stands"), std::string::npos) << step.out;
+
   EXPECT_EQ(call("bench bed --grains 0").code, 2);
   EXPECT_EQ(call("bench step nosuch.toml").code, 2);
+}
+
+TEST_F(BenchCommands, StepSaysWhetherTheVehicleDrivesAndWaitsForIt) {
+  const auto timed = [&](const std::string& words) {
+    const Outcome o = call("bench step " GROUSER_SOURCE_DIR
+                           "/tests/scenes/rigid.toml --set vehicle.sphere_radius=0.03 --set driver.tension_ramp=0.02 "
+                           "--set driver.weight_ramp=0.02 --set driver.drive_ramp=0.02 --steps 5 --batches 1 --threads "
+                           "1 --device cpu --json step.json " +
+                           words);
+    EXPECT_EQ(o.code, 0) << words << o.errors;
+    return nlohmann::json::parse(contents(folder_ / "step.json"));
+  };
+  const auto expect = [&](const std::string& words, const std::string& word, double from) {
+    const nlohmann::json json = timed("--set driver.drive_start=0.05 " + words);
+    EXPECT_EQ(json["timed"], word) << words;
+    EXPECT_NEAR(json["timed_from_s"].get<double>(), from, 1e-9) << words;
+    EXPECT_EQ(json["drive_start_s"].get<double>(), 0.05);
+  };
+  // Batch and instrumented pass are ten steps of 1e-4 s.
+  expect("--after 0.01", "standing", 0.01), expect("--after 0.0495", "driving off", 0.0495);
+  expect("--after drive", "speeding up", 0.05), expect("--after drive+0.01", "speeding up", 0.06);
+  expect("", "driving", 0.07), expect("--after drive+0.02", "driving", 0.07), expect("--after 0.08", "driving", 0.08);
+  // A start that only the run knows, at a look at the vehicle (every 50 steps): 0.05 s at rest after the ramps.
+  const nlohmann::json waited = timed("--set driver.rest_speed=10 --set driver.rest_load=0.5 --after drive");
+  EXPECT_EQ(waited["timed"], "speeding up");
+  EXPECT_GE(waited["drive_start_s"].get<double>(), 0.09 - 1e-9);
+  EXPECT_EQ(waited["timed_from_s"], waited["drive_start_s"]);
+
+  const Outcome wrong = call("bench step x.toml --after driven");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.errors.find("driven is neither a time in seconds of at least 0, nor drive, nor such as drive+0.5"),
+            std::string::npos)
+      << wrong.errors;
 }
 
 } // namespace

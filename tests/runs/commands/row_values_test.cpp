@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <thread>
 
 namespace grouser::commands {
 
@@ -312,6 +313,9 @@ TEST_F(RowValues, ManifestHasTheRunsOwnFigures) {
   const double wall = json["wall_time_s"].get<double>(), steps = f["wall_steps_s"].get<double>();
   EXPECT_NEAR(f["microseconds_a_step"].get<double>(), 1e6 * steps / 300, 1e-6 * f["microseconds_a_step"].get<double>());
   EXPECT_GE(wall, steps + f["wall_preparation_s"].get<double>());
+  const double cpu = f["cpu_steps_s"].get<double>(), threads = std::thread::hardware_concurrency();
+  EXPECT_GT(cpu, 0);
+  EXPECT_LE(cpu, (steps + 0.02) * threads) << "clocks are read one after the other";
   for (const auto& [name, entry] : json["files"].items())
     EXPECT_EQ(entry["bytes"], std::filesystem::file_size(folder_ / "r" / name)) << name;
   EXPECT_TRUE(json["files"].contains("grains.csv"));

@@ -45,11 +45,23 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
       {{"road_wheel", "radius", "0.18"}, {"road_wheel.radius = 0.18", "road_wheel.obj", "190.0 mm"}},
       {{"roller", "radius", "0.07"}, {"roller.radius = 0.07", "roller.obj", "set roller.radius = 0.09"}},
       {{"shoe", "half_length", "0.06"}, {"shoe.half_length = 0.06", "68.0 mm", "set shoe.half_length = 0.068"}},
-      {{"shoe", "pad_half_width", "0.2"}, {"shoe.pad_half_width = 0.2", "175.0 mm"}},
+      {{"shoe", "pad_half_width", "0.2"},
+       {"shoe.pad_half_width = 0.2", "the pads reach to |y| = 140.0 mm", "set shoe.pad_half_width = 0.14"}},
       {{"shoe", "pad_bottom", "-0.06"}, {"shoe.pad_bottom = -0.06", "shoe.obj", "-55.0 mm", "= -0.04,"}},
       {{"shoe", "horn_height", "0.07"}, {"shoe.horn_height = 0.07", "60.0 mm"}},
       {{"shoe", "grouser_height", "0.03"}, {"shoe.grouser_height = 0.03", "15.0 mm"}},
       {{"sprocket", "mesh", "\"idler.obj\""}, {"sprocket.teeth = 10", "249.2 mm", "idler.obj"}},
+      {{"vehicle", "track_offset", "0.5"}, {"track_offset = 0.5 [m] puts the left shoe 0 into the hull chassis.obj"}},
+      {{"vehicle", "track_offset", "0.9"},
+       {"makes the hull chassis.obj and the left shoe 0 overlap by 35.0 mm", "set vehicle.track_offset = 0.94"}},
+      {{"chassis", "mass", "0.5"}, {"kg/m3, lighter than air; choose a mass in ["}},
+      {{"shoe", "mass", "900"}, {"shoe.obj", "kg/m3, heavier than any metal"}},
+      {{"shoe", "inertia", "[1e-9, 1e-9, 1e-9]"}, {"8.5 kg at 1.08e-05 m", "shoe.obj reaches to 0.199 m"}},
+      {{"road_wheel", "inertia", "[9, 9, 9]"}, {"25 kg at 0.6 m", "road_wheel.obj reaches to 0.22 m"}},
+      {{"arm", "length", "0.01"}, {"arm.inertia", "the arm reaches to 0.01 m"}},
+      {{"chassis", "centre", "[1.437, 0, 10]"}, {"9250 mm beyond the hull", "choose its z in [-1.15, 1.7]"}},
+      {{"shoe", "mesh", "\"nix.obj\""}, {"shoe.mesh = \"nix.obj\"", "no such mesh file"}},
+      {{"vehicle", "mesh_folder", "\"/nix\""}, {"chassis.mesh = \"chassis.obj\" in vehicle.mesh_folder", "/nix"}},
       {{"roller", "mesh", "\"sprocket.obj\""}, {"roller.radius", "sprocket.obj", "269.2 mm"}},
   };
   for (const Refused& r : all) {
@@ -65,6 +77,26 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
       EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
     }
   }
+}
+
+TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
+  test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
+  const test::Outcome up = call("plan scene.toml --set run.gravity=[0,0,9.81]");
+  EXPECT_EQ(up.code, 2);
+  EXPECT_NE(up.errors.find("--set: run.gravity = [0, 0, 9.81] [m/s2] does not pull the vehicle to the ground"),
+            std::string::npos)
+      << up.errors;
+  EXPECT_EQ(call("plan scene.toml --set run.gravity=[-1.7,0,-9.6]").code, 0) << "a slope";
+  EXPECT_EQ(call("plan scene.toml --set run.gravity=[0,0,0]").code, 0);
+}
+
+TEST_F(VehicleFaults, PlanSaysWhichMaterialsDoNothing) {
+  test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
+  EXPECT_NE(
+      call("plan scene.toml")
+          .out.find("note: material.ground acts on nothing here: between vehicle and rigid ground all contact data "
+                    "are the vehicle file's"),
+      std::string::npos);
 }
 
 struct Sound {

@@ -100,6 +100,10 @@ TEST(Scene, DriverFormsGiveTheSameSpeeds) {
   EXPECT_EQ(sides.right, std::vector<double>{-1});
   EXPECT_DOUBLE_EQ(parse(goodScene()).driver.driveBegins(), 0.45);
   EXPECT_EQ(parse(goodScene(), {"driver.drive_start=2"}).driver.driveBegins(), 2);
+  // 0.1 + 0.2 is above 0.3 in binary.
+  EXPECT_EQ(parse(goodScene(), {"driver.drive_start=0.3", "driver.tension_ramp=0.1", "driver.weight_ramp=0.2"})
+                .driver.driveBegins(),
+            0.3);
 }
 
 /// One mistake in a good scene, and what the message must hold: the place or key, and the remedy.
@@ -253,6 +257,11 @@ INSTANTIATE_TEST_SUITE_P(
                "position = [1.5, 0]",
                "position = [1.5, 3]",
                {"vehicle.position = [1.5, 3] [m] is outside the terrain", "y in [-2, 2]"}},
+        Broken{"DriveBeforeTheWeight",
+               "sprocket_speed = 1",
+               "sprocket_speed = 1\ndrive_start = 0.3",
+               {"scene.toml:27: driver.drive_start = 0.3 [s]", "is before tension and weight are on",
+                "driver.weight_ramp = 0.45 s", "set it to 0.45 or more"}},
         Broken{"OneSide", "sprocket_speed = 1", "left = 1", {"driver.left = 1", "without right", "give both"}},
         Broken{"SpeedsTwice",
                "sprocket_speed = 1",

@@ -6,6 +6,8 @@
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/time_scales.hpp"
 
+#include "tests/vehicle/spec_variant.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -198,7 +200,111 @@ TEST(TimeScales, SpringThatNeedsMillionsOfStepsIsNamedWithTheWayOut) {
   EXPECT_NE(note({"run.integrator=symplectic_euler"}).find("takes springs implicitly: run.time_step = 0.001"),
             std::string::npos);
   EXPECT_EQ(note({"spring.0.stiffness=1e3"}), "");
-  EXPECT_EQ(note({"run.time_step=1e-3"}), "") << "a step that is given";
+}
+
+TEST(TimeScales, StepThatDoesNotResolveASpringIsSaidAndNotRefused) {
+  // 6.28 us a swing.
+  const auto note = [](const std::vector<std::string>& more) {
+    const scene::Scene scene = parseScene(stiffSpring(), "scene.toml", more);
+    chooseTimeStep(scene);
+    return springStepNote(scene);
+  };
+  EXPECT_NE(
+      note({"run.time_step=1e-3"})
+          .find("spring 'rod' swings in 6.28e-06 s, 0.00628 steps of run.time_step = 0.001 s: implicit springs are "
+                "stable there, and show that swing too slow; for the swing itself choose 3.14e-07 s or less"),
+      std::string::npos)
+      << note({"run.time_step=1e-3"});
+  EXPECT_NE(note({"run.time_step=1e-3", "run.integrator=symplectic_euler"}).find("damps that swing"),
+            std::string::npos);
+  EXPECT_NE(note({"run.time_step=1e-6", "run.springs=explicit"}).find("show that swing too quick"), std::string::npos);
+  EXPECT_EQ(note({"run.time_step=3.14e-7"}), "");
+  EXPECT_NE(
+      errorOf(stiffSpring(), {"run.time_step=3e-6", "run.springs=explicit"})
+          .find("beyond the stability limit 2e-06 s of explicit springs, set by spring 'rod'; take a shorter step, "
+                "a softer spring, or run.springs = \"implicit\""),
+      std::string::npos);
+}
+
+/// A slider of 4 kg on a rail; `more` belongs to the joint.
+std::string slider(const std::string& more) {
+  return "version = 1\n[run]\nduration = 1\noutput_interval = 0.1\n[[body]]\nname = \"slider\"\nmass = 4\n"
+         "inertia = [1, 1, 1]\n[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nbodies = [\"world\", "
+         "\"slider\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n" +
+         more;
+}
+
+TEST(TimeScales, StepsThatPassThroughABounceAreRefusedWithTheNumber) {
+  // Half a swing of sqrt(4e8 / 4) = 1e4 rad/s: 314 us, of which a tenth.
+  const std::string scene = slider("limits = [-1, 1]\nstop_stiffness = 4e8\n");
+  const std::string error = errorOf(scene, {"run.time_step=1e-3"});
+  EXPECT_EQ(error.rfind("--set: run.time_step = 0.001 [s] is too long for the end stops of ", 0), 0u) << error;
+  EXPECT_NE(error.find("spring 'rail stops'"), std::string::npos) << error;
+  EXPECT_NE(error.find("lasts 0.0003142 s, which is 0.314 steps and not 10, half of run.steps_per_period; choose "
+                       "3.14e-05 s or less (\"auto\": 1.57e-05 s)"),
+            std::string::npos)
+      << error;
+  EXPECT_EQ(errorOf(scene, {"run.time_step=3.141e-5"}), "no error");
+  EXPECT_NE(errorOf(scene, {"run.time_step=3.15e-5"}), "no error");
+  EXPECT_EQ(errorOf(scene, {"run.time_step=1e-4", "run.steps_per_period=6"}), "no error");
+  EXPECT_NE(errorOf(scene, {"run.time_step=1e-3", "run.integrator=symplectic_euler"}), "no error");
+  EXPECT_EQ(errorOf(scene, {"run.tolerance=1e-6"}), "no error");
+  EXPECT_EQ(errorOf(slider(""), {"run.time_step=1e-3"}), "no error");
+}
+
+TEST(TimeScales, StepsThatTurnABrakedVelocityRoundAreRefusedWithTheNumber) {
+  // 4 kg on 4e4 N s/m: dies away in 100 us.
+  const std::string scene = slider("damping = 4e4\n");
+  const std::string error = errorOf(scene, {"run.time_step=1e-3"});
+  EXPECT_EQ(error.rfind("--set: run.time_step = 0.001 [s] is too long for the damper of ", 0), 0u) << error;
+  EXPECT_NE(error.find("dies away in 0.0001 s, and with rattle it would change its direction in every step beyond "),
+            std::string::npos)
+      << error;
+  EXPECT_EQ(errorOf(scene, {"run.time_step=1.999e-4"}), "no error");
+  EXPECT_NE(errorOf(scene, {"run.time_step=2.01e-4"}), "no error");
+  EXPECT_EQ(errorOf(scene, {"run.time_step=1e-3", "run.integrator=symplectic_euler"}), "no error");
+  EXPECT_NEAR(stepOf(scene), 1e-4, 2e-7) << "a whole share of a row of 0.1 s";
+  EXPECT_NEAR(stepOf(scene, {"run.integrator=symplectic_euler"}), 1e-3, 1e-9);
+  EXPECT_NE(springStepNote(parseScene(slider("damping = 4e9\n"), "scene.toml"))
+                .find("dies away in 1e-09 s; run.integrator = \"symplectic_euler\" takes dampers implicitly, and is "
+                      "stable at run.time_step = 0.001"),
+            std::string::npos)
+      << springStepNote(parseScene(slider("damping = 4e9\n"), "scene.toml"));
+}
+
+TEST(TimeScales, SwingsOfAVehiclesSpringsAndStopsAreJudgedAtTheirKeys) {
+  const auto scene = [](const test::SpecVariant& variant) {
+    return "version = 1\n[run]\nduration = 3\n[material.soil]\n[terrain]\nmaterial = \"soil\"\nheightmap = "
+           "\"heightmaps/hills.png\"\nsize = [6, 4]\nheight_range = [0, 0.3]\nkind = \"rigid\"\n[vehicle]\n"
+           "spec = \"" +
+           variant.path() + "\"\n";
+  };
+  struct Stiff {
+    std::vector<test::KeyChange> changes;
+    const char* words;
+    double period;
+  };
+  // About the pivot 0.1 + 15 x 0.125^2 + 25 x 0.25^2 = 1.896875 kg m2; carrier and idler 28 kg.
+  const Stiff all[] = {
+      {{{"arm", "stiffness", "1e8"}}, "arm.stiffness = 100000000 [N m/rad] is under-resolved", 8.653648e-4},
+      {{{"idler", "stiffness", "1e9"}, {"idler", "stop_stiffness", "1e9"}},
+       "idler.stiffness = 1000000000 [N/m] is under-resolved",
+       1.051378e-3},
+      {{{"idler", "stop_stiffness", "1e10"}},
+       "idler.stop_stiffness = 10000000000 [N/m] is under-resolved",
+       3.324749e-4},
+  };
+  for (const Stiff& stiff : all) {
+    const test::SpecVariant variant(stiff.changes);
+    const std::string error = errorOf(scene(variant), {"run.time_step=1e-4"});
+    EXPECT_TRUE(std::regex_search(error, std::regex("\\.toml:[0-9]+: "))) << error;
+    EXPECT_NE(error.find(stiff.words), std::string::npos) << error;
+    EXPECT_NE(error.find("in a swing of "), std::string::npos) << error;
+    EXPECT_NEAR(stepAskedFor(error), stiff.period / 20, 1e-3 * stiff.period / 20) << error;
+    EXPECT_NEAR(stepOf(scene(variant)), stiff.period / 20, 1e-5 * stiff.period) << "auto";
+    EXPECT_EQ(errorOf(scene(variant), {"run.time_step=1e-4", "run.steps_per_period=2"}), "no error");
+  }
+  EXPECT_EQ(errorOf(scene(test::SpecVariant({})), {"run.time_step=1.5e-4"}), "no error");
 }
 
 TEST(TimeScales, AutomaticStepTakesTwentyStepsForABounceOffAStop) {

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/part_masses.hpp"
+
+#include "base/rounded.hpp"
+#include "spheredecomp/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <string>
+
+namespace grouser::vehicle {
+namespace {
+
+using base::roundedDown;
+using base::roundedUp;
+
+/// A hull is mostly air, a shoe may be of steel: what lies between air and the heaviest of metals [kg/m3].
+constexpr double kLeastDensity = 1, kMostDensity = 25e3;
+/// Radius of gyration over how far a part reaches from its centre of mass [-]. A solid has less than 1; what is drawn
+/// simpler than it is may have more.
+constexpr double kLeastGyration = 0.01, kMostGyration = 2;
+
+std::optional<SpecFault> densityFault(const char* section, double mass, const std::string& mesh, double volume) {
+  const double density = mass / volume;
+  if (density >= kLeastDensity && density <= kMostDensity) return {};
+  return SpecFault{section, "mass",
+                   fmt::format("[kg] in the {:.3g} m3 of {} is a density of {:.3g} kg/m3, {}; choose a mass in "
+                               "[{}, {}] kg, or give a mesh of the right size (it is read in metres)",
+                               volume, mesh, density,
+                               density < kLeastDensity ? "lighter than air" : "heavier than any metal",
+                               roundedUp(kLeastDensity * volume, 3), roundedDown(kMostDensity * volume, 3))};
+}
+
+/// `reach`: how far the part goes from its centre of mass [m].
+std::optional<SpecFault> inertiaFault(const char* section, const char* key, double mass, const Vec3d& inertia,
+                                      double reach, const char* what) {
+  const double largest = std::max({inertia.x, inertia.y, inertia.z}), gyration = std::sqrt(largest / mass);
+  if (gyration >= kLeastGyration * reach && gyration <= kMostGyration * reach) return {};
+  return SpecFault{
+      section, key,
+      fmt::format("[kg m2] is that of {:g} kg at {:.3g} m from the centre of mass, but {} reaches to {:.3g} "
+                  "m from it; choose moments of which the largest is in [{}, {}]",
+                  mass, gyration, what, reach, roundedUp(kLeastGyration * kLeastGyration * reach * reach * mass, 3),
+                  roundedDown(kMostGyration * kMostGyration * reach * reach * mass, 3))};
+}
+
+std::optional<SpecFault> surfaceFault(const char* section, const SurfaceSpec& part, const base::TriangleMesh& mesh,
+                                      const Vec3d& centre = {}) {
+  if (auto fault = densityFault(section, part.mass, part.mesh, spheredecomp::signedVolume(mesh))) return fault;
+  double reach = 0;
+  for (const Vec3d& v : mesh.vertices) reach = std::max(reach, norm(v - centre));
+  return inertiaFault(section, "inertia", part.mass, part.inertia, reach, part.mesh.c_str());
+}
+
+/// The hull's weight may ride beside and above what is drawn of it, but not far.
+std::optional<SpecFault> centreFault(const VehicleSpec& s, const base::TriangleMesh& mesh) {
+  const auto [low, high] = spheredecomp::bounds(mesh);
+  const Vec3d c = s.chassis.centre, size = high - low;
+  const char* axes = "xyz";
+  for (int a = 0; a < 3; ++a) {
+    const double at = a == 0   ? c.x
+                      : a == 1 ? c.y
+                               : c.z,
+                 from = a == 0   ? low.x
+                        : a == 1 ? low.y
+                                 : low.z,
+                 to = a == 0   ? high.x
+                      : a == 1 ? high.y
+                               : high.z,
+                 beyond = a == 0   ? size.x
+                          : a == 1 ? size.y
+                                   : size.z;
+    if (at >= from - beyond && at <= to + beyond) continue;
+    return SpecFault{"chassis", "centre",
+                     fmt::format("[m] lies {:.0f} mm {} the hull {}, further than it is {}; choose its {} in [{:.3g}, "
+                                 "{:.3g}]",
+                                 1e3 * (at > to ? at - to : from - at), at > to ? "beyond" : "before", s.chassis.mesh,
+                                 a == 0   ? "long"
+                                 : a == 1 ? "wide"
+                                          : "high",
+                                 axes[a], from - beyond, to + beyond)};
+  }
+  return {};
+}
+
+} // namespace
+
+std::optional<SpecFault> massFault(const VehicleSpec& s, const PartMeshes& meshes) {
+  if (auto fault = centreFault(s, meshes.chassis)) return fault;
+  if (auto fault = surfaceFault("chassis", s.chassis, meshes.chassis, s.chassis.centre)) return fault;
+  if (auto fault = surfaceFault("shoe", s.shoe, meshes.shoe)) return fault;
+  if (auto fault = surfaceFault("sprocket", s.sprocket, meshes.sprocket)) return fault;
+  if (auto fault = surfaceFault("road_wheel", s.roadWheel, meshes.roadWheel)) return fault;
+  if (auto fault = surfaceFault("roller", s.roller, meshes.roller)) return fault;
+  if (auto fault = surfaceFault("idler", s.idler, meshes.idler)) return fault;
+  if (auto fault = inertiaFault("arm", "inertia", s.arm.mass, s.arm.inertia, s.arm.length, "the arm")) return fault;
+  return inertiaFault("idler", "carrier_inertia", s.idler.carrierMass, s.idler.carrierInertia, s.idler.radius,
+                      "the idler on it");
+}
+
+} // namespace grouser::vehicle
