@@ -144,23 +144,45 @@ Ledger Simulation::ledger() {
   return l;
 }
 
+/// The grain that has stopped the run, and what it touches: vehicle and meshes too.
+PressedGrain Simulation::pressed(std::uint32_t grain) {
+  PressedGrain pressed = pressedGrain(
+      *ground_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
+  std::vector<std::pair<std::string, double>> parts;
+  if (vehicle_) parts = vehicle_->contacts().pressing(grain);
+  if (surfaces_) parts = surfaces_->meshesPressing(grain);
+  for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}});
+  return pressed;
+}
+
+/// Hertz contacts of faster impacts are stiffer than the step was chosen for.
+std::string Simulation::impactNote(const Ledger& now) const {
+  if (!ground_.grains || !setup_.ground.grains->impactSpeed) return {};
+  const double chosen = *setup_.ground.grains->impactSpeed;
+  if (now.fastestGrain <= chosen) return {};
+  return fmt::format(
+      " (grains move at up to {:.3g} m/s, hertz contacts were taken at run.impact_speed = {:g} m/s: raise it "
+      "to what they meet at)",
+      now.fastestGrain, chosen);
+}
+
 std::string Simulation::causeOf(const terrain::GrainFault& fault) {
   using terrain::Fault;
   if (fault.fault != Fault::overlap && fault.fault != Fault::speed) return {};
-  if (const std::string verdict = energyVerdict(ledger()); !verdict.empty())
-    return verdict +
-           fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step", timeStep());
-  if (fault.fault == Fault::speed) return {};
-  std::string parts;
-  if (vehicle_)
-    for (const std::string& part : vehicle_->contacts().pressing(fault.id)) parts += (parts.empty() ? "" : ", ") + part;
-  if (!parts.empty())
-    return fmt::format(
-        "it is pinched, pressed by {}; the step is not to blame: use stiffer grains (material stiffness), "
-        "larger ones, or raise run.max_overlap",
-        parts);
-  return "the energies balance, so the step is not to blame: what presses it, or its speed, is too much for contacts "
-         "so soft; use stiffer ones (material stiffness), or raise run.max_overlap";
+  const Ledger now = ledger();
+  if (const std::string verdict = energyVerdict(now); !verdict.empty())
+    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step{}",
+                                 timeStep(), impactNote(now));
+  const PressedGrain grain = pressed(fault.id);
+  if (fault.fault == Fault::speed)
+    return grain.fallsFreely(setup_.gravity)
+               ? "it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before"
+               : "";
+  const std::string by = grain.sentence();
+  return fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
+                     "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or raise "
+                     "run.max_overlap",
+                     by.empty() ? by : by + "; ", norm(grain.velocity));
 }
 
 /// Ledger and guard, after each step.
@@ -187,7 +209,7 @@ std::string Simulation::energyVerdict(const Ledger& now) const {
 void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
-  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
+  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
