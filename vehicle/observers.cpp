@@ -103,7 +103,8 @@ void Observer::update(const multibody::State& state, double dt) {
 
 std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
   // A track that hangs free, or whose load is not known, may sag off its wheels.
-  const double allowed = vehicle_->spec.shoe.hornHeight + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
+  const double allowed =
+      vehicle_->spec.shoe.hornHeight + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
     if (const std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
     if (!(std::fabs(travel_[i].skipped()) <= kSkip))

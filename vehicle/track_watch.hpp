@@ -10,8 +10,8 @@ namespace grouser::vehicle {
 
 /// The shoe that is farthest from its track's plane.
 struct SidewaysShoe {
-  int shoe{};      ///< of the track, in the order of the wrap
-  double shift{};  ///< of its middle [m]; NaN where a pose is no number
+  int shoe{};     ///< of the track, in the order of the wrap
+  double shift{}; ///< of its middle [m]; NaN where a pose is no number
 };
 SidewaysShoe mostSideways(const Assembly& vehicle, int track, const multibody::State& state);
 

@@ -9,21 +9,28 @@
 
 namespace grouser::simulation {
 
+EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
+  Exchange x;
+  const double taken = now.dissipated.total() - last_.dissipated;
+  x.lost = now.integrationError - last_.error;
+  x.given = std::min(-taken, -taken - x.lost);
+  x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
+  x.neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
+                  kSpringShare * std::fabs(now.elastic - last_.elastic);
+  return x;
+}
+
 std::string EnergyGuard::judge(const Ledger& now, double held) const {
-  const double lost = now.integrationError - last_.error, taken = now.dissipated.total() - last_.dissipated;
-  const double moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
-  const double quiet = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
-                       kSpringShare * std::fabs(now.elastic - last_.elastic);
-  if (!std::isfinite(lost) || !std::isfinite(moved)) return "the energies are no numbers any more";
-  const auto since = [&](const char* what, double energy) {
+  const Exchange x = since(now, held);
+  if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are no numbers any more";
+  const auto found = [&](const char* what, double energy) {
     return fmt::format("{} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were exchanged", what,
-                       energy, kInterval, moved);
+                       energy, kInterval, x.moved);
   };
-  if (lost > kMostLost * moved + quiet) return since("the steps have lost", lost);
-  if (-lost > kMostMade * moved + quiet) return since("the steps have made", -lost);
-  // Where dampers give what the steps lose, nothing is made.
-  const double given = std::min(-taken, -taken - lost);
-  if (given > kMostGiven * moved + quiet) return since("steps too long for dampers have let these make", given);
+  if (x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
+  if (-x.lost > kMostMade * x.moved + x.neverAlarms) return found("the steps have made", -x.lost);
+  if (x.given > kMostGiven * x.moved + x.neverAlarms)
+    return found("steps too long for dampers have let these make", x.given);
   return {};
 }
 

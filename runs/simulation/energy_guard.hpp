@@ -34,7 +34,18 @@ public:
   /// Share of the energy that bodies and contacts hold that is rounding [-].
   static constexpr double kRounding = 1e-6;
 
-  /// What is wrong since the last look, in words; empty where nothing is. `held`: energy of bodies and contacts [J].
+  /// Energies since the last look [J].
+  struct Exchange {
+    double moved{};       ///< work on bodies, dissipation and work of drives, without signs
+    double lost{};        ///< by the steps; negative: made
+    double given{};       ///< by dampers and not lost by the steps; negative where they take
+    double neverAlarms{}; ///< rounding, what is small beside the whole run, and what springs hide
+    /// Of what was exchanged, what counts of `energy` [-].
+    double share(double energy) const { return moved > 0 && energy > neverAlarms ? (energy - neverAlarms) / moved : 0; }
+  };
+  /// `held`: energy of bodies and contacts [J].
+  Exchange since(const Ledger& now, double held) const;
+  /// What is wrong since the last look, in words; empty where nothing is.
   std::string judge(const Ledger& now, double held) const;
   /// Remembers `now` for the next judgement.
   void look(const Ledger& now);

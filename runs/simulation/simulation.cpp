@@ -69,7 +69,7 @@ void Simulation::step(StepObserver* observer) {
   done(Stage::grainStepEnded);
   ++steps_;
   addGrains();
-  if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+  if (vehicle_ && steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
   afterStep();
   done(Stage::checks);
 }

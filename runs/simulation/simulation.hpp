@@ -72,7 +72,6 @@ public:
   std::string stateHash() const;
 
 private:
-  static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();
   void afterStep();
