@@ -13,7 +13,9 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   Exchange x;
   const double taken = now.dissipated.total() - last_.dissipated;
   x.lost = now.integrationError - last_.error;
+  x.gained = std::min(-x.lost, -x.lost - taken);
   x.given = std::min(-taken, -taken - x.lost);
+  x.rubbed = now.dissipated.friction - last_.rubbed;
   x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
   x.neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
                   kSpringShare * std::fabs(now.elastic - last_.elastic);
@@ -28,20 +30,28 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
                        energy, kInterval, x.moved);
   };
   if (x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
-  if (-x.lost > kMostMade * x.moved + x.neverAlarms) return found("the steps have made", -x.lost);
+  if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMostChurned * x.moved + x.neverAlarms)
+    return found("the steps have made", -x.lost);
   if (x.given > kMostGiven * x.moved + x.neverAlarms)
-    return found("steps too long for dampers have let these make", x.given);
+    return slidingGives(now, held) ? found("sliding contacts have made", x.given)
+                                   : found("steps too long for dampers have let these make", x.given);
   return {};
 }
 
+bool EnergyGuard::slidingGives(const Ledger& now, double held) const {
+  const Exchange x = since(now, held);
+  return x.given > kMostGiven * x.moved + x.neverAlarms && -x.rubbed > 0.5 * x.given;
+}
+
 void EnergyGuard::look(const Ledger& now) {
-  last_ = {now.integrationError, now.turnover, now.dissipated.total(), now.driveWork, now.elastic};
+  last_ = {now.integrationError, now.turnover, now.dissipated.total(),
+           now.driveWork,        now.elastic,  now.dissipated.friction};
 }
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
-  if (saved.size() != 5)
+  if (saved.size() != 6)
     throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
-  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4]};
+  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
 }
 
 } // namespace grouser::simulation

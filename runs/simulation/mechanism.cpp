@@ -22,6 +22,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
 constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
+/// Steps that a bounce off an end stop wants, as "auto" gives them [-].
+constexpr double kBounceSteps = 20;
+
 /// Turns of a step are typed with some digits [-].
 constexpr double kTurnDigits = 1e-6;
 
@@ -127,6 +130,15 @@ double Mechanism::checkTension() {
 const std::string& Mechanism::tensionStepWarning() {
   if (tensionStepWarning_.empty()) checkTension();
   return tensionStepWarning_;
+}
+
+std::string Mechanism::bounceNote() {
+  std::string stop;
+  const double rate = controller_ ? 0 : solver_.stopRate(state_, loads_, &stop);
+  const double steps = rate > 0 ? base::kPi / (rate * timeStep_) : kBounceSteps;
+  if (steps >= kBounceSteps) return {};
+  return fmt::format("a bounce off {} lasts {:.2g} s, {:.2g} steps of it where {:g} are wanted", stop, base::kPi / rate,
+                     steps, kBounceSteps);
 }
 
 Mechanism::DriveReading Mechanism::drive(int index) const {

@@ -70,6 +70,8 @@ public:
   /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs
   /// first needed a shorter step, and which; empty: never, nor now.
   const std::string& tensionStepWarning();
+  /// End stops off which a bounce has too few steps, in words; empty: none, or steps follow an error.
+  std::string bounceNote();
 
   /// How well the joints are closed.
   struct Drift {

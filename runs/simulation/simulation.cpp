@@ -11,6 +11,14 @@
 
 namespace grouser::simulation {
 
+namespace {
+
+/// Of which no step is short enough.
+const char* const kSlidingGives = "their springs take over the force of tangential dashpots, however short the step: "
+                                  "lower tangential_damping_ratio, or raise restitution";
+
+} // namespace
+
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds)
     : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)) {
@@ -171,8 +179,11 @@ std::string Simulation::causeOf(const terrain::GrainFault& fault) {
   if (fault.fault != Fault::overlap && fault.fault != Fault::speed) return {};
   const Ledger now = ledger();
   if (const std::string verdict = energyVerdict(now); !verdict.empty())
-    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step{}",
-                                 timeStep(), impactNote(now));
+    return verdict + (guard_.slidingGives(now, energyHeld(now))
+                          ? std::string("; ") + kSlidingGives
+                          : fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller "
+                                        "time_step{}",
+                                        timeStep(), impactNote(now)));
   const PressedGrain grain = pressed(fault.id);
   if (fault.fault == Fault::speed)
     return grain.fallsFreely(setup_.gravity)
@@ -201,16 +212,20 @@ double Simulation::partsElastic() const {
 
 void Simulation::checkEnergy() { checkEnergy(ledger()); }
 
-std::string Simulation::energyVerdict(const Ledger& now) const {
-  const double held = std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
-  return guard_.judge(now, held);
+double Simulation::energyHeld(const Ledger& now) const {
+  return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
 }
+
+std::string Simulation::energyVerdict(const Ledger& now) const { return guard_.judge(now, energyHeld(now)); }
 
 void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
+  if (guard_.slidingGives(now, energyHeld(now))) remedy = kSlidingGives;
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (mechanism_)
+    if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }

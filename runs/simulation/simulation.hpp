@@ -79,6 +79,7 @@ private:
   Ledger wholeLedger();
   double partsElastic() const;
   std::string energyVerdict(const Ledger& now) const;
+  double energyHeld(const Ledger& now) const;
   void checkEnergy(const Ledger& now);
   template <class Advance> void namingCause(const Advance& advance);
   std::string causeOf(const terrain::GrainFault& fault);

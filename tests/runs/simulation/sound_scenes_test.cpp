@@ -28,7 +28,7 @@ std::ostream& operator<<(std::ostream& out, const Sound& s) { return out << s.na
 
 /// Largest shares of the energy exchanged between two looks that steps have made or lost, beyond what never alarms.
 struct Shares {
-  double made = 0, lost = 0, given = 0;
+  double made = 0, gained = 0, lost = 0;
 };
 
 scene::Scene sceneOf(const Sound& sound, const std::vector<std::string>& sets = {}) {
@@ -62,7 +62,7 @@ std::string driven(const Sound& sound, double step, std::int64_t row, int thread
       const EnergyGuard::Exchange x = watch.since(now, kinetic + std::fabs(now.kinetic) + std::fabs(now.elastic));
       shares->made = std::max(shares->made, x.share(-x.lost));
       shares->lost = std::max(shares->lost, x.share(x.lost));
-      shares->given = std::max(shares->given, x.share(x.given));
+      shares->gained = std::max(shares->gained, x.share(x.gained));
       watch.look(now);
     }
     simulation.checkEnergy();
@@ -79,17 +79,17 @@ class SoundScenes : public ::testing::TestWithParam<Sound> {
 protected:
   /// What docs/ledger.md says of all of them.
   static void TearDownTestSuite() {
-    std::cout << fmt::format("sound scenes: steps have made up to {:.1f} % ({}), lost up to {:.1f} % ({}), dampers "
-                             "given up to {:.1f} % of what was exchanged between two looks\n",
-                             100 * worst_.made, maker_, 100 * worst_.lost, loser_, 100 * worst_.given);
+    std::cout << fmt::format("sound scenes: of what was exchanged between two looks the steps have made up to {:.1f} % "
+                             "({}), {:.1f} % that was not dissipated at once ({}), lost up to {:.1f} % ({})\n",
+                             100 * worst_.made, maker_, 100 * worst_.gained, gainer_, 100 * worst_.lost, loser_);
   }
   static void note(const Shares& s, const std::string& name) {
     if (s.made > worst_.made) worst_.made = s.made, maker_ = name;
     if (s.lost > worst_.lost) worst_.lost = s.lost, loser_ = name;
-    worst_.given = std::max(worst_.given, s.given);
+    if (s.gained > worst_.gained) worst_.gained = s.gained, gainer_ = name;
   }
   inline static Shares worst_;
-  inline static std::string maker_, loser_;
+  inline static std::string maker_, gainer_, loser_;
 };
 
 TEST_P(SoundScenes, RaiseNoAlarmAndHaveOneAnswer) {
