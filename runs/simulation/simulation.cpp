@@ -13,9 +13,10 @@ namespace grouser::simulation {
 
 namespace {
 
-/// Of which no step is short enough.
-const char* const kSlidingGives = "their springs take over the force of tangential dashpots, however short the step: "
-                                  "lower tangential_damping_ratio, or raise restitution";
+/// Below the limit of stability no step is short enough for that.
+const char* const kSlidingGives = "their springs take over the force of tangential dashpots: lower "
+                                  "tangential_damping_ratio or raise restitution; a smaller time_step helps only above "
+                                  "the limit of stability";
 
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Unsound scenes stop, before the run or in it, and the message names the true cause.
 #include "tests/runs/program_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
 #include "tests/runs/simulation/guard_scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -38,6 +39,16 @@ TEST_P(UnsoundScenes, StopWithTheTrueCause) {
 
 const auto kName = [](const auto& tested) { return std::string(tested.param.name); };
 const std::string kStiffSpeed = "time_step = 5e-5\n";
+
+/// The shipped vehicle on rigid, level ground, in the middle of 20 m; `driver` has its ramps.
+std::string vehicle(const std::string& driver, const std::string& more = "", const std::string& mount = "") {
+  return run(0.4, "time_step = 1e-4\n" + more) + soil(0.5, 0.5, "", "1e7") +
+         "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [20, 20]\nheight_range = [0, 0]\nkind = \"rigid\"\n"
+         "material = \"soil\"\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n"
+         "position = [8, 0]\n" +
+         mount + "[driver]\n" + driver;
+}
+const std::string kQuickStart = "tension_ramp = 0.03\nweight_ramp = 0.05\ndrive_start = 0.1\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Refused, UnsoundScenes,
@@ -173,6 +184,34 @@ INSTANTIATE_TEST_SUITE_P(
             run(3) + soil(0.5, 0.5) + floor() + grain("[0, 0, 0.005]") +
                 box("[0, 0, 0.1]", "[0.05, 0.05, 0.01]", "name = \"lid\"\nfree = \"z\"\nmass = 0.01\nload = 1000\n"),
             {"lid, which forces move, goes at", "lower its load, raise its mass"}}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Vehicles, UnsoundScenes,
+    ::testing::Values(
+        Unsound{"StepAboveThatOfShoes",
+                2,
+                replaced(vehicle(kQuickStart + "sprocket_speed = 2\n"), "1e-4", "3e-4"),
+                {"run.time_step", "shoe on rigid ground or wheel"}},
+        Unsound{"WheelsTurnTooFar",
+                2,
+                vehicle(kQuickStart + "sprocket_speed = 20\n", "steps_per_period = 2000\n"),
+                {"driver.tension_ramp"}},
+        Unsound{
+            "SprocketTurnsTooFar",
+            2,
+            vehicle("tension_ramp = 0\nweight_ramp = 0\ndrive_start = 0\ndrive_ramp = 0\nsprocket_speed = 20\n",
+                    "steps_per_period = 2000\n"),
+            {"driver.sprocket_speed = 20 [rad/s] is under-resolved", "in a turn of the smallest wheel of 0.1153 s"}},
+        Unsound{
+            "PartsTurnTooFarInTheRun",
+            3,
+            vehicle("tension_ramp = 0\nweight_ramp = 0\ndrive_start = 0\ndrive_ramp = 0\n", "steps_per_period = 1e5\n"),
+            {"step 50,", "turns by", "above the 6.283e-05 rad of run.steps_per_period = 100000 steps a turn"}},
+        Unsound{"TeethThatSkip",
+                3,
+                vehicle(kQuickStart + "sprocket_speed = 100\ndrive_ramp = 0.05\n"),
+                {"left track skips: 2.", "tighten the track (idler.preload of the vehicle file, 9200 N)"}}),
     kName);
 
 INSTANTIATE_TEST_SUITE_P(
