@@ -152,11 +152,12 @@ INSTANTIATE_TEST_SUITE_P(
                   grains({60, 0.028, -0.03, 0.04, "0.004", "radius_to = 0.005\n"})},
         Sound{"Shaker", run(0.3) + soil(0.5, 0.5, "", "1e4") + floor("amplitude = [0, 0, 0.003]\nfrequency = 20\n") +
                             walls(0.03) + grains({40, 0.03, 0.01, 0.08})},
-        Sound{"Lid", heap(0.2, soil(0.5, 0.5)) + box("[0, 0, 0.085]", "[0.058, 0.058, 0.01]",
-                                                     "free = \"z\"\nmass = 0.2\nload = -20\nload_ramp = 0.1\n")},
-        Sound{"Shear", run(0.2, kShearing) + soil(0.5, 0.5) + floor() +
-                           plane("[0, 0, 0.075]", "[0, 0, -1]",
-                                 "free = \"z\"\nmass = 0.3\nload = -10\nvelocity = [0.5, 0, 0]\n") +
+        Sound{"Lid",
+              heap(0.15, soil(0.5, 0.5, "", "1e5")) + box("[0, 0, 0.08]", "[0.058, 0.058, 0.01]",
+                                                          "free = \"z\"\nmass = 0.05\nload = -2\nload_ramp = 0.1\n")},
+        Sound{"Shear", run(0.15, kShearing) + soil(0.5, 0.5, "", "1e5") + floor() +
+                           plane("[0, 0, 0.072]", "[0, 0, -1]",
+                                 "free = \"z\"\nmass = 0.05\nload = -2\nvelocity = [0.5, 0, 0]\n") +
                            grains({60})},
         Sound{"Mixer", run(0.2) + soil(0.5, 0.5) + floor() + walls(0.04) +
                            box("[0, 0, 0.01]", "[0.06, 0.006, 0.018]", "spin = [0, 0, 8]\n") +
