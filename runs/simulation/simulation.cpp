@@ -190,7 +190,7 @@ void Simulation::checkEnergy(const Ledger& now) {
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
-  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
+  throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 
 } // namespace grouser::simulation
