@@ -33,8 +33,12 @@ template <class F> double ratioFor(double restitution, const F& restitutionAt, d
   return 0.5 * (low + high);
 }
 
-/// One clamped Hertz impact at unit speed, in units where x'' = -x^(3/2) - c x^(1/4) x'.
-double clampedHertzRestitution(double beta) {
+struct UnitImpact {
+  double restitution, deepest;
+};
+
+/// One clamped Hertz impact at unit speed, in units where x'' = -x^(3/2) - c x^(1/4) x'; or only its way in.
+UnitImpact clampedHertzImpact(double beta, bool wayInOnly) {
   const double c = 2 * beta * std::sqrt(1.5);
   const auto acceleration = [c](double x, double v) {
     const double root = std::sqrt(x > 0 ? x : 0);
@@ -42,7 +46,7 @@ double clampedHertzRestitution(double beta) {
     return force > 0 ? -force : 0.0;
   };
   constexpr double kStep = 3.2 / 4000;
-  double x = 0, v = 1;
+  double x = 0, v = 1, deepest = 0;
   for (int i = 0; i < 1000000; ++i) {
     // Runge and Kutta, order 4.
     const double h = kStep;
@@ -52,10 +56,13 @@ double clampedHertzRestitution(double beta) {
     const double a4 = acceleration(x + h * v3, v4);
     x += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
     v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    if (v < 0 && (x <= 0 || acceleration(x, v) == 0)) return -v;
+    if (x > deepest) deepest = x;
+    if (v < 0 && (wayInOnly || x <= 0 || acceleration(x, v) == 0)) return {-v, deepest};
   }
-  return 0; // creeps back: c is huge
+  return {0, deepest}; // creeps back: c is huge
 }
+
+double clampedHertzRestitution(double beta) { return clampedHertzImpact(beta, false).restitution; }
 
 } // namespace
 
@@ -103,6 +110,11 @@ HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double 
   const double deepest =
       base::pow(15 * effectiveMass * speed * speed / (16 * effectiveModulus * std::sqrt(effectiveRadius)), 0.4);
   return {deepest, 2.9432751844 * deepest / speed};
+}
+
+double hertzDepthShare(double beta) {
+  // Elastic: v^2 / 2 = (2/5) x^(5/2) at the deepest.
+  return beta <= 0 ? 1 : clampedHertzImpact(beta, true).deepest / base::pow(1.25, 0.4);
 }
 
 double rayleighTime(double radius, double density, double shearModulus, double poisson) {

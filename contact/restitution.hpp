@@ -41,6 +41,10 @@ struct HertzImpact {
 };
 HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double effectiveMass, double speed);
 
+/// How deep an impact with the Hertz dashpot `beta` gets, over an elastic one of the same speed [-]; at any speed.
+/// Integrated to 1e-6.
+double hertzDepthShare(double beta);
+
 /// Time a Rayleigh wave takes along half the surface of a sphere [s].
 double rayleighTime(double radius, double density, double shearModulus, double poisson);
 

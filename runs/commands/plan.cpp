@@ -147,11 +147,11 @@ std::string planText(const scene::Scene& scene) {
   text += pairsText(scene);
   text += "\ntime\n";
   const double contact = setup::shortestContact(scene);
-  const double resolved = contact / setup::kStepsPerContact;
+  const double resolved = contact / scene.run.stepsPerContact;
   if (contact > 0) {
     text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
     text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved,
-                        setup::kStepsPerContact);
+                        scene.run.stepsPerContact);
   }
   const double steps = std::round(scene.run.duration / step);
   if (scene.run.tolerance) {
@@ -166,6 +166,10 @@ std::string planText(const scene::Scene& scene) {
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));
+  if (const double calm = setup::stepLimit(scene).calm; grains && scene.mechanism.empty() && step > calm)
+    text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
+                        "(docs/step_limits.md)\n",
+                        base::roundedDown(calm, 4));
   for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
   if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())

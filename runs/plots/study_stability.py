@@ -2,7 +2,7 @@
 """Plot of the study of stable steps: study_stability.py STABILITY.csv LIMITS.csv FILE.png
 
 A panel a case: damping ratio to the right, step in units of 1 / sqrt(k / m) upwards; each cell stable (blue) or unstable (red),
-with the predicted limit and that of a run's own check drawn on top.
+with the predicted limit and the bound of calm that the automatic step keeps to drawn on top.
 """
 import drawing
 
@@ -25,8 +25,8 @@ def draw(*paths):
         of = [r for r in limits if r["case"] == name]
         zeta = [float(r["zeta [-]"]) for r in of]
         axis.plot(zeta, [float(r["predicted limit [1/sqrt(k/m)]"]) for r in of], color="black", label="predicted limit")
-        axis.plot(zeta, [float(r["a run's check [1/sqrt(k/m)]"]) for r in of], color="black", linestyle="--",
-                  label="a run refuses beyond")
+        axis.plot(zeta, [float(r["calm [1/sqrt(k/m)]"]) for r in of], color="black", linestyle="--",
+                  label="bound of calm")
         axis.set_title(name, fontsize=9)
         axis.set_ylim(0, 2.4)
         axis.tick_params(labelsize=7)

@@ -30,11 +30,15 @@ struct Fraction {
   constexpr double value() const { return static_cast<double>(numerator) / denominator; }
 };
 
+/// Steps of the shortest contact; what they buy measures `grouser study impact`.
+inline constexpr double kStepsPerContact = 20, kFewestStepsPerContact = 6;
+
 /// [run]
 struct RunSettings {
   double duration = 0;             ///< [s] after the bed has settled
   std::optional<double> timeStep;  ///< [s]; empty: chosen by setup::chooseTimeStep()
   std::optional<double> tolerance; ///< [m/s, rad/s] of error-controlled steps of a mechanism; empty: fixed steps
+  double stepsPerContact = kStepsPerContact; ///< [-] that the automatic step gives the shortest contact
   double stepsPerPeriod =
       20; ///< [-] least in a period, turn or gap of what is prescribed over time, and in a body's turn
   base::Vec3d gravity{0, 0, -9.81};

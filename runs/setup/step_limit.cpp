@@ -7,7 +7,7 @@
 #include "base/sphere.hpp"
 #include "base/table.hpp"
 #include "contact/restitution.hpp"
-#include "contact/rolling_resistance.hpp"
+#include "runs/setup/grain_contacts.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
@@ -35,54 +35,60 @@ void consider(StepLimit& limit, double stiffness, double damping, const std::str
               const std::string& remedy = "lower its stiffness") {
   if (stiffness <= 0 && damping <= 0) return;
   const double step = contact::stableStepOfMode(stiffness, damping);
-  if (step < limit.step) limit = {step, what, remedy};
+  if (step < limit.step) limit.step = step, limit.what = what, limit.remedy = remedy;
+}
+void considerCalm(StepLimit& limit, double stiffness, double damping) {
+  if (stiffness > 0 || damping > 0) limit.calm = std::min(limit.calm, contact::stableStepOfMode(stiffness, damping));
 }
 
-/// What a grain can touch.
-struct Partner {
-  std::string material;
-  bool isGrain; ///< gives way as the grain does; else not at all
-  std::string name;
-
-  /// Share of the grain's own mass or radius that counts between the two [-].
-  double share() const { return isGrain ? 0.5 : 1; }
-};
-
-std::vector<Partner> partnersOf(const scene::Scene& scene, const GrainKinds& kinds, const std::string& material) {
-  std::vector<Partner> partners;
-  for (const std::string& other : kinds.material)
-    partners.push_back({other, true,
-                        other == material ? "grain on grain of '" + material + "'"
-                                          : "grain of '" + material + "' among those of '" + other + "'"});
-  const auto against = [&](const std::string& other, const std::string& name) {
-    partners.push_back({other.empty() ? material : other, false, name});
-  };
-  for (const scene::Plane& plane : scene.planes)
-    against(plane.material, "grain on a plane of '" + plane.material + "'");
-  for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
-  if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
-  if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
-  return partners;
+/// Of a mode that counts for both: nothing but forces on springs, unbounded.
+void considerBoth(StepLimit& limit, double stiffness, double damping, const std::string& what,
+                  const std::string& remedy) {
+  consider(limit, stiffness, damping, what, remedy);
+  considerCalm(limit, stiffness, damping);
 }
 
-/// A grain of `mass` and `radius` among twelve neighbours alike, or between two heavy bodies. A Hertz contact is as
-/// stiff as an impact at `speed` makes it.
-void considerGrain(StepLimit& limit, const contact::ContactLaw& law, double mass, double radius, const Partner& partner,
-                   double speed) {
-  const bool among = partner.isGrain;
-  const double effectiveMass = partner.share() * mass, effectiveRadius = partner.share() * radius;
-  const auto c = stiffest(law, effectiveMass, effectiveRadius, speed);
-  // Among twelve, 8 k / m (Gershgorin). Springs that stick let spheres turn alike at 10/3 k_t / m for each contact:
-  // eight of those, for a bed with friction has four or five. Hertz contacts are not all as deep at once as the one
-  // of that impact: four. Between two bodies: 2 k / m and 5 k_t / m.
-  const double normal = (among ? 8 : 2) / mass, turning = (!among ? 5 : 10.0 / 3 * (law.hertz ? 4 : 8)) / mass;
-  consider(limit, normal * c.normalStiffness, normal * c.damping, partner.name);
-  if (law.friction > 0) consider(limit, turning * c.tangentialStiffness, turning * c.tangentialDamping, partner.name);
+/// Up to where no contact gives energy.
+///
+/// Springs: twelve neighbours are 8 k / m together (Gershgorin). An impact may take half of its own limit: beyond, one
+/// that ends between two steps returns more than it brought; of two grains (2 k / m) that is 8 k / m too, of their slip
+/// (7 k_t / m) 28 k_t / m: 30 for what the two do to each other, 25 where k_t grows with the contact (Hertz).
+///
+/// Dashpots: forces f at contacts that close at rates a change the kinetic energy in a step by f^T G f dt^2 / 2 - f a
+/// dt with G = B^T M^-1 B. Forces that only push, f >= 0, add up to 2.25 sum f^2 on each grain: of unit normals 60
+/// degrees apart that is the most of (sum f n)^2 (one, and five around it). A contact has two sides: 4.5 c / m.
+/// Dashpots that pull too are modes: 5.9 c / m in random beds (`grouser study stability`), 6.5 here, 8 in a crystal.
+/// Friction adds what its own dashpot asks for or Coulomb's limit allows, (mu f)^2: of spheres that turn alike 10 / 3 m
+/// a contact, three of which stick at a time; rolling resistance as much.
+void considerEnergy(StepLimit& limit, const GrainContact& c) {
+  const double share = c.amongGrains ? 1 : 0.5, inertia = 0.4 * c.mass * c.radius * c.radius;
+  const double k = c.coefficients.normalStiffness, d = c.coefficients.damping;
+  const double arm = c.law.rollingFriction * c.effectiveRadius;
+  double springs = std::max((c.amongGrains ? 8 : 4) * k / c.mass, share * 2 * c.rollingStiffness / inertia);
+  double dashpots = (!c.amongGrains ? 2 : c.law.attraction ? 6.5 : 4.5) * d / c.mass;
+  if (c.law.friction > 0) {
+    springs = std::max(springs, share * (c.law.hertz ? 25 : 30) * c.coefficients.tangentialStiffness / c.mass);
+    dashpots += share * 10 * std::min(c.coefficients.tangentialDamping, c.law.friction * c.law.friction * d) / c.mass;
+  }
+  dashpots += share * 10 * std::min(c.rollingDamping, arm * arm * d) / inertia;
+  // Of a Hertz contact all springs go with the root of its depth, all dashpots with the root of that.
+  consider(limit, c.softer * springs, std::sqrt(c.softer) * dashpots, c.name);
+}
+
+/// Up to where every mode decays that contacts make together which do not slide.
+void considerModes(StepLimit& limit, const GrainContact& c) {
+  // Springs that stick let spheres turn alike at 10/3 k_t / m for each contact: eight of those, for a bed with friction
+  // has four or five. Hertz contacts are not all as deep at once as the one of that impact: four. Between two bodies
+  // that do not give way: 2 k / m and 5 k_t / m.
+  const bool among = c.amongGrains;
+  const double normal = (among ? 8 : 2) / c.mass;
+  const double turning = (!among ? 5 : 10.0 / 3 * (c.law.hertz ? 4 : 8)) / c.mass;
+  considerCalm(limit, normal * c.coefficients.normalStiffness, normal * c.coefficients.damping);
+  if (c.law.friction > 0)
+    considerCalm(limit, turning * c.coefficients.tangentialStiffness, turning * c.coefficients.tangentialDamping);
   // Rolling springs act on angles: as the normal ones, with the moment of inertia for the mass.
-  const double rolling = contact::rollingStiffness(law, c.normalStiffness, effectiveRadius);
-  const double rollingInertia = 1.4 * effectiveMass * radius * radius, inertia = 0.4 * mass * radius * radius;
-  const double rollingDamping = 2 * law.rollingDamping * std::sqrt(rollingInertia * rolling);
-  consider(limit, normal * mass / inertia * rolling, normal * mass / inertia * rollingDamping, partner.name);
+  const double rolling = (among ? 8 : 2) / (0.4 * c.mass * c.radius * c.radius);
+  considerCalm(limit, rolling * c.rollingStiffness, rolling * c.rollingDamping);
 }
 
 /// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
@@ -102,9 +108,9 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Gra
     for (const auto& [material, radius, largest] : kinds.kinds) {
       const double mass = base::sphereMass(scene.material(material).density, radius);
       const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
-      const double springs = mostTouching(scene, s, radius) / *s.section.mass;
-      consider(
-          limit, c.normalStiffness * (1 / mass + springs), c.damping * (1 / mass + springs),
+      const double springs = 1 / mass + mostTouching(scene, s, radius) / *s.section.mass;
+      considerBoth(
+          limit, c.normalStiffness * springs, c.damping * springs,
           fmt::format("{} of {:g} kg on up to {:.0f} grains", s.name, *s.section.mass, mostTouching(scene, s, radius)),
           fmt::format("raise {}.{}.mass", s.list(), s.number));
     }
@@ -116,15 +122,15 @@ void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
   // A shoe that lies on its whole pad: the stiffest that the foundation can be.
   const double pad = c.foundationModulus * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
-  consider(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
-           "lower contact.foundation_modulus in vehicle.spec");
+  considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
+               "lower contact.foundation_modulus in vehicle.spec");
   // A wheel that lies in the plate by a millimetre, far more than the weight presses it in.
   constexpr double kDeep = 1e-3; // [m]
   const auto wheel = [&](const char* name, double mass, double radius) {
     const double area = 4 * s.shoe.padHalfWidth * std::sqrt(2 * radius * kDeep);
     const double stiffness = c.foundationModulus * area * (1 / mass + 1 / s.shoe.mass);
-    consider(limit, stiffness, stiffness * c.relaxationTime, fmt::format("{} of {:g} kg on shoes", name, mass),
-             "raise its mass or lower contact.foundation_modulus in vehicle.spec");
+    considerBoth(limit, stiffness, stiffness * c.relaxationTime, fmt::format("{} of {:g} kg on shoes", name, mass),
+                 "raise its mass or lower contact.foundation_modulus in vehicle.spec");
   };
   wheel("road wheel", s.roadWheel.mass, s.roadWheel.radius);
   wheel("idler", s.idler.mass, s.idler.radius);
@@ -135,28 +141,19 @@ void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
 
 StepLimit stepLimit(const scene::Scene& scene) {
   StepLimit limit;
-  const GrainKinds kinds = grainKinds(scene);
-  // The smallest grains are the quickest.
-  for (const auto& [material, radius, largest] : kinds.kinds) {
-    const double mass = base::sphereMass(scene.material(material).density, radius);
-    for (const Partner& p : partnersOf(scene, kinds, material))
-      considerGrain(limit, pairLaw(scene, material, p.material, p.share() * mass), mass, radius, p,
-                    scene.run.impactSpeed);
+  const bool alone = !scene.terrain && plannedGrains(scene) == 1;
+  for (const GrainContact& c : grainContacts(scene)) {
+    if (!alone || !c.amongGrains) considerEnergy(limit, c);
+    considerModes(limit, c);
   }
-  considerFreeSurfaces(limit, scene, kinds);
+  considerFreeSurfaces(limit, scene, grainKinds(scene));
   if (scene.vehicle) considerVehicle(limit, vehicle::readVehicleSpec(scene.vehicle->spec));
   return limit;
 }
 
 double shortestContact(const scene::Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
-  const GrainKinds kinds = grainKinds(scene);
-  for (const auto& [material, radius, largest] : kinds.kinds) {
-    const double mass = base::sphereMass(scene.material(material).density, radius);
-    for (const Partner& p : partnersOf(scene, kinds, material))
-      shortest = std::min(shortest, contactTime(pairLaw(scene, material, p.material, p.share() * mass),
-                                                p.share() * mass, p.share() * radius, scene.run.impactSpeed));
-  }
+  for (const GrainContact& c : grainContacts(scene)) shortest = std::min(shortest, c.duration);
   return std::isfinite(shortest) ? shortest : 0;
 }
 
@@ -193,21 +190,15 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
 void checkSoftness(const scene::Scene& scene) {
   const double gravity = norm(scene.run.gravity), most = scene.run.maxOverlap;
   if (gravity == 0) return;
-  const GrainKinds kinds = grainKinds(scene);
-  for (const auto& [name, smallest, radius] : kinds.kinds) {
-    const double mass = base::sphereMass(scene.material(name).density, radius);
-    for (const Partner& p : partnersOf(scene, kinds, name)) {
-      const contact::ContactLaw law = pairLaw(scene, name, p.material, p.share() * mass);
-      const double sinks = sinksBy(law, mass * gravity, p.share() * radius) / radius;
-      if (sinks <= most) continue;
-      // A hundredth more than what is needed, so that the number holds as it is printed.
-      const double times = 1.01 * (law.hertz ? std::sqrt(sinks / most) : 1) * sinks / most;
-      failStiffness(
-          scene, scene.material(name), scene.material(p.material), times,
-          fmt::format("is so soft that a grain of radius {:g} m sinks in by {:.3g} radii under its own weight "
-                      "({}); run.max_overlap allows {:g}",
-                      radius, sinks, p.name, most));
-    }
+  for (const GrainContact& c : grainContacts(scene, Of::largest)) {
+    const double sinks = sinksBy(c.law, c.mass * gravity, c.effectiveRadius) / c.radius;
+    if (sinks <= most) continue;
+    // A hundredth more than what is needed, so that the number holds as it is printed.
+    const double times = 1.01 * (c.law.hertz ? std::sqrt(sinks / most) : 1) * sinks / most;
+    failStiffness(scene, scene.material(c.material), scene.material(c.other), times,
+                  fmt::format("is so soft that a grain of radius {:g} m sinks in by {:.3g} radii under its own weight "
+                              "({}); run.max_overlap allows {:g}",
+                              c.radius, sinks, c.name, most));
   }
 }
 
@@ -218,9 +209,12 @@ double chooseTimeStep(const scene::Scene& scene) {
   checkSoftness(scene);
   const StepLimit limit = stepLimit(scene);
   const double contact = shortestContact(scene);
-  double automatic = std::min(contact > 0 ? contact / kStepsPerContact : kVehicleTimeStep, 0.5 * limit.step);
+  // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
+  const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
+  double automatic = contact > 0 ? contact / scene.run.stepsPerContact : kVehicleTimeStep;
+  automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step});
   for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
-    automatic = std::min(automatic, kRayleighShare * rayleighTimeOf(scene.material(material), radius));
+    automatic = std::min(automatic, coarser * kRayleighShare * rayleighTimeOf(scene.material(material), radius));
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestStep, scene.run.duration});

@@ -11,26 +11,30 @@ namespace grouser::setup {
 /// Step of a vehicle on rigid ground, where no grain sets it [s].
 inline constexpr double kVehicleTimeStep = 1e-4;
 
+/// The largest automatic step, as a share of that at which motions of a bed still decay [-]: at half of it a
+/// disturbance is gone in two or three steps, at all of it none is ever gone.
+inline constexpr double kCalmShare = 0.5;
+
 /// The largest automatic step of hertz grains, as a share of the time a Rayleigh wave takes along the smallest [-].
 inline constexpr double kRayleighShare = 0.2;
 
-/// Steps that a contact should last at least: at 20 steps a collision's restitution is right within 2 %.
-inline constexpr double kStepsPerContact = 20;
-
-/// The largest stable step [s], infinite where nothing limits it, and what becomes unstable beyond it.
+/// Steps [s] that a scene bears; infinite where nothing limits them.
 struct StepLimit {
-  double step = std::numeric_limits<double>::infinity();
-  std::string what;   ///< "grain on the floor"
-  std::string remedy; ///< "lower its stiffness"
+  double step = std::numeric_limits<double>::infinity(); ///< up to which no contact gives energy; a run takes no longer
+  std::string what;                                      ///< gives energy beyond it: "grain on the floor"
+  std::string remedy;                                    ///< "lower its stiffness"
+  /// Up to which every motion decays that sticking contacts make together. Between the two, strong dashpots let grains
+  /// at rest tremble, by as much as Coulomb's limit and forces that only push allow.
+  double calm = std::numeric_limits<double>::infinity();
 };
 
-/// The step up to which a scene of grains and vehicle stays stable: for each mode that its contacts make, the bound of
-/// contact::stableStepOfMode; a function of the scene alone. The modes are
-/// - a grain among twelve others alike, all of them in contact and none sliding: its shift, its turn, its rolling;
-/// - a grain between two bodies that do not give way: planes, surfaces, floor, parts;
-/// - a free surface on the springs of all grains that may lie on it;
-/// - a shoe of the vehicle on its whole pad.
-/// `grouser study stability` measures how close the bounds are (docs/studies.md).
+/// Both limits from the contacts that grains and vehicle can have, a function of the scene alone:
+/// - energy: a grain among twelve others alike, whose springs are 8 k / m together, its dashpots 4.5 c / m where they
+///   only push, friction and rolling resistance within what Coulomb's limit allows; an impact in at least half of its
+///   own limit; a free surface on the springs of all grains that may lie on it; a shoe of the vehicle on its whole pad;
+/// - calm: the bound of contact::stableStepOfMode for each mode of grains that are all in contact and do not slide:
+///   shift, turn, rolling, among twelve others or between two bodies that do not give way.
+/// `grouser study stability` measures how close they are (docs/studies.md).
 StepLimit stepLimit(const scene::Scene& scene);
 
 /// Duration [s] of the shortest contact that a grain of the scene can have: pi / sqrt(k / m_eff), undamped, of two

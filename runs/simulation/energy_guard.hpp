@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/error.hpp"
 #include "runs/simulation/ledger.hpp"
 
 #include <cstdint>
@@ -8,6 +9,12 @@
 #include <vector>
 
 namespace grouser::simulation {
+
+/// What the guard says: the energies are wrong, while the state is still one that could go on.
+class EnergyAlarm : public base::SimulationError {
+public:
+  using SimulationError::SimulationError;
+};
 
 /// Judges whether steps are short enough for what happens, by the energy that they make or lose against the energy that
 /// has been exchanged since the last look: work on each body in each step, dissipation, and work of drives. It looks at

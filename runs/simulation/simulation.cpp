@@ -228,7 +228,7 @@ void Simulation::checkEnergy(const Ledger& now) {
   if (mechanism_)
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
-  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
+  throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 
 } // namespace grouser::simulation

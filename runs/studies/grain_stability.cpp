@@ -165,8 +165,8 @@ double predictedLimit(const RestingGrains& grains, double zeta) {
   return contact::stableStep(grains.frequency, zeta * grains.frequency);
 }
 
-double checkedLimit(const RestingGrains& grains, double stiffness, double zeta) {
-  return setup::stepLimit(sceneOf(grains, stiffness, zeta)).step;
+double calmLimit(const RestingGrains& grains, double stiffness, double zeta) {
+  return setup::stepLimit(sceneOf(grains, stiffness, zeta)).calm;
 }
 
 GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, double zeta, double timeStep) {
@@ -174,7 +174,7 @@ GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, doubl
   cell.stiffness = stiffness, cell.zeta = zeta, cell.timeStep = timeStep;
   cell.scaled = timeStep * rate(stiffness);
   cell.ofLimit = cell.scaled / predictedLimit(resting, zeta);
-  cell.allowed = timeStep <= checkedLimit(resting, stiffness, zeta);
+  cell.calm = timeStep <= calmLimit(resting, stiffness, zeta);
   Grains grains = build(resting, stiffness, zeta, timeStep, places(resting.state));
   terrain::GrainState state = resting.state;
   const double speed = kDisturbance * kOwnOverlap * kRadius * rate(stiffness);

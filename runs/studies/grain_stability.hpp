@@ -39,7 +39,7 @@ struct GrainStabilityCell {
   double timeStep = 0;  ///< [s]
   double scaled = 0;    ///< timeStep sqrt(k / m) [-]
   double ofLimit = 0;   ///< timeStep over the predicted limit [-]
-  bool allowed = false; ///< by a run's check of the scene
+  bool calm = false;    ///< within calmLimit()
   bool stable = false;  ///< as found
   double growth = 0; ///< largest kinetic energy over that of the disturbance [-]; of a run that was stopped, until then
   bool stopped = false; ///< by a guard of the run
@@ -50,8 +50,8 @@ struct GrainStabilityCell {
 /// Longest stable step [1 / sqrt(k / m)]: omega dt < 2 (sqrt(1 + z^2) - z) for the highest mode, whose damping ratio is
 /// z = zeta omega / sqrt(k / m), since every contact's dashpot is to its spring as the others'.
 double predictedLimit(const RestingGrains& grains, double zeta);
-/// Longest step that `grouser run` takes for this scene [s].
-double checkedLimit(const RestingGrains& grains, double stiffness, double zeta);
+/// Longest step at which setup::stepLimit() takes all motions of this scene to decay [s].
+double calmLimit(const RestingGrains& grains, double stiffness, double zeta);
 
 /// Disturbs the rest, steps along; unstable when the kinetic energy passes kGrowth of the disturbance's, or when a
 /// guard stops the run.

@@ -52,54 +52,54 @@ Found foundAt(const GrainStabilityMap& map, double zeta) {
 
 std::string grainStabilityTable(const GrainStabilityMap& map) {
   const RestingGrains& r = map.grains;
-  int refusedStable = 0, allowedUnstable = 0, stopped = 0;
+  int beyondStable = 0, withinUnstable = 0, stopped = 0;
   for (const GrainStabilityCell& c : map.cells)
-    refusedStable += c.stable && !c.allowed, allowedUnstable += !c.stable && c.allowed, stopped += c.stopped;
+    beyondStable += c.stable && !c.calm, withinUnstable += !c.stable && c.calm, stopped += c.stopped;
   std::string text = fmt::format(
       "\n{}: {} contacts, highest frequency {:.4f} sqrt(k/m), Gershgorin {:.4f}; resultant force a grain {:.1e} of its "
       "weight\n  {:>6} {:>16} {:>16} {:>16} {:>22}\n",
       r.title, r.network.contacts.size(), r.frequency, r.gershgorin, r.forceRatio, "zeta", "stable up to",
-      "unstable from", "predicted limit", "a run refuses beyond");
+      "unstable from", "predicted limit", "calm up to");
   const double stiffness = map.cells.front().stiffness;
   for (const double zeta : zetasOf(map)) {
     const Found found = foundAt(map, zeta);
     const double scale = map.cells.front().scaled / map.cells.front().timeStep;
-    const double limit = predictedLimit(r, zeta), checked = checkedLimit(r, stiffness, zeta) * scale;
+    const double limit = predictedLimit(r, zeta), calm = calmLimit(r, stiffness, zeta) * scale;
     text += fmt::format("  {:>6g} {:>16.4f} {:>16.4f} {:>16.4f} {:>13.4f} ({:.2f})\n", zeta, found.highestStable,
-                        found.lowestUnstable, limit, checked, checked / limit);
+                        found.lowestUnstable, limit, calm, calm / limit);
   }
-  text += fmt::format("  steps in 1 / sqrt(k/m); in brackets: over the predicted limit\n"
-                      "  as predicted: {} cells; at 0.95 of the limit {}, at 1.05 {}\n"
-                      "  a run refuses {} stable cells and allows {} unstable ones; guards stopped {} runs\n",
-                      counted(map, [](const GrainStabilityCell&) { return true; }),
-                      counted(map, [](const GrainStabilityCell& c) { return at(c, 0.95); }),
-                      counted(map, [](const GrainStabilityCell& c) { return at(c, 1.05); }), refusedStable,
-                      allowedUnstable, stopped);
+  text += fmt::format(
+      "  steps in 1 / sqrt(k/m); in brackets: over the predicted limit\n"
+      "  as predicted: {} cells; at 0.95 of the limit {}, at 1.05 {}\n"
+      "  the bound of calm leaves out {} stable cells and holds {} unstable ones; guards stopped {} runs\n",
+      counted(map, [](const GrainStabilityCell&) { return true; }),
+      counted(map, [](const GrainStabilityCell& c) { return at(c, 0.95); }),
+      counted(map, [](const GrainStabilityCell& c) { return at(c, 1.05); }), beyondStable, withinUnstable, stopped);
   return text;
 }
 
 std::string grainStabilityCsv(const std::vector<GrainStabilityMap>& maps) {
   std::string text =
       "case,stiffness [N/m],zeta [-],step [s],step sqrt(k/m) [-],step over the predicted limit [-],"
-      "predicted,found,kinetic energy over that of the disturbance [-],stopped by a guard,a run's check\n";
+      "predicted,found,kinetic energy over that of the disturbance [-],stopped by a guard,within the bound of calm\n";
   for (const GrainStabilityMap& map : maps)
     for (const GrainStabilityCell& c : map.cells)
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", map.grains.name, c.stiffness, c.zeta, c.timeStep,
                           c.scaled, c.ofLimit, c.predicted() ? "stable" : "unstable", c.stable ? "stable" : "unstable",
-                          c.growth, c.stopped ? 1 : 0, c.allowed ? "allows" : "refuses");
+                          c.growth, c.stopped ? 1 : 0, c.calm ? 1 : 0);
   return text;
 }
 
 std::string stabilityLimitsCsv(const std::vector<GrainStabilityMap>& maps) {
   constexpr int kPoints = 81;
   constexpr double kLargest = 2;
-  std::string text = "case,zeta [-],predicted limit [1/sqrt(k/m)],a run's check [1/sqrt(k/m)]\n";
+  std::string text = "case,zeta [-],predicted limit [1/sqrt(k/m)],calm [1/sqrt(k/m)]\n";
   for (const GrainStabilityMap& map : maps) {
     const GrainStabilityCell& c = map.cells.front();
     for (int k = 0; k < kPoints; ++k) {
       const double zeta = kLargest * k / (kPoints - 1);
       text += fmt::format("{},{},{},{}\n", map.grains.name, zeta, predictedLimit(map.grains, zeta),
-                          checkedLimit(map.grains, c.stiffness, zeta) * c.scaled / c.timeStep);
+                          calmLimit(map.grains, c.stiffness, zeta) * c.scaled / c.timeStep);
     }
   }
   return text;

@@ -94,7 +94,8 @@ void studyImpactCommand(const ImpactCommand& command) {
   const std::vector<ConvergenceRow> convergence =
       convergenceRows(quick ? command.phases.touching : 5 * command.phases.touching);
   const std::vector<ImpactSeries> speeds = overSpeeds(command);
-  fmt::print("{}{}{}{}{}", orderTable(all), cheapestImpactTable(all), convergenceTable(convergence), speedTable(speeds),
+  fmt::print("{}{}{}{}{}{}", orderTable(all), cheapestImpactTable(all), convergenceTable(convergence),
+             coarseTable(coarseRows(quick ? command.phases.touching : 5 * command.phases.touching)), speedTable(speeds),
              closedFormTable(all, steps.size() - (quick ? 1 : 5)));
 
   support::writeTextFile(folder / "impact.csv", impactCsv(all), "--out");

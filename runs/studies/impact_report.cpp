@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/impact_report.hpp"
 
+#include "contact/restitution.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -194,6 +196,31 @@ std::string convergenceCsv(const std::vector<ConvergenceRow>& rows) {
     text += fmt::format("{},{},{},{},{}\n", r.steps, number(r.published, "{}"), r.damped.worst, r.damped.mean,
                         r.elastic.worst);
   return text;
+}
+
+std::vector<CoarseRow> coarseRows(int phases) {
+  std::vector<CoarseRow> rows;
+  for (const double restitution : {1.0, 0.9, 0.7, 0.5, 0.3, 0.2}) {
+    CoarseRow row{restitution, contact::dampingRatioFor(restitution, false), {}};
+    ImpactCase c;
+    c.law = ImpactLaw::linearClamped, c.damping = row.zeta;
+    for (std::size_t k = 0; k < kCoarseSteps.size(); ++k)
+      row.error[k] = measureImpact(c, terrain::Precision::double_, kCoarseSteps[k], {phases, 1}).error[kRestitution];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string coarseTable(const std::vector<CoarseRow>& rows) {
+  std::string text =
+      "\nlinear clamped on a plane, double precision: error of the restitution, worst (mean), at steps a "
+      "contact\n  restitution";
+  for (const double steps : kCoarseSteps) text += fmt::format(" {:>18g}", steps);
+  for (const CoarseRow& row : rows) {
+    text += fmt::format("\n  {:>11g}", row.restitution);
+    for (const ImpactError& e : row.error) text += fmt::format(" {:>8.4f} ({:+.4f})", e.worst, e.mean);
+  }
+  return text + "\n";
 }
 
 std::string speedTable(const std::vector<ImpactSeries>& all) {

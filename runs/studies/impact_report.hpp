@@ -29,6 +29,16 @@ std::vector<ConvergenceRow> convergenceRows(int phases);
 std::string convergenceTable(const std::vector<ConvergenceRow>& rows);
 std::string convergenceCsv(const std::vector<ConvergenceRow>& rows);
 
+/// What run.steps_per_contact buys: the error of one restitution, of the clamped law as scenes have it, at the steps
+/// a contact that the key may name.
+struct CoarseRow {
+  double restitution = 0, zeta = 0;
+  std::array<ImpactError, 3> error; ///< at kCoarseSteps
+};
+inline constexpr std::array<double, 3> kCoarseSteps{20, 10, 6};
+std::vector<CoarseRow> coarseRows(int phases);
+std::string coarseTable(const std::vector<CoarseRow>& rows);
+
 /// Errors over the speed of approach, at one number of steps a contact.
 std::string speedTable(const std::vector<ImpactSeries>& all);
 

@@ -32,7 +32,7 @@ void addImpact(CLI::App& study, ImpactCommand& c) {
   impact->callback([&c] { studyImpactCommand(c); });
 }
 
-void addStability(CLI::App& study, GrainStabilityCommand& c) {
+void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& random) {
   CLI::App* stability = study.add_subcommand(
       "stability", "Maps of stable steps of grains over stiffness and damping: one contact, a column, random beds, "
                    "beside predicted limits (half a minute, one core); of mechanisms: multibody --stability");
@@ -43,7 +43,24 @@ void addStability(CLI::App& study, GrainStabilityCommand& c) {
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   addPlace(*stability, c.place, "stability", "one stiffness and three damping ratios only, in seconds");
-  stability->callback([&c] { studyGrainStabilityCommand(c); });
+  CLI::Option* scenes =
+      stability
+          ->add_option(
+              "--random", random.scenes,
+              "instead: so many random scenes, each at its automatic step and its limit, and by bisection at the "
+              "longest that is sound; exit code 1 if one is not at the former (200: 7 min, one core)")
+          ->check(support::wholeNumber(1, 1'000'000));
+  stability->add_option("--seed", random.seed, "of the random scenes")
+      ->check(support::wholeNumber(0, 1'000'000'000))
+      ->capture_default_str()
+      ->needs(scenes);
+  stability->add_flag("--resume", random.resume, "goes on with the table that a stopped call has left")->needs(scenes);
+  stability->callback([&c, &random] {
+    if (random.scenes > 0)
+      studyRandomStability(random, c.place);
+    else
+      studyGrainStabilityCommand(c);
+  });
 }
 
 void addPrecision(CLI::App& study, PrecisionCommand& c) {
@@ -136,7 +153,7 @@ void addShear(CLI::App& study, ShearCommand& c) {
 
 void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addImpact(study, studies.impact);
-  addStability(study, studies.stability);
+  addStability(study, studies.stability, studies.randomStability);
   addPrecision(study, studies.precision);
   addPacking(study, studies.packing);
   addCollapse(study, studies.collapse);

@@ -6,6 +6,7 @@
 #include "runs/studies/impact.hpp"
 #include "runs/studies/packing.hpp"
 #include "runs/studies/precision_command.hpp"
+#include "runs/studies/random_stability.hpp"
 #include "runs/studies/shear.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ namespace grouser::studies {
 struct GrainStudies {
   ImpactCommand impact;
   GrainStabilityCommand stability;
+  RandomStability randomStability;
   PrecisionCommand precision;
   PackingCommand packing;
   CollapseCommand collapse;

@@ -169,7 +169,7 @@ TEST(ManyKindsScene, StepFollowsTheImpactSpeedAndTheSmallestGrain) {
   const double automatic = chooseTimeStep(s), limit = stepLimit(s).step;
   EXPECT_LE(automatic, 0.5 * limit);
   // Glass against the plane, the stiffest: contact time at 1 m/s over 20, or the Rayleigh time.
-  EXPECT_LE(automatic, shortestContact(s) / kStepsPerContact * 1.0000001);
+  EXPECT_LE(automatic, shortestContact(s) / scene::kStepsPerContact * 1.0000001);
   EXPECT_LT(chooseTimeStep(parse(kMixed, {"run.impact_speed=10"})), automatic);
   EXPECT_LT(chooseTimeStep(parse(kMixed, {"grains.0.radius=0.001"})), 0.5 * automatic);
   EXPECT_THROW(chooseTimeStep(parse(kMixed, {"run.time_step=" + std::to_string(1.1 * limit)})), base::InputError);

@@ -2,8 +2,10 @@
 // The longest stable step of each mode that contacts make, against its closed form; and what it is blamed on.
 #include "runs/setup/step_limit.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
+#include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -45,15 +47,16 @@ TEST(StepOfAMode, IsWhereTheRecurrenceBeginsToGrow) {
 constexpr double kRadius = 0.02, kStiffness = 3e5;
 const double kMass = 2000 * 4.0 / 3 * base::kPi * kRadius * kRadius * kRadius;
 
-/// One grain of 'soil', and a plane of 'hard' where it is asked for.
+/// Two grains of 'soil', and a plane of 'hard' where it is asked for.
 struct Bed {
   std::string soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0\n", hard, pair, more;
-  bool plane = false;
+  bool plane = false, alone = false;
 
   scene::Scene scene() const {
     return parseScene("version = 1\n[run]\nduration = 1\nimpact_speed = 1.5\n[material.soil]\n" + soil +
                           "[material.hard]\n" + (hard.empty() ? soil : hard) + pair +
                           "[[grain]]\nposition = [0, 0, 1]\nradius = 0.02\nmaterial = \"soil\"\n" +
+                          (alone ? "" : "[[grain]]\nposition = [2, 0, 1]\nradius = 0.02\nmaterial = \"soil\"\n") +
                           (plane ? "[[plane]]\nmaterial = \"hard\"\n" : "") + more,
                       "bed.toml");
   }
@@ -68,58 +71,87 @@ double damped(double stiffness, double damping) {
 TEST(StepLimit, OfAGrainAmongTwelveIsEightSpringsOnItsMass) {
   const StepLimit limit = Bed{}.limit();
   EXPECT_NEAR(limit.step / undamped(8 * kStiffness / kMass), 1, 1e-9);
+  EXPECT_NEAR(limit.calm / limit.step, 1, 1e-9);
   EXPECT_EQ(limit.what, "grain on grain of 'soil'");
   EXPECT_EQ(limit.remedy, "lower its stiffness");
 }
 
-TEST(StepLimit, OfDampedGrainsHasEightDashpotsOfThePairsMass) {
+TEST(StepLimit, OfDashpotsThatOnlyPushIsFourAndAHalfOfThem) {
   Bed bed;
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 9000\nfriction = 0\n";
-  // c = gamma m / 2 of a pair, eight of them on m.
-  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 8 * 9000.0 / 2), 1, 1e-9);
+  // c = gamma m / 2 of a pair; the motions of a bed at rest have eight of them on m.
+  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 4.5 * 9000.0 / 2), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 8 * 9000.0 / 2), 1, 1e-9);
+  bed.soil += "attraction = true\n";
+  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 6.5 * 9000.0 / 2), 1, 1e-9) << "of random beds";
+  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 8 * 9000.0 / 2), 1, 1e-9) << "and of crystals";
 }
 
-TEST(StepLimit, OfAGrainBetweenTwoPlanesIsTwoSprings) {
+TEST(StepLimit, OfAGrainOnAPlaneIsHalfOfItsImpacts) {
   Bed bed;
   bed.plane = true, bed.pair = "[contact.\"soil|hard\"]\nstiffness = 6e6\n";
   const StepLimit limit = bed.limit();
-  EXPECT_NEAR(limit.step / undamped(2 * 6e6 / kMass), 1, 1e-9);
+  EXPECT_NEAR(limit.step / (0.5 * undamped(6e6 / kMass)), 1, 1e-9);
+  EXPECT_NEAR(limit.calm / undamped(2 * 6e6 / kMass), 1, 1e-9) << "between two planes";
   EXPECT_EQ(limit.what, "grain on a plane of 'hard'");
   bed.pair += "damping = 9000\n"; // of the whole mass now
-  EXPECT_NEAR(bed.limit().step / damped(2 * 6e6 / kMass, 2 * 9000.0), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().step / (0.5 * damped(6e6 / kMass, 9000)), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / damped(2 * 6e6 / kMass, 2 * 9000.0), 1, 1e-9);
 }
 
-TEST(StepLimit, OfGrainsThatStickAndTurnAlikeIsEightTimesTenThirds) {
+TEST(StepLimit, OfAGrainAloneKnowsNoOthers) {
+  Bed bed;
+  bed.plane = bed.alone = true;
+  EXPECT_NEAR(bed.limit().step / undamped(4 * kStiffness / kMass), 1, 1e-9);
+  bed.alone = false;
+  EXPECT_NEAR(bed.limit().step / undamped(8 * kStiffness / kMass), 1, 1e-9);
+}
+
+TEST(StepLimit, OfSlipIsHalfOfAnImpactsAndFrictionBoundsItsDashpot) {
+  Bed bed;
+  bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0.5\ntangential_stiffness_ratio = 0.9\n"
+             "tangential_damping_ratio = 0.8\n";
+  // 30 k_t / m; 4.5 c / m, and 10 / m of the smaller of mu^2 c and c_t.
+  const double c = 4000.0 / 2;
+  EXPECT_NEAR(bed.limit().step / damped(30 * 0.9 * kStiffness / kMass, 4.5 * c + 10 * 0.25 * c), 1, 1e-9);
+  bed.soil.replace(bed.soil.find("damping_ratio = 0.8"), 19, "damping_ratio = 0.1");
+  EXPECT_NEAR(bed.limit().step / damped(30 * 0.9 * kStiffness / kMass, 4.5 * c + 10 * 0.1 * c), 1, 1e-9);
+  bed.plane = true, bed.pair = "[contact.\"soil|hard\"]\nstiffness = 6e6\ndamping = 4000\n";
+  EXPECT_NEAR(bed.limit().step / damped(15 * 0.9 * 6e6 / kMass, 2 * 4000.0 + 5 * 0.1 * 4000), 1, 1e-9);
+}
+
+TEST(StepLimit, CalmsWhereGrainsThatStickAndTurnAlikeDo) {
   Bed bed;
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0.5\ntangential_stiffness_ratio = 0.9\n"
              "tangential_damping_ratio = 0.8\n";
   const double turning = 8 * 10.0 / 3;
-  EXPECT_NEAR(bed.limit().step / damped(turning * 0.9 * kStiffness / kMass, turning * 0.8 * 4000.0 / 2), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / damped(turning * 0.9 * kStiffness / kMass, turning * 0.8 * 4000.0 / 2), 1, 1e-9);
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0\ntangential_stiffness_ratio = 0.9\n";
-  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 4 * 4000.0), 1, 1e-9) << "without friction none of it";
-}
-
-TEST(StepLimit, OfAGrainThatTurnsBetweenTwoPlanesIsFiveTangentialSprings) {
-  Bed bed;
+  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 4 * 4000.0), 1, 1e-9) << "without friction none of it";
   bed.plane = true;
   bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0.5\ntangential_stiffness_ratio = 0.8\n";
   bed.pair = "[contact.\"soil|hard\"]\nstiffness = 6e6\n";
-  EXPECT_NEAR(bed.limit().step / undamped(5 * 0.8 * 6e6 / kMass), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / undamped(5 * 0.8 * 6e6 / kMass), 1, 1e-9) << "between two planes";
 }
 
 TEST(StepLimit, OfRollingIsTheSpringOfAnglesOnTheMomentOfInertia) {
   Bed bed;
-  bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0.5\nrolling_friction = 0.9\n"
+  bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0.5\nrolling_friction = 2\n"
              "tangential_stiffness_ratio = 0.1\nrolling_damping_ratio = 0\n";
-  // k_r = 2.25 k (mu_r R / 2)^2, eight of them on 0.4 m R^2.
-  const double inertia = 0.4 * kMass * kRadius * kRadius, arm = 0.9 * kRadius / 2;
+  // k_r = 2.25 k (mu_r R / 2)^2; at rest eight of them on 0.4 m R^2, in an impact two.
+  const double inertia = 0.4 * kMass * kRadius * kRadius, arm = 2 * kRadius / 2;
   const double spring = 2.25 * kStiffness * arm * arm;
-  ASSERT_GT(8 * spring / inertia, 8 * kStiffness / kMass);
-  EXPECT_NEAR(bed.limit().step / undamped(8 * spring / inertia), 1, 1e-9);
+  ASSERT_GT(2 * spring / inertia, 8 * kStiffness / kMass);
+  EXPECT_NEAR(bed.limit().step / undamped(2 * spring / inertia), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / undamped(8 * spring / inertia), 1, 1e-9);
   bed.soil.replace(bed.soil.find("ratio = 0\n"), 10, "ratio = 0.3\n");
-  // Critical damping of the pair: 2 sqrt(I_r k_r), I_r = 1.4 (m / 2) R^2.
+  // Critical damping of the pair: 2 sqrt(I_r k_r), I_r = 1.4 (m / 2) R^2; elastic grains have nothing to bound it by.
   const double dashpot = 2 * 0.3 * std::sqrt(1.4 * kMass / 2 * kRadius * kRadius * spring);
-  EXPECT_NEAR(bed.limit().step / damped(8 * spring / inertia, 8 * dashpot / inertia), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / damped(8 * spring / inertia, 8 * dashpot / inertia), 1, 1e-9);
+  bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0\nrolling_friction = 0.5\n"
+             "rolling_damping_ratio = 1\n";
+  const double push = 0.25 * kRadius * 0.25 * kRadius * 2000; // (mu_r R / 2)^2 c
+  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 4.5 * 2000 + 10 * push * kMass / inertia), 1, 1e-9);
 }
 
 TEST(StepLimit, OfHertzGrainsIsThatOfAnImpactAtTheGivenSpeed) {
@@ -129,12 +161,87 @@ TEST(StepLimit, OfHertzGrainsIsThatOfAnImpactAtTheGivenSpeed) {
   // Energy: m v^2 / 2 = (8/15) E sqrt(R) d^(5/2).
   const double deepest = std::pow(15 * m * 1.5 * 1.5 / (16 * modulus * std::sqrt(R)), 0.4), a = std::sqrt(R * deepest);
   EXPECT_NEAR(bed.limit().step / undamped(8 * 2 * modulus * a / kMass), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm / bed.limit().step, 1, 1e-9);
   bed.soil.replace(bed.soil.find("friction = 0"), 12, "friction = 0.5");
   // G = E / (2 (1 + nu)), 1 / G_eff = 2 (2 - nu) / G, k_t = 8 G_eff a; four contacts at once turn it.
   const double shear = 5e7 / 2.5, tangential = 8 * shear / (2 * 1.75) * a;
-  EXPECT_NEAR(bed.limit().step /
+  EXPECT_NEAR(bed.limit().step / undamped(25 * tangential / kMass), 1, 1e-9);
+  EXPECT_NEAR(bed.limit().calm /
                   std::min(undamped(8 * 2 * modulus * a / kMass), undamped(4 * 10.0 / 3 * tangential / kMass)),
               1, 1e-9);
+}
+
+TEST(StepLimit, OfADampedHertzImpactIsTakenAtItsOwnDepth) {
+  Bed bed;
+  bed.soil = "law = \"hertz\"\nyoung = 5e7\npoisson = 0.25\ndensity = 2000\nrestitution = 0.2\nfriction = 0\n";
+  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kRadius / 2;
+  const double beta = contact::hertzDampingRatioFor(0.2, false);
+  // Its own motion, in small steps.
+  const double K = 4.0 / 3 * modulus * std::sqrt(R), C = 2 * beta * std::sqrt(2 * modulus * std::sqrt(R) * m);
+  double x = 0, v = 1.5;
+  for (const double h = 1e-8; v > 0; x += h * v) v -= h * (K * x * std::sqrt(x) + C * std::pow(x, 0.25) * v) / m;
+  const double k = 1.5 * K * std::sqrt(x), c = C * std::pow(x, 0.25);
+  // Small steps of order one: 1e-8 of 1e-3 s, and the depth counts with its root.
+  EXPECT_NEAR(bed.limit().step / damped(8 * k / kMass, 4.5 * c / kMass), 1, 1e-4);
+  // Slow, it is the weight of a heap as high as wide that counts: of eight grains twice two of them.
+  scene::Scene scene = bed.scene();
+  scene.run.impactSpeed = 1e-9;
+  for (int i = 0; i < 6; ++i) scene.grains.push_back(scene.grains.back());
+  x = std::pow(4 * 9.81 * kMass / K, 2.0 / 3);
+  EXPECT_NEAR(stepLimit(scene).step / damped(8 * 1.5 * K * std::sqrt(x) / kMass, 4.5 * C * std::pow(x, 0.25) / kMass),
+              1, 1e-9);
+}
+
+TEST(AutomaticStep, HasAsManyStepsAContactAsAreAskedFor) {
+  Bed bed;
+  for (const double steps : {6.0, 10.0, 20.0, 200.0}) {
+    scene::Scene scene = bed.scene();
+    scene.run.stepsPerContact = steps;
+    EXPECT_NEAR(chooseTimeStep(scene) / (shortestContact(scene) / steps), 1, 1e-9) << steps;
+  }
+  EXPECT_EQ(bed.scene().run.stepsPerContact, 20);
+  EXPECT_THROW(parseScene("version = 1\n[run]\nduration = 1\nsteps_per_contact = 5.9\n[material.soil]\n" + bed.soil +
+                              "[[grain]]\nposition = [0, 0, 1]\nradius = 0.02\nmaterial = \"soil\"\n",
+                          "bed.toml"),
+               base::InputError);
+}
+
+TEST(AutomaticStep, OfStrongDashpotsIsHalfOfWhatIsCalmOrAllOfItWhereStepsMayBeFew) {
+  Bed bed;
+  bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 0.05\nfriction = 0.5\n";
+  scene::Scene scene = bed.scene();
+  const StepLimit limit = stepLimit(scene);
+  ASSERT_LT(limit.calm, limit.step);
+  ASSERT_LT(limit.calm, shortestContact(scene) / 20);
+  EXPECT_NEAR(chooseTimeStep(scene) / (0.5 * limit.calm), 1, 1e-9);
+  scene.run.stepsPerContact = 40;
+  EXPECT_NEAR(chooseTimeStep(scene) / (0.25 * limit.calm), 1, 1e-9);
+  for (const double steps : {10.0, 6.0}) {
+    scene.run.stepsPerContact = steps;
+    EXPECT_NEAR(chooseTimeStep(scene) / limit.calm, 1, 1e-9);
+  }
+}
+
+TEST(Plan, WarnsWhereGrainsAtRestTremble) {
+  Bed bed;
+  bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 0.05\nfriction = 0.5\n";
+  scene::Scene scene = bed.scene();
+  const StepLimit limit = stepLimit(scene);
+  scene.run.timeStep = 0.5 * (limit.calm + limit.step);
+  EXPECT_NE(commands::planText(scene).find("tremble"), std::string::npos);
+  scene.run.timeStep = 0.99 * limit.calm;
+  EXPECT_EQ(commands::planText(scene).find("tremble"), std::string::npos);
+}
+
+TEST(AutomaticStep, OfHertzGrainsKeepsItsShareOfTheRayleighTime) {
+  Bed bed;
+  bed.soil = "law = \"hertz\"\nyoung = 5e7\npoisson = 0.25\ndensity = 2000\nrestitution = 0.9\nfriction = 0\n";
+  scene::Scene scene = bed.scene();
+  scene.run.impactSpeed = 1e-3; // slow impacts last long
+  const double rayleigh = contact::rayleighTime(kRadius, 2000, 5e7 / 2.5, 0.25);
+  EXPECT_NEAR(chooseTimeStep(scene) / (0.2 * rayleigh), 1, 1e-9);
+  scene.run.stepsPerContact = 10;
+  EXPECT_NEAR(chooseTimeStep(scene) / (0.4 * rayleigh), 1, 1e-9);
 }
 
 TEST(StepLimit, OfAFreeSurfaceCountsTheGrainsThatMayLieOnIt) {

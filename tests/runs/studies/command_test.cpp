@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -52,17 +53,36 @@ TEST_P(StudyCommand, WritesItsTablesAndKeepsThem) {
   EXPECT_EQ(call("study " + study.name + " --colour blue").code, 2);
 }
 
+class RandomStudy : public ProgramTest {};
+
+TEST_F(RandomStudy, GoesOnWithTheTableThatAStoppedCallHasLeft) {
+  const fs::path table = folder_ / "results" / "random.csv";
+  ASSERT_EQ(call("study stability --random 1 --seed 3 --out results").code, 0);
+  const std::string one = contents(table);
+  const Outcome two = call("study stability --random 2 --seed 3 --resume --out results");
+  ASSERT_EQ(two.code, 0) << two.errors;
+  const std::string both = contents(table);
+  EXPECT_EQ(both.substr(0, one.size()), one);
+  EXPECT_EQ(std::count(both.begin(), both.end(), '\n'), 3);
+  for (const char* word : {"longest step that does not blow up", "longest step without an alarm", "2 scenes"})
+    EXPECT_NE(two.out.find(word), std::string::npos) << word << "\n" << two.out;
+  const Outcome other = call("study stability --random 2 --seed 4 --resume --out results");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.errors.find("seed 3"), std::string::npos) << other.errors;
+  EXPECT_EQ(call("study stability --seed 4").code, 2) << "of random scenes alone";
+}
+
 INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
                          testing::Values(StudyCall{"impact",
                                                    "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
                                                    {"impact.csv", "orders.csv", "cheapest.csv", "convergence.csv",
                                                     "speeds.csv", "impact.png"},
                                                    {"order of the worst error", "cheapest step", "published",
-                                                    "closed forms"}},
+                                                    "linear clamped on a plane", "closed forms"}},
                                          StudyCall{"stability",
                                                    "--quick --grains 20 --column 3",
                                                    {"stability.csv", "limits.csv", "stability.png"},
-                                                   {"predicted limit", "at 0.95 of the limit", "a run refuses"}},
+                                                   {"predicted limit", "at 0.95 of the limit", "calm up to"}},
                                          StudyCall{"precision",
                                                    "--quick --grains 200 --configurations 2 --drift-grains 50 "
                                                    "--gas-time 0.05 --bed-time 0.05 --runs 2 --threads 1",
