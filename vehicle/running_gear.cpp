@@ -398,11 +398,12 @@ std::optional<Fault> firstFault(const VehicleSpec& s) {
 /// "0.385": the value of a key nearest to its own, in fine steps and then in coarse ones, with which the vehicle has no
 /// fault at all; empty: none.
 std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
-  constexpr int kFine = 400, kCoarse = 80, kRatio = 10;
+  constexpr int kCoarse = 80, kRatio = 10;
+  const int fine = k.name == "idler.radius" ? 400 : 80; // only a narrow range of radii closes a loop
   const double from = std::floor(k.value / k.step + 0.5) * k.step;
-  for (int i = 0; i <= 2 * (kFine + kCoarse); ++i) {
+  for (int i = 0; i <= 2 * (fine + kCoarse); ++i) {
     const int n = (i + 1) / 2;
-    const double away = (n <= kFine ? n : kFine + kRatio * (n - kFine)) * k.step;
+    const double away = (n <= fine ? n : fine + kRatio * (n - fine)) * k.step;
     const double value = from + (i % 2 == 1 ? -away : away);
     const bool place = k.key == "x" || k.key == "z" || k.key == "slide_min" || k.key == "pivot_angle";
     if (!place && value < 0.5 * k.step) continue; // a length stays positive

@@ -60,6 +60,10 @@ void refuse(const std::string& path, const SpecFault& fault) {
   document.root().section(fault.section).fail(fault.key, fault.message);
 }
 
+void refuseMesh(const std::string& path, const std::string& section, const std::string& why) {
+  refuse(path, {section, "mesh", "in vehicle.mesh_folder is no mesh for it: " + why});
+}
+
 std::string specFieldHelp() {
   std::string text = R"(## Keys of a vehicle file
 

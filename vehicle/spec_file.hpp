@@ -14,6 +14,8 @@ VehicleSpec readVehicleSpec(const std::string& path);
 
 /// Throws a fault that was found in a spec file as base::InputError with its place there.
 [[noreturn]] void refuse(const std::string& path, const SpecFault& fault);
+/// The same of the mesh that a section names and that cannot be had: `why`.
+[[noreturn]] void refuseMesh(const std::string& path, const std::string& section, const std::string& why);
 
 /// All keys of a vehicle spec file with unit, range and meaning, as Markdown.
 std::string specFieldHelp();

@@ -67,14 +67,14 @@ double advance(simulation::Simulation& simulation, const StepBenchOptions& o, do
 
 /// What the vehicle did between two times, in a word and in words.
 std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
+  constexpr double kStep = 1e-9; // [s]: rounding of times
   if (!drive.start || *drive.start >= to)
     return {"standing", "the vehicle stands, and drives off later: --after drive times the driving"};
-  if (*drive.start > from)
+  if (*drive.start > from + kStep)
     return {"driving off", fmt::format("the vehicle drives off at t = {:g} s, while it is timed: --after drive times "
                                        "the driving alone",
                                        *drive.start)};
   const std::string since = fmt::format("the vehicle drives since t = {:g} s", *drive.start);
-  constexpr double kStep = 1e-9; // [s]: rounding of times
   if (from < *drive.start + drive.ramp - kStep)
     return {"speeding up",
             fmt::format("{}, and its sprockets come up to speed until {:g} s", since, *drive.start + drive.ramp)};

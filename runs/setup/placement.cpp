@@ -95,8 +95,7 @@ void checkParts(const scene::Scene& scene) {
     try {
       return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
     } catch (const base::InputError& error) {
-      vehicle::refuse(scene.vehicle->spec,
-                      {section, "mesh", fmt::format("in vehicle.mesh_folder is no mesh for it: {}", error.what())});
+      vehicle::refuseMesh(scene.vehicle->spec, section, error.what());
     }
   };
   vehicle::PartMeshes meshes;

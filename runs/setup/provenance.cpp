@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
+#include <utility>
 
 namespace grouser::setup {
 
@@ -87,9 +88,15 @@ std::string inputsOf(const scene::Scene& scene) {
   if (!scene.vehicle) return text;
   text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-  for (const std::string& mesh :
-       {spec.chassis.mesh, spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh, spec.roller.mesh, spec.idler.mesh})
-    text += fmt::format("mesh:{} {}\n", mesh, hashOfFile(fs::path(spec.meshFolder) / mesh));
+  using Named = std::pair<const char*, const std::string&>;
+  for (const auto& [section, mesh] :
+       {Named{"chassis", spec.chassis.mesh}, Named{"shoe", spec.shoe.mesh}, Named{"sprocket", spec.sprocket.mesh},
+        Named{"road_wheel", spec.roadWheel.mesh}, Named{"roller", spec.roller.mesh}, Named{"idler", spec.idler.mesh}}) {
+    const fs::path file = fs::path(spec.meshFolder) / mesh;
+    if (!fs::is_regular_file(file))
+      vehicle::refuseMesh(scene.vehicle->spec, section, file.string() + ": no such mesh file; check the path");
+    text += fmt::format("mesh:{} {}\n", mesh, hashOfFile(file));
+  }
   return text;
 }
 

@@ -153,13 +153,12 @@ TEST_F(BenchCommands, StepSaysWhetherTheVehicleDrivesAndWaitsForIt) {
   };
   // Batch and instrumented pass are ten steps of 1e-4 s.
   expect("--after 0.01", "standing", 0.01), expect("--after 0.0495", "driving off", 0.0495);
-  expect("--after drive", "speeding up", 0.05), expect("--after drive+0.01", "speeding up", 0.06);
-  expect("", "driving", 0.07), expect("--after drive+0.02", "driving", 0.07), expect("--after 0.08", "driving", 0.08);
+  expect("--after drive+0.01", "speeding up", 0.06), expect("", "driving", 0.07);
   // A start that only the run knows, at a look at the vehicle (every 50 steps): 0.05 s at rest after the ramps.
   const nlohmann::json waited = timed("--set driver.rest_speed=10 --set driver.rest_load=0.5 --after drive");
   EXPECT_EQ(waited["timed"], "speeding up");
   EXPECT_GE(waited["drive_start_s"].get<double>(), 0.09 - 1e-9);
-  EXPECT_EQ(waited["timed_from_s"], waited["drive_start_s"]);
+  EXPECT_NEAR(waited["timed_from_s"].get<double>(), waited["drive_start_s"].get<double>(), 1e-9);
 
   const Outcome wrong = call("bench step x.toml --after driven");
   EXPECT_EQ(wrong.code, 2);
