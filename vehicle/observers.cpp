@@ -3,10 +3,11 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "vehicle/track_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <limits>
 
 namespace grouser::vehicle {
@@ -78,39 +79,11 @@ double carryingLoad(const Assembly& vehicle) {
 }
 
 double sidewaysShift(const Assembly& vehicle, int track, const multibody::State& state) {
-  const Track& t = vehicle.tracks[track];
-  const base::Pose pose_W = vehiclePose(vehicle, state);
-  double worst = 0;
-  for (const int shoe : t.shoes) {
-    const double shift = std::fabs(pose_W.toBody(state.pose[shoe].position).y - t.y);
-    if (!(shift <= worst)) worst = shift;
-    if (std::isnan(worst)) break;
-  }
-  return worst;
+  return mostSideways(vehicle, track, state).shift;
 }
 
 double wheelLift(const Assembly& vehicle, int track, const multibody::State& state) {
-  const Track& t = vehicle.tracks[track];
-  const VehicleSpec& spec = vehicle.spec;
-  const base::Pose pose_W = vehiclePose(vehicle, state);
-  const double halfPitch = 0.5 * spec.shoe.pitch;
-  std::vector<double> gap(t.wheels.size(), std::numeric_limits<double>::infinity());
-  std::vector<Vec3d> axle_V;
-  for (const int wheel : t.wheels) axle_V.push_back(pose_W.toBody(state.pose[wheel].position));
-  for (const int shoe : t.shoes) {
-    const base::Pose& pose = state.pose[shoe];
-    const Vec3d rear = pose_W.toBody(pose.toWorld({-halfPitch, 0, spec.shoe.plateTop}));
-    const Vec3d front = pose_W.toBody(pose.toWorld({halfPitch, 0, spec.shoe.plateTop}));
-    for (std::size_t i = 0; i < t.wheels.size(); ++i) {
-      const double s = (axle_V[i].x - rear.x) / (front.x - rear.x);
-      // Of the plate under the wheel; the plates of neighbours overlap or leave a gap where the track is folded.
-      if (!(s >= -0.1 && s <= 1.1) || 0.5 * (rear.z + front.z) > axle_V[i].z) continue;
-      gap[i] = std::min(gap[i], axle_V[i].z - spec.roadWheel.radius - (rear.z + s * (front.z - rear.z)));
-    }
-  }
-  double worst = 0;
-  for (const double g : gap) worst = std::max(worst, g);
-  return worst;
+  return mostLifted(vehicle, track, state).gap;
 }
 
 double suspendedSag(const VehicleSpec& spec) {
@@ -129,26 +102,18 @@ void Observer::update(const multibody::State& state, double dt) {
 }
 
 std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
-  const double horn = vehicle_->spec.shoe.hornHeight;
   // A track that hangs free, or whose load is not known, may sag off its wheels.
-  const double allowed = horn + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
-  char text[200] = "";
+  const double allowed =
+      vehicle_->spec.shoe.hornHeight + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
-    const char* side = sideName(vehicle_->tracks[i].side);
-    const double sideways = sidewaysShift(*vehicle_, i, state), lift = wheelLift(*vehicle_, i, state);
-    if (!(sideways <= horn))
-      std::snprintf(text, sizeof text,
-                    "%s track thrown: a shoe is %.0f mm beside its wheels, more than a horn's height of %.0f mm", side,
-                    1e3 * sideways, 1e3 * horn);
-    else if (!(lift <= allowed))
-      std::snprintf(text, sizeof text, "%s track thrown: a road wheel is %.0f mm off its plates, more than %.0f mm",
-                    side, 1e3 * lift, 1e3 * allowed);
-    else if (!(std::fabs(travel_[i].skipped()) <= kSkip))
-      std::snprintf(text, sizeof text, "%s track skips: %.2f teeth have passed, but %.2f pitches", side,
-                    travel_[i].teethPassed(), travel_[i].pitchesPassed());
-    if (text[0]) break;
+    if (const std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
+    if (!(std::fabs(travel_[i].skipped()) <= kSkip))
+      return fmt::format("{} track skips: {:.2f} teeth have passed, but {:.2f} pitches; tighten the track "
+                         "(idler.preload of the vehicle file, {:g} N), or drive more gently (driver)",
+                         sideName(vehicle_->tracks[i].side), travel_[i].teethPassed(), travel_[i].pitchesPassed(),
+                         vehicle_->spec.idler.preload);
   }
-  return text;
+  return {};
 }
 
 TrackObservation Observer::observeTrack(int track, const multibody::State& state, const GroundLoads& ground,

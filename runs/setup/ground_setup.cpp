@@ -236,9 +236,12 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   ground.surfaces.assign(around.surfaces.begin(), around.surfaces.end());
   GrainsSetup& grains = ground.grains.emplace();
   grains.model = grainModel(scene, kinds, timeStep, around, grains.boundaries);
+  for (const Surroundings::Wall& wall : around.walls) grains.wallNames.push_back(wall.name);
   grains.manyKinds = kinds.many();
   for (const scene::Grain& g : placed)
     grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+  const auto isHertz = [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; };
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), isHertz)) grains.impactSpeed = scene.run.impactSpeed;
   if (bed) grains.bed = bedSetup(scene, kinds, *bed, timeStep);
   grains.sources = sourcesOf(scene, timeStep);
   grains.partition = partitionOf(scene, ranks);

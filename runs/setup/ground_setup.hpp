@@ -54,12 +54,14 @@ struct BedSetup {
 struct GrainsSetup {
   terrain::GrainModel model;
   terrain::Boundaries boundaries;
+  std::vector<std::string> wallNames;    ///< of the boundaries' walls, in messages: "plane 0"
   std::vector<terrain::GrainSpec> start; ///< where the scene sets them one by one; empty for a bed
   std::optional<BedSetup> bed;
   Sources sources;
   terrain::PartitionOptions partition;  ///< but for the ranks
   contact::GrainPartMaterials partLaws; ///< of each material against the parts of the vehicle or the meshes
   bool manyKinds{};                     ///< grains differ in radius or material
+  std::optional<double> impactSpeed;    ///< for which the step was chosen, where there are hertz contacts [m/s]
 };
 
 /// What a scene's vehicle or grains stand on.

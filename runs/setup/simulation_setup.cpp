@@ -4,6 +4,7 @@
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/time_scales.hpp"
 
 namespace grouser::setup {
 
@@ -15,7 +16,10 @@ SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
   setup.timeStep = chooseTimeStep(scene);
   setup.gravity = scene.run.gravity;
   setup.ground = groundSetup(scene, setup.timeStep, ranks);
-  if (scene.vehicle) setup.vehicle = vehicleSetup(scene);
+  if (scene.vehicle) {
+    setup.vehicle = vehicleSetup(scene);
+    setup.vehicle->largestTurn = largestTurn(scene.run);
+  }
   if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);
   setup.run = {scene.run.duration, scene.run.outputInterval, scene.run.frameInterval, scene.run.checkpointInterval};
   const scene::Output& o = scene.output;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace grouser::setup {
 
@@ -85,6 +86,30 @@ void addDrives(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   }
 }
 
+/// The quickest turn that the driver asks for, of the sprockets or of the smallest wheel that rolls in the track.
+void addTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  const scene::SpeedTable table = scene.driver.speeds();
+  const char* key = scene.driver.sprocketSpeed ? "sprocket_speed" : "left";
+  double speed = 0;
+  for (std::size_t i = 0; i < table.time.size() && table.time[i] < scene.run.duration; ++i)
+    for (const auto& [side, rate] : {std::pair{"left", table.left[i]}, {"right", table.right[i]}}) {
+      if (std::fabs(rate) <= speed) continue;
+      speed = std::fabs(rate);
+      if (!scene.driver.sprocketSpeed) key = side;
+    }
+  if (speed == 0) return;
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  const double smallest = std::min({spec.roadWheel.radius, spec.idler.radius, spec.roller.radius});
+  const double quicker = std::max(1.0, spec.pitchRadius() / smallest);
+  const Fail fails = [&scene, key](const std::string& message) {
+    if (scene.driver.table && scene.document)
+      scene.document->root().section("driver").section("table").fail(key, message);
+    scene.fail("driver", key, message);
+  };
+  addPeriod(scales, 2 * base::kPi / (quicker * speed), quicker > 1 ? "turn of the smallest wheel" : "turn", "rad/s",
+            fails);
+}
+
 void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle) return;
   const scene::Driver& d = scene.driver;
@@ -92,6 +117,7 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (d.tensionRamp < scene.run.duration) addRamp(scales, d.weightRamp, failsIn(scene, "driver", "weight_ramp"));
   if (d.driveBegins() >= scene.run.duration) return;
   addRamp(scales, d.rampOfDrive(), failsIn(scene, "driver", "drive_ramp"));
+  addTurns(scales, scene);
   if (!d.table) return;
   const Fail atTable = [&scene](const std::string& message) {
     if (scene.document) scene.document->root().section("driver").section("table").fail("time", message);

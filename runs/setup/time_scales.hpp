@@ -22,9 +22,9 @@ struct TimeScale {
 };
 
 /// All of them that begin before the run ends: sines of drives and surfaces, turns of surfaces that are not round about
-/// their own axis, gaps of the tables of drives and driver, ramps of a surface's load and of the driver; and the
-/// swings of a vehicle's torsion bars, tensioner and its stops. Two equal times of a table, and a ramp of 0 s, are a
-/// jump, and have no gap.
+/// their own axis, of a vehicle's wheels and sprockets, gaps of the tables of drives and driver, ramps of a surface's
+/// load and of the driver; and the swings of a vehicle's torsion bars, tensioner and its stops. Two equal times of a
+/// table, and a ramp of 0 s, are a jump, and have no gap.
 std::vector<TimeScale> timeScales(const scene::Scene& scene);
 
 /// The longest step with run.steps_per_period steps in each of them [s]; infinite where there is none.

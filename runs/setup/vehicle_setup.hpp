@@ -19,6 +19,7 @@ struct VehicleSetup {
   bool fixChassis{};     ///< as on a bench
   double sphereRadius{}; ///< of the parts' sphere sets [m]
   vehicle::DriverOptions driver;
+  double largestTurn{}; ///< of a body in a step [rad]
 };
 
 /// Reads the spec. Throws InputError where that, or where the vehicle stands, is not possible.

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 5; // of the layout below
+constexpr int kVersion = 6; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -86,6 +86,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/mean_steps", v.meanSteps);
     archive("/vehicle/alarm_forces", v.alarmForces);
     archive("/vehicle/alarm_steps", v.alarmSteps);
+    archive("/vehicle/judged", v.judged);
     archive("/vehicle/impulse_on_parts", v.impulseOnParts);
     archive("/vehicle/angular_on_parts", v.angularOnParts);
   }

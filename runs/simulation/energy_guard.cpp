@@ -3,36 +3,55 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace grouser::simulation {
 
-namespace {} // namespace
+EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
+  Exchange x;
+  const double taken = now.dissipated.total() - last_.dissipated;
+  x.lost = now.integrationError - last_.error;
+  x.gained = std::min(-x.lost, -x.lost - taken);
+  x.given = std::min(-taken, -taken - x.lost);
+  x.rubbed = now.dissipated.friction - last_.rubbed;
+  x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
+  x.neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
+                  kSpringShare * std::fabs(now.elastic - last_.elastic);
+  return x;
+}
 
 std::string EnergyGuard::judge(const Ledger& now, double held) const {
-  const double lost = now.integrationError - last_.error, taken = now.dissipated.total() - last_.dissipated;
-  const double moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
-  const double quiet = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total()));
-  if (!std::isfinite(lost) || !std::isfinite(moved)) return "the energies are no numbers any more";
-  const auto since = [&](const char* what, double energy) {
+  const Exchange x = since(now, held);
+  if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are no numbers any more";
+  const auto found = [&](const char* what, double energy) {
     return fmt::format("{} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were exchanged", what,
-                       energy, kInterval, moved);
+                       energy, kInterval, x.moved);
   };
-  if (lost > kMostLost * moved + quiet) return since("the steps have lost", lost);
-  if (-lost > kMostMade * moved + quiet) return since("the steps have made", -lost);
-  if (-taken > kMostGiven * moved + quiet) return since("steps too long for dampers have let these make", -taken);
+  if (x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
+  if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMostChurned * x.moved + x.neverAlarms)
+    return found("the steps have made", -x.lost);
+  if (x.given > kMostGiven * x.moved + x.neverAlarms)
+    return slidingGives(now, held) ? found("sliding contacts have made", x.given)
+                                   : found("steps too long for dampers have let these make", x.given);
   return {};
 }
 
+bool EnergyGuard::slidingGives(const Ledger& now, double held) const {
+  const Exchange x = since(now, held);
+  return x.given > kMostGiven * x.moved + x.neverAlarms && -x.rubbed > 0.5 * x.given;
+}
+
 void EnergyGuard::look(const Ledger& now) {
-  last_ = {now.integrationError, now.turnover, now.dissipated.total(), now.driveWork};
+  last_ = {now.integrationError, now.turnover, now.dissipated.total(),
+           now.driveWork,        now.elastic,  now.dissipated.friction};
 }
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
-  if (saved.size() != 4)
+  if (saved.size() != 6)
     throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
-  last_ = {saved[0], saved[1], saved[2], saved[3]};
+  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
 }
 
 } // namespace grouser::simulation

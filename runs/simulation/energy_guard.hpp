@@ -13,33 +13,60 @@ namespace grouser::simulation {
 /// has been exchanged since the last look: work on each body in each step, dissipation, and work of drives. It looks at
 /// fixed step numbers, so its verdict does not depend on rows of output, devices, batches or ranks.
 ///
-/// Sound runs of grains at their limit step lose up to a tenth and make up to 3 percent in an interval (lost at
-/// impacts, whose beginning and end fall between steps). Steps that are too long make a tenth and more, and let
+/// What sound runs make and lose stands in docs/ledger.md. Steps that are too long make a tenth and more, and let
 /// dampers, whose force then outlives the motion that it acts against, give energy instead of taking it.
 class EnergyGuard {
 public:
   static constexpr std::int64_t kInterval = 512; ///< steps between two looks; whole batches of grains alone
-  static constexpr double kMostMade = 0.1;       ///< share of the energy exchanged [-]
-  static constexpr double kMostLost = 0.5;
+  // Shares of the energy exchanged [-].
+  static constexpr double kMostMade = 0.1; ///< that bodies and springs have gained from nowhere
+  /// Made by the steps, and dissipated at once: sliding contacts of grains that bounce well book up to an eighth so at
+  /// their limit step, where the motion is right yet.
+  static constexpr double kMostChurned = 0.15;
+  static constexpr double kMostLost = 0.3;
   static constexpr double kMostGiven = 0.02; ///< by what dissipates
   /// Share of all energy exchanged so far that is never an alarm [-]: what rests exchanges next to nothing.
   static constexpr double kQuiet = 1e-3;
 
+  /// Of what springs have taken up or given back that may stand as made or lost, or as taken by dampers [-]: a contact
+  /// under the load of others books the loss of its dashpot as if it were alone, which is wrong by gamma dt / 2 of what
+  /// its spring takes up, and right again when it lets go. At the limit of stability that is zeta / (2 zeta + sqrt(4
+  /// zeta^2 + 1)) of damping ratio zeta, a quarter at most.
+  static constexpr double kSpringShare = 0.25;
+
   /// Share of the energy that bodies and contacts hold that is rounding [-].
   static constexpr double kRounding = 1e-6;
 
-  /// What is wrong since the last look, in words; empty where nothing is. `held`: energy of bodies and contacts [J].
+  /// Energies since the last look [J].
+  struct Exchange {
+    double moved{};       ///< work on bodies, dissipation and work of drives, without signs
+    double lost{};        ///< by the steps; negative: made
+    double gained{};      ///< made by the steps and not dissipated; negative: lost
+    double given{};       ///< by dampers and not lost by the steps; negative where they take
+    double rubbed{};      ///< taken by sliding; negative where it gives
+    double neverAlarms{}; ///< rounding, what is small beside the whole run, and what springs hide
+    /// Of what was exchanged, what counts of `energy` [-].
+    double share(double energy) const { return moved > 0 && energy > neverAlarms ? (energy - neverAlarms) / moved : 0; }
+  };
+  /// `held`: energy of bodies and contacts [J].
+  Exchange since(const Ledger& now, double held) const;
+  /// What is wrong since the last look, in words; empty where nothing is.
   std::string judge(const Ledger& now, double held) const;
+  /// Whether it is sliding that has given most of what dampers seem to give: the spring of a contact that slides is as
+  /// long as it would bear Coulomb's force, and so takes over the force of its tangential dashpot, whatever the step.
+  bool slidingGives(const Ledger& now, double held) const;
   /// Remembers `now` for the next judgement.
   void look(const Ledger& now);
 
-  std::vector<double> save() const { return {last_.error, last_.turnover, last_.dissipated, last_.driveWork}; }
+  std::vector<double> save() const {
+    return {last_.error, last_.turnover, last_.dissipated, last_.driveWork, last_.elastic, last_.rubbed};
+  }
   /// Throws base::InputError where it is not what save() gave.
   void restore(const std::vector<double>& saved);
 
 private:
   struct Look {
-    double error{}, turnover{}, dissipated{}, driveWork{}; ///< [J]
+    double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, rubbed{}; ///< [J]
   };
   Look last_;
 };

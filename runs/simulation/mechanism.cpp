@@ -22,9 +22,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
 constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
-/// By how much swings across a pull above what the step bears may have grown [-]: what the joints' closure leaves open,
-/// 1e-10 m at most, is then 0.1 mm.
-constexpr double kMostGrown = 1e6;
+/// Steps that a bounce off an end stop wants, as "auto" gives them [-].
+constexpr double kBounceSteps = 20;
 
 /// Turns of a step are typed with some digits [-].
 constexpr double kTurnDigits = 1e-6;
@@ -93,23 +92,15 @@ void Mechanism::judgeTurns() const {
   }
 }
 
-/// At r times the longest stable step a swing across the pull grows (r + sqrt(r^2 - 1))^2 times a step. What counts is
-/// the lesser growth of this judgement and the last, so that a peak between them, or at one of them, counts nothing.
 void Mechanism::judgeTension() {
   std::string part;
   const double r = timeStep_ / stableStepUnderTension(&part);
-  if (r <= 1) {
-    overTension_ = false, swingGrowth_ = swingGrown_ = 1;
-    return;
-  }
-  const double now = (r + std::sqrt(r * r - 1)) * (r + std::sqrt(r * r - 1)), growth = std::min(now, swingGrowth_);
-  swingGrowth_ = now;
-  for (std::int64_t i = 0; i < kJudgeInterval && swingGrown_ < kMostGrown; ++i) swingGrown_ *= growth;
-  if (swingGrown_ < kMostGrown) return;
+  overTension_ = r > 1;
+  if (swings_.bears(r, kJudgeInterval)) return;
   fail(fmt::format(
       "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
       "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
-      kMostGrown, r, part, tensionStepWarning_, setup::atMost(0.5 * timeStep_ / r)));
+      SwingGrowth::kMost, r, part, tensionStepWarning_, setup::atMost(0.5 * timeStep_ / r)));
 }
 
 /// Growing forces in joints and springs lower the longest stable step. That is noted, and judged from the next
@@ -139,6 +130,15 @@ double Mechanism::checkTension() {
 const std::string& Mechanism::tensionStepWarning() {
   if (tensionStepWarning_.empty()) checkTension();
   return tensionStepWarning_;
+}
+
+std::string Mechanism::bounceNote() {
+  std::string stop;
+  const double rate = controller_ ? 0 : solver_.stopRate(state_, loads_, &stop);
+  const double steps = rate > 0 ? base::kPi / (rate * timeStep_) : kBounceSteps;
+  if (steps >= kBounceSteps) return {};
+  return fmt::format("a bounce off {} lasts {:.2g} s, {:.2g} steps of it where {:g} are wanted", stop, base::kPi / rate,
+                     steps, kBounceSteps);
 }
 
 Mechanism::DriveReading Mechanism::drive(int index) const {
@@ -191,11 +191,12 @@ std::vector<std::uint32_t> MechanismState::words() const {
 
 MechanismState Mechanism::save() const {
   const StepController::Record steps = controller_ ? controller_->record() : StepController::Record{};
-  return {state_.save(),
-          {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)},
-          {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swingGrowth_, swingGrown_},
-          {steps.next, static_cast<double>(steps.taken), static_cast<double>(steps.rejected), steps.smallest,
-           steps.largest}};
+  return {
+      state_.save(),
+      {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)},
+      {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swings_.save()[0], swings_.save()[1]},
+      {steps.next, static_cast<double>(steps.taken), static_cast<double>(steps.rejected), steps.smallest,
+       steps.largest}};
 }
 
 void Mechanism::restore(const MechanismState& saved) {
@@ -205,7 +206,8 @@ void Mechanism::restore(const MechanismState& saved) {
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
   steps_ = static_cast<std::int64_t>(saved.judged[0]);
   boundedTension_ = saved.judged[1];
-  overTension_ = saved.judged[2] != 0, swingGrowth_ = saved.judged[3], swingGrown_ = saved.judged[4];
+  overTension_ = saved.judged[2] != 0;
+  swings_.restore(saved.judged[3], saved.judged[4]);
   if (overTension_) checkTension();
   const std::vector<double>& c = saved.control;
   if (controller_)

@@ -8,6 +8,7 @@
 #include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mechanism_state.hpp"
 #include "runs/simulation/step_controller.hpp"
+#include "runs/simulation/swing_growth.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -69,6 +70,8 @@ public:
   /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs
   /// first needed a shorter step, and which; empty: never, nor now.
   const std::string& tensionStepWarning();
+  /// End stops off which a bounce has too few steps, in words; empty: none, or steps follow an error.
+  std::string bounceNote();
 
   /// How well the joints are closed.
   struct Drift {
@@ -106,10 +109,8 @@ private:
   std::int64_t steps_ = 0;
   double boundedTension_ = 0; ///< up to this force in joints and springs the step is short enough [N]
   std::string tensionStepWarning_;
-  // While the pull is above what the step bears: whether it was when last looked at, by how much a swing across it grew
-  // a step then, and by how much since it first was.
-  bool overTension_ = false;
-  double swingGrowth_ = 1, swingGrown_ = 1;
+  bool overTension_ = false; ///< the pull was above what the step bears when last looked at
+  SwingGrowth swings_;
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
   std::vector<double> startTurn_;              ///< of each body in the first step [rad]
 };

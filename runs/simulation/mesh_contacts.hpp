@@ -30,6 +30,10 @@ public:
 
   contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }
   std::size_t spheres() const;
+  /// The meshes that press a grain; all ranks call it.
+  std::vector<contact::GrainPartContacts::Press> pressing(std::uint32_t grain) const {
+    return contacts_->pressing(grain);
+  }
   contact::SavedGrainPatches save() const { return contacts_->save(); }
   void restore(const contact::SavedGrainPatches& saved);
 

@@ -11,6 +11,15 @@
 
 namespace grouser::simulation {
 
+namespace {
+
+/// Below the limit of stability no step is short enough for that.
+const char* const kSlidingGives = "their springs take over the force of tangential dashpots: lower "
+                                  "tangential_damping_ratio or raise restitution; a smaller time_step helps only above "
+                                  "the limit of stability";
+
+} // namespace
+
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds)
     : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)) {
@@ -69,7 +78,7 @@ void Simulation::step(StepObserver* observer) {
   done(Stage::grainStepEnded);
   ++steps_;
   addGrains();
-  if (vehicle_ && steps_ % kAlarmInterval == 0) checkAlarm();
+  if (vehicle_ && steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
   afterStep();
   done(Stage::checks);
 }
@@ -144,23 +153,48 @@ Ledger Simulation::ledger() {
   return l;
 }
 
+/// The grain that has stopped the run, and what it touches: vehicle and meshes too.
+PressedGrain Simulation::pressed(std::uint32_t grain) {
+  PressedGrain pressed = pressedGrain(
+      *ground_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
+  std::vector<std::pair<std::string, double>> parts;
+  if (vehicle_) parts = vehicle_->contacts().pressing(grain);
+  if (surfaces_) parts = surfaces_->meshesPressing(grain);
+  for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}});
+  return pressed;
+}
+
+/// Hertz contacts of faster impacts are stiffer than the step was chosen for.
+std::string Simulation::impactNote(const Ledger& now) const {
+  if (!ground_.grains || !setup_.ground.grains->impactSpeed) return {};
+  const double chosen = *setup_.ground.grains->impactSpeed;
+  if (now.fastestGrain <= chosen) return {};
+  return fmt::format(
+      " (grains move at up to {:.3g} m/s, hertz contacts were taken at run.impact_speed = {:g} m/s: raise it "
+      "to what they meet at)",
+      now.fastestGrain, chosen);
+}
+
 std::string Simulation::causeOf(const terrain::GrainFault& fault) {
   using terrain::Fault;
   if (fault.fault != Fault::overlap && fault.fault != Fault::speed) return {};
-  if (const std::string verdict = energyVerdict(ledger()); !verdict.empty())
-    return verdict +
-           fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step", timeStep());
-  if (fault.fault == Fault::speed) return {};
-  std::string parts;
-  if (vehicle_)
-    for (const std::string& part : vehicle_->contacts().pressing(fault.id)) parts += (parts.empty() ? "" : ", ") + part;
-  if (!parts.empty())
-    return fmt::format(
-        "it is pinched, pressed by {}; the step is not to blame: use stiffer grains (material stiffness), "
-        "larger ones, or raise run.max_overlap",
-        parts);
-  return "the energies balance, so the step is not to blame: what presses it, or its speed, is too much for contacts "
-         "so soft; use stiffer ones (material stiffness), or raise run.max_overlap";
+  const Ledger now = ledger();
+  if (const std::string verdict = energyVerdict(now); !verdict.empty())
+    return verdict + (guard_.slidingGives(now, energyHeld(now))
+                          ? std::string("; ") + kSlidingGives
+                          : fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller "
+                                        "time_step{}",
+                                        timeStep(), impactNote(now)));
+  const PressedGrain grain = pressed(fault.id);
+  if (fault.fault == Fault::speed)
+    return grain.fallsFreely(setup_.gravity)
+               ? "it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before"
+               : "";
+  const std::string by = grain.sentence();
+  return fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
+                     "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or raise "
+                     "run.max_overlap",
+                     by.empty() ? by : by + "; ", norm(grain.velocity));
 }
 
 /// Ledger and guard, after each step.
@@ -179,16 +213,20 @@ double Simulation::partsElastic() const {
 
 void Simulation::checkEnergy() { checkEnergy(ledger()); }
 
-std::string Simulation::energyVerdict(const Ledger& now) const {
-  const double held = std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
-  return guard_.judge(now, held);
+double Simulation::energyHeld(const Ledger& now) const {
+  return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
 }
+
+std::string Simulation::energyVerdict(const Ledger& now) const { return guard_.judge(now, energyHeld(now)); }
 
 void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
-  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts";
+  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
+  if (guard_.slidingGives(now, energyHeld(now))) remedy = kSlidingGives;
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (mechanism_)
+    if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }

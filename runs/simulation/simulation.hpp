@@ -7,6 +7,7 @@
 #include "runs/simulation/ground.hpp"
 #include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mechanism.hpp"
+#include "runs/simulation/pressed_grain.hpp"
 #include "runs/simulation/simulation_state.hpp"
 #include "runs/simulation/step_observer.hpp"
 #include "runs/simulation/surfaces.hpp"
@@ -71,7 +72,6 @@ public:
   std::string stateHash() const;
 
 private:
-  static constexpr std::int64_t kAlarmInterval = 50; ///< steps between looks at the track
   void checkAlarm();
   void addGrains();
   void afterStep();
@@ -79,9 +79,12 @@ private:
   Ledger wholeLedger();
   double partsElastic() const;
   std::string energyVerdict(const Ledger& now) const;
+  double energyHeld(const Ledger& now) const;
   void checkEnergy(const Ledger& now);
   template <class Advance> void namingCause(const Advance& advance);
   std::string causeOf(const terrain::GrainFault& fault);
+  PressedGrain pressed(std::uint32_t grain);
+  std::string impactNote(const Ledger& now) const;
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
   bool hasBed() const { return ground_.grains && setup_.ground.grains->bed; }

@@ -116,6 +116,15 @@ Surfaces::Observation Surfaces::observe(std::size_t i, std::int64_t step) const 
   return {s.force * share, s.torque * share, s.power * share, pose(i, step).position};
 }
 
+std::vector<std::pair<std::string, double>> Surfaces::meshesPressing(std::uint32_t grain) const {
+  std::vector<std::pair<std::string, double>> named;
+  if (!meshes_) return named;
+  for (const contact::GrainPartContacts::Press& p : meshes_->pressing(grain))
+    named.emplace_back(fmt::format("mesh '{}'", surfaces_[shapes_ + static_cast<std::size_t>(p.part)].name),
+                       static_cast<double>(p.overlap));
+  return named;
+}
+
 void Surfaces::restartMeans() {
   for (SurfaceState& s : states_.surfaces) s.force = s.torque = {}, s.power = 0;
   states_.meanSteps = 0;

@@ -48,6 +48,8 @@ public:
   };
   Observation observe(std::size_t i, std::int64_t step) const;
   void restartMeans();
+  /// Names of the meshes that press a grain, and by how much [m]; all ranks call it.
+  std::vector<std::pair<std::string, double>> meshesPressing(std::uint32_t grain) const;
 
   /// Adds the work of what moves them, energies of surfaces that forces move, and contacts with meshes.
   void addTo(Ledger& ledger) const;

@@ -214,14 +214,13 @@ VehicleContacts::Ledger VehicleContacts::ledger() const {
   return ledger;
 }
 
-std::vector<std::string> VehicleContacts::pressing(std::uint32_t grain) const {
-  std::vector<std::string> names;
-  if (!bed_) return names;
+std::vector<std::pair<std::string, double>> VehicleContacts::pressing(std::uint32_t grain) const {
+  std::vector<std::pair<std::string, double>> named;
+  if (!bed_) return named;
   for (const contact::GrainPartContacts::Press& p : bed_->pressing(grain))
-    names.push_back(fmt::format("the {} ({:.2g} mm)",
-                                assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
-                                1e3 * static_cast<double>(p.overlap)));
-  return names;
+    named.emplace_back("the " + assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
+                       static_cast<double>(p.overlap));
+  return named;
 }
 
 std::size_t VehicleContacts::samplesListed() const {

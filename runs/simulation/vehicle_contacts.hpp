@@ -60,8 +60,8 @@ public:
   };
   Ledger ledger() const;
 
-  /// Names of the parts that press a grain, and by how much [mm]; all ranks call it.
-  std::vector<std::string> pressing(std::uint32_t grain) const;
+  /// Names of the parts that press a grain, and by how much [m]; all ranks call it.
+  std::vector<std::pair<std::string, double>> pressing(std::uint32_t grain) const;
 
   /// Listed as near now: samples of parts against parts and rigid ground, and pairs of grain and part.
   std::size_t samplesListed() const;

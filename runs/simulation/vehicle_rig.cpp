@@ -2,6 +2,8 @@
 #include "runs/simulation/vehicle_rig.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/setup/time_scales.hpp"
 
 #include <fmt/format.h>
 
@@ -41,8 +43,9 @@ std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehi
 
 VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
                        const std::function<double(double, double)>& surfaceHeight)
-    : timeStep_(setup.timeStep), gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
-      replicated_(ground.grains.get()), assembly_(assembled(*setup.vehicle, surfaceHeight)),
+    : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), gravity_(setup.gravity),
+      area_(setup.ground.area), surfaceHeight_(surfaceHeight), replicated_(ground.grains.get()),
+      assembly_(assembled(*setup.vehicle, surfaceHeight)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_)) {
@@ -102,8 +105,36 @@ std::string VehicleRig::judgeRest() {
                        -dot(force, down) / (assembly_.mass * g));
 }
 
+/// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.
+std::string VehicleRig::judgeTurns() const {
+  std::size_t quickest = 0;
+  double rate = 0;
+  for (std::size_t b = 0; b < state_.twist.size(); ++b)
+    if (const double w = norm(state_.twist[b].w); !(w <= rate)) rate = w, quickest = b;
+  if (rate * timeStep_ <= largestTurn_) return {};
+  return fmt::format("{} turns by {:.4g} rad a step, above the {:.4g} rad of run.steps_per_period = {:g} steps a turn, "
+                     "beyond which its contacts are no longer resolved; drive more gently (driver), or set "
+                     "run.time_step to {} s or less",
+                     assembly_.model.bodies()[quickest].name, rate * timeStep_, largestTurn_,
+                     2 * base::kPi / largestTurn_, setup::atMost(largestTurn_ / rate));
+}
+
+/// As of mechanisms: swings across the pull of the track, and of whatever else bears forces.
+std::string VehicleRig::judgeTension() {
+  std::string part;
+  const double r = timeStep_ * solver_->geometricStiffnessRate(state_, loads_, &part) / solver_->stabilityLimit();
+  if (swings_.bears(r, kAlarmInterval)) return {};
+  return fmt::format("swings across the pull in joints may have grown {:g} times, for it stays above what the step "
+                     "bears, now {:.3g} times that ({}); set run.time_step to {} s or less, or lower what pulls "
+                     "(idler.preload of the vehicle file, driver)",
+                     SwingGrowth::kMost, r, part, setup::atMost(0.5 * timeStep_ / r));
+}
+
 std::string VehicleRig::alarm() {
-  std::string alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
+  // Both before the track: what they see throws it.
+  std::string alarm = judgeTension();
+  if (alarm.empty()) alarm = judgeTurns();
+  if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
   if (alarm.empty()) alarm = judgeRest();
   alarmMeans_.restart();
   return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
@@ -133,11 +164,13 @@ VehicleState VehicleRig::save() const {
   contacts_->save(s);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
+  s.judged = swings_.save();
   return s;
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  if (s.groundForces.size() > parts_->contactParts() || s.alarmForces.size() > parts_->contactParts())
+  if (s.groundForces.size() > parts_->contactParts() || s.alarmForces.size() > parts_->contactParts() ||
+      s.judged.size() != swings_.save().size())
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);
@@ -145,6 +178,7 @@ void VehicleRig::restore(const VehicleState& s) {
   contacts_->restore(s);
   rowMeans_ = {s.groundForces, s.meanSteps};
   alarmMeans_ = {s.alarmForces, s.alarmSteps};
+  swings_.restore(s.judged[0], s.judged[1]);
 }
 
 } // namespace grouser::simulation

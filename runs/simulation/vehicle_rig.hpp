@@ -5,6 +5,7 @@
 #include "multibody/solver.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/ledger.hpp"
+#include "runs/simulation/swing_growth.hpp"
 #include "runs/simulation/vehicle_contacts.hpp"
 #include "runs/simulation/vehicle_parts.hpp"
 #include "runs/simulation/vehicle_state.hpp"
@@ -49,9 +50,12 @@ public:
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
-  /// A thrown or skipped track, a shoe that has left the terrain, a vehicle that does not come to rest, in words; empty
-  /// while all is well. Judges by the loads since it was last asked, and so whether a vehicle that was set down rests
-  /// and drives off: to be called at fixed steps.
+  /// Steps between two calls of alarm().
+  static constexpr std::int64_t kAlarmInterval = 50;
+  /// A thrown or skipped track, a part that turns too far a step, a pull in the track that the step does not bear, a
+  /// shoe that has left the terrain, a vehicle that does not come to rest, in words; empty while all is well. Judges by
+  /// the loads since it was last asked, and so whether a vehicle that was set down rests and drives off: to be called
+  /// at fixed steps.
   std::string alarm();
 
   /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
@@ -73,8 +77,10 @@ private:
   };
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
   std::string judgeRest();
+  std::string judgeTurns() const;
+  std::string judgeTension();
 
-  double timeStep_;
+  double timeStep_, largestTurn_;
   base::Vec3d gravity_;
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
@@ -88,6 +94,7 @@ private:
   std::unique_ptr<VehicleParts> parts_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;
+  SwingGrowth swings_; ///< of track and arms
 };
 
 } // namespace grouser::simulation

@@ -22,6 +22,7 @@ struct VehicleState {
   std::int64_t meanSteps{};              ///< of that sum
   std::vector<base::Vec3l> alarmForces;  ///< by part, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
+  std::vector<double> judged;            ///< SwingGrowth::save()
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
   base::Vec3d angularOnParts;            ///< since the start [N m s]
 

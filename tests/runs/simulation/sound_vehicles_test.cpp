@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vehicle that stands, drives, turns, and is dropped on a small bed raises no alarm, whatever its output interval.
+#include "runs/setup/load_scene.hpp"
+#include "runs/simulation/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+namespace grouser::simulation {
+namespace {
+
+struct Drive {
+  const char* name;
+  const char* base; ///< a scene of tests/scenes
+  std::vector<std::string> sets;
+  std::int64_t steps;
+};
+std::ostream& operator<<(std::ostream& out, const Drive& d) { return out << d.name; }
+
+class SoundVehicles : public ::testing::TestWithParam<Drive> {
+protected:
+  /// How a drive with rows every `row` steps ends: its hash, or its error.
+  static std::string driven(double step, std::int64_t row) {
+    std::vector<std::string> sets = GetParam().sets;
+    sets.push_back(fmt::format("run.time_step={:g}", step));
+    try {
+      const scene::Scene scene =
+          setup::loadScene(fmt::format("{}/tests/scenes/{}.toml", GROUSER_SOURCE_DIR, GetParam().base), sets);
+      Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+      while (simulation.steps() < GetParam().steps) {
+        simulation.step();
+        if (simulation.steps() % row != 0) continue;
+        simulation.ledger(), simulation.vehicle()->observe(), simulation.restartMeans();
+      }
+      simulation.checkEnergy();
+      return simulation.stateHash();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+  }
+};
+
+TEST_P(SoundVehicles, RaiseNoAlarmAndHaveOneAnswer) {
+  const std::string first = driven(1e-4, 11);
+  EXPECT_EQ(first.size(), 16u) << first;
+  EXPECT_EQ(driven(1e-4, 512), first);
+  EXPECT_EQ(driven(1e-4, 1'000'000), first);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, SoundVehicles,
+                         ::testing::Values(Drive{"Straight",
+                                                 "rigid",
+                                                 {"driver.sprocket_speed=10", "driver.tension_ramp=0.02",
+                                                  "driver.weight_ramp=0.03", "driver.drive_start=0.05",
+                                                  "driver.drive_ramp=0.05", "vehicle.sphere_radius=0.03"},
+                                                 1600}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+} // namespace
+} // namespace grouser::simulation

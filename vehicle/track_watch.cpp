@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vehicle/track_watch.hpp"
+
+#include "vehicle/travel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <vector>
+
+namespace grouser::vehicle {
+
+using base::Vec3d;
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// "left shoe 12": of the part that a body carries.
+std::string nameOf(const Assembly& vehicle, int body) {
+  for (const Part& part : vehicle.parts)
+    if (part.body == body) return part.name;
+  return vehicle.model.bodies()[at(body)].name;
+}
+
+std::string remedy(const Assembly& vehicle) {
+  return fmt::format("tighten the track (idler.preload of the vehicle file, {:g} N), turn and drive more gently "
+                     "(driver), or use a smaller time_step",
+                     vehicle.spec.idler.preload);
+}
+
+/// Whether a closed polygon runs around a point of the plane.
+bool runsAround(const std::vector<Vec3d>& corners, const Vec3d& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    const Vec3d &a = corners[i], &b = corners[j];
+    if ((a.z > point.z) != (b.z > point.z) && point.x < a.x + (point.z - a.z) / (b.z - a.z) * (b.x - a.x))
+      inside = !inside;
+  }
+  return inside;
+}
+
+} // namespace
+
+SidewaysShoe mostSideways(const Assembly& vehicle, int track, const multibody::State& state) {
+  const Track& t = vehicle.tracks[at(track)];
+  const base::Pose pose_W = vehiclePose(vehicle, state);
+  SidewaysShoe worst;
+  for (std::size_t i = 0; i < t.shoes.size(); ++i) {
+    const double shift = std::fabs(pose_W.toBody(state.pose[at(t.shoes[i])].position).y - t.y);
+    if (!(shift <= worst.shift)) worst = {static_cast<int>(i), shift};
+    if (std::isnan(worst.shift)) break;
+  }
+  return worst;
+}
+
+LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::State& state) {
+  const Track& t = vehicle.tracks[at(track)];
+  const VehicleSpec& spec = vehicle.spec;
+  const base::Pose pose_W = vehiclePose(vehicle, state);
+  const double halfPitch = 0.5 * spec.shoe.pitch;
+  std::vector<double> gap(t.wheels.size(), std::numeric_limits<double>::infinity());
+  std::vector<Vec3d> axle_V;
+  for (const int wheel : t.wheels) axle_V.push_back(pose_W.toBody(state.pose[at(wheel)].position));
+  for (const int shoe : t.shoes) {
+    const base::Pose& pose = state.pose[at(shoe)];
+    const Vec3d rear = pose_W.toBody(pose.toWorld({-halfPitch, 0, spec.shoe.plateTop}));
+    const Vec3d front = pose_W.toBody(pose.toWorld({halfPitch, 0, spec.shoe.plateTop}));
+    for (std::size_t i = 0; i < t.wheels.size(); ++i) {
+      const double s = (axle_V[i].x - rear.x) / (front.x - rear.x);
+      // Of the plate under the wheel; the plates of neighbours overlap or leave a gap where the track is folded.
+      if (!(s >= -0.1 && s <= 1.1) || 0.5 * (rear.z + front.z) > axle_V[i].z) continue;
+      gap[i] = std::min(gap[i], axle_V[i].z - spec.roadWheel.radius - (rear.z + s * (front.z - rear.z)));
+    }
+  }
+  LiftedWheel worst;
+  for (std::size_t i = 0; i < gap.size(); ++i)
+    if (gap[i] > worst.gap) worst = {static_cast<int>(i), gap[i]};
+  return worst;
+}
+
+int outsideLoop(const Assembly& vehicle, int track, const multibody::State& state) {
+  const Track& t = vehicle.tracks[at(track)];
+  const base::Pose pose_W = vehiclePose(vehicle, state);
+  const Vec3d pin{0.5 * vehicle.spec.shoe.pitch, 0, 0};
+  std::vector<Vec3d> pins_V;
+  pins_V.reserve(t.shoes.size());
+  for (const int shoe : t.shoes) pins_V.push_back(pose_W.toBody(state.pose[at(shoe)].toWorld(pin)));
+  std::vector<int> within{t.sprocket, t.idler};
+  within.insert(within.end(), t.wheels.begin(), t.wheels.end());
+  within.insert(within.end(), t.rollers.begin(), t.rollers.end());
+  for (const int body : within)
+    if (!runsAround(pins_V, pose_W.toBody(state.pose[at(body)].position))) return body;
+  return -1;
+}
+
+std::string thrownTrack(const Assembly& vehicle, int track, const multibody::State& state, double lift) {
+  const Track& t = vehicle.tracks[at(track)];
+  const char* side = sideName(t.side);
+  const double horn = vehicle.spec.shoe.hornHeight;
+  if (const SidewaysShoe s = mostSideways(vehicle, track, state); !(s.shift <= horn))
+    return fmt::format("{} track thrown: {} is {:.0f} mm beside its wheels, more than a horn's height of {:.0f} mm; {}",
+                       side, nameOf(vehicle, t.shoes[at(s.shoe)]), 1e3 * s.shift, 1e3 * horn, remedy(vehicle));
+  if (const LiftedWheel w = mostLifted(vehicle, track, state); !(w.gap <= lift))
+    return fmt::format("{} track thrown: {} is {:.0f} mm off its plates, more than {:.0f} mm; {}", side,
+                       nameOf(vehicle, t.wheels[at(w.wheel)]), 1e3 * w.gap, 1e3 * lift, remedy(vehicle));
+  if (const int body = outsideLoop(vehicle, track, state); body >= 0)
+    return fmt::format("{} track thrown: it no longer runs around {}; {}", side, nameOf(vehicle, body),
+                       remedy(vehicle));
+  return {};
+}
+
+} // namespace grouser::vehicle
