@@ -6,6 +6,7 @@
 #include "vehicle/driver.hpp"
 #include "vehicle/spec.hpp"
 
+#include <limits>
 #include <string>
 
 namespace grouser::setup {
@@ -19,7 +20,7 @@ struct VehicleSetup {
   bool fixChassis{};     ///< as on a bench
   double sphereRadius{}; ///< of the parts' sphere sets [m]
   vehicle::DriverOptions driver;
-  double largestTurn{}; ///< of a body in a step [rad]
+  double largestTurn = std::numeric_limits<double>::infinity(); ///< of a body in a step [rad]
 };
 
 /// Reads the spec. Throws InputError where that, or where the vehicle stands, is not possible.

@@ -3,7 +3,6 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "multibody/readings.hpp"
 #include "runs/setup/time_scales.hpp"
 
 #include <fmt/format.h>

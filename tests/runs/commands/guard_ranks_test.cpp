@@ -36,7 +36,9 @@ TEST_F(GuardOnRanks, StepsThatMakeEnergyAreStoppedAtTheStepOfOneRank) {
 }
 
 TEST_F(GuardOnRanks, WhatPressesAGrainIsNamedAlike) {
-  const std::string scene = heap(0.3, soil(0.5, 0.5), {}, "periodic = [true, false]\ndomain_x = [-0.03, 0.03]\n") +
+  const std::string scene = test::run(0.3, "periodic = [true, false]\ndomain_x = [-0.03, 0.03]\n") + soil(0.5, 0.5) +
+                            test::floor() + plane("[0, -0.03, 0]", "[0, 1, 0]") + plane("[0, 0.03, 0]", "[0, -1, 0]") +
+                            grains({}) +
                             box("[0, 0, 0.08]", "[0.2, 0.058, 0.01]", "name = \"piston\"\nvelocity = [0, 0, -0.5]\n");
   const std::string one = verdict(1, scene);
   EXPECT_NE(one.find("it is pinched between"), std::string::npos) << one;
