@@ -125,7 +125,7 @@ void Simulation::addGrains() {
 }
 
 void Simulation::checkAlarm() {
-  const std::string alarm = vehicle_->alarm();
+  const std::string alarm = vehicle_->alarm(steps_);
   if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
 }
 

@@ -123,16 +123,16 @@ std::string VehicleRig::judgeTurns() const {
 std::string VehicleRig::judgeTension() {
   std::string part;
   const double r = timeStep_ * solver_->geometricStiffnessRate(state_, loads_, &part) / solver_->stabilityLimit();
-  if (swings_.bears(r, kAlarmInterval)) return {};
+  if (swings_.bears(r, kTensionInterval)) return {};
   return fmt::format("swings across the pull in joints may have grown {:g} times, for it stays above what the step "
                      "bears, now {:.3g} times that ({}); set run.time_step to {} s or less, or lower what pulls "
                      "(idler.preload of the vehicle file, driver)",
                      SwingGrowth::kMost, r, part, setup::atMost(0.5 * timeStep_ / r));
 }
 
-std::string VehicleRig::alarm() {
+std::string VehicleRig::alarm(std::int64_t step) {
   // Both before the track: what they see throws it.
-  std::string alarm = judgeTension();
+  std::string alarm = step % kTensionInterval == 0 ? judgeTension() : "";
   if (alarm.empty()) alarm = judgeTurns();
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
   if (alarm.empty()) alarm = judgeRest();

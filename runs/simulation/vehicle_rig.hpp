@@ -50,13 +50,13 @@ public:
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
-  /// Steps between two calls of alarm().
-  static constexpr std::int64_t kAlarmInterval = 50;
+  /// Steps between two calls of alarm(), and of those that look at the pull of the tracks, which takes a millisecond.
+  static constexpr std::int64_t kAlarmInterval = 50, kTensionInterval = 2000;
   /// A thrown or skipped track, a part that turns too far a step, a pull in the track that the step does not bear, a
   /// shoe that has left the terrain, a vehicle that does not come to rest, in words; empty while all is well. Judges by
   /// the loads since it was last asked, and so whether a vehicle that was set down rests and drives off: to be called
   /// at fixed steps.
-  std::string alarm();
+  std::string alarm(std::int64_t step);
 
   /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
   multibody::Balance bodiesBalance() const { return multibody::balance(assembly_.model, state_, loads_); }
