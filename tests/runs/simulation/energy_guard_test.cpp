@@ -83,6 +83,15 @@ TEST(EnergyGuard, SlidingThatGivesIsCalledSo) {
   EXPECT_FALSE(guard.slidingGives(l, 0));
 }
 
+TEST(EnergyGuard, WorkOfDrivesBeforeTheLastLookHidesNothing) {
+  EnergyGuard guard;
+  Ledger l = books(0, 0);
+  l.driveWork = 100;
+  guard.look(l);
+  l.integrationError = -3;
+  EXPECT_NE(guard.judge(l, 0), "") << "nothing has been exchanged since";
+}
+
 TEST(EnergyGuard, DampersThatGiveEnergyAreSeen) {
   EnergyGuard guard;
   Ledger l = books(0, 100);
@@ -165,6 +174,17 @@ INSTANTIATE_TEST_SUITE_P(
         Material{"Pulling", "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5\nattraction = true", "[0, 0, 0]"},
         Material{"Stiff", "stiffness = 1e6\nrestitution = 0.3\nfriction = 0.8", "[0.5, 0, -1]"}),
     [](const auto& heap) { return std::string(heap.param.name); });
+
+TEST(EnergyGuard, RemembersWhatItHasSeenAtEveryLook) {
+  Simulation simulation = simulationAt(heap(100, "stiffness = 2e4\nrestitution = 0.5\nfriction = 0.5"), 0.5);
+  for (const int look : {1, 2}) {
+    while (simulation.steps() < look * EnergyGuard::kInterval) simulation.step();
+    const Ledger l = simulation.ledger();
+    EXPECT_EQ(simulation.save().guard,
+              (std::vector<double>{l.integrationError, l.turnover, l.dissipated.total(), l.driveWork, l.elastic,
+                                   l.dissipated.friction}));
+  }
+}
 
 TEST(EnergyGuard, VerdictFallsAtTheSameStepInBatchesAndAlone) {
   const auto stopped = [](int most) {
