@@ -180,9 +180,8 @@ TEST(EnergyGuard, RemembersWhatItHasSeenAtEveryLook) {
   for (const int look : {1, 2}) {
     while (simulation.steps() < look * EnergyGuard::kInterval) simulation.step();
     const Ledger l = simulation.ledger();
-    EXPECT_EQ(simulation.save().guard,
-              (std::vector<double>{l.integrationError, l.turnover, l.dissipated.total(), l.driveWork, l.elastic,
-                                   l.dissipated.friction}));
+    EXPECT_EQ(simulation.save().guard, (std::vector<double>{l.integrationError, l.turnover, l.dissipated.total(),
+                                                            l.driveWork, l.elastic, l.dissipated.friction}));
   }
 }
 
