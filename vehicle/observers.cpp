@@ -106,7 +106,7 @@ std::string Observer::alarm(const multibody::State& state, const GroundLoads& gr
   const double allowed =
       vehicle_->spec.shoe.hornHeight + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
-    if (const std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
+    if (std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
     if (!(std::fabs(travel_[i].skipped()) <= kSkip))
       return fmt::format("{} track skips: {:.2f} teeth have passed, but {:.2f} pitches; tighten the track "
                          "(idler.preload of the vehicle file, {:g} N), or drive more gently (driver)",

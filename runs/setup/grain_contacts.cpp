@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace grouser::setup {
 
@@ -77,8 +78,9 @@ std::vector<GrainContact> grainContacts(const scene::Scene& scene, Of which) {
         return c.material == material && c.other == p.material && c.amongGrains == p.isGrain;
       });
       if (same != contacts.end()) {
-        contacts.push_back(GrainContact(*same));
-        contacts.back().name = p.name;
+        GrainContact again = *same;
+        again.name = p.name;
+        contacts.push_back(std::move(again));
         continue;
       }
       // Share of its own mass or radius that counts between the two.

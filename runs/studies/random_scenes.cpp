@@ -134,6 +134,11 @@ std::string aroundOf(const std::string& kind, const Room& room, double largest, 
   return planes(room, kind != "plane", true, closed);
 }
 
+/// Weak enough for grains to part again [J/m2].
+double cohesionOf(const Scales& s, Draw& draw) {
+  return s.hertz ? draw.over(1e-8, 1e-6) * s.young * s.radius : draw.over(1e-6, 1e-4) * s.stiffness / base::kPi;
+}
+
 } // namespace
 
 RandomScene randomScene(std::uint64_t seed, int number) {
@@ -158,9 +163,7 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   const double largest = form.widest * s.radius;
   const double push = std::min(1e4 * 0.5, s.speedFor(form.push));
   const double gravity = gravityOf(form, s);
-  const double cohesion = draw.once(0.2) ? s.hertz ? draw.over(1e-8, 1e-6) * s.young * s.radius
-                                                   : draw.over(1e-6, 1e-4) * s.stiffness / base::kPi
-                                         : 0;
+  const double cohesion = draw.once(0.2) ? cohesionOf(s, draw) : 0;
   scene.sticks = cohesion > 0;
 
   const double spacing = form.spacing * largest;

@@ -56,11 +56,11 @@ INSTANTIATE_TEST_SUITE_P(
         Unsound{"StepAboveTheLimit",
                 2,
                 heap(0.3, soil(0.5, 0.5), {}, "time_step = 1e-3\n"),
-                {"scene.toml:6: run.time_step", "is above 8.43e-05 s", "grain on grain of 'soil'"}},
+                {"scene.toml:6: run.time_step", "is above 0.000114 s", "grain on grain of 'soil'"}},
         Unsound{"DashpotAboveTheStep",
                 2,
                 heap(0.3, "[material.soil]\nstiffness = 2e4\ndamping = 4e4\n", {}, kStiffSpeed),
-                {"run.time_step", "becomes unstable; choose 7.48e-06 s or less"}},
+                {"run.time_step", "becomes unstable; choose 1.41e-05 s or less"}},
         Unsound{"AliasedShaker",
                 2,
                 run(0.3, kStiffSpeed) + soil(0.5, 0.5) + floor("amplitude = [0, 0, 1e-5]\nfrequency = 19990\n") +
@@ -208,11 +208,6 @@ INSTANTIATE_TEST_SUITE_P(
             vehicle("tension_ramp = 0\nweight_ramp = 0\ndrive_start = 0\ndrive_ramp = 0\nsprocket_speed = 20\n",
                     "steps_per_period = 2000\n"),
             {"driver.sprocket_speed = 20 [rad/s] is under-resolved", "in a turn of the smallest wheel of 0.1154 s"}},
-        Unsound{
-            "PartsTurnTooFarInTheRun",
-            3,
-            vehicle("tension_ramp = 0\nweight_ramp = 0\ndrive_start = 0\ndrive_ramp = 0\n", "steps_per_period = 1e5\n"),
-            {"step 50,", "turns by", "above the 6.283e-05 rad of run.steps_per_period = 100000 steps a turn"}},
         Unsound{"TeethThatSkip",
                 3,
                 vehicle(kQuickStart + "sprocket_speed = 100\ndrive_ramp = 0.05\n"),
@@ -221,44 +216,43 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Mechanisms, UnsoundScenes,
-    ::testing::Values(
-        Unsound{"SpunUp",
-                3,
-                run(4, "time_step = 1e-3\n") + rotor("imposes = \"torque\"\nvalue = 10\n"),
-                {"body \"rotor\" turns by 0.315 rad a step (spun up from 0 rad"}},
-        Unsound{"SpunUpTheWrongWay",
-                3,
-                run(5, "time_step = 1e-3\n") + rotor("imposes = \"torque\"\nvalue = -400\n"),
-                {"step 100,", "body \"rotor\" turns by 0.4 rad a step (spun up"}},
-        Unsound{"DriveThatRunsAway",
-                3,
-                run(2, "time_step = 1e-3\n") + rotor("polynomial = [0, 400]\n"),
-                {"step 800,", "body \"rotor\" turns by 0.32 rad a step"}},
-        Unsound{"GearThatTurnsTooFast",
-                3,
-                run(2, "time_step = 1e-3\n") + rotor("time = [0, 1]\nvalues = [0, 20]\n") +
-                    body("pinion", "[1, 0, 0]", "", 0.1, "[1e-4, 1e-4, 1e-4]") +
-                    joint("shaft", "world", "pinion", "[1, 0, 0]", "axis = [0, 0, 1]\n") +
-                    "[[coupling]]\nname = \"gears\"\njoints = [\"axle\", \"shaft\"]\nratio = -50\n",
-                {"body \"pinion\" turns by"},
-                {"body \"rotor\""}},
-        Unsound{"TautChain",
-                3,
-                run(1, "time_step = 1e-3\n") + chain(10) +
-                    "[[spring]]\nname = \"pull\"\nbodies = [\"world\", \"link 9\"]\npoint_a = [5, 0, "
-                    "0]\npoint_b = [0.05, 0, 0]\nstiffness = 1e6\nfree_position = 1\n",
-                {"joint 'pin 9' bore so much that only steps below 3.7e-05 s are stable"}},
-        Unsound{"StopHitInOneStep",
-                3,
-                run(2, "time_step = 1e-3\nintegrator = \"symplectic_euler\"\n") +
-                    pendulum("limits = [-0.5, 0.7]\nstop_stiffness = 1e8\n"),
-                {"the steps have lost",
-                 "a bounce off spring 'pin stops' lasts 0.00016 s, 0.16 steps of it where 20 are wanted"}},
-        Unsound{"WhirledChain",
-                3,
-                run(1, "time_step = 1e-3\n") + chain(10) +
-                    "[[drive]]\nname = \"crank\"\njoint = \"pin 0\"\ntime = [0, 0.5]\nvalues = [0, 200]\n",
-                {"body \"link"}}),
+    ::testing::Values(Unsound{"SpunUp",
+                              3,
+                              run(4, "time_step = 1e-3\n") + rotor("imposes = \"torque\"\nvalue = 10\n"),
+                              {"body \"rotor\" turns by 0.315 rad a step (spun up from 0 rad"}},
+                      Unsound{"SpunUpTheWrongWay",
+                              3,
+                              run(5, "time_step = 1e-3\n") + rotor("imposes = \"torque\"\nvalue = -400\n"),
+                              {"step 100,", "body \"rotor\" turns by 0.4 rad a step (spun up"}},
+                      Unsound{"DriveThatRunsAway",
+                              3,
+                              run(2, "time_step = 1e-3\n") + rotor("polynomial = [0, 400]\n"),
+                              {"step 800,", "body \"rotor\" turns by 0.32 rad a step"}},
+                      Unsound{"GearThatTurnsTooFast",
+                              3,
+                              run(2, "time_step = 1e-3\n") + rotor("time = [0, 1]\nvalues = [0, 20]\n") +
+                                  body("pinion", "[1, 0, 0]", "", 0.1, "[1e-4, 1e-4, 1e-4]") +
+                                  joint("shaft", "world", "pinion", "[1, 0, 0]", "axis = [0, 0, 1]\n") +
+                                  "[[coupling]]\nname = \"gears\"\njoints = [\"axle\", \"shaft\"]\nratio = -50\n",
+                              {"body \"pinion\" turns by"},
+                              {"body \"rotor\""}},
+                      Unsound{"TautChain",
+                              3,
+                              run(1, "time_step = 1e-3\n") + chain(10) +
+                                  "[[spring]]\nname = \"pull\"\nbodies = [\"world\", \"link 9\"]\npoint_a = [5, 0, "
+                                  "0]\npoint_b = [0.05, 0, 0]\nstiffness = 1e6\nfree_position = 1\n",
+                              {"joint 'pin 9' bore so much that only steps below 3.7e-05 s are stable"}},
+                      Unsound{"StopHitInOneStep",
+                              3,
+                              run(2, "time_step = 1e-3\nsteps_per_period = 2\nintegrator = \"symplectic_euler\"\n") +
+                                  pendulum("limits = [-0.5, 0.7]\nstop_stiffness = 1e6\n"),
+                              {"the steps have ", "a bounce off spring 'pin stops' lasts 0.0016 s"}},
+                      Unsound{
+                          "WhirledChain",
+                          3,
+                          run(1, "time_step = 1e-3\n") + chain(10) +
+                              "[[drive]]\nname = \"crank\"\njoint = \"pin 0\"\ntime = [0, 0.5]\nvalues = [0, 200]\n",
+                          {"body \"link"}}),
     kName);
 
 } // namespace

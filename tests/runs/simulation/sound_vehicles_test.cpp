@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle that stands, drives, turns, and is dropped on a small bed raises no alarm, whatever its output interval.
+#include "base/error.hpp"
+#include "base/math.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 
@@ -54,8 +56,31 @@ INSTANTIATE_TEST_SUITE_P(Drives, SoundVehicles,
                                                  {"driver.sprocket_speed=10", "driver.tension_ramp=0.02",
                                                   "driver.weight_ramp=0.03", "driver.drive_start=0.05",
                                                   "driver.drive_ramp=0.05", "vehicle.sphere_radius=0.03"},
-                                                 1600}),
+                                                 1600},
+                                           Drive{"OnABed", "coupled", {}, 600}),
                          [](const auto& tested) { return std::string(tested.param.name); });
+
+// Springs that a step does not resolve are refused before anything can turn so far: this asks for less.
+TEST(JudgedVehicle, PartsThatTurnTooFarAStepEndTheRun) {
+  const scene::Scene scene =
+      setup::loadScene(GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml",
+                       {"run.time_step=1e-4", "driver.tension_ramp=0", "driver.weight_ramp=0", "driver.drive_start=0",
+                        "driver.drive_ramp=0", "vehicle.sphere_radius=0.03"});
+  setup::SimulationSetup setup = setup::simulationSetup(scene);
+  EXPECT_NEAR(setup.vehicle->largestTurn, 2 * base::kPi / 20, 1e-15);
+  setup.vehicle->largestTurn = 2 * base::kPi / 1e5;
+  Simulation simulation(setup, base::cpuExec(1), [](double, double) {});
+  try {
+    while (simulation.steps() < 100) simulation.step();
+    FAIL() << "goes on";
+  } catch (const base::SimulationError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("step 50,"), std::string::npos) << said;
+    EXPECT_NE(said.find("turns by"), std::string::npos) << said;
+    EXPECT_NE(said.find("above the 6.283e-05 rad of run.steps_per_period = 100000 steps a turn"), std::string::npos)
+        << said;
+  }
+}
 
 } // namespace
 } // namespace grouser::simulation
