@@ -230,8 +230,9 @@ GrainLedger measureLedger(GrainSystem& system) {
   ledger.contacts = static_cast<std::int64_t>(q[Sums::kTouching]) / 2;
   ledger.boundaryContacts = static_cast<std::int64_t>(q[Sums::kAtBoundary]);
   for (int a = 0; a < 3; ++a) {
-    ledger.momentum[a] = q[static_cast<std::size_t>(Sums::kMomentum + a)] * momentum.quantum;
-    ledger.angularMomentum[a] = q[static_cast<std::size_t>(Sums::kAngular + a)] * angular.quantum;
+    const auto axis = static_cast<std::size_t>(a);
+    ledger.momentum[a] = q[Sums::kMomentum + axis] * momentum.quantum;
+    ledger.angularMomentum[a] = q[Sums::kAngular + axis] * angular.quantum;
   }
   ledger.deepestOverlap = static_cast<double>(~most[0]) * system.constants.scale.unit;
   ledger.fastest = static_cast<double>(~most[1]) * 1e-6;

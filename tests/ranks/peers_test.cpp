@@ -50,8 +50,8 @@ TEST(PeersOnCpus, SeeNobodyUnlessAsked) {
 TEST(PeersOnCpus, WhoInsistsIsToldWhy) {
   if (test::comm().alone()) GTEST_SKIP() << "one rank needs nobody's memory";
   try {
-    base::PeerMemory(base::cpuExec(1), test::comm(), PeerUse::always, std::size_t{1} << 46);
-    FAIL() << "there is no machine with so much memory";
+    const base::PeerMemory memory(base::cpuExec(1), test::comm(), PeerUse::always, std::size_t{1} << 46);
+    FAIL() << "there is no machine with so much memory: " << memory.allSeeAll();
   } catch (const base::InputError& e) {
     EXPECT_NE(std::string(e.what()).find("room for it"), std::string::npos) << e.what();
   }
