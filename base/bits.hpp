@@ -4,8 +4,18 @@
 #include "base/host_device.hpp"
 
 #include <cstdint>
+#include <cstring>
 
 namespace grouser::base {
+
+/// The same bits, seen as another type of the same size; std::bit_cast is no function of a GPU's. Inlined always: what
+/// is compiled for one kind of processor alone calls it too (base/simd.hpp).
+template <class To, class From> GROUSER_HD __attribute__((always_inline)) To bitsAs(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  memcpy(&to, &from, sizeof to);
+  return to;
+}
 
 /// Place of the lowest bit that is set; `bits` is not 0.
 GROUSER_HD int lowestBit(std::uint64_t bits) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/host_device.hpp"
+#include "base/bits.hpp"
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 /// Elementary functions that give the same bits on every processor: built from + - * / and sqrt only, in a fixed order.
 /// The C library's versions differ between processors (they pick fused multiply-add paths at run time).
@@ -15,17 +14,6 @@ namespace grouser::base {
 inline constexpr double kPi = 3.14159265358979323846;
 
 namespace detail {
-
-GROUSER_HD double fromBits(std::uint64_t bits) {
-  double x;
-  memcpy(&x, &bits, sizeof x);
-  return x;
-}
-GROUSER_HD std::uint64_t toBits(double x) {
-  std::uint64_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  return bits;
-}
 
 /// Taylor sine and cosine for |r| <= pi/4.
 GROUSER_HD double sinSmall(double r) {
@@ -120,14 +108,14 @@ GROUSER_HD double exp(double x) {
   const double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
   double p = 1;
   for (int k = 16; k >= 1; --k) p = 1 + p * r / k;
-  return p * detail::fromBits(static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023) << 52);
+  return p * bitsAs<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023) << 52);
 }
 
 /// Natural logarithm of a normal number x > 0.
 GROUSER_HD double log(double x) {
-  const std::uint64_t bits = detail::toBits(x);
+  const std::uint64_t bits = bitsAs<std::uint64_t>(x);
   std::int64_t e = static_cast<std::int64_t>(bits >> 52) - 1023;
-  double m = detail::fromBits((bits & 0xFFFFFFFFFFFFFull) | 0x3FF0000000000000ull);
+  double m = bitsAs<double>((bits & 0xFFFFFFFFFFFFFull) | 0x3FF0000000000000ull);
   if (m > 1.41421356237309504880) m *= 0.5, ++e;
   const double s = (m - 1) / (m + 1), s2 = s * s;
   double p = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/bits.hpp"
 #include "base/number.hpp"
 
 #include <cmath>
@@ -49,14 +50,6 @@ concept SimdVector = !std::is_class_v<T> && !std::is_pointer_v<T> && !std::is_ar
 };
 
 template <SimdVector V> inline constexpr int kWidthOf = sizeof(V) / sizeof(V{}[0]);
-
-/// The same bits, seen as another type of the same size.
-template <class To, class From> GROUSER_SIMD To bitsAs(const From& from) {
-  static_assert(sizeof(To) == sizeof(From));
-  To to;
-  std::memcpy(&to, &from, sizeof to);
-  return to;
-}
 
 /// Lane by lane, as static_cast.
 template <class To, SimdVector From> GROUSER_SIMD Simd<To, kWidthOf<From>> convert(const From& v) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/bed_tops.hpp"
 
+#include "base/bits.hpp"
 #include "base/error.hpp"
 #include "base/for_each.cuh"
 
-#include <cstring>
 #include <string>
 
 namespace grouser::terrain {
@@ -16,8 +16,7 @@ namespace {
 /// Words that fall as numbers rise, so that the least word is the highest number whatever thread comes first. None of
 /// them is the word with all bits set, which stands for "no grain".
 GROUSER_HD std::uint64_t wordOf(double height) {
-  std::uint64_t bits;
-  memcpy(&bits, &height, sizeof bits);
+  const auto bits = base::bitsAs<std::uint64_t>(height);
   const std::uint64_t rising = bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
   return ~rising;
 }
@@ -25,10 +24,7 @@ GROUSER_HD std::uint64_t wordOf(double height) {
 double heightOf(std::uint64_t word) {
   if (word == ~std::uint64_t{0}) return -HUGE_VAL;
   const std::uint64_t rising = ~word;
-  const std::uint64_t bits = rising >> 63 ? rising & ~(std::uint64_t{1} << 63) : ~rising;
-  double height;
-  std::memcpy(&height, &bits, sizeof height);
-  return height;
+  return base::bitsAs<double>(rising >> 63 ? rising & ~(std::uint64_t{1} << 63) : ~rising);
 }
 
 /// Centres and radii of grains on the host, and of a running bed.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/bits.hpp"
 #include "base/position.hpp"
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 /// Sums over many steps that do not lose what rounding cuts off: `v += g dt` in plain float is wrong by 2 % of g at a
 /// step of 1e-6 s, because every step rounds the same way.
@@ -27,27 +27,19 @@ inline constexpr int kPlacesPerUnit = 1024, kLeastPlace = -512, kMostPlace = 511
 /// Units of one step beyond which a speed is a fault, and no integer is made of it.
 inline constexpr double kMostUnitsPerStep = 1e9;
 
-GROUSER_HD float floatOfBits(std::int32_t bits) {
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
 /// The bits of the power of two below |v|.
 GROUSER_HD std::int32_t binadeOf(float v) {
-  std::int32_t bits;
-  memcpy(&bits, &v, sizeof bits);
-  bits &= 0x7F800000;
+  const std::int32_t bits = base::bitsAs<std::int32_t>(v) & 0x7F800000;
   return bits < kLeastBinade ? kLeastBinade : bits;
 }
 
 /// Quantum of a velocity's remainder: 2^-39 of the power of two below |v|, which is 2^-16 of the float's last place.
 GROUSER_HD double remainderQuantum(float v) {
-  return static_cast<double>(floatOfBits(binadeOf(v))) * kRemainderOfBinade;
+  return static_cast<double>(base::bitsAs<float>(binadeOf(v))) * kRemainderOfBinade;
 }
 /// Its inverse.
 GROUSER_HD double perRemainderQuantum(float v) {
-  return static_cast<double>(floatOfBits((254 << 23) - binadeOf(v))) * (1 / kRemainderOfBinade);
+  return static_cast<double>(base::bitsAs<float>((254 << 23) - binadeOf(v))) * (1 / kRemainderOfBinade);
 }
 
 /// The number and what rounding has cut off.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/bits.hpp"
 #include "base/vec.hpp"
 #include "base/wide_sum.cuh"
 #include "terrain/compensated_sum.hpp"
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 /// What the grains' steps add to the books of a run. Symplectic Euler changes the kinetic energy of a grain in a step
 /// by exactly F . (v_old + v_new) / 2 dt + T . (w_old + w_new) / 2 dt. That work is summed here, step by step, from the
@@ -46,11 +46,7 @@ struct BookScale {
 GROUSER_HD std::int64_t wholeQuanta(double quanta) {
   constexpr double kMost = 0x1p51, kShift = 0x1.8p52;
   const double within = !(quanta > -kMost) ? -kMost : quanta < kMost ? quanta : kMost;
-  const double shifted = within + kShift; // its last place is 1
-  std::int64_t bits, zero;
-  memcpy(&bits, &shifted, sizeof bits);
-  memcpy(&zero, &kShift, sizeof zero);
-  return bits - zero;
+  return base::bitsAs<std::int64_t>(within + kShift) - base::bitsAs<std::int64_t>(kShift); // the last place is 1
 }
 
 /// What dissipation takes from one grain in one step [J].

@@ -2,6 +2,7 @@
 #include "vehicle/hull_clearance.hpp"
 
 #include "base/math.hpp"
+#include "spheredecomp/mesh_query.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <algorithm>
@@ -122,26 +123,11 @@ double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
   return radius - (inside && turn != 0 ? 0.0 : nearest);
 }
 
-/// Whether a point is in a closed mesh: windings that a line from it along y crosses.
-bool isInside(const TriangleMesh& mesh, const Vec3d& point) {
-  // Off the corners and edges of meshes that people draw.
-  const double x = point.x + 1.7e-7, z = point.z + 2.3e-7;
-  int windings = 0;
-  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-    const Vec3d &a = mesh.vertices[mesh.indices[t]], &b = mesh.vertices[mesh.indices[t + 1]],
-                &c = mesh.vertices[mesh.indices[t + 2]];
-    const auto area = [&](const Vec3d& p, const Vec3d& q) { return (p.x - x) * (q.z - z) - (p.z - z) * (q.x - x); };
-    const double wa = area(b, c), wb = area(c, a), wc = area(a, b), sum = wa + wb + wc;
-    if (!((wa > 0 && wb > 0 && wc > 0) || (wa < 0 && wb < 0 && wc < 0))) continue;
-    if ((wa * a.y + wb * b.y + wc * c.y) / sum > point.y) windings += sum > 0 ? 1 : -1;
-  }
-  return windings != 0;
-}
-
 /// How deep a part of the track at `offset` stands in the hull [m], by the shorter way out, in the track's plane or
 /// across; infinite where it is inside, negative where clear.
-double depthOf(const TriangleMesh& hull, const TrackPart& part, double offset) {
-  if (isInside(hull, {part.centre.x, offset, part.centre.z})) return kInfinity;
+double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, double offset) {
+  if (query.inside({part.centre.x, offset, part.centre.z})) return kInfinity;
+  const TriangleMesh& hull = query.mesh();
   const double from = offset - part.halfWidth, to = offset + part.halfWidth;
   double deepest = -kInfinity, low = kInfinity, high = -kInfinity;
   for (std::size_t t = 0; t + 2 < hull.indices.size(); t += 3) {
@@ -162,7 +148,7 @@ struct Clash {
   double depth;     ///< [m]; infinite: wholly inside
 };
 
-std::optional<Clash> clashAt(const TriangleMesh& hull, const std::vector<TrackPart>& parts, double offset) {
+std::optional<Clash> clashAt(const spheredecomp::MeshQuery& hull, const std::vector<TrackPart>& parts, double offset) {
   for (const double side : {1.0, -1.0})
     for (const TrackPart& part : parts)
       if (const double depth = depthOf(hull, part, side * offset); depth > kFits)
@@ -176,7 +162,8 @@ std::optional<SpecFault> hullFault(const VehicleSpec& s, const PartMeshes& meshe
   const std::optional<Wrap> wrap = findWrap(s);
   if (!wrap) return {};
   const std::vector<TrackPart> parts = trackParts(s, meshes, *wrap);
-  const std::optional<Clash> clash = clashAt(meshes.chassis, parts, s.trackOffset);
+  const spheredecomp::MeshQuery hull(meshes.chassis);
+  const std::optional<Clash> clash = clashAt(hull, parts, s.trackOffset);
   if (!clash) return {};
   std::string what = std::isfinite(clash->depth)
                          ? fmt::format("[m] makes the hull {} and the {} overlap by {:.1f} mm", s.chassis.mesh,
@@ -184,7 +171,7 @@ std::optional<SpecFault> hullFault(const VehicleSpec& s, const PartMeshes& meshe
                          : fmt::format("[m] puts the {} into the hull {}", clash->part, s.chassis.mesh);
   constexpr double kStep = 0.01, kMost = 5; // [m]
   for (double offset = std::floor(s.trackOffset / kStep + 1) * kStep; offset <= kMost; offset += kStep)
-    if (!clashAt(meshes.chassis, parts, offset))
+    if (!clashAt(hull, parts, offset))
       return SpecFault{"vehicle", "track_offset", fmt::format("{}; set vehicle.track_offset = {:.2f}", what, offset)};
   return SpecFault{"vehicle", "track_offset", what + "; no wider track mends it: give another hull"};
 }

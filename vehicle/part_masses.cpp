@@ -56,30 +56,17 @@ std::optional<SpecFault> surfaceFault(const char* section, const SurfaceSpec& pa
 /// The hull's weight may ride beside and above what is drawn of it, but not far.
 std::optional<SpecFault> centreFault(const VehicleSpec& s, const base::TriangleMesh& mesh) {
   const auto [low, high] = spheredecomp::bounds(mesh);
-  const Vec3d c = s.chassis.centre, size = high - low;
-  const char* axes = "xyz";
+  const Vec3d& centre = s.chassis.centre;
+  const char *const axes[] = {"x", "y", "z"}, *const sizes[] = {"long", "wide", "high"};
   for (int a = 0; a < 3; ++a) {
-    const double at = a == 0   ? c.x
-                      : a == 1 ? c.y
-                               : c.z,
-                 from = a == 0   ? low.x
-                        : a == 1 ? low.y
-                                 : low.z,
-                 to = a == 0   ? high.x
-                      : a == 1 ? high.y
-                               : high.z,
-                 beyond = a == 0   ? size.x
-                          : a == 1 ? size.y
-                                   : size.z;
-    if (at >= from - beyond && at <= to + beyond) continue;
+    const double at = centre[a], size = high[a] - low[a], from = low[a] - size, to = high[a] + size;
+    if (at >= from && at <= to) continue;
+    const bool beyond = at > to;
     return SpecFault{"chassis", "centre",
                      fmt::format("[m] lies {:.0f} mm {} the hull {}, further than it is {}; choose its {} in [{:.3g}, "
                                  "{:.3g}]",
-                                 1e3 * (at > to ? at - to : from - at), at > to ? "beyond" : "before", s.chassis.mesh,
-                                 a == 0   ? "long"
-                                 : a == 1 ? "wide"
-                                          : "high",
-                                 axes[a], from - beyond, to + beyond)};
+                                 1e3 * (beyond ? at - high[a] : low[a] - at), beyond ? "beyond" : "before",
+                                 s.chassis.mesh, sizes[a], axes[a], from, to)};
   }
   return {};
 }
