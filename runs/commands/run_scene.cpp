@@ -86,6 +86,21 @@ void describeSharing(const simulation::Simulation& simulation, double waiting, o
   summary.figures["rebalancings"] = static_cast<double>(grains->distribution()->rebalancings());
 }
 
+/// How the bed came to rest, and what it is made of.
+void describeBed(const simulation::Simulation& simulation) {
+  const simulation::SettleReport& settled = simulation.settled();
+  if (settled.steps > 0)
+    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius{}\n", settled.time,
+               settled.agitation,
+               settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
+  const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
+  if (!bed || bed->grains == 0) return;
+  fmt::print("bed       porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
+             "surface   {:.4f} m in the mean, {:.4f} to {:.4f} m; {:.4f} m above the floor, {:.1f} mean diameters\n",
+             bed->porosity, bed->porosityError, bed->coordination, 100 * bed->rattlers, 100 * bed->order,
+             bed->settledHeight, bed->lowest, bed->highest, bed->thickness, bed->thickness / bed->meanDiameter);
+}
+
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
@@ -93,9 +108,7 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
-  if (simulation.settled().steps > 0)
-    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n",
-               simulation.settled().time, simulation.settled().agitation);
+  describeBed(simulation);
   if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
@@ -375,6 +388,11 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
     summary.wallTime = since(start);
     describeDrive(simulation, summary);
     summary.figures["wall_preparation_s"] = prepared;
+    if (const auto& bed = simulation.ground().structure) {
+      summary.figures["bed_porosity"] = bed->porosity;
+      summary.figures["bed_order"] = bed->order;
+      summary.figures["bed_thickness_in_mean_diameters"] = bed->thickness / bed->meanDiameter;
+    }
     summary.figures["wall_steps_s"] = drove, summary.figures["cpu_steps_s"] = cpu;
     summary.figures["microseconds_a_step"] =
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));

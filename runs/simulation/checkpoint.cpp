@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 6; // of the layout below
+constexpr int kVersion = 7; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -44,6 +44,17 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   archive("/settled/time", s.settled.time);
   archive("/settled/agitation", s.settled.agitation);
   archive("/settled/steps", s.settled.steps);
+  archive("/settled/friction", s.settled.friction);
+  if (archive.present("/bed", s.bed)) {
+    auto& b = *s.bed;
+    archive("/bed/porosity", b.porosity), archive("/bed/porosity_error", b.porosityError);
+    archive("/bed/coordination", b.coordination), archive("/bed/rattlers", b.rattlers);
+    archive("/bed/order", b.order), archive("/bed/mean_diameter", b.meanDiameter);
+    archive("/bed/settled_height", b.settledHeight), archive("/bed/thickness", b.thickness);
+    archive("/bed/highest", b.highest), archive("/bed/lowest", b.lowest), archive("/bed/grains", b.grains);
+    archive("/bed/distance", b.distance), archive("/bed/radial_distribution", b.radialDistribution);
+    archive("/bed/depth", b.depth), archive("/bed/porosity_at_depth", b.porosityAtDepth);
+  }
   archive("/undisturbed_surface", s.surface);
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);

@@ -28,6 +28,10 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
     if (bed.settle.timeLimit > 0)
       settled_ = beds ? beds->settle(bed, *ground_.grains, progress, comm) : settle(bed, *ground_.grains, progress);
     keepSurface(ground_, exec);
+    if (bed.settle.timeLimit > 0) {
+      ground_.structure = structureOf(ground_);
+      checkStructure(bed, *ground_.structure);
+    }
   }
   surface_ = surfaceHeight(ground_);
   if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_);
