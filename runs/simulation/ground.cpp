@@ -86,7 +86,7 @@ SettleReport settleUntilRest(const setup::BedSetup& bed, terrain::Grains& grains
   const setup::SettleSetup& wanted = bed.settle;
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
-  const double unit = model.mass * g * model.radius * static_cast<double>(grains.count());
+  const double unit = model.mass * g * model.radius * static_cast<double>(grains.count() - grains.system().fixedCount);
   // Loose layers fall first; nothing is judged before they have landed.
   const double layers = bed.tile ? 0 : bed.layerCount;
   const double fall = std::sqrt(2 * layers * (bed.layers.spacingInRadii - 1.6) * model.radius / g);
