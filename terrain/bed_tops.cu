@@ -41,7 +41,9 @@ struct OfGrains {
   const Vec4f* radiusInW;     ///< null where all have grainRadius
   const std::uint32_t* ghost; ///< null where there are none
   GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
-  GROUSER_HD double radius(int g) const { return radiusInW ? static_cast<double>(radiusInW[g].w) : grainRadius; }
+  GROUSER_HD double radius(int g) const {
+    return radiusInW ? std::fabs(static_cast<double>(radiusInW[g].w)) : grainRadius;
+  }
   /// Slaves are left out: they may be one step behind, and their masters count on their own ranks.
   GROUSER_HD bool counts(int g) const { return !(ghost && ghost[g]); }
 };

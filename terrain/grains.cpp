@@ -30,7 +30,7 @@ void Grains::add(const std::vector<GrainSpec>& more) {
       insertionOverlapAlarm_(*overlap);
   const EnteringGrains here = system_.entering(more, places);
   system_.arrays.append(here);
-  system_.count += more.size();
+  system_.count += more.size(), system_.fixedCount += fixedAmong(more);
   if (system_.distribution) system_.distribution->subdomain().appended(here.id.size());
   invalidateNeighbours();
 }

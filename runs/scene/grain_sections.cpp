@@ -21,6 +21,7 @@ Table<Grain> grainTable() {
   t.add("spin", &S::spin, "rad/s", "angular velocity at the start").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of its material").required();
+  t.add("fixed", &S::fixed, "", "it never moves: a piece of rough ground");
   return t;
 }
 
@@ -88,6 +89,10 @@ void checkFill(const Section& section, GrainFill& b, const Scene& scene) {
 
 void checkGrain(const Section& section, Grain& g, const Scene& scene) {
   requireMaterial(scene, section, "material", g.material);
+  if (!g.fixed) return;
+  const char* const remedy = "is of a grain that never moves; remove it, or fixed = true";
+  if (norm2(g.velocity) > 0) section.fail("velocity", std::string("[m/s] ") + remedy);
+  if (norm2(g.spin) > 0) section.fail("spin", std::string("[rad/s] ") + remedy);
 }
 
 void checkSource(const Section& section, Source& s, const Scene& scene) {

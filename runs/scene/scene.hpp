@@ -100,6 +100,7 @@ struct Grain {
   base::Vec3d position, velocity, spin;
   double radius = 0;
   std::string material;
+  bool fixed = false;
   bool operator==(const Grain&) const = default;
 };
 

@@ -62,6 +62,8 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.skin = scene.run.skin;
   model.maxOverlap = scene.run.maxOverlap;
   model.precision = scene.run.precision;
+  model.fixedGrains =
+      std::any_of(scene.grains.begin(), scene.grains.end(), [](const scene::Grain& g) { return g.fixed; });
 
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const auto mass = [&](double share) { return kinds.many() ? std::nullopt : std::optional(share * model.mass); };

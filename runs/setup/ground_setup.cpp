@@ -274,7 +274,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   for (const Surroundings::Wall& wall : around.walls) grains.wallNames.push_back(wall.name);
   grains.manyKinds = kinds.many();
   for (const scene::Grain& g : placed)
-    grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+    grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material), g.fixed});
   const auto isHertz = [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; };
   if (std::any_of(scene.materials.begin(), scene.materials.end(), isHertz)) grains.impactSpeed = scene.run.impactSpeed;
   if (bed) grains.bed = bedSetup(scene, kinds, *ground.surface, *bed, timeStep);

@@ -2,6 +2,7 @@
 #include "runs/simulation/bed_preparation.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another
 constexpr double kClose = 0.002;                           // of porosities [-]
 constexpr double kOff = 0.01;                              // of the ends, that are as far as bisection goes [-]
 constexpr int kTrials = 10;
+constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains rock for long
 
 /// Porosity of the small bed settled with this friction.
 double porosityAt(const setup::PreparationSetup& preparation, double friction, const base::Exec& exec,
@@ -28,12 +30,11 @@ double porosityAt(const setup::PreparationSetup& preparation, double friction, c
 
 } // namespace
 
-void settleUntilRest(const setup::BedSetup& bed, terrain::Grains& grains, double fall, const SettleProgress& progress,
+void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall, const SettleProgress& progress,
                      SettleReport& report) {
-  const setup::SettleSetup& wanted = bed.settle;
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
-  const double unit = bed.restEnergy * static_cast<double>(grains.count());
+  const double unit = bed.restEnergy * static_cast<double>(grains.movingCount());
   // Loose grains fall first; nothing is judged before they have landed.
   const double landed = report.time + std::sqrt(2 * fall / g), limit = report.time + wanted.timeLimit;
   const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
@@ -77,9 +78,11 @@ void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, dou
   for (contact::ContactLaw& law : prepared.materials.grains)
     if (law.friction > 0) law.friction = friction;
   grains.replaceLaws(prepared);
-  settleUntilRest(bed, grains, bed.fall, progress, report);
+  setup::SettleSetup nearly = bed.settle;
+  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();
+  settleUntilRest(bed, nearly, grains, bed.fall, progress, report);
   grains.replaceLaws(own);
-  settleUntilRest(bed, grains, 0, progress, report);
+  settleUntilRest(bed, bed.settle, grains, 0, progress, report);
 }
 
 double frictionFor(const setup::PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
@@ -95,16 +98,21 @@ double frictionFor(const setup::PreparationSetup& preparation, const base::Exec&
         preparation.place, low, densest, high, loosest));
   if (wanted <= densest + kClose) return low;
   if (wanted >= loosest - kClose) return high;
-  // The porosity changes with the logarithm of the friction, about evenly between 0.01 and 1.
-  double middle = 0;
+  // Between 0.01 and 1 the porosity rises about evenly with the logarithm of the friction: there each trial is where a
+  // line through the ends of the interval has the porosity wanted, but within its middle three fifths.
   low = 0.01;
+  double below = densest - wanted, above = loosest - wanted, friction = high;
   for (int trial = 0; trial < kTrials; ++trial) {
-    middle = std::sqrt(low * high);
-    const double porosity = at(middle);
-    if (std::fabs(porosity - wanted) <= kClose) break;
-    (porosity < wanted ? low : high) = middle;
+    const double share = std::clamp(below / (below - above), 0.2, 0.8);
+    friction = low * base::pow(high / low, share);
+    const double off = at(friction) - wanted;
+    if (std::fabs(off) <= kClose) break;
+    if (off < 0)
+      low = friction, below = off;
+    else
+      high = friction, above = off;
   }
-  return middle;
+  return friction;
 }
 
 } // namespace grouser::simulation

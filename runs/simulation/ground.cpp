@@ -87,7 +87,7 @@ SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const S
       report.friction = frictionFor(*bed.preparation, grains.system().exec, progress);
       settleWithFriction(bed, grains, report.friction, progress, report);
     } else {
-      settleUntilRest(bed, grains, bed.fall, progress, report);
+      settleUntilRest(bed, bed.settle, grains, bed.fall, progress, report);
     }
   } catch (const base::SimulationError& error) {
     if (progress.failed) progress.failed(grains, error.what());
@@ -107,7 +107,10 @@ void keepSurface(Ground& ground, const std::vector<double>& heights) {
 terrain::BedStructure structureOf(const Ground& ground) {
   const terrain::BedSurface& surface = *ground.undisturbed;
   const terrain::HeightField& floor = *ground.rigid;
-  return terrain::measureBed(*ground.grains, {*ground.walls, [&](double x, double y) { return floor.height(x, y); },
+  const base::Period& period = ground.grains->system().constants.period;
+  return terrain::measureBed(*ground.grains, {*ground.walls,
+                                              {period.length[0] > 0, period.length[1] > 0},
+                                              [&](double x, double y) { return floor.height(x, y); },
                                               [&](double x, double y) { return surface.height(x, y); }});
 }
 
