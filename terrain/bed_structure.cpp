@@ -19,8 +19,8 @@ using base::Vec3d;
 constexpr std::uint64_t kPoints = base::purpose("terrain.bed_structure.points");
 constexpr int kPointsInBulk = 200'000, kProfileBins = 40, kPointsABin = 8'000;
 constexpr double kOff = 2;         // mean diameters from floor, surface and walls
-constexpr double kFarthest = 5;    // of the radial distribution, in mean diameters
-constexpr int kDistances = 100;    // its bins
+constexpr double kFarthest = 3;    // of the radial distribution, in mean diameters
+constexpr int kDistances = 60;     // its bins
 constexpr double kNear = 1.4;      // of the sum of radii: neighbours
 constexpr double kAlike = 0.7;     // of the normalised product of two order vectors
 constexpr int kAlikeOfCrystal = 7; // neighbours
@@ -94,21 +94,39 @@ double legendre6(double x) {
   return (((231 * s - 315) * s + 105) * s - 5) / 16;
 }
 
+/// The part of the bed that is `off` away from all walls; the middle fifth of a side where that is empty.
+Rectangle inset(const BedExtent& e, double off) {
+  const Rectangle& r = e.walls;
+  const double x = e.periodic[0] ? 0 : std::min(off, 0.4 * r.width()),
+               y = e.periodic[1] ? 0 : std::min(off, 0.4 * r.length());
+  return {r.xMin + x, r.xMax - x, r.yMin + y, r.yMax - y};
+}
+
 /// What is in the middle of the bed.
 struct Core {
-  Rectangle inside;
   const BedExtent& extent;
-  double off;
+  double off; ///< [m] from floor and surface
+  Rectangle inside;
   bool contains(const Vec3d& p) const {
     return p.x >= inside.xMin && p.x <= inside.xMax && p.y >= inside.yMin && p.y <= inside.yMax &&
            p.z >= extent.floor(p.x, p.y) + off && p.z <= extent.surface(p.x, p.y) - off;
   }
 };
 
-/// The part of the rectangle that is `off` away from all sides; all of a side's middle fifth where that is empty.
-Rectangle inset(const Rectangle& r, double off) {
-  const double x = std::min(off, 0.4 * r.width()), y = std::min(off, 0.4 * r.length());
-  return {r.xMin + x, r.xMax - x, r.yMin + y, r.yMax - y};
+/// Behind the grains, those beyond periodic boundaries that are no farther than `reach` from them.
+std::vector<LyingGrain> withImages(std::vector<LyingGrain> grains, const BedExtent& e, double reach) {
+  for (const int a : {0, 1}) {
+    if (!e.periodic[static_cast<std::size_t>(a)]) continue;
+    const double low = a == 0 ? e.walls.xMin : e.walls.yMin, high = a == 0 ? e.walls.xMax : e.walls.yMax;
+    const std::size_t there = grains.size();
+    for (std::size_t g = 0; g < there; ++g)
+      for (const double shift : {low - high, high - low}) {
+        LyingGrain image = grains[g];
+        image.centre[a] += shift;
+        if (image.centre[a] > low - reach && image.centre[a] < high + reach) grains.push_back(image);
+      }
+  }
+  return grains;
 }
 
 /// Share of `points` random places, at heights drawn by height(x, y, number), that lie in no grain.
@@ -143,9 +161,12 @@ void measurePorosity(const NearGrains& near, const Core& core, double largest, B
 /// Contacts, radial distribution and order of the grains in the core.
 class Pairs {
 public:
-  Pairs(const std::vector<LyingGrain>& grains, const NearGrains& near, const Core& core, double largest)
-      : grains_(grains), near_(near), largest_(largest), bonds_(grains.size()), own_(grains.size(), -1) {
-    for (std::size_t g = 0; g < grains.size(); ++g)
+  /// The first `count` grains are those of the bed, the others images. `far`: where all that is counted of the radial
+  /// distribution lies in the bed.
+  Pairs(const std::vector<LyingGrain>& grains, std::size_t count, const NearGrains& near, const Core& core,
+        const Core& far, double largest)
+      : grains_(grains), near_(near), far_(far), largest_(largest), bonds_(grains.size()), own_(grains.size(), -1) {
+    for (std::size_t g = 0; g < count; ++g)
       if (!grains[g].fixed && core.contains(grains[g].centre)) inside_.push_back(g);
   }
 
@@ -154,14 +175,16 @@ public:
     if (inside_.empty()) return;
     const double farthest = kFarthest * s.meanDiameter, bin = farthest / kDistances;
     std::vector<double> counted(kDistances, 0);
-    double contacts = 0, rattlers = 0, crystal = 0;
+    double contacts = 0, rattlers = 0, crystal = 0, evenly = 0;
     for (const std::size_t g : inside_) {
       int touching = 0;
+      const bool even = far_.contains(grains_[g].centre);
+      evenly += even;
       near_.visit(grains_[g].centre, std::max(farthest, 2 * largest_), [&](std::size_t other) {
         if (other == g) return true;
         const double distance = norm(grains_[other].centre - grains_[g].centre);
         touching += distance < grains_[g].radius + grains_[other].radius;
-        if (distance < farthest && !grains_[other].fixed) ++counted[static_cast<std::size_t>(distance / bin)];
+        if (even && distance < farthest && !grains_[other].fixed) ++counted[static_cast<std::size_t>(distance / bin)];
         return true;
       });
       contacts += touching, rattlers += touching < 2;
@@ -169,11 +192,12 @@ public:
     }
     const auto n = static_cast<double>(inside_.size());
     s.coordination = contacts / n, s.rattlers = rattlers / n, s.order = crystal / n;
+    if (evenly == 0) return;
     const double density = (1 - s.porosity) / meanVolume();
     for (int k = 0; k < kDistances; ++k) {
       const double from = k * bin, to = from + bin;
       s.distance.push_back((from + 0.5 * bin) / s.meanDiameter);
-      s.radialDistribution.push_back(counted[static_cast<std::size_t>(k)] / n /
+      s.radialDistribution.push_back(counted[static_cast<std::size_t>(k)] / evenly /
                                      (density * (base::sphereVolume(to) - base::sphereVolume(from))));
     }
   }
@@ -223,6 +247,7 @@ private:
 
   const std::vector<LyingGrain>& grains_;
   const NearGrains& near_;
+  const Core& far_;
   double largest_;
   std::vector<Bonds> bonds_;
   std::vector<double> own_; ///< squared norm of the order vector; negative: not known yet
@@ -255,10 +280,13 @@ BedStructure measureBed(const std::vector<LyingGrain>& grains, const BedExtent& 
   if (loose == 0) return s;
   s.meanDiameter /= loose;
   const double off = kOff * s.meanDiameter;
-  const Core core{inset(extent.walls, off), extent, std::min(off, 0.3 * s.thickness)};
-  const NearGrains near(grains, 2 * largest);
+  const Core core{extent, std::min(off, 0.3 * s.thickness), inset(extent, off)};
+  const double reach = kFarthest * s.meanDiameter;
+  const Core far{extent, reach, inset(extent, reach)};
+  const std::vector<LyingGrain> all = withImages(grains, extent, reach + 2 * largest);
+  const NearGrains near(all, 2 * largest);
   measurePorosity(near, core, largest, s);
-  Pairs(grains, near, core, largest).measure(s);
+  Pairs(all, grains.size(), near, core, far, largest).measure(s);
   return s;
 }
 
@@ -267,6 +295,7 @@ BedStructure measureBed(const Grains& grains, const BedExtent& extent) {
   const double share =
       std::min(1.0, std::sqrt(kMostGrains / static_cast<double>(std::max<std::size_t>(1, grains.count()))));
   BedExtent part = extent;
+  if (share < 1) part.periodic = {};
   const double x = 0.5 * (1 - share) * extent.walls.width(), y = 0.5 * (1 - share) * extent.walls.length();
   part.walls = {extent.walls.xMin + x, extent.walls.xMax - x, extent.walls.yMin + y, extent.walls.yMax - y};
   const GrainSnapshot own = grains.snapshot();

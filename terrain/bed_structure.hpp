@@ -5,6 +5,7 @@
 #include "base/vec.hpp"
 #include "terrain/height_field.hpp"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace grouser::terrain {
 class Grains;
 
 /// What a bed is made of, measured on grains as they lie. All of it within a column through the middle of the bed, two
-/// mean diameters away from floor, surface and walls: what is next to those is ordered or loose.
+/// mean diameters away from floor, surface and walls, but not from periodic boundaries: what is next to the former is
+/// ordered or loose.
 struct BedStructure {
   double porosity{};                                ///< [-] share of points that lie in no grain
   double porosityError{};                           ///< [-] standard error of that: points are drawn at random
@@ -39,6 +41,7 @@ struct LyingGrain {
 /// A bed's limits.
 struct BedExtent {
   Rectangle walls;
+  std::array<bool, 2> periodic;                      ///< along x, y: no walls there, and grains go on beyond
   std::function<double(double x, double y)> floor;   ///< [m]
   std::function<double(double x, double y)> surface; ///< [m]
 };

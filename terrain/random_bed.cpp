@@ -19,6 +19,7 @@ constexpr double kLoose = 0.28;   // solid fraction of the column; random sequen
 constexpr double kGap = 0.02;     // between grains, and to floor and walls, in radii
 constexpr double kWindow = 4;     // half the height in which a grain's place is looked for, in its radii
 constexpr int kTriesAWindow = 40; // before it grows by half
+constexpr double kEnds = 1.15, kRoughFloor = 0.35; // see the header
 constexpr int kSlices = 200;      // of a graded bed, to count its grains
 
 void check(const RandomBedOptions& o) {
@@ -26,6 +27,12 @@ void check(const RandomBedOptions& o) {
                "(0, inf)");
   requireOfBed(o.depth > 0 && std::isfinite(o.depth), "depth [m]", o.depth, "(0, inf)");
   requireOfBed(o.porosity >= 0.2 && o.porosity <= 0.7, "porosity [-]", o.porosity, "[0.2, 0.7]");
+}
+
+/// Volume of all grains of a bed that is so deep in the mean [m3].
+double solidVolume(const RandomBedOptions& o, double depth, const Rectangle& area) {
+  const double ends = (kEnds + (o.roughFloor ? kRoughFloor : 0.0)) * o.radii.meanPower(1);
+  return (1 - o.porosity) * std::max(depth - ends, 0.2 * depth) * area.width() * area.length();
 }
 
 /// How deep the settled bed is, here and in the mean.
@@ -151,7 +158,7 @@ public:
   }
 
   std::vector<Seed> lay() {
-    const double wanted = (1 - o_.porosity) * depths_.mean() * area_.width() * area_.length();
+    const double wanted = solidVolume(o_, depths_.mean(), area_);
     std::vector<Seed> grains;
     for (double volume = 0; volume < wanted;) {
       const auto id = static_cast<std::uint64_t>(grains.size());
@@ -185,7 +192,7 @@ private:
       if (dice(4 * attempt + 2) * depths_.most() > depth) continue; // as many grains as the column is high
       const double column = depth * stretch_, ground = view_.height(p.x, p.y) + lift_;
       // Below its share the column is full already: most places are found above it.
-      const double above = share * column + (2 * dice(4 * attempt + 3) - 1.5) * window;
+      const double above = share * column + (2 * dice(4 * attempt + 3) - 1.7) * window;
       p.z = ground + radius + std::fabs(above); // what would lie below the floor is as far above it
       if (!view_.clearOf(p, radius * (1 + kGap))) p.z = clearHeight(floor_, p.x, p.y, p.z, radius * (1 + kGap));
       if (cells_.isFree(p, radius)) return {p, radius, false};
@@ -213,13 +220,13 @@ double largestRadius(const RandomBedOptions& o) {
 BedPlan planBed(const HeightField& surface, const RandomBedOptions& options) {
   check(options);
   const Depths depths(surface, options);
-  const double area = surface.area().width() * surface.area().length();
+  const double solid = solidVolume(options, depths.mean(), surface.area());
   double grains = 0;
   for (int k = 0; k < kSlices; ++k) {
     const double depth = (k + 0.5) / kSlices * depths.mean();
     const double scale = options.grading.scaleAt(depth, options.radii.medianRadius());
     const double volume = base::sphereVolume(1) * scale * scale * scale * options.radii.meanPower(3);
-    grains += (1 - options.porosity) * area * depths.mean() / kSlices / volume;
+    grains += solid / kSlices / volume;
   }
   return {.walls = surface.area(),
           .floor = depths.floor(),

@@ -13,11 +13,14 @@ struct RandomBedOptions {
   double depth{};       ///< thickness of the settled bed [m]; with a flat floor: at the lowest point
   double porosity{0.4}; ///< expected of the settled bed [-], in [0.2, 0.7]
   FloorShape floor{FloorShape::follow};
+  bool roughFloor{};              ///< whether fixed grains lie on it
   std::array<bool, 2> periodic{}; ///< along x, y: no walls
   std::uint64_t seed{1};
 };
 
-/// Plans a bed whose settled surface comes close to `surface`, if it settles to the porosity that is expected.
+/// Plans a bed whose settled surface (terrain::BedSurface) comes close to `surface`, if it settles to the porosity that
+/// is expected: within half a mean radius in trial beds of 8 and 14 diameters. What a bed is higher than its grains
+/// would fill, since its surface is uneven and its floor a wall, is 1.15 mean radii, on a rough floor 1.5.
 /// InputError: an option out of its range.
 BedPlan planBed(const HeightField& surface, const RandomBedOptions& options);
 

@@ -174,7 +174,7 @@ struct Terrain {
 
   static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< of a lattice, where not given
   static constexpr double kSpread = 0.25;                                ///< of radii, where not given
-  static constexpr double kPoured = 0.42; ///< porosity expected where none is prepared [-]
+  static constexpr double kPoured = 0.41; ///< porosity expected where none is prepared [-]
 };
 
 /// [vehicle]

@@ -40,7 +40,7 @@ terrain::RandomBedOptions randomOptions(const scene::Scene& scene) {
   options.radii = {*t.radiusDistribution, *t.grainRadius, t.radiusSpread.value_or(0), t.sieveSize, t.sievePassing};
   options.grading = {t.fineDepth.value_or(0), t.coarsening.value_or(0), t.coarsestRadius.value_or(0)};
   options.depth = *t.depth, options.porosity = t.porosity.value_or(scene::Terrain::kPoured);
-  options.floor = t.floor;
+  options.floor = t.floor, options.roughFloor = t.floorGrains;
   options.seed = static_cast<std::uint64_t>(scene.run.seed);
   options.periodic = scene.run.periodic;
   return options;

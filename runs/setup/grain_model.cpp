@@ -63,6 +63,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.maxOverlap = scene.run.maxOverlap;
   model.precision = scene.run.precision;
   model.fixedGrains =
+      (scene.terrain && scene.terrain->granular() && scene.terrain->floorGrains) ||
       std::any_of(scene.grains.begin(), scene.grains.end(), [](const scene::Grain& g) { return g.fixed; });
 
   // Of one mass, damping is a constant; of many it follows from each contact's.

@@ -168,7 +168,7 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surfa
 
 /// A small level bed of the same grains between periodic boundaries, wide enough for its porosity to be that of any.
 PreparationSetup preparationSetup(const scene::Scene& scene, const terrain::BedOptions& options, double timeStep) {
-  constexpr double kWidth = 12, kDepth = 14, kWidthOfLargest = 7; // [diameters]
+  constexpr double kWidth = 14, kDepth = 14, kWidthOfLargest = 7; // [diameters]
   const scene::Terrain& t = *scene.terrain;
   const double mean = 2 * options.meanRadius(), largest = 2 * options.largestRadius();
   const double width = std::max(kWidth * mean, kWidthOfLargest * largest);

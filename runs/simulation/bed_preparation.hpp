@@ -5,11 +5,12 @@
 
 namespace grouser::simulation {
 
-/// Lets the grains rest: until the mean kinetic energy a grain is below the setup's share of m g radius, and the mean
-/// resultant force below its share of the weight where it names one, for a whole tenth of a second. Adds to `report`.
-/// Throws SimulationError when the time limit passes first, or when the grains meet a fault.
-void settleUntilRest(const setup::BedSetup& bed, terrain::Grains& grains, double fall, const SettleProgress& progress,
-                     SettleReport& report);
+/// Lets the grains rest as `wanted`: until the mean kinetic energy a grain is below that share of m g radius, and the
+/// mean resultant force below that share of the weight where one is named, for a whole tenth of a second, but at least
+/// for the time that a grain takes to fall `fall` [m]. Adds to `report`. Throws SimulationError when the time limit
+/// passes first, or when the grains meet a fault.
+void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall,
+                     const SettleProgress& progress, SettleReport& report);
 
 /// Lets a loose bed come to rest with `friction` [-] between its grains, and then with their own.
 void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, double friction,

@@ -53,7 +53,7 @@ double solidVolume(const std::vector<Seed>& grains) {
 
 TEST(RandomBed, HasTheVolumeThatTheDepthNeedsAndTheNumberThatIsPlanned) {
   const std::vector<Seed> grains = layGrains(level(), options());
-  const double wanted = 0.8 * 0.6 * 0.3 * 0.58;
+  const double wanted = 0.8 * 0.6 * (0.3 - 1.15 * 0.02) * 0.58;
   EXPECT_NEAR(solidVolume(grains), wanted, base::sphereVolume(0.025));
   // A volume scatters by 0.43 of its mean, their sum by 0.43 sqrt(number).
   const auto planned = static_cast<double>(planBed(level(), options()).grains);
@@ -95,10 +95,10 @@ TEST(RandomBed, IsDisorderedAndEven) {
     EXPECT_LT(std::hypot(c, s) / static_cast<double>(grains.size()), 5 / std::sqrt(double(grains.size())));
   }
   // The column is evenly full: half of the volume lies below the middle of its height.
-  const double top = 0.3 * 0.58 / 0.28;
+  const double top = (0.3 - 1.15 * 0.02) * 0.58 / 0.28;
   double below = 0;
   for (const Seed& g : grains) below += g.centre.z - g.radius + 0.2 < 0.5 * top ? base::sphereVolume(g.radius) : 0;
-  EXPECT_NEAR(below / solidVolume(grains), 0.5, 0.04);
+  EXPECT_NEAR(below / solidVolume(grains), 0.5, 0.05);
 }
 
 TEST(RandomBed, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame) {
@@ -118,7 +118,7 @@ TEST(RandomBed, GradedBedIsCoarseBelowAndTakesFarFewerGrains) {
   const std::vector<Seed> some = layGrains(level(), graded);
   const double all = static_cast<double>(planBed(level(), fine).grains);
   EXPECT_LT(static_cast<double>(some.size()), 0.6 * all);
-  EXPECT_NEAR(solidVolume(some), 0.8 * 0.6 * 0.3 * 0.58, 2 * base::sphereVolume(largestRadius(graded)));
+  EXPECT_NEAR(solidVolume(some), 0.8 * 0.6 * (0.3 - 1.15 * 0.01) * 0.58, 2 * base::sphereVolume(largestRadius(graded)));
   // Radii follow the height that the grain begins at, within the window of its place.
   double low = 0, high = 0;
   int lows = 0, highs = 0;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace grouser::simulation {
 namespace {
@@ -31,18 +32,21 @@ std::unique_ptr<Simulation> simulated(const scene::Scene& scene, int threads = 1
 
 const terrain::BedStructure& structure(const Simulation& s) { return *s.ground().structure; }
 
-TEST(BedPreparation, PorosityWantedIsReached) {
-  // Single beds of 1500 grains scatter by 0.004 about what the small bed of the bisection has (12 seeds).
-  double former = 0;
-  for (const double wanted : {0.39, 0.41, 0.43}) {
-    const auto s = simulated(bed({"terrain.porosity=" + std::to_string(wanted)}));
-    EXPECT_NEAR(structure(*s).porosity, wanted, 0.015);
-    EXPECT_GT(structure(*s).porosity, former);
-    EXPECT_GT(s->settled().friction, 0);
-    EXPECT_LT(structure(*s).order, 0.05);
-    former = structure(*s).porosity;
+TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
+  // Beds of 1000 grains scatter by 0.004 about what the small bed of the bisection has (12 seeds).
+  const auto dense = simulated(bed({"terrain.porosity=0.37"})), loose = simulated(bed({"terrain.porosity=0.4"})),
+             other = simulated(bed({"terrain.porosity=0.4", "run.seed=4"}));
+  EXPECT_NEAR(structure(*dense).porosity, 0.37, 0.012);
+  EXPECT_NEAR(structure(*loose).porosity, 0.4, 0.012);
+  EXPECT_NEAR(structure(*other).porosity, 0.4, 0.012);
+  EXPECT_GT(structure(*dense).coordination, structure(*loose).coordination);
+  EXPECT_GT(loose->settled().friction, dense->settled().friction);
+  EXPECT_EQ(loose->settled().friction, other->settled().friction);
+  EXPECT_NE(loose->stateHash(), other->stateHash());
+  for (const auto* s : {&dense, &loose, &other}) {
+    EXPECT_LT(structure(**s).order, 0.05);
     // The grains rub with their own friction again.
-    EXPECT_EQ(s->ground().grains->model().law.friction, 0.5);
+    EXPECT_EQ((*s)->ground().grains->model().law.friction, 0.5);
   }
 }
 
@@ -51,17 +55,10 @@ TEST(BedPreparation, PorosityOutOfReachIsRefusedWithWhatCanBeReached) {
     simulated(bed({"terrain.porosity=0.25"}));
     FAIL() << "spheres of these radii do not pack so densely";
   } catch (const base::InputError& error) {
-    for (const char* part : {"bed.toml", "terrain.porosity = 0.25", "cannot be reached", "choose a porosity between"})
+    for (const char* part : {"terrain.porosity = 0.25", "cannot be reached", "choose a porosity between"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
   EXPECT_THROW(setup::simulationSetup(bed({"terrain.porosity=0.4", "material.soil.friction=0"})), base::InputError);
-}
-
-TEST(BedPreparation, FindsTheSameFrictionForEverySeed) {
-  const auto a = simulated(bed({"terrain.porosity=0.41", "run.seed=3"})),
-             b = simulated(bed({"terrain.porosity=0.41", "run.seed=4"}));
-  EXPECT_EQ(a->settled().friction, b->settled().friction);
-  EXPECT_NE(a->stateHash(), b->stateHash());
 }
 
 TEST(RandomBeds, AreTheSameOnAllThreadsWithAllSkinsAndResumed) {
@@ -78,8 +75,7 @@ TEST(RandomBeds, AreTheSameOnAllThreadsWithAllSkinsAndResumed) {
 }
 
 TEST(RandomBeds, LieWhereTheHeightMapSays) {
-  // Mean tops lie about half a mean radius above the height at which the bed would be full to the brim.
-  const auto s = simulated(bed({"terrain.porosity=0.41"}));
+  const auto s = simulated(bed());
   EXPECT_NEAR(structure(*s).settledHeight, 0, 0.025);
 }
 
@@ -90,24 +86,15 @@ TEST(RandomBeds, FixedGrainsHoldTheFloor) {
   const auto fixed = std::count_if(grains.fixed.begin(), grains.fixed.end(), [](auto f) { return f != 0; });
   EXPECT_EQ(fixed, 12 * 12);
   EXPECT_TRUE(smooth->ground().grains->snapshot().fixed.empty());
-  // Pulled sideways by a fifth of its weight for 0.2 s, the bed on balls slides and that on fixed grains does not.
-  const auto drift = [](const std::vector<std::string>& overrides) {
-    scene::Scene scene = bed(overrides);
-    const auto s = simulated(scene);
-    const SimulationState settled = s->save();
-    scene.run.gravity = {0.2 * 9.81, 0, -9.81};
-    Simulation tilted(setup::simulationSetup(scene), base::cpuExec(1), settled);
-    for (int k = 0; k < 1000; ++k) tilted.step();
-    const terrain::GrainLedger l = tilted.ground().grains->ledger();
-    return l.momentum.x;
-  };
-  const double onGrains = drift({}), onPlane = drift({"terrain.floor_grains=false"});
-  EXPECT_LT(onGrains, 0.2 * onPlane);
+  // On ground that slopes by a fifth the one comes to rest; the other rolls on its lowest grains without end.
+  const std::string slope = "run.gravity=[1.96, 0, -9.81]";
+  EXPECT_NO_THROW(simulated(bed({slope})));
+  EXPECT_THROW(simulated(bed({slope, "terrain.floor_grains=false"})), base::SimulationError);
 }
 
 TEST(RandomBeds, GradedBedKeepsItsFineGrainsAbove) {
   const auto s = simulated(bed({"terrain.grain_radius=0.015", "terrain.fine_depth=0.08", "terrain.coarsening=0.15",
-                                "terrain.coarsest_radius=0.03"}));
+                                "terrain.coarsest_radius=0.03", "material.soil.stiffness=2e4"}));
   const terrain::GrainSnapshot grains = s->ground().grains->snapshot();
   double above = 0, below = 0, finestBelow = 1;
   int na = 0, nb = 0;
@@ -124,11 +111,11 @@ TEST(RandomBeds, GradedBedKeepsItsFineGrainsAbove) {
 }
 
 TEST(RandomBeds, TilesKeepTheirPorosity) {
-  const std::vector<std::string> wide = {"terrain.size=[1.2, 1.2]", "terrain.porosity=0.41"};
+  const std::vector<std::string> wide = {"terrain.size=[1.2, 1.2]", "terrain.porosity=0.4"};
   auto tiled = wide;
   tiled.push_back("terrain.tile=[0.6, 0.6]");
   const auto s = simulated(bed(tiled));
-  EXPECT_NEAR(structure(*s).porosity, 0.41, 0.015);
+  EXPECT_NEAR(structure(*s).porosity, 0.4, 0.012);
   EXPECT_EQ(s->ground().grains->count() % 4, 0u);
 }
 
