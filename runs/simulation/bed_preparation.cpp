@@ -34,7 +34,7 @@ void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wante
                      SettleReport& report) {
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
-  const double unit = bed.restEnergy * static_cast<double>(grains.movingCount());
+  const double unit = bed.restEnergy * static_cast<double>(grains.count() - grains.system().fixedCount);
   // Loose grains fall first; nothing is judged before they have landed.
   const double landed = report.time + std::sqrt(2 * fall / g), limit = report.time + wanted.timeLimit;
   const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
