@@ -6,7 +6,7 @@ import drawing
 def plot(run):
     depth, porosity = run.field("terrain/bed/depth"), run.field("terrain/bed/porosity_at_depth")
     distance, radial = run.field("terrain/bed/distance"), run.field("terrain/bed/radial_distribution")
-    if depth is None or distance is None or len(distance) == 0:
+    if depth is None or len(depth) == 0:
         return None
     figure = drawing.Figure(figsize=(8.0, 3.6))
     left, right = figure.subplots(1, 2)
@@ -18,7 +18,10 @@ def plot(run):
     left.set_xlim(0, 1)
     left.invert_yaxis()
     left.legend()
-    right.plot(distance, radial, color="tab:brown")
+    if len(distance) > 0:
+        right.plot(distance, radial, color="tab:brown")
+    else:
+        right.text(0.5, 0.5, "bed too thin", ha="center", transform=right.transAxes)
     right.axhline(1, color="black", linestyle=":", linewidth=1)
     right.set_xlabel("distance [mean diameters]")
     right.set_ylabel("radial distribution [-]")
