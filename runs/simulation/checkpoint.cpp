@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 6; // of the layout below
+constexpr int kVersion = 7; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -35,16 +35,23 @@ template <> struct Layout<SurfaceState> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
+template <class Archive, class Settled> void exchangeSettled(Archive& archive, Settled& s) {
+  archive("/settled/time", s.time);
+  archive("/settled/agitation", s.agitation);
+  archive("/settled/steps", s.steps);
+  archive("/settled/highest", s.highest);
+  archive("/settled/mean_height", s.meanHeight);
+}
+
 /// The one list of what is stored, and under which name; the grains' columns say theirs. `archive` writes or reads. On
 /// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/ledger_at_start", s.ledgerAtStart);
   archive("/energy_guard", s.guard);
-  archive("/settled/time", s.settled.time);
-  archive("/settled/agitation", s.settled.agitation);
-  archive("/settled/steps", s.settled.steps);
+  exchangeSettled(archive, s.settled);
   archive("/undisturbed_surface", s.surface);
+  archive("/lifts", s.lifts);
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);
@@ -286,6 +293,13 @@ void writeState(const fs::path& path, const char* kind, const Checkpoint& checkp
 }
 
 void checkStateFile(const fs::path& path, const char* kind) { support::checkSeal(path, kind, kVersion); }
+
+SettleReport readSettled(const support::Hdf5File& file) {
+  SettleReport settled;
+  Reader reader(file, {});
+  exchangeSettled(reader, settled);
+  return settled;
+}
 
 Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
   Checkpoint checkpoint;

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is put on a settled bed: the bed settles as if alone, things stand where they shall, and one answer for all.
+#include "runs/simulation/placed_on_bed.hpp"
+
+#include "base/error.hpp"
+#include "runs/commands/plan.hpp"
+#include "runs/setup/bed_alone.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/simulation/bed_cache.hpp"
+#include "runs/simulation/simulation.hpp"
+#include "tests/runs/folder_fixture.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace grouser::simulation {
+
+using namespace test; // fixtures
+
+namespace {
+
+using base::Vec3d;
+
+/// 180 grains that come to rest.
+std::string bedScene(const std::string& more) {
+  return "version = 1\n[run]\nduration = 0.5\n[material.soil]\nstiffness = 1e5\nrestitution = 0.2\n[material.steel]\n"
+         "stiffness = 2e5\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, "
+         "0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\nsettle_kinetic_energy = 1e-2\n" +
+         more;
+}
+
+std::string plate(const std::string& keys) {
+  return "[[box]]\nname = \"plate\"\nmaterial = \"steel\"\nposition = [0.3, 0, 5]\nsize = [0.2, 0.2, 0.04]\n" + keys;
+}
+const std::string kFree = "free = \"z\"\nmass = 4\nload = -30\nload_ramp = 0.02\n";
+
+scene::Scene sceneOf(const std::string& more, const std::vector<std::string>& overrides = {}) {
+  return setup::parseScene(bedScene(more), "placed.toml", overrides);
+}
+std::unique_ptr<Simulation> made(const scene::Scene& scene, int threads = 1, BedCache* beds = nullptr,
+                                 bool* settles = nullptr) {
+  return std::make_unique<Simulation>(
+      setup::simulationSetup(scene), base::cpuExec(threads),
+      [settles](double, double) {
+        if (settles) *settles = true;
+      },
+      base::Comm{}, beds);
+}
+std::string refusal(const scene::Scene& scene) {
+  try {
+    made(scene);
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double highestUnder(const terrain::GrainSnapshot& bed, double radius, double low, double high) {
+  double top = -1e300;
+  for (const Vec3d& p : bed.position)
+    if (p.x + radius > low && p.x - radius < high && std::fabs(p.y) - radius < 0.5 * (high - low))
+      top = std::max(top, p.z + radius);
+  return top;
+}
+
+TEST(PutOnBed, BedHasTheBitsOfOneAloneWhateverIsPutOnIt) {
+  const terrain::GrainState alone = made(sceneOf(""))->ground().grains->state();
+  const std::string rigs =
+      plate(kFree + "above_bed = 0.01\n") +
+      "[[grain]]\nposition = [0.1, 0.2, 0]\nabove_bed = 0.005\nradius = 0.02\nmaterial = \"steel\"\n";
+  const auto with = made(sceneOf(rigs));
+  const terrain::GrainState rig = with->ground().grains->state();
+  const std::size_t n = alone.rows();
+  ASSERT_EQ(rig.rows(), n + 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    EXPECT_EQ(base::toUnits(rig.position[k]), base::toUnits(alone.position[k]));
+    EXPECT_EQ(rig.velocity[k], alone.velocity[k]);
+    EXPECT_EQ(rig.spin[k], alone.spin[k]);
+    EXPECT_EQ(rig.remainders[k].position, alone.remainders[k].position);
+    EXPECT_EQ(rig.contacts[k], alone.contacts[k]);
+    EXPECT_EQ(rig.wallBits[k], alone.wallBits[k]);
+  }
+  EXPECT_TRUE(std::equal(alone.contactShear.begin(), alone.contactShear.end(), rig.contactShear.begin()));
+  EXPECT_GT(alone.contactShear.size(), 300u);
+  EXPECT_NEAR(with->settled().highest, highestUnder(made(sceneOf(""))->ground().grains->snapshot(), 0.03, -9, 9), 1e-9);
+}
+
+TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
+  const auto bed = made(sceneOf(""))->ground().grains->snapshot();
+  const auto s =
+      made(sceneOf(plate("velocity = [0, 0, -0.1]\nabove_bed = 0.002\nspin = [0, 0, 1]\npivot = [0, 0, 4]\n") +
+                   "[[grains]]\nlow = [0.0, -0.3, 1]\nhigh = [0.1, -0.2, 1.1]\nradius = 0.01\n"
+                   "material = \"soil\"\nabove_bed = 0.001\n"));
+  EXPECT_NEAR(s->surfaces()->pose(0, 0).position.z - 0.02, highestUnder(bed, 0.03, 0.2, 0.4) + 0.002, 1e-12);
+  const setup::SurfaceMotion& motion = s->surfaces()->surface(0).motion;
+  EXPECT_NEAR(motion.at(0).centre.z - motion.at(0).pivot.z, 1, 1e-12) << "the pivot goes with it";
+  const terrain::GrainSnapshot now = s->ground().grains->snapshot();
+  double top = -1e300, lowest = 1e300;
+  for (std::size_t k = 0; k < bed.position.size(); ++k)
+    if (bed.position[k].x - 0.03 < 0.1 && bed.position[k].y - 0.03 < -0.2)
+      top = std::max(top, bed.position[k].z + 0.03);
+  for (std::size_t k = bed.position.size(); k < now.position.size(); ++k)
+    lowest = std::min(lowest, now.position[k].z - 0.01);
+  EXPECT_NEAR(lowest, top + 0.001, 1e-8) << "the lattice's lowest layer stands on the box's floor";
+}
+
+TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
+  const std::string deep = refusal(sceneOf(plate("velocity = [0, 0, -0.1]\n"), {"box.plate.position.2=0.0"}));
+  for (const char* part : {"placed.toml:", "plate would stand", "m deep in grain", "above_bed", "placed = \"before\""})
+    EXPECT_NE(deep.find(part), std::string::npos) << part << "\n" << deep;
+  const std::string grain =
+      refusal(sceneOf("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.05\nmaterial = \"steel\"\n"));
+  for (const char* part : {"placed.toml:", "m deep in grain", "above_bed"})
+    EXPECT_NE(grain.find(part), std::string::npos) << part << "\n" << grain;
+  EXPECT_NE(
+      refusal(sceneOf(plate(kFree + "above_bed = 0.01\n"), {"box.plate.position.0=7"})).find("no grain of the bed"),
+      std::string::npos);
+  EXPECT_THROW(sceneOf(plate("above_bed = 0.1\nplaced = \"before\"\n")), base::InputError);
+  EXPECT_THROW(sceneOf("[[plane]]\nmaterial = \"steel\"\nabove_bed = 0.1\n"), base::InputError) << "no lowest point";
+  // Two grains over one place, which no bed tells apart.
+  const std::string stone =
+      "[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.02\nmaterial = \"steel\"\nabove_bed = 0.01\n";
+  EXPECT_NE(refusal(sceneOf(stone + stone)).find("m deep in grain"), std::string::npos);
+}
+
+TEST(PutOnBed, WhatRestsStandsInTheBedAndWhatMovesComesLater) {
+  const auto count = [](const std::string& keys) {
+    return made(sceneOf(plate(keys), {"box.plate.position.2=0.0"}))->ground().grains->count();
+  };
+  const std::size_t all = made(sceneOf(""))->ground().grains->count();
+  EXPECT_LT(count(""), all) << "laid around";
+  EXPECT_EQ(count("velocity = [0, 0, 0.1]\nplaced = \"before\"\n"), count(""));
+  EXPECT_FALSE(setup::isPutOnBed(sceneOf(plate(""))));
+  EXPECT_TRUE(setup::isPutOnBed(sceneOf(plate("velocity = [0, 0, 0.1]\n"))));
+  EXPECT_TRUE(setup::isPutOnBed(sceneOf(plate("placed = \"after_settling\"\n"))));
+  EXPECT_FALSE(setup::isPutOnBed(sceneOf(plate("velocity = [0, 0, 0.1]\n"), {"terrain.settle_time_limit=0"})));
+}
+
+std::string manyRigs() {
+  return plate(kFree + "above_bed = 0.002\nvelocity = [0.1, 0, 0]\n") +
+         "[[mesh]]\nfile = \"meshes/road_wheel.obj\"\nscale = 0.2\nposition = [0.3, 0.22, 0]\nmaterial = \"steel\"\n"
+         "above_bed = 0.001\nfree = \"z\"\nmass = 2\nspin = [0, 3, 0]\n"
+         "[[grain]]\nposition = [0.15, -0.2, 0]\nradius = 0.04\nmaterial = \"steel\"\nabove_bed = 0.001\n"
+         "[[source]]\nlow = [0.5, -0.2, 0.4]\nhigh = [0.5, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 2\n"
+         "every = 0.02\n";
+}
+
+/// tests/scenes/rigs.toml; its hash for threads, lists and a stop stands in one_answer_scenes_test.cpp.
+TEST(PutOnBed, ResumedAtItsStartAlsoHasTheBitsOfAStraightRun) {
+  const scene::Scene scene = sceneOf(manyRigs());
+  const auto straight = made(scene);
+  Simulation second(setup::simulationSetup(scene), base::cpuExec(1), straight->save());
+  EXPECT_EQ(second.stateHash(), straight->stateHash());
+  for (int n = 0; n < 900; ++n) straight->step(), second.step();
+  EXPECT_EQ(second.stateHash(), straight->stateHash());
+  EXPECT_NE(straight->surfaces()->observe(0, 900).force.z, 0) << "the plate has touched the bed";
+  EXPECT_NE(straight->surfaces()->observe(1, 900).force.z, 0) << "so has the wheel";
+}
+
+TEST(PutOnBed, LargerStonesLeaveTheBedAtRest) {
+  // A stone of three radii coarsens the units of places by two bits: springs and overlaps stay.
+  const auto s =
+      made(sceneOf("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\nabove_bed = 0.05\n"));
+  const auto before = s->ground().grains->snapshot().position;
+  EXPECT_NE(s->ground().grains->scale().unit, made(sceneOf(""))->ground().grains->scale().unit);
+  while (s->time() < 0.03) s->step();
+  const auto after = s->ground().grains->snapshot().position;
+  for (std::size_t k = 0; k + 1 < before.size(); ++k) EXPECT_LT(norm(after[k] - before[k]), 1e-3) << "of 0.03 m";
+  EXPECT_NEAR(before.back().z - after.back().z, 0.5 * 9.81 * s->time() * s->time(), 1e-5) << "while it falls freely";
+}
+
+class KeptForRigs : public FolderTest {};
+
+TEST_F(KeptForRigs, OneBedServesAllRigs) {
+  BedCache beds(folder_);
+  bool settles = false;
+  made(sceneOf(""), 1, &beds, &settles);
+  EXPECT_TRUE(settles);
+  const SettleReport kept = [&] {
+    const scene::Scene bed = sceneOf("");
+    return beds.find(setup::bedOrigin(bed, setup::chooseTimeStep(bed))).value();
+  }();
+  EXPECT_GT(kept.highest, kept.meanHeight);
+  for (const std::string& rigs :
+       {plate(kFree + "above_bed = 0.1\n"), plate("velocity = [0, 0, -0.01]\n"), manyRigs()}) {
+    settles = false;
+    const auto s = made(sceneOf(rigs), 1, &beds, &settles);
+    EXPECT_FALSE(settles);
+    EXPECT_EQ(s->settled().highest, kept.highest);
+  }
+}
+
+TEST(PutOnBed, PlanSaysWhatComesLater) {
+  const std::string with = commands::planText(sceneOf(manyRigs())), without = commands::planText(sceneOf(plate("")));
+  EXPECT_NE(with.find("put on the settled bed plate, mesh0, 1 grains"), std::string::npos) << with;
+  EXPECT_NE(without.find("off  put on the settled bed"), std::string::npos) << without;
+}
+
+} // namespace
+} // namespace grouser::simulation
