@@ -165,11 +165,7 @@ BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terr
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio};
   bed.cache = t.cache;
-  if (isPutOnBed(scene)) {
-    const scene::Scene alone = sceneOfBed(scene);
-    bed.alone = std::make_shared<const GroundSetup>(groundSetup(alone, chooseTimeStep(alone)));
-    return bed;
-  }
+  if (isPutOnBed(scene)) return bed; // whose ground alone says the rest
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
   if (t.tile) bed.tile = tileSetup(scene, plan, timeStep);
   return bed;
@@ -262,6 +258,10 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
     grains.bed = bedSetup(scene, kinds, *bed, timeStep);
     grains.onBed = grainsOnBed(scene, grains.start);
     grains.start.clear();
+    if (isPutOnBed(scene)) {
+      const scene::Scene alone = sceneOfBed(scene);
+      grains.bed->alone = std::make_shared<const GroundSetup>(groundSetup(alone, chooseTimeStep(alone), ranks));
+    }
   }
   grains.sources = sourcesOf(scene, timeStep);
   grains.partition = partitionOf(scene, ranks);

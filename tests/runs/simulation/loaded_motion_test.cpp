@@ -86,7 +86,8 @@ Surfaces::Observation between(Simulation& s, double from, double to, std::size_t
 }
 
 TEST(LoadedPlate, PulledOverGrainsThatStayIsHeldByFrictionTimesItsLoad) {
-  const auto s = made(corner({-0.04, 0, 0.04}) + loaded(kPlate, "velocity = [0.1, 0, 0]\n"));
+  const auto s = made(corner({-0.04, 0, 0.04}) + loaded(kPlate, "velocity = [0.1, 0, 0]\n"
+                                                                "spin = [0, 0, 0]\npivot = [0, -0.5, 0.03]\n"));
   const Surfaces::Observation o = between(*s, 0.6, 0.65);
   // What is left of the swing after the ramp and the jerk of the pull.
   EXPECT_NEAR(o.force.z, kNormal, 1e-4 * kNormal);
@@ -94,6 +95,8 @@ TEST(LoadedPlate, PulledOverGrainsThatStayIsHeldByFrictionTimesItsLoad) {
   EXPECT_NEAR(o.force.y, 0, 1e-4 * kNormal);
   EXPECT_NEAR(o.power, 0.1 * 0.1 * kNormal, 1e-3 * o.power) << "of the pull: the load does no work at rest";
   EXPECT_NEAR(o.position.x, 0.1 * 0.45, 1e-12);
+  const Vec3d lever{0, 0.5, 0};
+  EXPECT_LT(norm(o.pivotTorque - o.torque - cross(lever, o.force)), 1e-9 * kNormal) << "about the pivot";
 }
 
 TEST(LoadedPlate, SinksAlikeWhetherPulledWithoutFrictionOrNot) {
