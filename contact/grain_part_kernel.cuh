@@ -104,7 +104,7 @@ private:
               0};
     if (!model.manyRadii) return ball;
     ball.material = static_cast<int>(spin.w);
-    const double r = static_cast<double>(velocity.w);
+    const double r = fabs(static_cast<double>(velocity.w)); // less than 0: a fixed grain
     ball.radius = r, ball.mass = massPerCube[ball.material] * r * r * r;
     return ball;
   }

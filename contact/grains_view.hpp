@@ -11,7 +11,7 @@ namespace grouser::contact {
 /// The grains' state for code that computes loads on them: device arrays by slot.
 struct GrainsView {
   const base::Position* position;
-  const base::Vec4f* velocity; ///< [m/s]; w: radius [m], where radii differ
+  const base::Vec4f* velocity; ///< [m/s]; w: radius [m], where radii differ; < 0: the grain is fixed
   const base::Vec4f* spin;     ///< [rad/s]; w: material, where there are several
   const std::uint32_t* id;
   std::size_t count;                    ///< slots

@@ -14,7 +14,8 @@ namespace grouser::contact {
 
 struct TouchingRows;
 
-/// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history.
+/// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history; from
+/// one side only where the other sphere never moves.
 ///
 /// Valid while no grain has moved more than half the skin. Rows are as long as they need to be: no neighbour is ever
 /// dropped. Grains are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not

@@ -20,7 +20,7 @@ struct NearSpheres {
 
   /// Calls `visit(j)` for the slots near slot i, in the order of the cells.
   template <class Visit> GROUSER_HD void each(int i, const Visit& visit) const {
-    if (ghost && ghost[i]) return;
+    if ((ghost && ghost[i]) || radii.isFixed(i)) return;
     const base::Position p = position[i];
     const Cell c = grid.local(p);
     const std::int64_t own = radii.sphere ? radii.units(i) + skin : 0;

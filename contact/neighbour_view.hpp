@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 /// What kernels see of a neighbour list, and what a build of it is given.
@@ -35,11 +36,14 @@ struct TravellingRows {
   GROUSER_HD std::uint32_t words() const { return 1 + capacity * (1 + width); }
 };
 
-/// Radii of spheres that are not all alike: by slot, in `w` [m], each a whole number of units of length.
+/// Radii of spheres that are not all alike: by slot, in `w` [m], each a whole number of units of length; of spheres
+/// that never move the opposite.
 struct RadiiInW {
   const base::Vec4f* sphere = nullptr; ///< null: all have the list's diameter
   float unitsPerLength = 0;            ///< a power of two
-  GROUSER_HD std::int64_t units(int i) const { return static_cast<std::int64_t>(sphere[i].w * unitsPerLength); }
+  const base::Vec4f* fixed = nullptr;  ///< by slot, w < 0: never moves and needs no row; null where all may move
+  GROUSER_HD std::int64_t units(int i) const { return static_cast<std::int64_t>(fabsf(sphere[i].w) * unitsPerLength); }
+  GROUSER_HD bool isFixed(int i) const { return fixed && fixed[i].w < 0; }
 };
 
 /// Where the rows of a list on one of several ranks come from.

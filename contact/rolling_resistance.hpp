@@ -13,9 +13,11 @@ template <class T> struct RollingMotion {
   T inertia;            ///< I_r: of both about the contact point, in series [kg m2]
 };
 
+/// Of a sphere on what never moves.
+template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return T(1.4) * mass * radius * radius; }
 /// Of spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2).
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
-  const T i = T(1.4) * massI * radiusI * radiusI, j = T(1.4) * massJ * radiusJ * radiusJ;
+  const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
   return i * j / (i + j);
 }
 

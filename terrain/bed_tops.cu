@@ -41,7 +41,9 @@ struct OfGrains {
   const Vec4f* radiusInW;     ///< null where all have grainRadius
   const std::uint32_t* ghost; ///< null where there are none
   GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
-  GROUSER_HD double radius(int g) const { return radiusInW ? static_cast<double>(radiusInW[g].w) : grainRadius; }
+  GROUSER_HD double radius(int g) const {
+    return radiusInW ? std::fabs(static_cast<double>(radiusInW[g].w)) : grainRadius;
+  }
   /// Slaves are left out: they may be one step behind, and their masters count on their own ranks.
   GROUSER_HD bool counts(int g) const { return !(ghost && ghost[g]); }
 };
@@ -88,8 +90,8 @@ std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, co
 
 std::vector<double> highestTops(std::span<const Seed> grains, const NodeGrid& grid, double reach) {
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    const auto& [c, radius] = grains[g];
-    if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(radius)))
+    const Vec3d& c = grains[g].centre;
+    if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(grains[g].radius)))
       throw base::InputError("surface of the bed: grain " + std::to_string(g) + " is not at a finite place");
   }
   return heights(raise(base::cpuExec(1), OfSeeds{grains.data()}, grains.size(), grid, reach));

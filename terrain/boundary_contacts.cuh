@@ -39,21 +39,24 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   GROUSER_HD void run(int k, WallBooks& books) const {
     if (Kernel::ended()) return;
     const int i = static_cast<int>(d.nearBoundary[k]);
-    const Vec v = d.velocity[i].xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
+    const Vec4f velocity = d.velocity[i];
+    const Vec v = velocity.xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
     const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
+    // Only surfaces feel a grain that never moves: the ground holds it.
+    const bool held = has(kSurfaces) && isFixed(velocity);
     const double radius = static_cast<double>(grain.size.radius);
     BoundaryLoad<Real> sum{};
     Losses lost;
     std::uint32_t now = 0;
-    for (int b = 0; b < d.wallCount; ++b) {
+    for (int b = 0; !held && b < d.wallCount; ++b) {
       const double distance = dot(d.walls[b].normal, x) - d.walls[b].offset;
       const Real overlap = static_cast<Real>(radius - distance);
       if (overlap <= 0) continue;
       now |= 1u << b;
       touchFixed(grain, b, d.walls[b].normal.template as<Real>(), overlap, sum, lost);
     }
-    if (has(kFloor) && !d.floor.clearOf(x, radius)) {
+    if (!held && has(kFloor) && !d.floor.clearOf(x, radius)) {
       const FootPoint foot = d.floor.closestPoint(x);
       const Real overlap = static_cast<Real>(radius - foot.distance);
       if (overlap > 0) {
@@ -63,6 +66,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     }
     if (now != 0) bookWalls(grain, sum, books);
     if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum, lost);
+    if (held && now != 0) bookHeld(grain, d.fromSurfaces[k], sum, books);
     if (now != 0) bookLosses(lost, books);
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
@@ -73,10 +77,13 @@ private:
   GROUSER_HD void bookWalls(const Grain& grain, const BoundaryLoad<Real>& sum, WallBooks& books) const {
     const base::Vec3d force = sum.force.template as<double>();
     const base::Vec3d torque = cross(grain.x, force) + sum.torque.template as<double>();
-    for (int a = 0; a < 3; ++a) {
-      books.add(kWallForce + a, wholeQuanta(d.bookScale.perForce * force[a]));
-      books.add(kWallTorque + a, wholeQuanta(d.bookScale.perTorque * torque[a]));
-    }
+    books.addForce(force, torque, d.bookScale);
+  }
+
+  /// The ground gives a grain that never moves the opposite of what surfaces do to it.
+  GROUSER_HD void bookHeld(const Grain& grain, const base::Vec3d& pressed, const BoundaryLoad<Real>& sum,
+                           WallBooks& books) const {
+    books.addForce(-pressed, -(cross(grain.x, pressed) + sum.torque.template as<double>()), d.bookScale);
   }
 
   GROUSER_HD void bookLosses(const Losses& lost, WallBooks& books) const {

@@ -17,7 +17,7 @@ struct GrainFields {
   explicit GrainFields(const GrainLayout& scene);
 
   GrainField<base::Position> position{kBuffered | kSorted | kMigrates | kGhosted | kUpdated, &GrainState::position};
-  /// [m/s]; w: radius [m], where radii differ
+  /// [m/s]; w: radius [m], where radii differ; of a fixed grain the opposite, or -1
   GrainField<Vec4f> velocity{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
   /// [rad/s]; w: material, where there are several
   GrainField<Vec4f> spin{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};

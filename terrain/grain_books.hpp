@@ -15,8 +15,8 @@
 /// that the two check each other. All sums are of integers: order-free, the same for any device, threads and ranks.
 namespace grouser::terrain {
 
-/// The sums. Kernels of grains add to the first kGrainBooks, those of walls, floor and surfaces to all from
-/// kFirstOfWalls on.
+/// The sums. Kernels of grains add to the first kGrainBooks, those of walls, floor and surfaces, and fixed grains, to
+/// all from kFirstOfWalls on.
 enum Book : int {
   kWork,     ///< by all forces on the grains
   kTurnover, ///< the same without signs, a grain and a step each
@@ -27,7 +27,8 @@ enum Book : int {
   kRubbed,                 ///< by sliding
   kRolled,                 ///< by rolling resistance
   kGrainBooks,
-  /// x, y, z: of walls and floor on the grains, a step each
+  /// x, y, z: of walls, floor and fixed grains on the grains, and of what holds fixed ones against surfaces and
+  /// parts; a step each
   kWallForce = kGrainBooks,
   kWallTorque = kWallForce + 3, ///< about the origin of the world
   kBooks = kWallTorque + 3
@@ -59,6 +60,13 @@ template <int kBegin, int kEnd> struct BooksOf {
   static constexpr int kFirst = kBegin, kCount = kEnd - kBegin;
   std::int64_t of[kCount] = {};
   GROUSER_HD void add(int book, std::int64_t quanta) { of[book - kFirst] += quanta; }
+  /// Of what does not move on a grain [N], [N m about the origin].
+  GROUSER_HD void addForce(const base::Vec3d& force, const base::Vec3d& torque, const BookScale& scale) {
+    for (int a = 0; a < 3; ++a) {
+      add(kWallForce + a, wholeQuanta(scale.perForce * force[a]));
+      add(kWallTorque + a, wholeQuanta(scale.perTorque * torque[a]));
+    }
+  }
 };
 using GrainBooks = BooksOf<0, kGrainBooks>;
 using WallBooks = BooksOf<kFirstOfWalls, kBooks>;

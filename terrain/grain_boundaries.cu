@@ -29,9 +29,12 @@ struct MarkNearBoundary {
       return;
     }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
-    const double within = reach + (manyRadii ? static_cast<double>(d.velocity[i].w) : 0.0);
-    bool near = (d.features & kFloor) && !d.floor.clearOf(x, within);
-    for (int b = 0; b < d.wallCount; ++b) near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
+    const double within = reach + (manyRadii ? fabs(static_cast<double>(d.velocity[i].w)) : 0.0);
+    // Walls and floor do nothing to a grain that never moves; surfaces feel it.
+    const bool moves = !(d.features & kFixed) || !isFixed(d.velocity[i]);
+    bool near = moves && (d.features & kFloor) && !d.floor.clearOf(x, within);
+    for (int b = 0; moves && b < d.wallCount; ++b)
+      near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
     for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
     mark[i] = near ? 1u : 0u;
     // Grains off the list are not looked at in a step: the bit of a contact whose surface has jumped away would stay

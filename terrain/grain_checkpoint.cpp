@@ -6,6 +6,7 @@
 #include "terrain/row_exchange.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace grouser::terrain {
@@ -70,7 +71,8 @@ void saveFields(const GrainArrays& arrays, const std::vector<std::uint32_t>& slo
 void saveMotion(const GrainFields& f, const std::vector<std::uint32_t>& slots, GrainState& s) {
   forSlots(f.velocity, slots, [&](const Vec4f& v) {
     s.velocity.push_back(v.xyz());
-    if (s.layout.radii) s.radius.push_back(v.w);
+    if (s.layout.radii) s.radius.push_back(std::fabs(v.w));
+    if (s.layout.fixed) s.fixed.push_back(isFixed(v));
   });
   forSlots(f.spin, slots, [&](const Vec4f& w) {
     s.spin.push_back(w.xyz());
@@ -125,21 +127,23 @@ void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& s
 
 /// What a snapshot shows of each grain, as rows that are sent to the rank whose block of ids they are in.
 struct SnapshotRows {
-  bool manyRadii{}, contactForces{};
+  bool manyRadii{}, someFixed{}, contactForces{};
   std::vector<std::uint32_t> id;
   std::vector<Position> position;
   std::vector<Vec3f> velocity, spin;
   std::vector<float> radius;
+  std::vector<std::uint32_t> fixed;
   std::vector<Vec3f> contactForce;
 
   SnapshotRows withoutRows() const {
     SnapshotRows out;
-    out.manyRadii = manyRadii, out.contactForces = contactForces;
+    out.manyRadii = manyRadii, out.someFixed = someFixed, out.contactForces = contactForces;
     return out;
   }
   template <class Self, class Visitor> static void visitRow(Self& s, Visitor& visitor) {
     visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin);
     if (s.manyRadii) visitor.column(s.radius);
+    if (s.someFixed) visitor.column(s.fixed);
     if (s.contactForces) visitor.column(s.contactForce);
   }
 };
@@ -165,12 +169,14 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const Snapsho
   const GrainFields& f = system.arrays.fields();
   const std::vector<std::uint32_t> slots = ownSlots(system);
   SnapshotRows rows;
-  rows.manyRadii = system.constants.manyRadii(), rows.contactForces = options.contactForces;
+  rows.manyRadii = system.constants.manyRadii(), rows.someFixed = system.constants.has(kFixed);
+  rows.contactForces = options.contactForces;
   forSlots(f.id, slots, [&](std::uint32_t id) { rows.id.push_back(id); });
   forSlots(f.position, slots, [&](const Position& p) { rows.position.push_back(p); });
   forSlots(f.velocity, slots, [&](const Vec4f& v) {
     rows.velocity.push_back(v.xyz());
-    if (rows.manyRadii) rows.radius.push_back(v.w);
+    if (rows.manyRadii) rows.radius.push_back(std::fabs(v.w));
+    if (rows.someFixed) rows.fixed.push_back(isFixed(v));
   });
   forSlots(f.spin, slots, [&](const Vec4f& w) { rows.spin.push_back(w.xyz()); });
   if (options.contactForces) {
@@ -183,7 +189,7 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const Snapsho
   out.first = blockStart(comm, static_cast<std::int64_t>(system.count), comm.rank()), out.total = system.count;
   for (const Position& p : rows.position) out.position.push_back(system.constants.scale.toMetres(p));
   out.velocity = rows.velocity, out.spin = rows.spin, out.radius = rows.radius;
-  out.contactForce = rows.contactForce;
+  out.fixed = rows.fixed, out.contactForce = rows.contactForce;
   return out;
 }
 
@@ -207,6 +213,8 @@ Position GrainCheckpoint::placeAtList(const GrainState& s, std::size_t k) const 
 void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   system.finishGhostUpdate(); // else it would overwrite loaded grains with the ghosts of the old ones
   system.count = static_cast<std::size_t>(own_.total);
+  system.fixedCount =
+      static_cast<std::size_t>(system.comm.sumOf(std::count(own_.fixed.begin(), own_.fixed.end(), std::uint32_t{1})));
   system.arrays.setSlots(own_.rows());
   GrainFields& f = system.arrays.fields();
   system.arrays.forEach([&]<class T>(GrainField<T>& field) {
@@ -217,7 +225,8 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   for (std::size_t k = 0; k < own_.rows(); ++k) {
     position[k] = placeAtList(own_, k);
     const Vec3f &v = own_.velocity[k], &w = own_.spin[k];
-    velocity[k] = {v.x, v.y, v.z, own_.radius.empty() ? 0.0f : own_.radius[k]};
+    const float radius = own_.radius.empty() ? 0.0f : own_.radius[k];
+    velocity[k] = {v.x, v.y, v.z, system.constants.storedRadius(radius, !own_.fixed.empty() && own_.fixed[k] != 0)};
     spin[k] = {w.x, w.y, w.z, own_.material.empty() ? 0.0f : static_cast<float>(own_.material[k])};
   }
   f.position.now.assign(position), f.velocity.now.assign(velocity), f.spin.now.assign(spin);

@@ -36,14 +36,15 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   if (boundaries.periodic[0] || boundaries.periodic[1]) features |= kPeriodic;
   if (!boundaries.surfaces.empty()) features |= kBoundaries | kSurfaces;
   if (model.ledger) features |= kLedger;
+  if (model.fixedGrains) features |= kFixed;
   return features;
 }
 
 GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials) {
   const auto has = [&](unsigned feature) -> std::int64_t { return (features & feature) != 0; };
   const int history = contact::historyWidth(features);
-  return {has(kLedger),  boundaries, history > 0, history > 3, has(kManyRadii), static_cast<std::int64_t>(materials),
-          has(kPeriodic)};
+  return {has(kLedger),   boundaries, history > 0, history > 3, has(kManyRadii), static_cast<std::int64_t>(materials),
+          has(kPeriodic), has(kFixed)};
 }
 
 namespace {
@@ -52,6 +53,12 @@ double smallestOf(const GrainModel& model, const std::vector<GrainSpec>& start) 
   double least = model.smallestRadius > 0 ? model.smallestRadius : model.radius;
   for (const GrainSpec& g : start) least = g.radius > 0 ? std::min(least, g.radius) : least;
   return least;
+}
+
+GrainModel withFixedGrains(GrainModel model, const std::vector<GrainSpec>& start) {
+  const bool fixed = std::any_of(start.begin(), start.end(), [](const GrainSpec& g) { return g.fixed; });
+  model.fixedGrains = model.fixedGrains || fixed;
+  return model;
 }
 
 /// The nearest radius [m] that is both a float and a whole number of units.
@@ -87,8 +94,9 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
 
 GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& boundaries,
                                const std::vector<GrainSpec>& start)
-    : model(grainModel), scale(base::positionScale(2 * model.radius)), smallestRadius(smallestOf(model, start)),
-      diameterUnits(unitsOf(2 * model.radius, scale)), skinUnits(unitsOf(model.skin * smallestRadius, scale)),
+    : model(withFixedGrains(grainModel, start)), scale(base::positionScale(2 * model.radius)),
+      smallestRadius(smallestOf(model, start)), diameterUnits(unitsOf(2 * model.radius, scale)),
+      skinUnits(unitsOf(model.skin * smallestRadius, scale)),
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
       historyWidth(contact::historyWidth(features)), boundaryCount(boundaries.count()),
       period(periodOf(boundaries, scale, listRange())) {
@@ -103,7 +111,12 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
 }
 
 float GrainConstants::storedRadius(const GrainSpec& grain) const {
-  return manyRadii() ? nearestStored(grain.radius > 0 ? grain.radius : model.radius, scale) : 0.0f;
+  return storedRadius(manyRadii() ? nearestStored(grain.radius > 0 ? grain.radius : model.radius, scale) : 0.0f,
+                      grain.fixed);
+}
+
+float GrainConstants::storedRadius(float radius, bool fixed) const {
+  return !fixed ? radius : manyRadii() ? -radius : -1.0f;
 }
 
 } // namespace grouser::terrain

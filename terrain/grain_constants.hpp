@@ -36,8 +36,10 @@ struct GrainConstants {
   std::int64_t listRange() const { return diameterUnits + skinUnits; }
   /// How far a grain may move from where it was listed, squared [units^2]: half the skin.
   std::int64_t halfSkinUnits2() const { return (skinUnits / 2) * (skinUnits / 2); }
-  /// The grain's radius [m] as the state holds it, in velocity.w; 0 where all grains are of one.
+  /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
+  /// opposite of its radius, or -1.
   float storedRadius(const GrainSpec& grain) const;
+  float storedRadius(float radius, bool fixed) const;
 };
 
 } // namespace grouser::terrain

@@ -7,12 +7,18 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 
 namespace grouser::terrain {
 
 using base::Position;
 using base::Vec3d;
+
+std::size_t fixedAmong(const std::vector<GrainSpec>& grains) {
+  return static_cast<std::size_t>(
+      std::count_if(grains.begin(), grains.end(), [](const GrainSpec& g) { return g.fixed; }));
+}
 
 std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c) {
   const base::PositionScale& scale = c.scale;
@@ -27,6 +33,12 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
                       "positions for grains of radius {} m; move the scene nearer to the origin",
                       first + i, x.x, x.y, x.z, limit, c.model.radius));
     places[i] = scale.fromMetres(x);
+    if (start[i].fixed && (norm2(start[i].velocity) > 0 || norm2(start[i].spin) > 0))
+      throw base::InputError(fmt::format("grain {} at ({}, {}, {}) m is fixed and has a velocity or a spin; a fixed "
+                                         "grain never moves: remove one of the two",
+                                         first + i, x.x, x.y, x.z));
+    if (start[i].fixed && !c.has(kFixed))
+      throw std::logic_error("a fixed grain enters a scene that was made without any");
     for (int a = 0; a < 2; ++a)
       if (period.periodsBack(a, base::toUnits(places[i])[a]) != 0)
         throw base::InputError(fmt::format("grain {} at ({}, {}, {}) m lies outside the periodic boundaries {} = "

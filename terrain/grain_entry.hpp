@@ -11,8 +11,11 @@ namespace grouser::terrain {
 
 struct GrainSystem;
 
+/// How many of these never move.
+std::size_t fixedAmong(const std::vector<GrainSpec>& grains);
+
 /// Where the grains lie; the first of them has the id `first`. Throws InputError where one lies outside the range of
-/// the integer positions or beyond periodic boundaries.
+/// the integer positions or beyond periodic boundaries, or where a fixed one has a velocity.
 std::vector<base::Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c);
 
 /// Throws InputError when two grains have the same place: no direction would push them apart.

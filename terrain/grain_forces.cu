@@ -17,7 +17,7 @@ struct AddVelocityChange {
   base::FixedPoint scale;     ///< of one grain's [m/s]
   std::int64_t* sum;
   GROUSER_HD void operator()(int i) const {
-    if (ghost && ghost[i]) return;
+    if ((ghost && ghost[i]) || isFixed(now[i])) return;
     base::atomicAdd64(sum, scale.quantise(norm(now[i].xyz().as<double>() - before[i].xyz().as<double>())));
   }
 };
@@ -31,6 +31,10 @@ struct MeasureContactForce {
   const double* massPerCube; ///< else [materials] mass over radius^3
   base::Vec3f* force;
   GROUSER_HD void operator()(int i) const {
+    if (isFixed(now[i])) { // what it takes is not summed
+      force[i] = {};
+      return;
+    }
     const base::Vec3f v = now[i].xyz(), was = before[i].xyz();
     base::Vec3d change;
     for (int a = 0; a < 3; ++a) {
@@ -58,7 +62,7 @@ double forceRatio(const GrainSystem& system) {
   std::int64_t total = sum.toHost().front();
   system.comm.sum(&total, 1);
   return scale.checked(total, "changes of velocity") / weightChange /
-         static_cast<double>(std::max<std::size_t>(1, system.count));
+         static_cast<double>(std::max<std::size_t>(1, system.count - system.fixedCount));
 }
 
 std::vector<base::Vec3f> contactForces(const GrainSystem& system) {

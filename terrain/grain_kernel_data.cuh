@@ -104,8 +104,10 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
     return contact::historyWidth(kFeatures & contact::kGeneral ? d.features : kFeatures);
   }
 
-  GROUSER_HD GrainSize<Real> sizeOf(float radius, float material) const {
+  /// `radiusInW`: as velocity.w has it.
+  GROUSER_HD GrainSize<Real> sizeOf(float radiusInW, float material) const {
     if (!has(kManyRadii)) return {f.radius, f.mass, 0, 0};
+    const float radius = fabsf(radiusInW);
     const int m = has(kManyMaterials) ? static_cast<int>(material) : 0;
     const Real r = static_cast<Real>(radius);
     // Radii are whole units, and floats: both conversions are exact.

@@ -25,7 +25,12 @@ using StepKernels =
                kFriction, kLedger, kBoundaries | kLedger, kBed | kRollingFriction, kBed | kLoads | kRollingFriction,
                kBed | kManyRadii, kBed | kManyRadii | kRollingFriction, kHertz | kBed, kHertz | kBed | kLoads,
                kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic,
-               kBed | kSurfaces, kBed | kSurfaces | kRollingFriction>;
+               kBed | kSurfaces, kBed | kSurfaces | kRollingFriction,
+               // The same on a floor of fixed grains, which is what a bed stands on.
+               kFixed | kBed, kFixed | kBed | kLoads, kFixed | kBed | kRollingFriction,
+               kFixed | kBed | kLoads | kRollingFriction, kFixed | kBed | kManyRadii,
+               kFixed | kBed | kManyRadii | kLoads, kFixed | kBed | kManyRadii | kRollingFriction,
+               kFixed | kBed | kManyRadii | kLoads | kRollingFriction>;
 /// The search on a floor needs many registers.
 using BoundaryKernels =
     KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction, kFloor, kFriction | kFloor,
@@ -95,7 +100,7 @@ std::string featureText(unsigned features) {
   add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
   add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
   add(kPeriodic, "periodic boundaries"), add(kBoundaries, "planes or floor"), add(kSurfaces, "moving surfaces");
-  add(kLoads, "rigid parts"), add(kLedger, "ledger");
+  add(kFixed, "fixed grains"), add(kLoads, "rigid parts"), add(kLedger, "ledger");
   return text;
 }
 

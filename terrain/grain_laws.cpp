@@ -30,6 +30,13 @@ GrainLaws::GrainLaws(const base::Exec& exec, const GrainConstants& c,
   massPerCube_ = base::Array<double>(exec, massPerCube);
 }
 
+void GrainLaws::replacePairs(const base::Exec& exec, const GrainConstants& c) {
+  if (c.model.precision == Precision::single)
+    single_.pairs = onDevice<float>(exec, c.model.materials.grains);
+  else
+    double_.pairs = onDevice<double>(exec, c.model.materials.grains);
+}
+
 template <class Real> ForceData<Real> GrainLaws::forceData(const GrainConstants& c) const {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const GrainModel& m = c.model;

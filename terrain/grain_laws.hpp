@@ -19,6 +19,9 @@ public:
   GrainLaws(const base::Exec& exec, const GrainConstants& constants,
             const std::vector<contact::ContactLaw>& boundaries);
 
+  /// Takes the laws between materials from the model once more.
+  void replacePairs(const base::Exec& exec, const GrainConstants& constants);
+
   /// What kernels take, but for the loads of boundaries. `Real` is that of the precision.
   template <class Real> ForceData<Real> forceData(const GrainConstants& constants) const;
   void describe(GrainKernelData& d) const;

@@ -52,10 +52,12 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
       x[a] = (x[a] + placesKept(kept.position, a)) * d.unitLength;
     }
     const GrainSize<Real> size = Kernel::sizeOf(i);
-    const double m = static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
+    // A grain that never moves has no part in these sums but for what surfaces press into it.
+    const bool fixed = has(kFixed) && isFixed(speed);
+    const double m = fixed ? 0 : static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
     Held held;
     measureGrains(i, size, held);
-    measureBoundaries(i, x, size, held);
+    measureBoundaries(i, x, size, fixed ? d.boundaryCount - d.surfaceCount : 0, held);
     const double inertia = 0.4 * m * radius * radius;
     const Vec3d gravity = d.gravityStep * (1.0 / d.timeStep);
     std::int64_t share[kSums];
@@ -100,15 +102,18 @@ private:
       const float* history =
           touched && Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
       const double mi = static_cast<double>(own.mass), mj = static_cast<double>(other.mass);
-      held.elastic += 0.5 * stored(law, overlap, ri * rj / (ri + rj), mi * mj / (mi + mj), history);
+      // Half of it is the neighbour's, but for one that never moves.
+      const bool alone = has(kFixed) && isFixed(d.velocity[j]);
+      held.elastic +=
+          (alone ? 1 : 0.5) * stored(law, overlap, ri * rj / (ri + rj), alone ? mi : mi * mj / (mi + mj), history);
       held.deepest = overlap > held.deepest ? overlap : held.deepest;
-      ++held.touching;
+      held.touching += alone ? 2 : 1;
     }
   }
 
-  GROUSER_HD void measureBoundaries(int i, const Vec3d& x, const GrainSize<Real>& size, Held& held) const {
+  GROUSER_HD void measureBoundaries(int i, const Vec3d& x, const GrainSize<Real>& size, int first, Held& held) const {
     const double radius = static_cast<double>(size.radius);
-    for (int b = 0; b < d.boundaryCount; ++b) {
+    for (int b = first; b < d.boundaryCount; ++b) {
       const double overlap = radius - distanceTo(b, x, radius);
       if (overlap <= 0) continue;
       const bool touched = d.boundaryContactMask[i] >> b & 1;

@@ -21,6 +21,7 @@ inline constexpr unsigned kLedger = 1u << 11;       ///< books are kept
 inline constexpr unsigned kPeriodic = 1u << 12;     ///< periodic boundaries along x or y
 inline constexpr unsigned kSurfaces = 1u << 13;     ///< rigid surfaces that may move; implies kBoundaries
 inline constexpr unsigned kFloor = 1u << 14;        ///< a height-field floor; implies kBoundaries
+inline constexpr unsigned kFixed = 1u << 15;        ///< some grains never move: velocity.w < 0 marks them
 
 /// A rigid plane that fills the half-space behind its normal.
 struct Wall {
@@ -55,6 +56,7 @@ struct GrainModel {
   contact::ContactLaw floorLaw; ///< grain on the height-field floor, where there is one
   double skin{0.3};             ///< of the neighbour list, as a share of the smallest grain's radius [-]
   double maxOverlap{0.2};       ///< as a share of the grain's radius [-]; more stops the run
+  bool fixedGrains{false};      ///< whether some grains are fixed: those at the start say so too
   bool ledger{true};            ///< whether books are kept of work and what is dissipated
   GrainMaterials materials;     ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};

@@ -17,6 +17,9 @@ template <class Real> struct BoundaryLoad {
   Real unused;                    ///< of a record of whole 16 bytes
 };
 
+/// Whether a grain of this velocity is one that never moves.
+GROUSER_HD bool isFixed(const Vec4f& velocity) { return velocity.w < 0; }
+
 /// How often a grain has left through the upper side along x and y and entered through the lower one, less the reverse:
 /// its total displacement is that many periods more than its position shows.
 struct Crossings {

@@ -18,6 +18,9 @@ struct GrainSpec {
   base::Vec3d spin;     ///< [rad/s]
   double radius{0};     ///< [m], at most the model's; 0: the model's
   int material{0};      ///< among the model's
+  /// Never moves, whatever acts on it, and has neither mass nor weight of its own: a piece of rough ground, from which
+  /// others bounce. Its velocity and spin must be zero. Two of them may overlap each other.
+  bool fixed{false};
 };
 
 /// Along x and y: the places [m] of the lower and the upper boundary where they are periodic. What leaves through one

@@ -23,7 +23,7 @@ struct StepSome {
 } // namespace
 
 int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
-  constexpr unsigned kKnown = contact::kFriction | kBoundaries | kLoads | kLedger;
+  constexpr unsigned kKnown = contact::kFriction | kBoundaries | kLoads | kLedger | kFixed;
   if (features & ~kKnown) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
 #if defined(__x86_64__)
@@ -61,6 +61,17 @@ void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base
   sum.deepest = deepest;
   step.addLoads(i, step.sizeOf(0, 0), force, torque, sum);
   deepest = sum.deepest;
+}
+
+void letStay(const GrainKernelData& d, const ForceData<float>& f, int i) {
+  const GrainStep<contact::kGeneral, float> step{{d, f}};
+  step.stay(i, d.position[i], d.velocity[i], d.spin[i]);
+}
+
+void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
+              const base::Vec3f& torque) {
+  const GrainStep<contact::kGeneral, float> step{{d, f}};
+  step.bookHeld(i, d.position[i], {force, torque, true});
 }
 
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {

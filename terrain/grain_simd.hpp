@@ -26,6 +26,10 @@ void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base
                 float& deepest);
 /// Adds what some grains of a launch, from `first` on, have done.
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
+/// GrainStep's own, of a grain that never moves and of forces by such grains.
+void letStay(const GrainKernelData& d, const ForceData<float>& f, int i);
+void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
+              const base::Vec3f& torque);
 
 } // namespace detail
 } // namespace grouser::terrain

@@ -20,6 +20,7 @@ struct GrainLayout {
   std::int64_t radii{};      ///< 1: each grain has its own
   std::int64_t materials{};  ///< of the grains; 0: one
   std::int64_t periodic{};   ///< 1: some boundaries are periodic
+  std::int64_t fixed{};      ///< 1: some grains are fixed
   bool operator==(const GrainLayout&) const = default;
   std::int64_t historyWidth() const { return 3 * (friction + rolling); } ///< numbers of history of a contact
 };
@@ -37,6 +38,7 @@ struct GrainState {
   std::vector<Remainders> remainders;      ///< [rows]
   std::vector<float> radius;               ///< [rows] [m]; empty where all are alike
   std::vector<std::uint32_t> material;     ///< [rows]; empty where there is one
+  std::vector<std::uint32_t> fixed;        ///< [rows] 1 for a grain that never moves; empty where all may
   std::vector<Crossings> crossings;        ///< [rows] of periodic boundaries; empty without them
   std::vector<std::uint32_t> wallBits;     ///< [rows] bit a wall or floor in touch; empty without them
   std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], zero out of touch; empty without friction
@@ -68,6 +70,7 @@ struct GrainState {
                      l.rolling ? &s.contactRolling : nullptr);
     if (l.radii) visitor.column(s.radius);
     if (l.materials) visitor.column(s.material);
+    if (l.fixed) visitor.column(s.fixed);
     if (l.boundaries)
       visitor.boundaries(s.wallBits, static_cast<std::size_t>(l.boundaries), l.friction ? &s.wallShear : nullptr,
                          l.rolling ? &s.wallRolling : nullptr);
@@ -81,7 +84,7 @@ struct GrainState {
   static void visitColumns(Self& s, const PerGrain& perGrain, const PerContact& perContact) {
     perGrain("position", s.position), perGrain("velocity", s.velocity), perGrain("spin", s.spin);
     perGrain("remainders", s.remainders), perGrain("radius", s.radius), perGrain("material", s.material);
-    perGrain("crossings", s.crossings);
+    perGrain("fixed", s.fixed), perGrain("crossings", s.crossings);
     perGrain("wall_bits", s.wallBits), perGrain("wall_shear", s.wallShear), perGrain("wall_rolling", s.wallRolling);
     perGrain("contacts", s.contacts), perGrain("travelled", s.travelled);
     perContact("neighbour", s.neighbour), perContact("contact_shear", s.contactShear);
@@ -96,7 +99,9 @@ struct GrainSnapshot {
   std::vector<base::Vec3f> velocity; ///< [m/s]
   std::vector<base::Vec3f> spin;     ///< [rad/s]
   std::vector<float> radius;         ///< [m]; empty where all are the model's
-  /// Resultant of all contact forces in the last step [N], those of rigid parts among them; empty unless asked for.
+  std::vector<std::uint32_t> fixed;  ///< 1 for grains that never move; empty where all may
+  /// Resultant of all contact forces in the last step [N], those of rigid parts among them; of fixed grains 0; empty
+  /// unless asked for.
   std::vector<base::Vec3f> contactForce;
 };
 

@@ -15,16 +15,24 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   using Vec = base::Vec3<Real>;
   using Books = GrainBooks;
 
+  /// By grains that never move: part of the sum.
+  struct Held {
+    Vec force, torque;
+    bool any = false;
+  };
+
   struct Sum {
     Vec force, torque;
     Real damped = 0, rubbed = 0, rolled = 0; ///< [J]
     float deepest = 0;
+    Held held;
   };
 
   /// Of one of two grains in touch.
   struct Side {
     GrainSize<Real> size;
     Vec velocity, spin;
+    bool fixed = false; ///< never moves
   };
 
   /// What a contact keeps from step to step.
@@ -53,11 +61,13 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const base::Position p = d.position[i];
     const Vec4f v = d.velocity[i], w = d.spin[i];
     if (d.role && d.role[i] != 0) return;
+    if (has(kFixed) && isFixed(v)) return stay(i, p, v, w);
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
     // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
+    if (has(kFixed) && sum.held.any) bookHeld(i, p, sum.held);
     if (has(kBoundaries)) addBoundaries(i, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
@@ -132,6 +142,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Vec4f velocity = d.velocity[j], spin = d.spin[j];
     const base::Vec3i apart = Kernel::apart(p, d.position[j]);
     Side other{{}, velocity.xyz().template as<Real>(), spin.xyz().template as<Real>()};
+    if (has(kFixed)) other.fixed = isFixed(velocity);
     std::int64_t reach2 = d.diameterUnits2;
     Real reach = f.diameterUnits;
     if (has(kManyRadii)) {
@@ -152,13 +163,15 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Real overlap = pair.overlap;
     contact::BasicContactGeometry<Real> touch{normal, overlap, own.velocity - other.velocity, f.halfMass,
                                               Real(0.5) * f.radius};
+    const bool onGround = has(kFixed) && other.fixed;
+    if (onGround) touch.effectiveMass = own.size.mass;
     // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
     Real arm = Real(0.5) * pair.distance;
     if (has(kManyRadii)) {
       const GrainSize<Real>&a = own.size, &b = other.size;
       arm = a.radius - Real(0.5) * overlap;
       touch.velocity += cross(own.spin * arm + other.spin * (b.radius - Real(0.5) * overlap), normal);
-      touch.effectiveMass = a.mass * b.mass / (a.mass + b.mass);
+      if (!onGround) touch.effectiveMass = a.mass * b.mass / (a.mass + b.mass);
       touch.effectiveRadius = a.radius * b.radius / (a.radius + b.radius);
     } else {
       touch.velocity += cross(own.spin + other.spin, normal * arm);
@@ -168,24 +181,55 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     Vec shear = history.spring.template as<Real>();
     const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
     if (Kernel::hasHistory()) storeVector(history.at, shear.template as<float>());
+    // The other half is the neighbour's, but for one that never moves.
+    const Real share = onGround ? Real(1) : Real(0.5);
+    Vec torque{};
+    if (has(contact::kFriction)) torque = cross(normal * arm, reaction.force);
     sum.force += reaction.force;
-    if (has(contact::kFriction)) sum.torque += cross(normal * arm, reaction.force);
-    sum.damped += Real(0.5) * reaction.damped; // the other half is the neighbour's
-    if (has(contact::kFriction)) sum.rubbed += Real(0.5) * reaction.rubbed;
+    if (has(contact::kFriction)) sum.torque += torque;
+    sum.damped += share * reaction.damped;
+    if (has(contact::kFriction)) sum.rubbed += share * reaction.rubbed;
     if (has(contact::kRollingFriction)) {
       Vec angle{};
       if (history.held) angle = loadVector(history.at + 3).template as<Real>();
-      const Real inertia =
-          has(kManyRadii) ? contact::rollingInertia(own.size.mass, own.size.radius, other.size.mass, other.size.radius)
-                          : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
+      const GrainSize<Real>&a = own.size, &b = other.size;
+      const Real inertia = onGround          ? contact::rollingInertia(a.mass, a.radius)
+                           : has(kManyRadii) ? contact::rollingInertia(a.mass, a.radius, b.mass, b.radius)
+                                             : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
       const contact::RollingMotion<Real> motion{normal, own.spin - other.spin, touch.effectiveRadius, inertia};
       Real rolled = 0;
-      sum.torque +=
+      const Vec rolling =
           contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle, rolled);
-      sum.rolled += Real(0.5) * rolled;
+      sum.torque += rolling, torque += rolling;
+      sum.rolled += share * rolled;
       storeVector(history.at + 3, angle.template as<float>());
     }
     if (static_cast<float>(overlap) > sum.deepest) sum.deepest = static_cast<float>(overlap);
+    if (onGround) sum.held.any = true, sum.held.force += reaction.force, sum.held.torque += torque;
+  }
+
+  /// One that never moves: its state is handed on. The ground gives it the opposite of what parts do to it.
+  GROUSER_HD void stay(int i, const base::Position& p, const Vec4f& v, const Vec4f& w) const {
+    d.nextPosition[i] = p, d.nextVelocity[i] = v, d.nextSpin[i] = w;
+    if (!has(kLoads) || d.loads.range[i] == 0) return;
+    base::Vec3d force, torque;
+    Sum sum;
+    const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
+    addLoads(i, size, force, torque, sum);
+    bookHeld(i, p, {(-force).template as<Real>(), (-torque).template as<Real>()});
+    const float most = has(kManyRadii) ? d.maxOverlapShare * static_cast<float>(size.radius) : d.maxOverlap;
+    if (sum.deepest > most)
+      base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(Fault::overlap) << 56 | d.id[i]);
+  }
+
+  /// Impulses of what never moves are booked as those of walls. Few grains have any.
+  GROUSER_HD void bookHeld(int i, const base::Position& p, const Held& held) const {
+    if (!has(kLedger)) return;
+    const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
+    const base::Vec3d force = held.force.template as<double>();
+    WallBooks books;
+    books.addForce(force, cross(x, force) + held.torque.template as<double>(), d.bookScale);
+    addToBank(d.books, i / 32, books);
   }
 
   GROUSER_HD void addBoundaries(int i, Sum& sum) const {

@@ -17,6 +17,7 @@ GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, cons
   if (!comm.alone()) distribution = std::make_unique<GrainDistribution>(exec, partition, constants, places);
   arrays.append(entering(start, places));
   count = start.size();
+  fixedCount = fixedAmong(start);
 }
 
 EnteringGrains GrainSystem::entering(const std::vector<GrainSpec>& grains,
@@ -39,8 +40,12 @@ std::vector<std::uint32_t> GrainSystem::ghostsOnHost() const {
 }
 
 contact::RadiiInW GrainSystem::radii() const {
-  if (!constants.manyRadii()) return {};
-  return {arrays.fields().velocity.now.data(), static_cast<float>(constants.scale.perMetre)};
+  const Vec4f* const velocity = arrays.fields().velocity.now.data();
+  contact::RadiiInW radii;
+  if (constants.manyRadii())
+    radii.sphere = velocity, radii.unitsPerLength = static_cast<float>(constants.scale.perMetre);
+  if (constants.has(kFixed)) radii.fixed = velocity;
+  return radii;
 }
 
 GrainKernelData GrainSystem::kernelData() {

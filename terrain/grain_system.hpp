@@ -27,6 +27,7 @@ struct GrainSystem {
   contact::NeighbourList neighbours;
   std::unique_ptr<GrainDistribution> distribution; ///< null on one rank
   std::size_t count;                               ///< grains of the scene
+  std::size_t fixedCount{0};                       ///< those of them that never move
   std::int64_t steps{0}, rebuilds{0};              ///< steps taken; neighbour lists made
 
   /// By slot: not 0 for ghosts; null where there are none.

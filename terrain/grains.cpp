@@ -30,7 +30,7 @@ void Grains::add(const std::vector<GrainSpec>& more) {
       insertionOverlapAlarm_(*overlap);
   const EnteringGrains here = system_.entering(more, places);
   system_.arrays.append(here);
-  system_.count += more.size();
+  system_.count += more.size(), system_.fixedCount += fixedAmong(more);
   if (system_.distribution) system_.distribution->subdomain().appended(here.id.size());
   invalidateNeighbours();
 }
@@ -89,6 +89,17 @@ std::int64_t Grains::advance(std::int64_t most) {
   const StepOutcome outcome = stepper_.runBatch(system_);
   take(outcome);
   return outcome.taken;
+}
+
+void Grains::replaceLaws(const GrainModel& other) {
+  GrainModel& model = system_.constants.model;
+  bool alike = other.law.features() == model.law.features() && other.materials.count() == model.materials.count();
+  for (std::size_t k = 0; alike && k < model.materials.grains.size(); ++k)
+    alike = other.materials.grains[k].features() == model.materials.grains[k].features();
+  if (!alike) throw std::logic_error("other laws of grains with other features than those that they began with");
+  model.law = other.law, model.materials.grains = other.materials.grains;
+  system_.laws.replacePairs(system_.exec, system_.constants);
+  stepper_.forgetGraph();
 }
 
 GrainSnapshot Grains::snapshot(const SnapshotOptions& options) const {

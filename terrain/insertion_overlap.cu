@@ -42,7 +42,7 @@ struct FindInsertionOverlap {
     const Vec3d fromCentre = period.apart(centre, position[i]).as<double>();
     for (int a = 0; a < 3; ++a)
       if (fabs(fromCentre[a]) > reach[a]) return;
-    const double own = radius > 0 ? radius : static_cast<double>(velocity[i].w) * unitsPerMetre;
+    const double own = radius > 0 ? radius : fabs(static_cast<double>(velocity[i].w)) * unitsPerMetre;
     for (std::int64_t k = 0; k < count; ++k) {
       const double overlap =
           own + entering[k].radius - norm(period.apart(entering[k].position, position[i]).as<double>());
@@ -112,7 +112,7 @@ void describeOverlap(const std::vector<GrainSpec>& entering, const std::vector<E
     const base::Position place = f.position.now.at(i);
     const Vec3d x = c.scale.toMetres(place);
     found[0] = x.x, found[1] = x.y, found[2] = x.z;
-    const double own = c.manyRadii() ? double{f.velocity.now.at(i).w} : c.model.radius;
+    const double own = c.manyRadii() ? std::fabs(double{f.velocity.now.at(i).w}) : c.model.radius;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double apart = norm(c.period.apart(all[k].position, place).as<double>()) * c.scale.unit;
       const double miss = std::fabs(own + radiusOf(entering[k], c) - apart - overlap.overlap);

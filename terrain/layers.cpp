@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 namespace grouser::terrain {
 
@@ -20,19 +19,15 @@ constexpr std::uint64_t kJitter = base::purpose("terrain.layers.jitter");
 constexpr double kFloorGap = 0.05;    ///< between grain and floor or wall, in radii
 constexpr double kJitterReach = 0.49; ///< of the gap between two grains, each may use half, less a reserve
 
-void require(bool ok, std::string_view key, double value, std::string_view range) {
-  if (!ok) throw InputError(fmt::format("bed of grains: {} = {} is outside {}", key, value, range));
-}
-
 void check(const LayerOptions& o) {
-  require(o.radius > 0 && std::isfinite(o.radius), "radius [m]", o.radius, "(0, inf)");
-  require(o.layers >= 0, "layers", o.layers, "[1, inf), or 0 to use depth");
+  requireOfBed(o.radius > 0 && std::isfinite(o.radius), "radius [m]", o.radius, "(0, inf)");
+  requireOfBed(o.layers >= 0, "layers", o.layers, "[1, inf), or 0 to use depth");
   if (o.layers == 0)
-    require(o.depth > 0 && std::isfinite(o.depth), "depth [m]", o.depth, "(0, inf); give layers or depth");
-  require(o.spacingInRadii > 2 && o.spacingInRadii <= 10, "spacing [radii]", o.spacingInRadii, "(2, 10]");
-  require(o.jitter >= 0 && o.jitter <= 1, "jitter [-]", o.jitter, "[0, 1]");
-  require(o.packing >= 0.3 && o.packing <= 0.74, "packing [-]", o.packing, "[0.3, 0.74]");
-  require(o.wallMargin >= 0 && std::isfinite(o.wallMargin), "wall margin [m]", o.wallMargin, "[0, inf)");
+    requireOfBed(o.depth > 0 && std::isfinite(o.depth), "depth [m]", o.depth, "(0, inf); give layers or depth");
+  requireOfBed(o.spacingInRadii > 2 && o.spacingInRadii <= 10, "spacing [radii]", o.spacingInRadii, "(2, 10]");
+  requireOfBed(o.jitter >= 0 && o.jitter <= 1, "jitter [-]", o.jitter, "[0, 1]");
+  requireOfBed(o.packing >= 0.3 && o.packing <= 0.74, "packing [-]", o.packing, "[0.3, 0.74]");
+  requireOfBed(o.wallMargin >= 0 && std::isfinite(o.wallMargin), "wall margin [m]", o.wallMargin, "[0, inf)");
 }
 
 /// Lattice points along one axis: `count[0]` in even layers, `count[1]` in odd ones, which start `offset` later.
@@ -89,7 +84,7 @@ public:
     const double mean = 0.5 * (double(x_.count[0]) * y_.count[0] + double(x_.count[1]) * y_.count[1]);
     layerThickness_ = mean * volume / (o.packing * walls_.width() * walls_.length());
     const double wanted = o.layers > 0 ? o.layers : std::floor(o.depth / layerThickness_ + 0.5);
-    require(wanted < 1e6, "layers", wanted, "[1, 1e6)");
+    requireOfBed(wanted < 1e6, "layers", wanted, "[1, 1e6)");
     layers_ = std::max(1, static_cast<int>(wanted));
     fullLayers_ = layers_;
     if (o.floor == FloorShape::flat) fillHills(surface);
@@ -149,7 +144,7 @@ private:
         for (int i = 0; i < x_.count[parity]; ++i) {
           const double depth = view.height(x_.at(i, parity), y_.at(j, parity)) - floorZ;
           const double fits = std::floor(depth / layerThickness_ + 0.5);
-          require(fits < 1e6, "layers on the flat floor", fits, "[1, 1e6); take larger grains");
+          requireOfBed(fits < 1e6, "layers on the flat floor", fits, "[1, 1e6); take larger grains");
           height_[parity].push_back(std::max(fullLayers_, static_cast<int>(fits)));
           most = std::max(most, height_[parity].back());
         }
@@ -179,27 +174,6 @@ private:
   std::vector<int> height_[2]; ///< flat floor: layers in each column, for even and odd layers; empty: all of them
 };
 
-/// Height, at least `z`, at which a sphere of `radius` above (x, y) keeps clear of the floor.
-double clearHeight(const HeightField& floor, double x, double y, double z, double radius) {
-  const HeightFieldBounds around = floor.boundsOver({x - radius, x + radius, y - radius, y + radius});
-  const double safe = around.highest + radius;
-  if (z >= safe) return z;
-  // In a hollow tighter than the sphere the foot point is not unique: stay above all of it.
-  if (around.valleyCurvature * radius >= 1) return safe;
-
-  // Newton on the distance, whose derivative along z is the normal's z component.
-  const HeightFieldView view = floor.view();
-  const SurfaceJet s = view.jet(x, y);
-  double contact = s.h + radius * std::sqrt(1 + s.hx * s.hx + s.hy * s.hy);
-  for (int k = 0; k < 8; ++k) {
-    const FootPoint foot = view.closestPoint({x, y, contact});
-    const double lack = radius - foot.distance;
-    if (std::fabs(lack) <= 1e-9 * radius) return std::max(z, contact);
-    contact += lack / foot.normal.z;
-  }
-  return safe;
-}
-
 } // namespace
 
 BedPlan planBed(const HeightField& surface, const LayerOptions& options) {
@@ -212,12 +186,13 @@ BedPlan planBed(const HeightField& surface, const LayerOptions& options) {
           .floor = lattice.floor(surface),
           .layers = lattice.layers(),
           .thickness = lattice.thickness(),
+          .fall = lattice.layers() * (options.spacingInRadii - 1.6) * options.radius,
           .grains = grains};
 }
 
-std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& options) {
+std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& options, double lift) {
   const Lattice lattice(surface, options);
-  const HeightField floor = lattice.floor(surface);
+  const HeightField floor = lattice.floor(surface).raised(lift);
   const double clear = options.radius * (1 + kFloorGap);
   const double apart2 = 1.5 * lattice.spacing() * lattice.spacing();
 

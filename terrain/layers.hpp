@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "terrain/height_field.hpp"
+#include "terrain/bed_plan.hpp"
 
 #include <array>
 #include <cstdint>
@@ -9,19 +9,7 @@
 
 namespace grouser::terrain {
 
-/// One grain before the run. Its id is its place in the list.
-struct Seed {
-  Vec3d centre;    ///< [m]
-  double radius{}; ///< [m]
-};
-
-/// What lies under the grains.
-enum class FloorShape {
-  follow, ///< the height-map's surface, lowered by the thickness of the settled bed: a bed of even thickness
-  flat    ///< level, one bed thickness below the height-map's lowest point; hills are filled with more layers
-};
-
-/// How a bed is laid.
+/// How a bed is laid in layers.
 struct LayerOptions {
   double radius{}; ///< of every grain [m], > 0
   int layers{0};   ///< >= 1, or 0: as many as `depth` needs. With a flat floor: at the lowest point
@@ -37,22 +25,14 @@ struct LayerOptions {
   std::uint64_t seed{1};
 };
 
-/// What a bed will be, known before a single grain is laid.
-struct BedPlan {
-  Rectangle walls;       ///< inner faces [m]
-  HeightField floor;     ///< the rigid surface the grains are laid on
-  int layers{};          ///< full layers (with a flat floor: the most anywhere)
-  double thickness{};    ///< expected of the settled bed [m] (with a flat floor: at the lowest point)
-  std::int64_t grains{}; ///< exactly
-};
-
 /// Plans a bed whose settled surface comes close to `surface`: grains' volume over wall-to-wall area and `packing`
 /// gives the thickness of a layer. Trial beds (5 and 8 layers, friction 0.5, level and 20 % slope, settled under
 /// gravity) came to lie -0.4 to +1.0 radii from the height-map, with the default options +0.03. O(grains). InputError:
 /// an option out of its range, no room for one grain between the walls.
 BedPlan planBed(const HeightField& surface, const LayerOptions& options);
 
-/// Lays the grains of `planBed(surface, options)`, layer by layer from the floor, row by row (y) and along x.
+/// Lays the grains of `planBed(surface, options)`, layer by layer from `lift` [m] above the floor, row by row (y) and
+/// along x.
 ///
 /// Each layer is a square lattice in (x, y), every second one offset by half a spacing both ways, jittered in x, y and
 /// (upwards) z by random numbers of (seed, id). A grain keeps a twentieth of a radius from the floor and at least
@@ -60,6 +40,6 @@ BedPlan planBed(const HeightField& surface, const LayerOptions& options);
 /// slope as much more as the slope needs. No two grains ever overlap, whatever the surface: grains of one layer, or of
 /// layers of equal offset, differ by a spacing less the jitter in x or y, or stand in one column, where each layer is
 /// higher than the last but one by more than a diameter.
-std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& options);
+std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& options, double lift = 0);
 
 } // namespace grouser::terrain

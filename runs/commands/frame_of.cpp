@@ -51,6 +51,8 @@ void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contact
   }
   frame.velocities = std::move(s.velocity), frame.contactForces = std::move(s.contactForce);
   frame.borders = bordersOf(grains);
+  frame.withFixed = grains.system().constants.has(terrain::kFixed);
+  frame.fixed.assign(s.fixed.begin(), s.fixed.end());
   frame.radii = s.radius;
   if (s.radius.empty()) frame.radii.assign(s.position.size(), static_cast<float>(grains.model().radius));
 }

@@ -21,7 +21,6 @@
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/support/progress.hpp"
-#include "terrain/layers.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -111,6 +110,31 @@ std::string bedHeightText(const scene::Scene& scene) {
                          : "height not known before a run has settled it");
 }
 
+/// How a bed is made; `t` is null without one.
+std::string bedLines(const scene::Terrain* t) {
+  const std::string none = "no bed";
+  const bool random = t && !t->lattice();
+  std::string text = onOff(random, "random arrangement",
+                           !t       ? none
+                           : random ? fmt::format("radii {}", base::wordOf(*t->radiusDistribution))
+                                    : "terrain.arrangement = \"lattice\"");
+  text += onOff(t && t->porosity, "preparation",
+                !t            ? none
+                : t->porosity ? fmt::format("to a porosity of {:g}", *t->porosity)
+                              : "terrain.porosity is not given: as poured");
+  text += onOff(t && t->coarsening, "grading by depth",
+                !t              ? none
+                : t->coarsening ? fmt::format("radius {:g} m down to {:g} m, {:g} m below", *t->grainRadius,
+                                              *t->fineDepth, *t->coarsestRadius)
+                                : "terrain.coarsening is not given");
+  text += onOff(t && t->floorGrains, "fixed grains on the floor",
+                !t               ? none
+                : t->floorGrains ? "rough"
+                                 : "terrain.floor_grains = false: smooth");
+  text += onOff(t && t->tile, "tile", !t ? none : t->tile ? "settled once and copied" : "terrain.tile is not given");
+  return text;
+}
+
 std::string switches(const scene::Scene& scene) {
   const scene::Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
   const setup::GrainKinds kinds = setup::grainKinds(scene);
@@ -133,6 +157,7 @@ std::string switches(const scene::Scene& scene) {
                         terrain::featureText(features), base::wordOf(scene.run.precision));
   }
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
+  text += bedLines(bed ? t : nullptr);
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
   text += putOnBedLine(scene);

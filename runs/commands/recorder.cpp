@@ -167,6 +167,7 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
     if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);
   }
+  if (const auto& bed = simulation_.ground().structure) writer_.bed(*bed);
   if (setup.mechanism) parts_ = output::mechanismParts(*setup.mechanism);
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)

@@ -99,6 +99,21 @@ void describePlaced(const simulation::Simulation& simulation) {
   fmt::print("placed    {} grains on the settled bed\n", grains);
 }
 
+/// How the bed came to rest, and what it is made of.
+void describeBed(const simulation::Simulation& simulation) {
+  const simulation::SettleReport& settled = simulation.settled();
+  if (settled.steps > 0)
+    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius{}\n", settled.time,
+               settled.agitation,
+               settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
+  const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
+  if (!bed || bed->grains == 0) return;
+  fmt::print("bed       porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
+             "surface   {:.4f} m in the mean, {:.4f} to {:.4f} m; {:.4f} m above the floor, {:.1f} mean diameters\n",
+             bed->porosity, bed->porosityError, bed->coordination, 100 * bed->rattlers, 100 * bed->order,
+             bed->settledHeight, bed->lowest, bed->highest, bed->thickness, bed->thickness / bed->meanDiameter);
+}
+
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
@@ -106,11 +121,9 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
-  if (const simulation::SettleReport& s = simulation.settled(); s.steps > 0) {
-    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius\n", s.time, s.agitation);
-    fmt::print("surface   of the settled bed: mean height {:.5g} m, highest grain up to {:.6g} m\n", s.meanHeight,
-               s.highest);
-  }
+  describeBed(simulation);
+  if (simulation.settled().highest != 0)
+    fmt::print("          highest grain up to {:.6g} m\n", simulation.settled().highest);
   describePlaced(simulation);
   if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
@@ -394,6 +407,11 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
     if (simulation.settled().steps > 0) {
       summary.figures["bed_highest_m"] = simulation.settled().highest;
       summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
+    }
+    if (const auto& bed = simulation.ground().structure) {
+      summary.figures["bed_porosity"] = bed->porosity;
+      summary.figures["bed_order"] = bed->order;
+      summary.figures["bed_thickness_in_mean_diameters"] = bed->thickness / bed->meanDiameter;
     }
     summary.figures["wall_steps_s"] = drove, summary.figures["cpu_steps_s"] = cpu;
     summary.figures["microseconds_a_step"] =

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/sphere.hpp"
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
@@ -36,7 +37,9 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   const double radius = setup::grainKinds(scene).largest;
   std::array<double, 3> size{};
   if (bed) {
-    const double volume = grains * base::sphereVolume(radius) / scene.terrain->packing;
+    const scene::Terrain& t = *scene.terrain;
+    const double solid = t.lattice() ? *t.packing : 1 - t.porosity.value_or(scene::Terrain::kPoured);
+    const double volume = grains * setup::bedOptions(scene).meanVolume() / solid;
     size = {scene.terrain->size[0], scene.terrain->size[1], volume / (scene.terrain->size[0] * scene.terrain->size[1])};
   } else {
     base::Vec3d low{1e300, 1e300, 1e300}, high = -low;

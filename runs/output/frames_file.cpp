@@ -83,11 +83,12 @@ const GrainDataset kGrainDatasets[] = {
     {"speed", 1, speedsOf},                                                     // [m/s]
     {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }},         // [m/s]
     {"contact_force", 3, [](const Frame& f) { return flat(f.contactForces); }}, // [N]
+    {"fixed", 1, [](const Frame& f) { return f.fixed; }},                       // 1: never moves
 };
 
 /// Whether frames like this one have it, on all ranks: some may have no grains.
 bool hasDataset(std::string_view name, const Frame& frame) {
-  return name != "contact_force" || frame.withContactForces;
+  return name == "contact_force" ? frame.withContactForces : name != "fixed" || frame.withFixed;
 }
 
 std::vector<std::uint64_t> shapeOf(std::uint64_t grains, std::uint64_t width) {
@@ -176,7 +177,8 @@ std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::in
 void FramesFile::add(const Frame& frame) {
   const std::size_t grains = frame.positions.size();
   if (frame.radii.size() != grains || frame.velocities.size() != grains || frame.ids.size() != grains ||
-      frame.contactForces.size() != (frame.withContactForces ? grains : 0) || frame.partPoses.size() != parts_.size())
+      frame.contactForces.size() != (frame.withContactForces ? grains : 0) ||
+      frame.fixed.size() != (frame.withFixed ? grains : 0) || frame.partPoses.size() != parts_.size())
     throw std::logic_error("a frame's arrays differ in length");
   const std::string group = groupOf(count_);
   const auto total = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(grains)));

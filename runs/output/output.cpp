@@ -32,10 +32,23 @@ constexpr int kChunkRows = 64;
 constexpr std::uint64_t kTreeBytes = 8192;
 
 /// The files of a run; what else lies in its folder is not ours.
-constexpr const char* kFiles[] = {"results.h5",    "timeseries.csv",   "frames.h5",   "frames.xdmf",
-                                  "scene.toml",    "manifest.json",    "sinkage.csv", "sinkage.png",
-                                  "surface.png",   "shoe_heights.png", "drive.png",   "ledger.png",
-                                  "mechanism.png", "picture.png",      "grains.csv",  simulation::kCheckpointName};
+constexpr const char* kFiles[] = {"results.h5",
+                                  "timeseries.csv",
+                                  "frames.h5",
+                                  "frames.xdmf",
+                                  "scene.toml",
+                                  "manifest.json",
+                                  "sinkage.csv",
+                                  "sinkage.png",
+                                  "surface.png",
+                                  "shoe_heights.png",
+                                  "drive.png",
+                                  "ledger.png",
+                                  "mechanism.png",
+                                  "picture.png",
+                                  "grains.csv",
+                                  "bed.png",
+                                  simulation::kCheckpointName};
 
 fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
@@ -268,6 +281,26 @@ void RunWriter::surface(const UndisturbedSurface& surface) {
   write("height", surface.height, {surface.y.size(), surface.x.size()},
         "of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], column i at x[i]");
   file.attribute(group + "height", "interpolation", surface.interpolation);
+}
+
+void RunWriter::bed(const terrain::BedStructure& bed) {
+  if (!impl_->series) return;
+  const std::string group = "terrain/bed/";
+  constant(group + "porosity", "-", bed.porosity), constant(group + "porosity_error", "-", bed.porosityError);
+  constant(group + "coordination", "-", bed.coordination), constant(group + "rattlers", "-", bed.rattlers);
+  constant(group + "order", "-", bed.order), constant(group + "mean_diameter", "m", bed.meanDiameter);
+  constant(group + "settled_height", "m", bed.settledHeight), constant(group + "thickness", "m", bed.thickness);
+  support::Hdf5File& file = impl_->series->results;
+  const auto write = [&](const char* name, const std::vector<double>& values, const char* unit, const char* help) {
+    const std::string path = "/" + group + name;
+    file.write(path, values, {values.size()});
+    file.attribute(path, "unit", unit);
+    file.attribute(path, "help", help);
+  };
+  write("distance", bed.distance, "mean diameters", "between the centres of two grains");
+  write("radial_distribution", bed.radialDistribution, "-", "how many more grains lie at that distance than by chance");
+  write("depth", bed.depth, "m", "below the undisturbed surface");
+  write("porosity_at_depth", bed.porosityAtDepth, "-", "at that depth");
 }
 
 void RunWriter::setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground) {

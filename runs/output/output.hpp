@@ -6,6 +6,7 @@
 #include "runs/output/records.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/file_lock.hpp"
+#include "terrain/bed_structure.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -57,6 +58,9 @@ public:
 
   /// The undisturbed surface that sinkage is measured from, in results.h5: terrain/surface/{x, y, height}.
   void surface(const UndisturbedSurface& surface);
+
+  /// What the bed is made of, in results.h5: terrain/bed/.
+  void bed(const terrain::BedStructure& bed);
 
   /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
   void setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground);

@@ -8,7 +8,7 @@
 namespace grouser::output {
 
 /// The plots that runs/plots/ can draw from a results.h5.
-inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage",   "surface",
+inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage",   "surface", "bed",
                                                    "drive",        "mechanism", "ledger"};
 
 /// Draws `names` as NAME.png into `folder` by Python and matplotlib, and returns the files drawn; a plot whose

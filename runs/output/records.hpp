@@ -58,6 +58,8 @@ struct Frame {
   /// not have them.
   std::vector<base::Vec3f> contactForces;
   bool withContactForces{false}; ///< the same on all ranks, some of which may have no grains
+  std::vector<float> fixed;      ///< 1 for grains that never move, 0 for others; empty where frames do not have it
+  bool withFixed{false};         ///< the same on all ranks
   std::vector<std::uint32_t> ids;
   std::vector<base::Pose> partPoses; ///< one a part
   /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.

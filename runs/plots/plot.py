@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, surface, drive,
+"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, surface, bed, drive,
 ledger, mechanism. A plot whose quantities the results lack is left out.
 """
 import pathlib
@@ -9,6 +9,7 @@ import packages
 packages.require("numpy", "matplotlib", "h5py")
 import h5py
 
+import bed
 import drawing
 import drive
 import ledger
@@ -17,8 +18,8 @@ import series
 import shoes
 import surface
 
-PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "surface": surface.plot, "drive": drive.plot,
-         "ledger": ledger.plot, "mechanism": mechanism.plot}
+PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "surface": surface.plot, "bed": bed.plot,
+         "drive": drive.plot, "ledger": ledger.plot, "mechanism": mechanism.plot}
 
 
 def main():

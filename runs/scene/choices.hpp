@@ -6,8 +6,9 @@
 #include "multibody/model.hpp"
 #include "multibody/solver_options.hpp"
 #include "runs/support/device_choice.hpp"
+#include "terrain/bed_plan.hpp"
 #include "terrain/grain_model.hpp"
-#include "terrain/layers.hpp"
+#include "terrain/radius_distribution.hpp"
 
 /// What a scene file chooses from a list of words. An enum of the solvers serves here as it is; the words stand here
 /// alone.
@@ -24,6 +25,9 @@ enum class FillForm { lattice, random, file };
 
 /// Of [terrain].
 enum class TerrainKind { granular, rigid };
+
+/// Of a granular [terrain]: how its grains are laid before they settle.
+enum class Arrangement { random, lattice };
 
 /// Of [vehicle]: whether the chassis moves, or is held as on a bench.
 enum class ChassisMount { free, fixed };
@@ -50,6 +54,10 @@ template <> struct EnumWords<scene::TerrainKind> {
   using E = scene::TerrainKind;
   static constexpr EnumWord<E> list[] = {{E::granular, "granular"}, {E::rigid, "rigid"}};
 };
+template <> struct EnumWords<scene::Arrangement> {
+  using E = scene::Arrangement;
+  static constexpr EnumWord<E> list[] = {{E::random, "random"}, {E::lattice, "lattice"}};
+};
 template <> struct EnumWords<scene::ChassisMount> {
   using E = scene::ChassisMount;
   static constexpr EnumWord<E> list[] = {{E::free, "free"}, {E::fixed, "fixed"}};
@@ -69,6 +77,11 @@ template <> struct EnumWords<terrain::Precision> {
 template <> struct EnumWords<terrain::FloorShape> {
   using E = terrain::FloorShape;
   static constexpr EnumWord<E> list[] = {{E::follow, "follow"}, {E::flat, "flat"}};
+};
+template <> struct EnumWords<terrain::RadiusLaw> {
+  using E = terrain::RadiusLaw;
+  static constexpr EnumWord<E> list[] = {
+      {E::single, "single"}, {E::uniform, "uniform"}, {E::lognormal, "lognormal"}, {E::sieve, "sieve"}};
 };
 template <> struct EnumWords<multibody::Integrator> {
   using E = multibody::Integrator;

@@ -25,6 +25,7 @@ Table<Grain> grainTable() {
         "height of its lowest point over the highest grain under it once the bed has settled; instead of position's z")
       .atLeast(0)
       .atMost(1e4);
+  t.add("fixed", &S::fixed, "", "it never moves: a piece of rough ground");
   return t;
 }
 
@@ -98,6 +99,10 @@ void checkFill(const Section& section, GrainFill& b, const Scene& scene) {
 
 void checkGrain(const Section& section, Grain& g, const Scene& scene) {
   requireMaterial(scene, section, "material", g.material);
+  if (!g.fixed) return;
+  const char* const remedy = "is of a grain that never moves; remove it, or fixed = true";
+  if (norm2(g.velocity) > 0) section.fail("velocity", std::string("[m/s] ") + remedy);
+  if (norm2(g.spin) > 0) section.fail("spin", std::string("[rad/s] ") + remedy);
 }
 
 void checkSource(const Section& section, Source& s, const Scene& scene) {

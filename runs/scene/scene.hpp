@@ -100,6 +100,7 @@ struct Grain {
   base::Vec3d position, velocity, spin;
   double radius = 0;
   std::string material;
+  bool fixed = false;
   std::optional<double> aboveBed{}; ///< [m] of its lowest point over the settled bed, instead of position's z
   bool operator==(const Grain&) const = default;
 };
@@ -147,21 +148,36 @@ struct Terrain {
   TerrainKind kind = TerrainKind::granular;
   std::string material;
   std::string groundMaterial; ///< of floor and walls; the bed's where not given
-  std::optional<double> grainRadius;
+  Arrangement arrangement = Arrangement::random;
+  std::optional<double> grainRadius; ///< [m] has a value after loading, of a granular bed
+  std::optional<double> depth;       ///< [m]
+  // Of a random arrangement.
+  std::optional<terrain::RadiusLaw> radiusDistribution;        ///< has a value after loading
+  std::optional<double> radiusSpread;                          ///< [-] has one where the distribution has a spread
+  std::vector<double> sieveSize, sievePassing;                 ///< [m], [-]
+  std::optional<double> porosity;                              ///< [-] to prepare; empty: as it is poured
+  std::optional<double> fineDepth, coarsening, coarsestRadius; ///< [m], [-], [m] of a graded bed
+  // Of a lattice.
   std::optional<int> layers;
-  std::optional<double> depth;
-  double spacing = 2.1; ///< [-] lattice spacing in grain radii
-  double jitter = 0.9;  ///< [-] of the lattice's free gap
-  double packing = 0.6; ///< [-] solid fraction expected once settled
+  std::optional<double> spacing, jitter; ///< [-] in grain radii; of the free gap
+  std::optional<double> packing;         ///< [-] solid fraction expected once settled
+
   terrain::FloorShape floor = terrain::FloorShape::follow;
+  bool floorGrains = true; ///< fixed ones, that make the floor rough
   bool walls = true;
+  double wallFriction = 0;                   ///< [-] of those
   std::optional<std::array<double, 2>> tile; ///< [m] x, y; settle a piece of this size, then fill the terrain with it
   double settleTimeLimit = 3.0;
   double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy a grain over m g radius
   std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
   bool cache = true;                      ///< keep the settled bed for later runs, and take it from one
   bool granular() const { return kind == TerrainKind::granular; }
+  bool lattice() const { return arrangement == Arrangement::lattice; }
   bool operator==(const Terrain&) const = default;
+
+  static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< of a lattice, where not given
+  static constexpr double kSpread = 0.25;                                ///< of radii, where not given
+  static constexpr double kPoured = 0.41; ///< porosity expected where none is prepared [-]
 };
 
 /// [vehicle]

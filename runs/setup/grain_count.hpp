@@ -7,10 +7,8 @@
 
 namespace grouser::setup {
 
-/// Grains of the bed; reads the height-map, for hills may need more.
-std::int64_t bedGrains(const scene::Scene& scene);
-
-/// Grains of a scene, those that enter later among them. Reads the height-map, for hills may need more.
+/// Grains of a scene, those that enter later and fixed ones of the floor among them; of a random bed within some per
+/// mille. Reads the height-map, for hills may need more.
 std::int64_t plannedGrains(const scene::Scene& scene);
 
 } // namespace grouser::setup

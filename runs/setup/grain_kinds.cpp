@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_kinds.hpp"
 
+#include "runs/setup/bed_options.hpp"
+
 #include <algorithm>
 
 namespace grouser::setup {
@@ -31,8 +33,10 @@ GrainKinds grainKinds(const scene::Scene& scene) {
   GrainKinds kinds;
   for (const scene::Grain& g : scene.grains) include(kinds, g.material, g.radius, g.radius);
   for (const scene::GrainFill& b : scene.fills) include(kinds, b.material, b.smallestRadius(), b.largestRadius());
-  if (scene.terrain && scene.terrain->granular())
-    include(kinds, scene.terrain->material, *scene.terrain->grainRadius, *scene.terrain->grainRadius);
+  if (scene.terrain && scene.terrain->granular()) {
+    const terrain::BedOptions bed = bedOptions(scene);
+    include(kinds, scene.terrain->material, bed.smallestRadius(), bed.largestRadius());
+  }
   for (const scene::Source& s : scene.sources) include(kinds, s.material, s.radius, s.radius);
   return kinds;
 }

@@ -19,7 +19,7 @@ Surroundings surroundingsOf(const scene::Scene& scene, const std::optional<terra
   if (scene.terrain && scene.terrain->granular()) {
     const std::string& material = scene.terrain->groundMaterial;
     const auto add = [&](const Vec3d& normal, double offset) {
-      around.walls.push_back({normal, offset, material, "a wall of the terrain"});
+      around.walls.push_back({normal, offset, material, "a wall of the terrain", scene.terrain->wallFriction});
     };
     const terrain::Rectangle& w = bedWalls;
     around.floorMaterial = material;
@@ -38,6 +38,17 @@ Surroundings surroundingsOf(const scene::Scene& scene, const std::optional<terra
   return around;
 }
 
+namespace {
+
+contact::ContactLaw wallLaw(const scene::Scene& scene, const std::string& grain, const Surroundings::Wall& wall,
+                            const std::optional<double>& mass) {
+  contact::ContactLaw law = pairLaw(scene, grain, wall.material, mass);
+  law.friction = wall.friction.value_or(law.friction);
+  return law;
+}
+
+} // namespace
+
 terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,
                                const Surroundings& surroundings, terrain::Boundaries& boundaries) {
   const std::string& first = kinds.material.front();
@@ -51,12 +62,15 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.skin = scene.run.skin;
   model.maxOverlap = scene.run.maxOverlap;
   model.precision = scene.run.precision;
+  model.fixedGrains =
+      (scene.terrain && scene.terrain->granular() && scene.terrain->floorGrains) ||
+      std::any_of(scene.grains.begin(), scene.grains.end(), [](const scene::Grain& g) { return g.fixed; });
 
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const auto mass = [&](double share) { return kinds.many() ? std::nullopt : std::optional(share * model.mass); };
   model.law = pairLaw(scene, first, first, mass(0.5));
   for (const Surroundings::Wall& w : surroundings.walls)
-    boundaries.walls.push_back({w.normal, w.offset, pairLaw(scene, first, w.material, mass(1))});
+    boundaries.walls.push_back({w.normal, w.offset, wallLaw(scene, first, w, mass(1))});
   boundaries.floor = surroundings.floor;
   boundaries.periodic = periodicBoundaries(scene);
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
@@ -72,7 +86,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
       many.grains.push_back(pairLaw(scene, std::min(a, b), std::max(a, b), std::nullopt));
   }
   for (const Surroundings::Wall& w : surroundings.walls)
-    for (const std::string& a : kinds.material) many.boundaries.push_back(pairLaw(scene, a, w.material, std::nullopt));
+    for (const std::string& a : kinds.material) many.boundaries.push_back(wallLaw(scene, a, w, std::nullopt));
   if (surroundings.floor)
     for (const std::string& a : kinds.material)
       many.boundaries.push_back(pairLaw(scene, a, surroundings.floorMaterial, std::nullopt));

@@ -19,7 +19,8 @@ struct Surroundings {
     base::Vec3d normal;
     double offset;
     std::string material;
-    std::string name{}; ///< in messages: "plane 0"
+    std::string name{};               ///< in messages: "plane 0"
+    std::optional<double> friction{}; ///< otherwise than the materials say [-]
   };
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;

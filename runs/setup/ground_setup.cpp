@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/sphere.hpp"
 #include "runs/setup/bed_alone.hpp"
-#include "runs/setup/bed_layers.hpp"
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/grain_model.hpp"
 #include "runs/setup/lattice.hpp"
@@ -16,7 +16,6 @@
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
-#include "terrain/layers.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -51,17 +50,19 @@ void checkBlockSizes(const scene::Scene& scene) {
 }
 
 /// The same of a bed.
-void checkBedSize(const scene::Scene& scene, const terrain::LayerOptions& options) {
+void checkBedSize(const scene::Scene& scene, const terrain::BedOptions& options) {
   const double bytes = grainMemory(scene).most();
   const scene::Terrain& t = *scene.terrain;
-  const double spacing = options.spacingInRadii * options.radius;
-  const double layers = options.layers > 0 ? options.layers : std::max(1.0, options.depth / spacing);
-  const double grains = t.size[0] * t.size[1] / (spacing * spacing) * layers;
+  const double volume = options.meanVolume();
+  double solid = t.size[0] * t.size[1] * t.depth.value_or(0) * (1 - t.porosity.value_or(scene::Terrain::kPoured));
+  if (t.layers)
+    solid = t.size[0] * t.size[1] * *t.layers * volume / (*t.spacing * *t.grainRadius * *t.spacing * *t.grainRadius);
+  const double grains = t.coarsening ? 0 : solid / volume; // of a graded bed its plan knows, which costs nothing
   const double memory = memoryOfMachine();
   if (grains * bytes > memory || grains > 4e9)
     scene.fail("terrain", "grain_radius",
                fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use larger grains, "
-                           "fewer layers or a smaller terrain.size",
+                           "a thinner bed or a smaller terrain.size",
                            grains, grains * bytes / kGiB, memory / kGiB));
 }
 
@@ -88,7 +89,7 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSet
     ground.rigid = ground.surface;
     return {};
   }
-  const terrain::LayerOptions options = layerOptions(scene);
+  const terrain::BedOptions options = bedOptions(scene);
   checkBedSize(scene, options);
   terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
   ground.rigid = plan.floor;
@@ -96,22 +97,26 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSet
   return plan;
 }
 
-/// The tile as a scene of its own: level, without all that is not bed.
-scene::Scene tileScene(const scene::Scene& scene, int layers, const std::array<double, 2>& size) {
-  scene::Scene tile = scene;
-  tile.run.periodic = {true, true};
-  tile.grains.clear(), tile.fills.clear(), tile.sources.clear();
-  tile.planes.clear(), tile.boxes.clear(), tile.cylinders.clear(), tile.meshes.clear();
-  tile.vehicle.reset(), tile.mechanism = {}, tile.parallel = {};
-  scene::Terrain& t = *tile.terrain;
+/// A piece of the bed as a scene of its own, level, without all that is not bed. `layers`: of a lattice; `depth` [m]:
+/// of a random bed.
+scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, const std::array<double, 2>& size) {
+  scene::Scene piece = scene;
+  piece.run.periodic = {true, true};
+  piece.grains.clear(), piece.fills.clear(), piece.sources.clear();
+  piece.planes.clear(), piece.boxes.clear(), piece.cylinders.clear(), piece.meshes.clear();
+  piece.vehicle.reset(), piece.mechanism = {}, piece.parallel = {};
+  scene::Terrain& t = *piece.terrain;
   t.tile.reset();
   t.size = size;
   t.heightRange = {0, 0};
   t.floor = terrain::FloorShape::follow;
-  t.layers = layers;
-  t.depth.reset();
+  t.layers.reset(), t.depth.reset();
+  if (t.lattice())
+    t.layers = layers;
+  else
+    t.depth = depth;
   t.cache = false;
-  return tile;
+  return piece;
 }
 
 /// The message of a fault that only shows later.
@@ -124,10 +129,11 @@ template <class Fail> std::string messageOf(const Fail& fail) {
   return "";
 }
 
-TileSetup tileSetup(const scene::Scene& scene, const terrain::BedPlan& plan, double timeStep) {
+TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
+                    double timeStep) {
   const scene::Terrain& t = *scene.terrain;
   const double radius = *t.grainRadius;
-  const terrain::HeightFieldBounds floor = plan.floor.bounds();
+  const terrain::HeightFieldBounds floor = plan.floor.bounds(), top = surface.bounds();
   if (floor.highest - floor.lowest > 1e-6 * radius)
     scene.fail("terrain", "tile",
                fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
@@ -136,20 +142,23 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::BedPlan& plan, dou
   TileSetup tile;
   tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
   tile.walls = plan.walls, tile.floorHeight = floor.lowest;
-  // Between periodic boundaries whole tiles must fit; between walls whole lattice cells in a tile, and walls cut the
-  // last one.
-  const double cell = t.spacing * radius;
+  // Between periodic boundaries whole tiles must fit; between walls whole cells of a lattice in a tile, and walls cut
+  // the last one.
+  const double cell = t.spacing.value_or(0) * radius;
   for (std::size_t a = 0; a < 2; ++a) {
     const double wanted = std::min((*t.tile)[a], t.size[a]);
     if (tile.periodic[a]) {
       tile.copies[a] = std::max<std::int64_t>(1, std::llround(t.size[a] / wanted));
       tile.size[a] = t.size[a] / static_cast<double>(tile.copies[a]);
     } else {
-      tile.size[a] = std::floor(wanted / cell + 0.5) * cell;
+      tile.size[a] = cell > 0 ? std::floor(wanted / cell + 0.5) * cell : wanted;
       tile.copies[a] = static_cast<std::int64_t>(std::ceil(t.size[a] / tile.size[a]));
     }
   }
-  tile.ground = std::make_shared<const GroundSetup>(groundSetup(tileScene(scene, plan.layers, tile.size), timeStep));
+  const double depth =
+      t.lattice() ? 0 : *t.depth + (t.floor == terrain::FloorShape::flat ? top.highest - top.lowest : 0);
+  tile.ground =
+      std::make_shared<const GroundSetup>(groundSetup(pieceScene(scene, plan.layers, depth, tile.size), timeStep));
   tile.inTheWay = messageOf([&] {
     scene.fail("terrain", "tile",
                "[m] copies a settled bed, which a box, cylinder or plane of the scene reaches into; move that, or "
@@ -158,16 +167,42 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::BedPlan& plan, dou
   return tile;
 }
 
-BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::BedPlan& plan, double timeStep) {
+/// A small level bed of the same grains between periodic boundaries, wide enough for its porosity to be that of any.
+PreparationSetup preparationSetup(const scene::Scene& scene, const terrain::BedOptions& options, double timeStep) {
+  constexpr double kWidth = 14, kDepth = 14, kWidthOfLargest = 7; // [diameters]
+  const scene::Terrain& t = *scene.terrain;
+  const double mean = 2 * options.meanRadius(), largest = 2 * options.largestRadius();
+  const double width = std::max(kWidth * mean, kWidthOfLargest * largest);
+  scene::Scene sample =
+      pieceScene(scene, 0, t.coarsening ? *t.depth : std::min(*t.depth, kDepth * mean), {width, width});
+  sample.run.seed = 1; // of another bed of the same soil
+  sample.terrain->porosity.reset();
+  if (scene.material(t.material).friction <= 0)
+    scene.fail("terrain", "porosity",
+               "[-] is reached by friction while the bed settles, but its material has none and packs as densely as it "
+               "can; remove it, or give the material friction");
+  return {*t.porosity, std::make_shared<const GroundSetup>(groundSetup(sample, timeStep)),
+          messageOf([&] { scene.fail("terrain", "porosity", "[-]"); })};
+}
+
+BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::HeightField& surface,
+                  const terrain::BedPlan& plan, double timeStep) {
+  constexpr double kCrystal = 0.006; // above random close packing [-]: what overlaps and small samples add
   const scene::Terrain& t = *scene.terrain;
   BedSetup bed;
-  bed.layers = layerOptions(scene), bed.walls = plan.walls, bed.layerCount = plan.layers;
+  bed.options = bedOptions(scene), bed.walls = plan.walls;
+  bed.fall = t.tile ? 0 : plan.fall;
+  bed.restEnergy = scene.material(t.material).density * bed.options.meanVolume() * norm(scene.run.gravity) *
+                   bed.options.meanRadius();
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio};
   bed.cache = t.cache;
   if (isPutOnBed(scene)) return bed; // whose ground alone says the rest
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
-  if (t.tile) bed.tile = tileSetup(scene, plan, timeStep);
+  if (t.tile) bed.tile = tileSetup(scene, surface, plan, timeStep);
+  if (const auto* random = std::get_if<terrain::RandomBedOptions>(&bed.options.grains))
+    bed.densest = terrain::randomClosePacking(random->radii) + kCrystal;
+  if (t.porosity && !t.tile) bed.preparation = preparationSetup(scene, bed.options, timeStep);
   return bed;
 }
 
@@ -251,11 +286,11 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   for (const Surroundings::Wall& wall : around.walls) grains.wallNames.push_back(wall.name);
   grains.manyKinds = kinds.many(), grains.materials = kinds.material;
   for (const scene::Grain& g : placed)
-    grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material)});
+    grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material), g.fixed});
   const auto isHertz = [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; };
   if (std::any_of(scene.materials.begin(), scene.materials.end(), isHertz)) grains.impactSpeed = scene.run.impactSpeed;
   if (bed) {
-    grains.bed = bedSetup(scene, kinds, *bed, timeStep);
+    grains.bed = bedSetup(scene, kinds, *ground.surface, *bed, timeStep);
     grains.onBed = grainsOnBed(scene, grains.start);
     grains.start.clear();
     if (isPutOnBed(scene)) {

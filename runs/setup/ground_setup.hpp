@@ -5,9 +5,9 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/sources.hpp"
 #include "runs/setup/surface_setup.hpp"
+#include "terrain/bed.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/layers.hpp"
 
 #include <array>
 #include <cstdint>
@@ -38,15 +38,25 @@ struct TileSetup {
   std::string inTheWay;           ///< the message where a surface of the scene reaches into the settled tile
 };
 
-/// A bed of grains, laid in layers under a height-map.
+/// How a bed comes to a porosity: by another friction while it settles.
+struct PreparationSetup {
+  double porosity{};                         ///< wanted [-]
+  std::shared_ptr<const GroundSetup> sample; ///< a small bed of the same grains, to try frictions on
+  std::string place;                         ///< "scene.toml:14: terrain.porosity = 0.3 [-]", for messages
+};
+
+/// A bed of grains, laid under a height-map.
 struct BedSetup {
-  terrain::LayerOptions layers;
+  terrain::BedOptions options;
   terrain::Rectangle walls; ///< inner faces [m]
-  int layerCount{};         ///< that have to fall into place
+  double fall{};            ///< that its loose grains have to fall at most [m]
+  double restEnergy{};      ///< m g radius of a mean grain [J], that kinetic energies are compared with
   int material{};           ///< of its grains, among those of the model
   SettleSetup settle;
-  bool cache{};       ///< keep the settled bed for later runs, and take it from one
-  std::string origin; ///< all that makes the bits of the settled bed, as text; see bedOrigin()
+  std::optional<PreparationSetup> preparation;
+  std::optional<double> densest; ///< solid fraction [-] above which the bed has crystallised; empty: not asked
+  bool cache{};                  ///< keep the settled bed for later runs, and take it from one
+  std::string origin;            ///< all that makes the bits of the settled bed, as text; see bedOrigin()
   std::optional<TileSetup> tile;
   /// The ground in which it settles, where more is put on it afterwards: without that, as if the scene ended with the
   /// bed. Null: it settles in the scene as it is.

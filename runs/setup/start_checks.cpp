@@ -50,6 +50,7 @@ struct Ball {
   std::size_t number{}; ///< of the section there
   double time{};        ///< [s]
   std::size_t id{};     ///< of a grain that is there from the start
+  bool fixed{};         ///< a piece of ground: it may lie in walls, in the floor and in others of its kind
 };
 
 /// Sets balls into the scene one after the other, each where nothing may be yet.
@@ -65,9 +66,9 @@ public:
   void place(const Ball& ball) {
     for (const Surroundings::Wall& wall : around_.walls)
       if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
-          isTooDeep(depth, ball.radius))
+          !ball.fixed && isTooDeep(depth, ball.radius))
         refuse(ball, depth, wall.name);
-    if (around_.floor && !around_.floor->view().clearOf(ball.position, ball.radius))
+    if (!ball.fixed && around_.floor && !around_.floor->view().clearOf(ball.position, ball.radius))
       if (const double depth = ball.radius - around_.floor->closestPoint(ball.position).distance;
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, "the terrain's floor");
@@ -102,6 +103,7 @@ private:
       if (found == cells_.end()) continue;
       for (const std::size_t j : found->second) {
         const Ball& other = balls_[j];
+        if (ball.fixed && other.fixed) continue;
         const double depth =
             ball.radius + other.radius - norm(toNearestImage(periodic_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
@@ -145,7 +147,8 @@ private:
 void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)
-    if (!scene.grains[k].aboveBed) placing.place({grains[id].position, grains[id].radius, Setter::grain, k, 0, id});
+    if (!scene.grains[k].aboveBed)
+      placing.place({grains[id].position, grains[id].radius, Setter::grain, k, 0, id, grains[id].fixed});
   for (std::size_t k = 0; k < scene.fills.size(); ++k)
     for (std::int64_t left = placedCount(scene.fills[k]); left > 0; --left, ++id)
       if (!scene.fills[k].aboveBed) placing.place({grains[id].position, grains[id].radius, Setter::grains, k, 0, id});

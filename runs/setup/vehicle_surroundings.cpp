@@ -2,7 +2,7 @@
 #include "runs/setup/vehicle_surroundings.hpp"
 
 #include "base/math.hpp"
-#include "runs/setup/bed_layers.hpp"
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "vehicle/spec_file.hpp"

@@ -39,6 +39,7 @@ template <class Archive, class Settled> void exchangeSettled(Archive& archive, S
   archive("/settled/time", s.time);
   archive("/settled/agitation", s.agitation);
   archive("/settled/steps", s.steps);
+  archive("/settled/friction", s.friction);
   archive("/settled/highest", s.highest);
   archive("/settled/mean_height", s.meanHeight);
 }
@@ -50,6 +51,16 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   archive("/ledger_at_start", s.ledgerAtStart);
   archive("/energy_guard", s.guard);
   exchangeSettled(archive, s.settled);
+  if (archive.present("/bed", s.bed)) {
+    auto& b = *s.bed;
+    archive("/bed/porosity", b.porosity), archive("/bed/porosity_error", b.porosityError);
+    archive("/bed/coordination", b.coordination), archive("/bed/rattlers", b.rattlers);
+    archive("/bed/order", b.order), archive("/bed/mean_diameter", b.meanDiameter);
+    archive("/bed/settled_height", b.settledHeight), archive("/bed/thickness", b.thickness);
+    archive("/bed/highest", b.highest), archive("/bed/lowest", b.lowest), archive("/bed/grains", b.grains);
+    archive("/bed/distance", b.distance), archive("/bed/radial_distribution", b.radialDistribution);
+    archive("/bed/depth", b.depth), archive("/bed/porosity_at_depth", b.porosityAtDepth);
+  }
   archive("/undisturbed_surface", s.surface);
   archive("/lifts", s.lifts);
   if (archive.present("/mechanism", s.mechanism)) {

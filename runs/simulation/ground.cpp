@@ -2,10 +2,10 @@
 #include "runs/simulation/ground.hpp"
 
 #include "base/error.hpp"
+#include "runs/simulation/bed_preparation.hpp"
 #include "runs/simulation/insertion_guard.hpp"
 #include "runs/simulation/tiled_bed.hpp"
 #include "terrain/bed_tops.hpp"
-#include "terrain/layers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +25,9 @@ bool isTaken(const setup::GroundSetup& setup, const Vec3d& centre, double radius
 
 std::vector<terrain::GrainSpec> laidGrains(const setup::GroundSetup& setup, const setup::BedSetup& bed) {
   std::vector<terrain::GrainSpec> start;
-  const double radius = bed.layers.radius;
-  for (const terrain::Seed& seed : terrain::layGrains(*setup.surface, bed.layers))
-    if (!isTaken(setup, seed.centre, radius)) start.push_back({seed.centre, {}, {}, radius, bed.material});
+  for (const terrain::Seed& seed : terrain::layBed(*setup.surface, bed.options))
+    if (seed.fixed || !isTaken(setup, seed.centre, seed.radius))
+      start.push_back({seed.centre, {}, {}, seed.radius, bed.material, seed.fixed});
   return start;
 }
 
@@ -41,9 +41,9 @@ std::unique_ptr<terrain::Grains> settledTile(const setup::TileSetup& tile, const
 
 std::vector<terrain::GrainSpec> tiledGrains(const setup::GroundSetup& setup, const setup::BedSetup& bed,
                                             const TiledBed& tiles) {
-  std::vector<terrain::GrainSpec> start = tiles.start(bed.layers.radius, bed.material);
+  std::vector<terrain::GrainSpec> start = tiles.start(bed.material);
   if (std::any_of(start.begin(), start.end(),
-                  [&](const auto& g) { return isTaken(setup, g.position, bed.layers.radius); }))
+                  [&](const auto& g) { return !g.fixed && isTaken(setup, g.position, g.radius); }))
     throw base::InputError(bed.tile->inTheWay);
   return start;
 }
@@ -73,7 +73,7 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
   } else if (!g.bed->tile) {
     make(laidGrains(setup, *g.bed));
   } else {
-    const TiledBed tiles(*g.bed->tile, *settledTile(*g.bed->tile, exec), *setup.surface, g.bed->layers.radius);
+    const TiledBed tiles(*g.bed->tile, *settledTile(*g.bed->tile, exec), *setup.surface);
     make(tiledGrains(setup, *g.bed, tiles));
     tiles.bringToRest(*ground.grains, g.boundaries.walls.size()); // the floor stands behind the walls
   }
@@ -83,50 +83,6 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
 }
 
 namespace {
-
-SettleReport settleUntilRest(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
-  const setup::SettleSetup& wanted = bed.settle;
-  const terrain::GrainModel& model = grains.model();
-  const double g = norm(model.gravity), dt = model.timeStep;
-  const double unit = model.mass * g * model.radius * static_cast<double>(grains.count());
-  // Loose layers fall first; nothing is judged before they have landed.
-  const double layers = bed.tile ? 0 : bed.layerCount;
-  const double fall = std::sqrt(2 * layers * (bed.layers.spacingInRadii - 1.6) * model.radius / g);
-  const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
-  SettleReport report;
-  double forceRatio = 0;
-  int calm = 0;
-  while (report.time < wanted.timeLimit) {
-    try {
-      for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
-    } catch (const base::SimulationError& error) {
-      throw base::SimulationError(fmt::format("while the {} settled, before the run begins: {}",
-                                              bed.tile ? "bed of copied tiles" : "bed", error.what()));
-    }
-    report.steps += checkEvery;
-    report.time = static_cast<double>(report.steps) * dt;
-    if (wanted.forceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step
-    const terrain::GrainLedger ledger = grains.ledger();
-    report.agitation = (ledger.kinetic + ledger.rotational) / unit;
-    progress(report.time, report.agitation);
-    const bool rests =
-        report.agitation < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
-    calm = rests ? calm + 1 : 0;
-    if (calm >= 5 && report.time > fall) return report;
-  }
-  throw base::SimulationError(
-      fmt::format("the bed has not settled within {:g} s: kinetic energy a grain is {:.3g} of m g "
-                  "radius, wanted is {:.3g}{}; raise terrain.settle_time_limit, lower the material's "
-                  "restitution or raise terrain.settle_kinetic_energy{}",
-                  wanted.timeLimit, report.agitation, wanted.kineticEnergy,
-                  wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain is {:.3g} of its weight, "
-                                                  "wanted is {:.3g}",
-                                                  forceRatio, *wanted.forceRatio)
-                                    : "",
-                  wanted.forceRatio ? " and settle_force_ratio" : ""));
-}
-
-} // namespace
 
 /// Fills in how high the bed stands.
 void measureHeight(const setup::BedSetup& bed, const terrain::Grains& grains, SettleReport& report) {
@@ -150,15 +106,23 @@ void measureHeight(const setup::BedSetup& bed, const terrain::Grains& grains, Se
   report.highest = highest, report.meanHeight = sum / static_cast<double>(covered);
 }
 
+} // namespace
+
 SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
+  SettleReport report;
   try {
-    SettleReport report = settleUntilRest(bed, grains, progress);
-    measureHeight(bed, grains, report);
-    return report;
+    if (bed.preparation) {
+      report.friction = frictionFor(*bed.preparation, grains.system().exec, progress);
+      settleWithFriction(bed, grains, report.friction, progress, report);
+    } else {
+      settleUntilRest(bed, bed.settle, grains, bed.fall, progress, report);
+    }
   } catch (const base::SimulationError& error) {
     if (progress.failed) progress.failed(grains, error.what());
     throw;
   }
+  measureHeight(bed, grains, report);
+  return report;
 }
 
 void keepSurface(Ground& ground, const base::Exec& exec) {
@@ -167,6 +131,26 @@ void keepSurface(Ground& ground, const base::Exec& exec) {
 
 void keepSurface(Ground& ground, const std::vector<double>& heights, double radius) {
   ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * radius, heights);
+}
+
+terrain::BedStructure structureOf(const Ground& ground) {
+  const terrain::BedSurface& surface = *ground.undisturbed;
+  const terrain::HeightField& floor = *ground.rigid;
+  const base::Period& period = ground.grains->system().constants.period;
+  return terrain::measureBed(*ground.grains, {*ground.walls,
+                                              {period.length[0] > 0, period.length[1] > 0},
+                                              [&](double x, double y) { return floor.height(x, y); },
+                                              [&](double x, double y) { return surface.height(x, y); }});
+}
+
+void checkStructure(const setup::BedSetup& bed, const terrain::BedStructure& structure) {
+  constexpr std::int64_t kEnough = 200; // grains; of fewer the porosity says little
+  if (!bed.densest || structure.grains < kEnough || 1 - structure.porosity <= *bed.densest) return;
+  throw base::SimulationError(
+      fmt::format("the settled bed has a solid fraction of {:.4f}, and disordered grains of these radii reach at most "
+                  "{:.4f}: it has crystallised ({:.0f} % of its grains lie in crystals); give it a wider "
+                  "radius_distribution or a larger porosity, or stiffer contacts if they overlap much",
+                  1 - structure.porosity, *bed.densest, 100 * structure.order));
 }
 
 std::function<double(double, double)> surfaceHeight(const Ground& ground) {

@@ -3,6 +3,7 @@
 
 #include "base/exec.hpp"
 #include "runs/setup/ground_setup.hpp"
+#include "terrain/bed_structure.hpp"
 #include "terrain/bed_surface.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
@@ -25,6 +26,7 @@ struct Ground {
   std::optional<terrain::Rectangle> walls;     ///< around a bed; empty without one
   /// Of a settled bed, before the vehicle touched it; null without a bed, and before keepSurface().
   std::shared_ptr<const terrain::BedSurface> undisturbed;
+  std::optional<terrain::BedStructure> structure; ///< of that bed; empty where it was not settled
 };
 
 /// Who watches a bed settle.
@@ -45,6 +47,7 @@ struct SettleReport {
   double time{};      ///< simulated [s]
   double agitation{}; ///< mean kinetic energy a grain over m g radius [-]
   std::int64_t steps{};
+  double friction{}; ///< [-] with which the bed was prepared; 0: with its own
   /// Of the bed then: the highest grain's top, and the mean over its area of the highest top within a diameter [m].
   double highest{}, meanHeight{};
 };
@@ -57,17 +60,20 @@ std::vector<std::string> namesOfShapes(const setup::GroundSetup& setup);
 /// On several ranks each takes the grains of its subdomain.
 Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {});
 
-/// Lets the bed come to rest under gravity: until the mean kinetic energy a grain is below the scene's share of
-/// m g radius, and the mean resultant force below the scene's share of the weight where it names one, for a whole tenth
-/// of a second, but at least for the time a grain takes to fall the bed's looseness.
-/// Throws SimulationError when the scene's time limit passes first, or when the grains meet a fault: the message says
-/// that it was while the bed settled.
+/// Prepares the bed, where the scene asks for a porosity, and lets it come to rest under gravity: see
+/// bed_preparation.hpp. Throws SimulationError when the scene's time limit passes first, or when the grains meet a
+/// fault: the message says that it was while the bed settled.
 SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress);
 
 /// Of a ground with a bed: takes its surface as it lies now for the undisturbed one, or `heights` of one taken earlier,
 /// with the radius of its largest grains [m].
 void keepSurface(Ground& ground, const base::Exec& exec);
 void keepSurface(Ground& ground, const std::vector<double>& heights, double radius);
+
+/// Measures the bed, whose surface has been kept.
+terrain::BedStructure structureOf(const Ground& ground);
+/// Throws SimulationError where the bed has crystallised.
+void checkStructure(const setup::BedSetup& bed, const terrain::BedStructure& structure);
 
 /// Height of the undisturbed bed, or of the rigid ground; null where there is neither.
 std::function<double(double x, double y)> surfaceHeight(const Ground& ground);

@@ -144,7 +144,8 @@ std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const base::Posi
                     {},
                     {},
                     rows.radius.empty() ? 0.0 : double{rows.radius[k]},
-                    materials[rows.material.empty() ? 0 : rows.material[k]]});
+                    materials[rows.material.empty() ? 0 : rows.material[k]],
+                    !rows.fixed.empty() && rows.fixed[k] != 0});
   if (comm.alone()) return mine;
   std::vector<terrain::GrainSpec> all;
   for (const std::vector<terrain::GrainSpec>& part : comm.gatherAll(mine))

@@ -29,6 +29,10 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
     if (bed.settle.timeLimit > 0)
       settled_ = beds ? beds->settle(bed, *ground_.grains, progress, comm) : settle(bed, *ground_.grains, progress);
     keepSurface(ground_, exec);
+    if (bed.settle.timeLimit > 0) {
+      ground_.structure = structureOf(ground_);
+      checkStructure(bed, *ground_.structure);
+    }
     if (isPutOnBed()) {
       lifts_ = liftsOnto(*ground_.grains, setup_.ground, comm);
       lift(setup_.ground, lifts_);

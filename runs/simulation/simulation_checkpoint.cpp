@@ -26,6 +26,7 @@ SimulationState Simulation::save() const {
   state.steps = steps_;
   state.settled = settled_;
   state.lifts = lifts_;
+  state.bed = ground_.structure;
   state.ledgerAtStart = start_.counted();
   state.guard = guard_.save();
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
@@ -59,6 +60,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
       state.surfaces.has_value() != (ground_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (hasBed()) keepSurface(ground_, state.surface, bedGround().grains->model.radius);
+  ground_.structure = state.bed;
   surface_ = surfaceHeight(ground_);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {

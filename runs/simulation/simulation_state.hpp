@@ -18,8 +18,9 @@ struct SimulationState {
   std::int64_t steps{};
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
   SettleReport settled;
-  std::vector<double> ledgerAtStart; ///< Ledger::counted(): the ledger counts from here
-  std::vector<double> guard;         ///< EnergyGuard::save()
+  std::optional<terrain::BedStructure> bed; ///< before anything touched it
+  std::vector<double> ledgerAtStart;        ///< Ledger::counted(): the ledger counts from here
+  std::vector<double> guard;                ///< EnergyGuard::save()
   std::optional<terrain::GrainState> grains;
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;

@@ -6,26 +6,26 @@
 
 namespace grouser::simulation {
 
-TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface,
-                   double radius)
-    : periodic_(tile.periodic), copies_(tile.copies), scale_(settled.scale()),
+TiledBed::TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface)
+    : periodic_(tile.periodic), copies_(tile.copies), scale_(settled.scale()), radius_(settled.model().radius),
       period_(settled.system().constants.period), tile_(settled.state()) {
   // The tile lies in [0, size x] and [-size y / 2, size y / 2], as every terrain does.
   lift_ = base::toUnits(scale_.fromMetres(
       {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - tile.ground->rigid->bounds().lowest}));
 
-  const auto clear = [&](std::size_t a, double x, double low, double high) {
+  const auto clear = [&](std::size_t a, double x, double low, double high, double radius) {
     return periodic_[a] || (x >= low + radius && x <= high - radius);
   };
   const terrain::HeightFieldBounds top = surface.bounds();
-  const bool level = top.highest - top.lowest <= 1e-6 * radius;
+  const bool level = top.highest - top.lowest <= 1e-6 * radius_;
   for (std::int64_t i = 0; i < copies_[0]; ++i)
     for (std::int64_t j = 0; j < copies_[1]; ++j)
       for (std::size_t g = 0; g < tile_.rows(); ++g) {
         const Copy copy{{i, j}, g};
         const base::Vec3d x = scale_.toMetres(base::fromUnits(place(copy)));
-        const bool stays = clear(0, x.x, tile.walls.xMin, tile.walls.xMax) &&
-                           clear(1, x.y, tile.walls.yMin, tile.walls.yMax) &&
+        const double radius = isFixed(g) ? 0 : radiusOf(g); // those may stand in a wall
+        const bool stays = clear(0, x.x, tile.walls.xMin, tile.walls.xMax, radius) &&
+                           clear(1, x.y, tile.walls.yMin, tile.walls.yMax, radius) &&
                            (level || x.z <= surface.height(x.x, x.y));
         id_.push_back(stays ? static_cast<std::int64_t>(grains_.size()) : -1);
         if (stays) grains_.push_back(copy);
@@ -46,11 +46,12 @@ std::int64_t TiledBed::idOf(std::array<std::int64_t, 2> tile, std::size_t grain)
   return id_[static_cast<std::size_t>(tile[0] * copies_[1] + tile[1]) * tile_.rows() + grain];
 }
 
-std::vector<terrain::GrainSpec> TiledBed::start(double radius, int material) const {
+std::vector<terrain::GrainSpec> TiledBed::start(int material) const {
   std::vector<terrain::GrainSpec> start;
   start.reserve(grains_.size());
   for (const Copy& copy : grains_)
-    start.push_back({scale_.toMetres(base::fromUnits(place(copy))), {}, {}, radius, material});
+    start.push_back(
+        {scale_.toMetres(base::fromUnits(place(copy))), {}, {}, radiusOf(copy.grain), material, isFixed(copy.grain)});
   return start;
 }
 

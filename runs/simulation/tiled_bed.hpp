@@ -18,12 +18,11 @@ namespace grouser::simulation {
 /// the height-map; what lay against them has to come to rest again. Every rank makes the same tile.
 class TiledBed {
 public:
-  /// `settled`: the grains of tile.ground, at rest; `surface`: of the whole terrain; `radius` [m] of the grains.
-  TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface,
-           double radius);
+  /// `settled`: the grains of tile.ground, at rest; `surface`: of the whole terrain.
+  TiledBed(const setup::TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface);
 
   /// Where the grains are, by id.
-  std::vector<terrain::GrainSpec> start(double radius, int material) const;
+  std::vector<terrain::GrainSpec> start(int material) const;
   /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
   void bringToRest(terrain::Grains& grains, std::size_t floor) const;
 
@@ -34,11 +33,16 @@ private:
     std::size_t grain; ///< row of the tile's state
   };
   base::Vec3l place(const Copy& copy) const;
+  double radiusOf(std::size_t grain) const {
+    return tile_.radius.empty() ? radius_ : static_cast<double>(tile_.radius[grain]);
+  }
+  bool isFixed(std::size_t grain) const { return !tile_.fixed.empty() && tile_.fixed[grain] != 0; }
   std::int64_t idOf(std::array<std::int64_t, 2> tile, std::size_t grain) const;
 
   std::array<bool, 2> periodic_{};
   std::array<std::int64_t, 2> copies_{};
   base::PositionScale scale_;
+  double radius_;       ///< where all are alike [m]
   base::Period period_; ///< of the tile
   base::Vec3l lift_{};  ///< from the tile's own place to the first copy
   terrain::GrainState tile_;

@@ -76,6 +76,7 @@ private:
   static constexpr int kFound = kWidth < 8 ? 4 : 8;   ///< candidates that are tried side by side
   using Found = Simd<std::int32_t, kFound>;
 
+  GROUSER_SIMD bool hasFixed() const { return data_.features & kFixed; }
   GROUSER_SIMD int slotOf(int k) const { return data_.active ? static_cast<int>(data_.active[k]) : k; }
   GROUSER_SIMD int candidatesOf(int k) const { return static_cast<int>(data_.neighbours.count[slotOf(k)]); }
 
@@ -150,6 +151,7 @@ private:
   GROUSER_SIMD void collect(int c) {
     const std::uint32_t i = grain_[c], j = other_[c];
     store(apart_ + c, load<Int4>(data_.position + j) - load<Int4>(data_.position + i));
+    // Of grains of one radius the fourth number is 1 where j never moves, else 0.
     store(moving_ + c, load<Float4>(data_.velocity + i) - load<Float4>(data_.velocity + j));
     store(turning_ + c, load<Float4>(data_.spin + i) + load<Float4>(data_.spin + j));
     if (kWithFriction) spring_[c] = base::load3(springOf(entry_[c]));
@@ -176,23 +178,31 @@ private:
     const Vec arm = pair.normal * (0.5f * pair.distance);
 
     const Vec velocity = firstThree(relative) + cross(firstThree(turning), arm);
-    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity,
-                                                     base::broadcast<Float>(f.halfMass),
+    Float mass = base::broadcast<Float>(f.halfMass), share = base::broadcast<Float>(0.5f);
+    if (hasFixed()) {
+      const auto fixed = relative[3] > 0.5f;
+      mass = fixed ? base::broadcast<Float>(f.mass) : mass, share = fixed ? base::broadcast<Float>(1) : share;
+    }
+    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity, mass,
                                                      base::broadcast<Float>(0.5f * f.radius)};
     const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
     if (kWithFriction) {
       spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z,
-      spring[3] = kWithLedger ? 0.5f * reaction.rubbed : Float{};
+      spring[3] = kWithLedger ? share * reaction.rubbed : Float{};
       base::storeRows(spring_ + c, spring);
     }
     const Vec torque = cross(arm, reaction.force);
     Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z,
-                       kWithLedger ? 0.5f * reaction.damped : Float{}};
+                       kWithLedger ? share * reaction.damped : Float{}};
     Float torques[4] = {torque.x, torque.y, torque.z, pair.overlap};
     base::storeRows(moving_ + c, forces), base::storeRows(turning_ + c, torques);
   }
 
   GROUSER_SIMD void advance(int g, int i) {
+    if (hasFixed()) {
+      if (data_.velocity[i].w < 0) return letStay(data_, forces_, i);
+      if (kWithLedger) bookHeldContacts(g, i);
+    }
     Float4 force{}, torque{}, most{};
     float rubbed = 0;
     for (int c = begin_[g]; c < begin_[g + 1]; ++c) {
@@ -217,6 +227,17 @@ private:
     const Lost lost{static_cast<double>(force[3]), static_cast<double>(rubbed), 0};
     if (!advanceSimd(i, f4, t4, deepest, lost))
       advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest, lost, books_);
+  }
+
+  /// Forces by grains that never move.
+  GROUSER_SIMD void bookHeldContacts(int g, int i) {
+    Float4 force{}, torque{};
+    bool any = false;
+    for (int c = begin_[g]; c < begin_[g + 1]; ++c)
+      if (data_.velocity[other_[c]].w < 0) any = true, force += moving_[c], torque += turning_[c];
+    if (!any) return;
+    if (!kWithFriction) torque = Float4{};
+    bookHeld(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]});
   }
 
   /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing

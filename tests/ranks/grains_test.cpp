@@ -90,6 +90,33 @@ TEST(GrainsOnRanks, EqualBitsAcrossPeriodicBoundaries) {
   }
 }
 
+TEST(GrainsOnRanks, EqualBitsAboveAFloorOfFixedGrains) {
+  for (const bool manyRadii : {false, true}) {
+    GrainModel m = gravel();
+    m.law.rollingFriction = 0.1, m.law.rollingDamping = 0.3;
+    std::vector<GrainSpec> start = gravelBlock(12, 6, 3, {2.5, 1.0, -1}, {3, -2, 9});
+    if (manyRadii)
+      for (std::size_t i = 0; i < start.size(); ++i) start[i].radius = (i % 3 ? 1 : 0.6) * m.radius;
+    for (int i = 0; i < 24 * 14; ++i) // between the others' ids too
+      start.insert(start.begin() + i / 2,
+                   GrainSpec{{0.04 * (i % 24), 0.04 * (i / 24) - 0.03, -0.03}, {}, {}, manyRadii ? 0.02 : 0, 0, true});
+    Boundaries sides = box(m);
+    sides.walls.erase(sides.walls.begin());
+    Grains alone(base::cpuExec(1), m, sides, start), grains(base::cpuExec(1), m, sides, start, shared({}, true));
+    advance(alone, 1200), advance(grains, 1200);
+    EXPECT_EQ(allWords(grains), alone.state().words());
+    EXPECT_EQ(grains.state().books, alone.state().books);
+    EXPECT_GT(alone.ledger().impulse.z, 0) << "they have been thrown back";
+    EXPECT_EQ(grains.ledger().contacts, alone.ledger().contacts);
+    EXPECT_EQ(norm(grains.ledger().impulse - alone.ledger().impulse), 0);
+    Grains resumed(base::cpuExec(1), m, sides, start, shared());
+    resumed.restore(grains.state());
+    EXPECT_EQ(resumed.system().fixedCount, 336u);
+    advance(resumed, 300), advance(alone, 300);
+    EXPECT_EQ(allWords(resumed), alone.state().words());
+  }
+}
+
 TEST(GrainsOnRanks, ContactForcesAreTheSameAndGoWithGrainsThatMigrate) {
   const GrainModel m = gravel();
   Grains alone(base::cpuExec(1), m, box(m), thrownBlock()),

@@ -46,6 +46,9 @@ height_range = [0, 0.05]
 material = "soil"
 grain_radius = 0.03
 layers = 2
+arrangement = "lattice"
+floor_grains = false
+wall_friction = 0.5
 settle_time_limit = 0.0
 [output]
 picture = false

@@ -27,6 +27,9 @@ material = "soil"
 ground_material = "steel"
 grain_radius = 0.05
 layers = 2
+arrangement = "lattice"
+floor_grains = false
+wall_friction = 0.5
 [vehicle]
 spec = "vehicles/light_tracked.toml"
 position = [1.5, 0]

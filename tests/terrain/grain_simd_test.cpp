@@ -118,6 +118,7 @@ TEST(GrainSimd, TakeTheCommonBedsAndLeaveTheRest) {
   law.friction = 0.5f;
   const unsigned bed = contact::kFriction | kBoundaries | kLedger | kLoads;
   EXPECT_GE(simdWidth(bed, law, 16), 4);
+  EXPECT_GE(simdWidth(bed | kFixed, law, 16), 4);
   EXPECT_EQ(simdWidth(bed, law, 4), 4);
   EXPECT_EQ(simdWidth(bed, law, 1), 1);
   for (const unsigned feature : {contact::kHertz, contact::kRollingFriction, contact::kCohesion, contact::kGeneral,

@@ -120,6 +120,8 @@ std::vector<Mistake> grainsAndSurfaces() {
                {"grain.0.position", "overlaps plane 0"}),
       badScene("GrainInBox", "[[plane]]", "[[box]]\nposition = [0, 0, 0.5]\nsize = [0.05, 0.05, 0.05]",
                {"grain.0.position", "overlaps box 0"}),
+      badScene("FixedGrainThatMoves", "position = [0, 0, 0.5]",
+               "position = [0, 0, 0.5]\nfixed = true\nspin = [0, 0, 1]", {"grain.0.spin", "never moves", "remove it"}),
       badScene("BoxOfNegativeSize", "[[plane]]", "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, -1]",
                {"scene.toml:8", "box.0.size", "is outside"}),
       badScene("CylinderAlongNothing", "[[plane]]",

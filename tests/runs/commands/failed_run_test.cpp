@@ -30,6 +30,9 @@ height_range = [0, 0.1]
 material = "soil"
 grain_radius = 0.02
 layers = 3
+arrangement = "lattice"
+floor_grains = false
+wall_friction = 0.5
 )";
 
 /// A ball that falls 0.1 m and does the same, after 0.14 s.

@@ -32,6 +32,9 @@ height_range = [0, 0.1]
 material = "soil"
 grain_radius = 0.02
 layers = 1
+arrangement = "lattice"
+floor_grains = false
+wall_friction = 0.5
 settle_time_limit = 0.0
 [output]
 plots = false

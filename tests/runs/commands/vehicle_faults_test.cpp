@@ -173,7 +173,9 @@ TEST_F(VehicleFaults, SinkageOnASideSlopeIsThatOfTheFrames) {
 TEST_F(VehicleFaults, SinkageInABedOnASideSlopeIsThatOfTheFrames) {
   putSlope(folder_ / "slope.png");
   std::string scene = slopeScene("slope.png");
-  scene.replace(scene.find("kind = \"rigid\""), 14, "grain_radius = 0.045\nlayers = 2\nsettle_time_limit = 0");
+  scene.replace(scene.find("kind = \"rigid\""), 14,
+                "grain_radius = 0.045\nlayers = 2\narrangement = \"lattice\"\nfloor_grains = false\nwall_friction = "
+                "0.5\nsettle_time_limit = 0");
   scene.replace(scene.find("size = [6,"), 10, "size = [4.4,");
   scene.replace(scene.find("stiffness = 1e7"), 15, "stiffness = 1e6");
   test::put(folder_ / "scene.toml", scene);

@@ -192,10 +192,11 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
 }
 
 TEST(Restitution, ZeroOfAFloorIsRefusedToo) {
-  const std::string bed = "[run]\nduration = 1\n[material.soil]\nstiffness = 1e6\n[material.rock]\nstiffness = 1e7\n"
-                          "restitution = 0\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1, 1]\n"
-                          "height_range = [0, 0.1]\nmaterial = \"soil\"\nground_material = \"rock\"\n"
-                          "grain_radius = 0.05\nlayers = 1\n";
+  const std::string bed =
+      "[run]\nduration = 1\n[material.soil]\nstiffness = 1e6\n[material.rock]\nstiffness = 1e7\n"
+      "restitution = 0\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1, 1]\n"
+      "height_range = [0, 0.1]\nmaterial = \"soil\"\nground_material = \"rock\"\n"
+      "grain_radius = 0.05\nlayers = 1\narrangement = \"lattice\"\nfloor_grains = false\nwall_friction = 0.5\n";
   const auto refusal = [&](const std::vector<std::string>& overrides) {
     return messageOf([&] { simulationSetup(parsed(bed, overrides)); });
   };

@@ -27,7 +27,9 @@ scene::Scene sceneWith(const std::string& more, bool bed = false) {
   return parseScene(
       "version = 1\n[run]\nduration = 4\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e6\n[terrain]\n"
       "heightmap = \"heightmaps/flat.png\"\nsize = [12, 6]\nheight_range = [0, 0]\nmaterial = \"soil\"\n" +
-          std::string(bed ? "grain_radius = 0.05\nlayers = 2\n" : "kind = \"rigid\"\n") +
+          std::string(bed ? "grain_radius = 0.05\nlayers = 2\narrangement = \"lattice\"\nfloor_grains = "
+                            "false\nwall_friction = 0.5\n"
+                          : "kind = \"rigid\"\n") +
           "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n" + more,
       GROUSER_SOURCE_DIR "/tests/scenes/set_down.toml");
 }

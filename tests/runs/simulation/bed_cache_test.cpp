@@ -38,7 +38,8 @@ protected:
         "version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
         "restitution = 0.2\n[material.steel]\nstiffness = 1e7\n[terrain]\nheightmap = "
         "\"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 0.03]\nmaterial = \"soil\"\n"
-        "grain_radius = 0.03\nlayers = 2\nsettle_kinetic_energy = 1e-2\n[[source]]\nlow = [0.3, 0, "
+        "grain_radius = 0.03\nlayers = 2\narrangement = \"lattice\"\nfloor_grains = false\nwall_friction = "
+        "0.5\nsettle_kinetic_energy = 1e-2\n[[source]]\nlow = [0.3, 0, "
         "0.4]\nhigh = [0.3, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 1\nevery = 1\n" +
             more,
         "bed.toml", overrides);

@@ -20,7 +20,8 @@ constexpr double kStep = 1e-4, kRadius = 0.03;
 scene::Scene bed(const std::vector<std::string>& overrides = {}) {
   return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
                            "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\n"
-                           "height_range = [0.1, 0.1]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 3\n"
+                           "height_range = [0.1, 0.1]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = "
+                           "3\narrangement = \"lattice\"\nfloor_grains = false\nwall_friction = 0.5\n"
                            "settle_kinetic_energy = 1e-4\ncache = false\n",
                            "bed.toml", overrides);
 }
@@ -113,7 +114,8 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
         "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\nperiodic = [true, true]\n[material.soil]\nstiffness = "
         "1e5\n"
         "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1.0, 0.8]\nheight_range = [0, 0]\n"
-        "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\ntile = [0.5, 0.4]\ncache = false\n" +
+        "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\narrangement = \"lattice\"\nfloor_grains = "
+        "false\nwall_friction = 0.5\ntile = [0.5, 0.4]\ncache = false\n" +
         box;
     Ground ground = buildGround(setup::groundSetup(setup::parseScene(text, "bed.toml"), kStep), base::cpuExec(1));
     for (int k = 0; k < 20; ++k) ground.grains->refreshNeighbours(), ground.grains->step();

@@ -12,7 +12,8 @@ namespace {
 scene::Scene bed(const std::vector<std::string>& overrides) {
   return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
                            "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
-                           "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = 2\n"
+                           "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = "
+                           "2\narrangement = \"lattice\"\nfloor_grains = false\nwall_friction = 0.5\n"
                            "settle_kinetic_energy = 1e-2\n",
                            "bed.toml", overrides);
 }

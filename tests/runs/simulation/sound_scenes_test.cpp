@@ -173,7 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
         Sound{"Hills",
               run(0.4) + soil(0.5, 0.5, "", "1e6") +
                   "[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 0.1]\n"
-                  "material = \"soil\"\ngrain_radius = 0.04\nlayers = 2\nsettle_time_limit = 0\n"}),
+                  "material = \"soil\"\ngrain_radius = 0.04\nlayers = 2\narrangement = \"lattice\"\nfloor_grains = "
+                  "false\nwall_friction = 0.5\nsettle_time_limit = 0\n"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 const std::string kSwing = "[[spring]]\nname = \"bar\"\nbodies = [\"world\", \"block\"]\npoint_a = [0, 0, 1]\n";

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
+#include "terrain/bed.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/layers.hpp"
 
 namespace grouser::setup {
 
@@ -11,6 +11,6 @@ namespace grouser::setup {
 terrain::HeightField readSurface(const scene::Scene& scene);
 
 /// How the scene's bed is laid.
-terrain::LayerOptions layerOptions(const scene::Scene& scene);
+terrain::BedOptions bedOptions(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the bed is made of before anything touches it: porosity over depth, and how far its grains lie from each other."""
+import drawing
+
+
+def plot(run):
+    depth, porosity = run.field("terrain/bed/depth"), run.field("terrain/bed/porosity_at_depth")
+    distance, radial = run.field("terrain/bed/distance"), run.field("terrain/bed/radial_distribution")
+    if depth is None or distance is None or len(distance) == 0:
+        return None
+    figure = drawing.Figure(figsize=(8.0, 3.6))
+    left, right = figure.subplots(1, 2)
+    bulk = run.get("terrain/bed/porosity")
+    left.plot(porosity, 1000 * depth, color="tab:brown")
+    left.axvline(bulk, color="black", linestyle=":", linewidth=1, label=f"bulk {bulk:.3f}")
+    left.set_xlabel("porosity [-]")
+    left.set_ylabel("depth below the surface [mm]")
+    left.set_xlim(0, 1)
+    left.invert_yaxis()
+    left.legend()
+    right.plot(distance, radial, color="tab:brown")
+    right.axhline(1, color="black", linestyle=":", linewidth=1)
+    right.set_xlabel("distance [mean diameters]")
+    right.set_ylabel("radial distribution [-]")
+    order = run.get("terrain/bed/order")
+    right.set_title(f"{100 * order:.1f} % of the grains in crystals", fontsize=9)
+    return figure

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/bed_preparation.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::simulation {
+
+namespace {
+
+constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
+constexpr double kClose = 0.002;                           // of porosities [-]
+constexpr double kOff = 0.01;                              // of the ends, that are as far as bisection goes [-]
+constexpr int kTrials = 10;
+constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains rock for long
+
+/// Porosity of the small bed settled with this friction.
+double porosityAt(const setup::PreparationSetup& preparation, double friction, const base::Exec& exec,
+                  const SettleProgress& progress) {
+  Ground ground = buildGround(*preparation.sample, exec);
+  SettleReport report;
+  settleWithFriction(*preparation.sample->grains->bed, *ground.grains, friction, progress, report);
+  keepSurface(ground, exec);
+  return structureOf(ground).porosity;
+}
+
+} // namespace
+
+void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall,
+                     const SettleProgress& progress, SettleReport& report) {
+  const terrain::GrainModel& model = grains.model();
+  const double g = norm(model.gravity), dt = model.timeStep;
+  const double unit = bed.restEnergy * static_cast<double>(grains.movingCount());
+  // Loose grains fall first; nothing is judged before they have landed.
+  const double landed = report.time + std::sqrt(2 * fall / g), limit = report.time + wanted.timeLimit;
+  const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
+  double forceRatio = 0;
+  int calm = 0;
+  while (report.time < limit) {
+    try {
+      for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
+    } catch (const base::SimulationError& error) {
+      throw base::SimulationError(fmt::format("while the {} settled, before the run begins: {}",
+                                              bed.tile ? "bed of copied tiles" : "bed", error.what()));
+    }
+    report.steps += checkEvery;
+    report.time = static_cast<double>(report.steps) * dt;
+    if (wanted.forceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step
+    const terrain::GrainLedger ledger = grains.ledger();
+    report.agitation = (ledger.kinetic + ledger.rotational) / unit;
+    progress(report.time, report.agitation);
+    const bool rests =
+        report.agitation < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
+    calm = rests ? calm + 1 : 0;
+    if (calm >= 5 && report.time > landed) return;
+  }
+  throw base::SimulationError(
+      fmt::format("the bed has not settled within {:g} s: kinetic energy a grain is {:.3g} of m g "
+                  "radius, wanted is {:.3g}{}; raise terrain.settle_time_limit, lower the material's "
+                  "restitution or raise terrain.settle_kinetic_energy{}",
+                  wanted.timeLimit, report.agitation, wanted.kineticEnergy,
+                  wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain is {:.3g} of its weight, "
+                                                  "wanted is {:.3g}",
+                                                  forceRatio, *wanted.forceRatio)
+                                    : "",
+                  wanted.forceRatio ? " and settle_force_ratio" : ""));
+}
+
+void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, double friction,
+                        const SettleProgress& progress, SettleReport& report) {
+  const terrain::GrainModel own = grains.model();
+  terrain::GrainModel prepared = own;
+  prepared.law.friction = friction;
+  for (contact::ContactLaw& law : prepared.materials.grains)
+    if (law.friction > 0) law.friction = friction;
+  grains.replaceLaws(prepared);
+  setup::SettleSetup nearly = bed.settle;
+  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();
+  settleUntilRest(bed, nearly, grains, bed.fall, progress, report);
+  grains.replaceLaws(own);
+  settleUntilRest(bed, bed.settle, grains, 0, progress, report);
+}
+
+double frictionFor(const setup::PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
+  const double wanted = preparation.porosity;
+  const auto at = [&](double friction) { return porosityAt(preparation, friction, exec, progress); };
+  double low = kLeastFriction, high = kMostFriction;
+  const double densest = at(low), loosest = at(high);
+  if (wanted < densest - kOff || wanted > loosest + kOff)
+    throw base::InputError(fmt::format(
+        "{} cannot be reached: settled with friction {:g} these grains come to {:.3f}, with {:g} to {:.3f}; "
+        "choose a porosity between these, or give the grains rolling_friction for looser beds and a wider "
+        "radius_distribution for denser ones",
+        preparation.place, low, densest, high, loosest));
+  if (wanted <= densest + kClose) return low;
+  if (wanted >= loosest - kClose) return high;
+  // Between 0.01 and 1 the porosity rises about evenly with the logarithm of the friction: there each trial is where a
+  // line through the ends of the interval has the porosity wanted, but within its middle three fifths.
+  low = 0.01;
+  double below = densest - wanted, above = loosest - wanted, friction = high;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const double share = std::clamp(below / (below - above), 0.2, 0.8);
+    friction = low * base::pow(high / low, share);
+    const double off = at(friction) - wanted;
+    if (std::fabs(off) <= kClose) break;
+    if (off < 0)
+      low = friction, below = off;
+    else
+      high = friction, above = off;
+  }
+  return friction;
+}
+
+} // namespace grouser::simulation
