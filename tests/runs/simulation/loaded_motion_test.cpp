@@ -149,7 +149,7 @@ TEST(LoadedWheel, RollingFreelyFeelsNoFrictionAndSlippingAllOfIt) {
   };
   EXPECT_NEAR(pull(0.5), 0, 0.005) << "v = omega R";
   EXPECT_NEAR(pull(0), -0.1, 0.005) << "locked";
-  EXPECT_NEAR(pull(1.0), 0.1, 0.005) << "at a slip of one half";
+  EXPECT_NEAR(pull(0.25), -0.1, 0.005) << "braked to half the speed";
 }
 
 TEST(LoadedPlate, HeightConvergesAtFirstOrderAsSymplecticEulerDoes) {
@@ -177,7 +177,8 @@ TEST(LoadedPlate, LedgerClosesAndThePullIsWhatFrictionTakes) {
   const double pulled = 0.1 * kNormal * 0.1 * 0.3;
   EXPECT_NEAR(b.driveWork - a.driveWork, pulled, 1e-3 * pulled);
   EXPECT_NEAR(b.dissipated.friction - a.dissipated.friction, pulled, 2e-3 * pulled);
-  EXPECT_LT(std::fabs(b.residual), 1e-9 * b.turnover);
+  // Rounding: nearly nothing moves but the plate across, so of what goes through, not of the turnover.
+  EXPECT_LT(std::fabs(b.residual), 1e-9 * b.driveWork);
   EXPECT_LT(std::fabs(b.integrationError - a.integrationError), 1e-3 * pulled);
   EXPECT_LT(norm(b.momentumResidual), 1e-9) << "of some 30 N s";
 }

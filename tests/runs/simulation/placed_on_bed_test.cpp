@@ -153,8 +153,8 @@ std::string manyRigs() {
          "[[mesh]]\nfile = \"meshes/road_wheel.obj\"\nscale = 0.2\nposition = [0.3, 0.22, 0]\nmaterial = \"steel\"\n"
          "above_bed = 0.001\nfree = \"z\"\nmass = 2\nspin = [0, 3, 0]\n"
          "[[grain]]\nposition = [0.15, -0.2, 0]\nradius = 0.04\nmaterial = \"steel\"\nabove_bed = 0.001\n"
-         "[[source]]\nlow = [0.5, -0.2, 0.4]\nhigh = [0.5, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 2\n"
-         "every = 0.02\n";
+         "[[source]]\nlow = [0.5, -0.2, 0.4]\nhigh = [0.5, 0, 0.4]\nradius = 0.03\nmaterial = \"soil\"\ntotal = 1\n"
+         "every = 1\nstart = 0.02\n";
 }
 
 /// tests/scenes/rigs.toml; its hash for threads, lists and a stop stands in one_answer_scenes_test.cpp.
@@ -169,16 +169,21 @@ TEST(PutOnBed, ResumedAtItsStartAlsoHasTheBitsOfAStraightRun) {
   EXPECT_NE(straight->surfaces()->observe(1, 900).force.z, 0) << "so has the wheel";
 }
 
-TEST(PutOnBed, LargerStonesLeaveTheBedAtRest) {
-  // A stone of three radii coarsens the units of places by two bits: springs and overlaps stay.
-  const auto s =
-      made(sceneOf("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\nabove_bed = 0.05\n"));
-  const auto before = s->ground().grains->snapshot().position;
-  EXPECT_NE(s->ground().grains->scale().unit, made(sceneOf(""))->ground().grains->scale().unit);
-  while (s->time() < 0.03) s->step();
-  const auto after = s->ground().grains->snapshot().position;
-  for (std::size_t k = 0; k + 1 < before.size(); ++k) EXPECT_LT(norm(after[k] - before[k]), 1e-3) << "of 0.03 m";
-  EXPECT_NEAR(before.back().z - after.back().z, 0.5 * 9.81 * s->time() * s->time(), 1e-5) << "while it falls freely";
+TEST(PutOnBed, LargerStonesLeaveTheBedToItself) {
+  // A stone of three radii coarsens the units of places by two bits: springs and overlaps stay, and what is left of the
+  // bed's motion goes on as without it, until rounding of 1e-9 m and of damping by each contact's own mass tells.
+  const std::vector<std::string> steps{"run.time_step=1e-4"};
+  const auto alone = made(sceneOf("", steps)),
+             s = made(sceneOf("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\n"
+                              "above_bed = 0.05\n",
+                              steps));
+  EXPECT_NE(s->ground().grains->scale().unit, alone->ground().grains->scale().unit);
+  const double from = s->ground().grains->snapshot().position.back().z;
+  while (s->steps() < 300) s->step(), alone->step();
+  const auto with = s->ground().grains->snapshot().position, without = alone->ground().grains->snapshot().position;
+  ASSERT_EQ(with.size(), without.size() + 1);
+  for (std::size_t k = 0; k < without.size(); ++k) EXPECT_LT(norm(with[k] - without[k]), 1e-6) << "of 2 mm of way";
+  EXPECT_NEAR(from - with.back().z, 0.5 * 9.81 * 0.03 * (0.03 + 1e-4), 1e-7) << "symplectic Euler";
 }
 
 class KeptForRigs : public FolderTest {};
@@ -204,7 +209,7 @@ TEST_F(KeptForRigs, OneBedServesAllRigs) {
 
 TEST(PutOnBed, PlanSaysWhatComesLater) {
   const std::string with = commands::planText(sceneOf(manyRigs())), without = commands::planText(sceneOf(plate("")));
-  EXPECT_NE(with.find("put on the settled bed plate, mesh0, 1 grains"), std::string::npos) << with;
+  EXPECT_NE(with.find("plate, mesh0, 1 grains"), std::string::npos) << with;
   EXPECT_NE(without.find("off  put on the settled bed"), std::string::npos) << without;
 }
 
