@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "base/rounded.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/setup/bed_alone.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -11,10 +12,12 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
+#include "runs/simulation/bed_cache.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/support/progress.hpp"
@@ -66,14 +69,45 @@ std::string costText(const scene::Scene& scene, double grainSteps) {
 /// "3: drum, lifter, lid; 2 move, 1 free".
 std::string surfacesLine(const scene::Scene& scene) {
   std::string names;
-  int moved = 0, freed = 0;
+  int moved = 0, freed = 0, both = 0;
   for (const setup::SceneSurface& s : setup::surfacesOf(scene)) {
     names += (names.empty() ? "" : ", ") + s.name;
     s.free ? ++freed : moved += s.moves ? 1 : 0;
+    both += s.free && (s.section.velocity || s.section.spin || s.section.amplitude) ? 1 : 0;
   }
   if (names.empty())
     return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no plane that moves or has a name");
-  return onOff(true, "surfaces", fmt::format("{}; {} moved, {} free", names, moved, freed));
+  return onOff(true, "surfaces",
+               fmt::format("{}; {} moved, {} free{}", names, moved, freed,
+                           both > 0 ? fmt::format(", {} of these pulled or turned besides", both) : ""));
+}
+
+/// "plate, 12 grains; the bed settles without them".
+std::string putOnBedLine(const scene::Scene& scene) {
+  if (!setup::isPutOnBed(scene))
+    return onOff(false, "put on the settled bed", "no grain, mesh or moving surface beside a bed");
+  std::string names;
+  for (const setup::SceneSurface& s : setup::surfacesOf(scene))
+    if (s.placedLater) names += (names.empty() ? "" : ", ") + s.name;
+  if (const std::int64_t grains = setup::placedCount(scene); grains > 0)
+    names += fmt::format("{}{} grains", names.empty() ? "" : ", ", grains);
+  return onOff(true, "put on the settled bed", names);
+}
+
+/// How high the bed stands once it has settled, where a run has kept it.
+std::string bedHeightText(const scene::Scene& scene) {
+  if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit <= 0) return "";
+  std::optional<simulation::SettleReport> settled;
+  if (scene.terrain->cache)
+    if (const auto beds = simulation::BedCache::ofUser()) {
+      const scene::Scene bed = setup::isPutOnBed(scene) ? setup::sceneOfBed(scene) : scene;
+      settled = beds->find(setup::bedOrigin(bed, setup::chooseTimeStep(bed)));
+    }
+  return fmt::format("  {:<24} {}\n", "settled bed",
+                     settled
+                         ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (kept from a run before)",
+                                       settled->meanHeight, settled->highest)
+                         : "height not known before a run has settled it");
 }
 
 /// How a bed is made; `t` is null without one.
@@ -126,6 +160,7 @@ std::string switches(const scene::Scene& scene) {
   text += bedLines(bed ? t : nullptr);
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
+  text += putOnBedLine(scene);
   const auto [alongX, alongY] = scene.run.periodic;
   text += onOff(alongX || alongY, "periodic boundaries",
                 alongX && alongY ? "x and y"
@@ -169,6 +204,7 @@ std::string planText(const scene::Scene& scene) {
   setup::checkGround(scene, step);
   if (!scene.mechanism.empty())
     text += output::mechanismSize(simulation::Mechanism(setup::mechanismSetup(scene), step));
+  text += bedHeightText(scene);
   text += pairsText(scene);
   text += "\ntime\n";
   const double contact = setup::shortestContact(scene);

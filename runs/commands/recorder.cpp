@@ -72,7 +72,8 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
     for (const output::Channel& c : output::terrainChannels()) channels.push_back(c);
   if (const simulation::Surfaces* surfaces = simulation.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
-      for (const output::Channel& c : output::surfaceChannels(surfaces->surface(i).name)) channels.push_back(c);
+      for (const output::Channel& c : output::surfaceChannels(surfaces->surface(i).name, surfaces->surface(i).hasPivot))
+        channels.push_back(c);
   for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
@@ -196,6 +197,7 @@ void Recorder::row() {
       const std::string group = "surfaces/" + surfaces->surface(i).name + "/";
       row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
       row_.set(group + "power", o.power), row_.set(group + "position", o.position);
+      if (surfaces->surface(i).hasPivot) row_.set(group + "pivot_torque", o.pivotTorque);
     }
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);

@@ -86,6 +86,19 @@ void describeSharing(const simulation::Simulation& simulation, double waiting, o
   summary.figures["rebalancings"] = static_cast<double>(grains->distribution()->rebalancings());
 }
 
+/// Where what stands on a settled bed has been put.
+void describePlaced(const simulation::Simulation& simulation) {
+  const setup::GroundSetup& ground = simulation.setup().ground;
+  for (const setup::SurfaceSetup& s : ground.surfaces)
+    if (s.placedLater)
+      fmt::print("placed    {} at ({:.6g}, {:.6g}, {:.6g}) m{}\n", s.name, s.start.position.x, s.start.position.y,
+                 s.start.position.z, s.aboveBed ? fmt::format(", {:g} m above the bed", *s.aboveBed) : "");
+  if (!ground.grains || ground.grains->onBed.empty()) return;
+  std::size_t grains = 0;
+  for (const setup::PlacedGrains& p : ground.grains->onBed) grains += p.grains.size();
+  fmt::print("placed    {} grains on the settled bed\n", grains);
+}
+
 /// How the bed came to rest, and what it is made of.
 void describeBed(const simulation::Simulation& simulation) {
   const simulation::SettleReport& settled = simulation.settled();
@@ -109,6 +122,9 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
   describeBed(simulation);
+  if (simulation.settled().highest != 0)
+    fmt::print("          highest grain up to {:.6g} m\n", simulation.settled().highest);
+  describePlaced(simulation);
   if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
@@ -388,6 +404,10 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
     summary.wallTime = since(start);
     describeDrive(simulation, summary);
     summary.figures["wall_preparation_s"] = prepared;
+    if (simulation.settled().steps > 0) {
+      summary.figures["bed_highest_m"] = simulation.settled().highest;
+      summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
+    }
     if (const auto& bed = simulation.ground().structure) {
       summary.figures["bed_porosity"] = bed->porosity;
       summary.figures["bed_order"] = bed->order;

@@ -22,14 +22,18 @@ std::vector<Channel> terrainChannels() {
   };
 }
 
-std::vector<Channel> surfaceChannels(const std::string& name) {
+std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot) {
   const std::string group = "surfaces/" + name + "/";
-  return {
+  std::vector<Channel> channels{
       {group + "force", "N", "of the grains on it, mean since the last row", 3, kAxes},
       {group + "torque", "N m", "of the grains on it about its centre, mean since the last row", 3, kAxes},
       {group + "power", "W", "of what moves it, mean since the last row", 1, {}},
       {group + "position", "m", "of its centre", 3, kAxes},
   };
+  if (hasPivot)
+    channels.push_back(
+        {group + "pivot_torque", "N m", "of the grains on it about its pivot, mean since the last row", 3, kAxes});
+  return channels;
 }
 
 std::vector<Channel> ledgerChannels() {

@@ -17,8 +17,8 @@ template <class Quantity> Channel channelOf(const Quantity& q) { return {q.path,
 
 /// State of the bed and its contacts.
 std::vector<Channel> terrainChannels();
-/// Loads on a rigid surface and what moves it, under surfaces/NAME.
-std::vector<Channel> surfaceChannels(const std::string& name);
+/// Loads on a rigid surface and what moves it, under surfaces/NAME. `hasPivot`: its torque about that too.
+std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot = false);
 /// Energy and momentum.
 std::vector<Channel> ledgerChannels();
 

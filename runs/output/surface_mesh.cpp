@@ -68,7 +68,10 @@ TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceS
     break;
   }
   TriangleMesh mesh = planeMesh(planes, surface.number);
-  for (Vec3d& v : mesh.vertices) v = surface.start.toBody(v);
+  for (Vec3d& v : mesh.vertices) {
+    v = surface.start.toBody(v);
+    if (surface.aboveBed) v.z = 0; // where it was drawn nobody knew its height
+  }
   return mesh;
 }
 

@@ -35,6 +35,9 @@ enum class ChassisMount { free, fixed };
 /// Of the world.
 enum class Axis { x, y, z };
 
+/// Of a surface beside a bed that settles first: whether the bed is laid around it, or settles without it.
+enum class PlacedWhen { before, afterSettling };
+
 } // namespace grouser::scene
 
 namespace grouser::base {
@@ -62,6 +65,10 @@ template <> struct EnumWords<scene::ChassisMount> {
 template <> struct EnumWords<scene::Axis> {
   using E = scene::Axis;
   static constexpr EnumWord<E> list[] = {{E::x, "x"}, {E::y, "y"}, {E::z, "z"}};
+};
+template <> struct EnumWords<scene::PlacedWhen> {
+  using E = scene::PlacedWhen;
+  static constexpr EnumWord<E> list[] = {{E::before, "before"}, {E::afterSettling, "after_settling"}};
 };
 template <> struct EnumWords<terrain::Precision> {
   using E = terrain::Precision;

@@ -21,6 +21,10 @@ Table<Grain> grainTable() {
   t.add("spin", &S::spin, "rad/s", "angular velocity at the start").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of its material").required();
+  t.add("above_bed", &S::aboveBed, "m",
+        "height of its lowest point over the highest grain under it once the bed has settled; instead of position's z")
+      .atLeast(0)
+      .atMost(1e4);
   t.add("fixed", &S::fixed, "", "it never moves: a piece of rough ground");
   return t;
 }
@@ -28,7 +32,7 @@ Table<Grain> grainTable() {
 Table<GrainFill> fillTable() {
   using S = GrainFill;
   Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of places and radii");
-  t.add("form", &S::form, "", "lattice and random fill a box, file reads lines of x, y, z, r [m]");
+  t.add("form", &S::form, "", "lattice and random fill a box, file reads a grain a line");
   t.add("low", &S::low, "m", "corner of the box that holds the grains whole; not of a file");
   t.add("high", &S::high, "m", "the opposite corner");
   t.add("radius", &S::radius, "m", "of each, or of the smallest where radius_to is given; not of a file")
@@ -39,10 +43,16 @@ Table<GrainFill> fillTable() {
   t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a share of its free gap").atLeast(0).atMost(1);
   t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "",
-        "text with a grain a line; looked for in the scene's folder, the working folder, the assets folder");
-  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "at the start").atLeast(-1e6).atMost(1e6);
+        "text with a grain a line: x, y, z, r [m], which vx, vy, vz [m/s], and wx, wy, wz [rad/s] behind those, may "
+        "follow; looked for in the scene's folder, the working folder, the assets folder");
+  t.add("velocity", &S::velocity, "m/s", "at the start, where a file's line gives none").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "at the start, where a file's line gives none").atLeast(-1e6).atMost(1e6);
   t.add("material", &S::material, "", "name of their material").required();
+  t.add("above_bed", &S::aboveBed, "m",
+        "height of the lowest point of them all over the highest grain under them once the bed has settled: they are "
+        "lifted or lowered together")
+      .atLeast(0)
+      .atMost(1e4);
   return t;
 }
 

@@ -101,6 +101,7 @@ struct Grain {
   double radius = 0;
   std::string material;
   bool fixed = false;
+  std::optional<double> aboveBed{}; ///< [m] of its lowest point over the settled bed, instead of position's z
   bool operator==(const Grain&) const = default;
 };
 
@@ -116,12 +117,14 @@ struct GrainFill {
   std::optional<std::string> file;      ///< absolute path after loading
   base::Vec3d velocity, spin;
   std::string material;
-  std::vector<Grain> fromFile; ///< what the file held when the scene was loaded
+  std::optional<double> aboveBed; ///< [m] of the lowest grain's lowest point over the settled bed
+  std::vector<Grain> fromFile;    ///< what the file held when the scene was loaded
   double smallestRadius() const;
   double largestRadius() const;
   bool operator==(const GrainFill&) const = default;
 };
-/// Grains of a text file with lines "x, y, z, r" [m]. Throws InputError with the line that is none.
+/// Grains of a text file with lines "x, y, z, r" [m], "x, y, z, r, vx, vy, vz" [m/s], or with "wx, wy, wz" [rad/s]
+/// behind these: what a line does not give is the section's. Throws InputError with the line that is none of these.
 std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill);
 
 /// [[source]]: grains that enter while the run goes.

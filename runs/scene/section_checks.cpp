@@ -46,13 +46,45 @@ void checkMeshes(const Section& root, const Scene& scene) {
   for (std::size_t k = 0; k < sections.size(); ++k) {
     if (scene.vehicle)
       sections[k].fail("", "stands beside [vehicle]; a scene has the one or the other: use boxes and cylinders");
-    if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0)
-      sections[k].fail("", "stands in a bed that settles first, which meshes have no part in; use boxes and cylinders, "
-                           "or set terrain.settle_time_limit = 0");
+    if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 &&
+        scene.meshes[k].placed == PlacedWhen::before)
+      sections[k].fail("placed",
+                       "is \"before\" where the bed settles first, which meshes have no part in; use boxes and "
+                       "cylinders, leave placed out, or set terrain.settle_time_limit = 0");
     if (scene.meshes[k].material != scene.meshes.front().material)
       sections[k].fail("material", fmt::format("differs from that of the first mesh, \"{}\"; all meshes have one",
                                                scene.meshes.front().material));
   }
+}
+
+/// What is put on a bed needs one, and a lowest point.
+void checkPlaced(const Section& root, const Scene& scene) {
+  const bool bed = scene.terrain && scene.terrain->granular();
+  const auto needsBed = [&](const Section& section, const char* key) {
+    if (!bed && section.has(key))
+      section.fail(key, "has no meaning without a bed of grains; add a granular [terrain], or remove it");
+  };
+  const auto check = [&](const char* list, const auto& surfaces) {
+    const std::vector<Section> sections = root.list(list);
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      needsBed(sections[k], "placed"), needsBed(sections[k], "above_bed");
+      if (surfaces[k].aboveBed && surfaces[k].placed == PlacedWhen::before)
+        sections[k].fail("above_bed",
+                         "[m] is known only once the bed has settled, but placed = \"before\" asks for the "
+                         "surface while it settles; remove one of the two");
+    }
+  };
+  check("plane", scene.planes), check("box", scene.boxes);
+  check("cylinder", scene.cylinders), check("mesh", scene.meshes);
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const base::Vec3d& n = scene.planes[k].normal;
+    if (scene.planes[k].aboveBed && !(n.z < 0 && std::max(std::fabs(n.x), std::fabs(n.y)) <= 1e-9 * -n.z))
+      root.list("plane")[k].fail("above_bed", "[m] is the height of a lowest point, which only a level lid has; set "
+                                              "normal = [0, 0, -1], or give point without above_bed");
+  }
+  const std::vector<Section> grains = root.list("grain"), fills = root.list("grains");
+  for (const Section& section : grains) needsBed(section, "above_bed");
+  for (const Section& section : fills) needsBed(section, "above_bed");
 }
 
 /// Where periodic boundaries stand must be known, and what stands between them must be able to do without sides.
@@ -130,6 +162,7 @@ void checkTogether(const Scene& scene) {
   const Section root = scene.document->root(), run = root.section("run");
   checkMaterialsOfOverrides(root, scene);
   checkMeshes(root, scene);
+  checkPlaced(root, scene);
   checkPeriodic(run, scene);
   checkPlanesAcross(root.list("plane"), scene);
   checkSettling(run, scene);

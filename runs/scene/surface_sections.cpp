@@ -42,8 +42,10 @@ template <class S> void addSurface(Table<S>& t) {
       .atMost(360);
   t.template add<Number>("start", &S::start, "s", "when velocity, spin and oscillation begin").atLeast(0).atMost(1e5);
   t.template add<Number>("until", &S::until, "s", "when they end").above(0).atMost(1e5);
-  t.template add<std::optional<Axis>>("free", &S::free, "",
-                                      "axis along which load, grains and weight move it, from the start");
+  t.template add<std::optional<Axis>>(
+      "free", &S::free, "",
+      "axis along which load, grains and weight move it, from the start; what velocity, spin and "
+      "amplitude say moves it besides: a wheel under load, a plate pulled or turned");
   t.template add<Number>("mass", &S::mass, "kg", "of a free surface; required there").above(0).atMost(1e12);
   t.template add<Number>("load", &S::load, "N", "on a free surface along its axis; negative presses down where z is up")
       .atLeast(-1e12)
@@ -51,6 +53,15 @@ template <class S> void addSurface(Table<S>& t) {
   t.template add<Number>("load_ramp", &S::loadRamp, "s", "over which the load comes on; at once where not given")
       .atLeast(0)
       .atMost(1e5);
+  t.template add<std::optional<PlacedWhen>>(
+      "placed", &S::placed, "",
+      "beside a bed that settles: before, and the bed is laid around it, or after_settling, on a bed that has settled "
+      "without it; where not given, surfaces at rest before, meshes and what moves after");
+  t.template add<Number>("above_bed", &S::aboveBed, "m",
+                         "height of its lowest point over the highest grain under it once the bed has settled; instead "
+                         "of the z that the section gives")
+      .atLeast(0)
+      .atMost(1e4);
 }
 
 /// How a surface that has axes of its own stands at the start; `from`: whose axes it is turned from.
@@ -132,11 +143,6 @@ void checkFree(const Section& section, const SurfaceSection& s) {
                                     base::wordOf(*s.free)));
   };
   prescribed("velocity", s.velocity), prescribed("amplitude", s.amplitude);
-  for (int a = 0; s.spin && a < 3; ++a)
-    if (a != axis && (*s.spin)[a] != 0)
-      section.fail("spin", fmt::format("turns the surface about another axis than {}, along which it is free; give "
-                                       "that one, or remove free",
-                                       base::wordOf(*s.free)));
 }
 
 /// Whether a surface that has been read bears that name.

@@ -27,6 +27,8 @@ struct SurfaceSection {
   std::optional<Axis> free;               ///< along which forces move it
   std::optional<double> loadRamp;         ///< [s] over which the load comes on
   std::optional<double> mass, load;       ///< [kg], [N] of a free surface
+  std::optional<PlacedWhen> placed;       ///< beside a bed that settles first
+  std::optional<double> aboveBed;         ///< [m] of its lowest point over the settled bed
   bool operator==(const SurfaceSection&) const = default;
 
   bool moves() const { return velocity || spin || amplitude || free; }
@@ -36,8 +38,8 @@ struct SurfaceSection {
 struct Plane : SurfaceSection {
   base::Vec3d point, normal{0, 0, 1};
   bool operator==(const Plane&) const = default;
-  /// Neither moved nor asked for by name: then it is a wall like those of a bed.
-  bool isWall() const { return !moves() && !name; }
+  /// Neither moved nor asked for by name, and there from the start: then it is a wall like those of a bed.
+  bool isWall() const { return !moves() && !name && !aboveBed && placed != PlacedWhen::afterSettling; }
 };
 
 /// [[box]]

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/sphere.hpp"
+#include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/grain_model.hpp"
@@ -196,6 +197,7 @@ BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terr
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio};
   bed.cache = t.cache;
+  if (isPutOnBed(scene)) return bed; // whose ground alone says the rest
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
   if (t.tile) bed.tile = tileSetup(scene, surface, plan, timeStep);
   if (const auto* random = std::get_if<terrain::RandomBedOptions>(&bed.options.grains))
@@ -225,13 +227,23 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   return all;
 }
 
+/// The grains of [[grain]] and [[grains]], a section each.
+std::vector<PlacedGrains> grainsOnBed(const scene::Scene& scene, const std::vector<terrain::GrainSpec>& all) {
+  std::vector<PlacedGrains> placed;
+  auto next = all.begin();
+  const auto take = [&](const char* list, std::size_t number, std::int64_t count, std::optional<double> aboveBed) {
+    placed.push_back({scene.placeOf(list, number), {next, next + count}, aboveBed});
+    next += count;
+  };
+  for (std::size_t k = 0; k < scene.grains.size(); ++k) take("grain", k, 1, scene.grains[k].aboveBed);
+  for (std::size_t k = 0; k < scene.fills.size(); ++k)
+    take("grains", k, placedCount(scene.fills[k]), scene.fills[k].aboveBed);
+  return placed;
+}
+
 /// What stands beside each other in a scene.
 void checkCompany(const scene::Scene& scene) {
   const bool placed = !scene.grains.empty() || !scene.fills.empty(), bed = scene.terrain && scene.terrain->granular();
-  if (placed && bed)
-    scene.fail(
-        "terrain", "kind",
-        "is a bed of grains beside [[grain]] or [[grains]]; use one of them: a granular terrain, or grains alone");
   if ((placed || !scene.sources.empty()) && scene.terrain && !bed && scene.vehicle)
     scene.fail(
         "vehicle", "",
@@ -272,12 +284,20 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   GrainsSetup& grains = ground.grains.emplace();
   grains.model = grainModel(scene, kinds, timeStep, around, grains.boundaries);
   for (const Surroundings::Wall& wall : around.walls) grains.wallNames.push_back(wall.name);
-  grains.manyKinds = kinds.many();
+  grains.manyKinds = kinds.many(), grains.materials = kinds.material;
   for (const scene::Grain& g : placed)
     grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material), g.fixed});
   const auto isHertz = [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; };
   if (std::any_of(scene.materials.begin(), scene.materials.end(), isHertz)) grains.impactSpeed = scene.run.impactSpeed;
-  if (bed) grains.bed = bedSetup(scene, kinds, *ground.surface, *bed, timeStep);
+  if (bed) {
+    grains.bed = bedSetup(scene, kinds, *ground.surface, *bed, timeStep);
+    grains.onBed = grainsOnBed(scene, grains.start);
+    grains.start.clear();
+    if (isPutOnBed(scene)) {
+      const scene::Scene alone = sceneOfBed(scene);
+      grains.bed->alone = std::make_shared<const GroundSetup>(groundSetup(alone, chooseTimeStep(alone), ranks));
+    }
+  }
   grains.sources = sourcesOf(scene, timeStep);
   grains.partition = partitionOf(scene, ranks);
   grains.partLaws = partLaws(scene, kinds, grains.model.mass);

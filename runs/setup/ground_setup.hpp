@@ -58,6 +58,16 @@ struct BedSetup {
   bool cache{};                  ///< keep the settled bed for later runs, and take it from one
   std::string origin;            ///< all that makes the bits of the settled bed, as text; see bedOrigin()
   std::optional<TileSetup> tile;
+  /// The ground in which it settles, where more is put on it afterwards: without that, as if the scene ended with the
+  /// bed. Null: it settles in the scene as it is.
+  std::shared_ptr<const GroundSetup> alone;
+};
+
+/// Grains that are put on a settled bed together.
+struct PlacedGrains {
+  std::string place; ///< of their section, in messages: "scene.toml:14: grain.0"
+  std::vector<terrain::GrainSpec> grains;
+  std::optional<double> aboveBed; ///< height of their lowest point over the highest grain under them [m]
 };
 
 /// All grains of a scene.
@@ -67,10 +77,12 @@ struct GrainsSetup {
   std::vector<std::string> wallNames;    ///< of the boundaries' walls, in messages: "plane 0"
   std::vector<terrain::GrainSpec> start; ///< where the scene sets them one by one; empty for a bed
   std::optional<BedSetup> bed;
+  std::vector<PlacedGrains> onBed; ///< with the ids that follow the bed's
   Sources sources;
   terrain::PartitionOptions partition;  ///< but for the ranks
   contact::GrainPartMaterials partLaws; ///< of each material against the parts of the vehicle or the meshes
   bool manyKinds{};                     ///< grains differ in radius or material
+  std::vector<std::string> materials;   ///< of the grains, by name
   std::optional<double> impactSpeed;    ///< for which the step was chosen, where there are hertz contacts [m/s]
 };
 

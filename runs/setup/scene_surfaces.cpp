@@ -31,6 +31,14 @@ std::optional<FreeSurface> freedomOf(const scene::SurfaceSection& s) {
   return free;
 }
 
+/// What rests stands in the bed on purpose, what moves is to meet it; meshes have no part in settling.
+bool isPlacedLater(const scene::Scene& scene, const scene::SurfaceSection& s, SurfaceKind kind) {
+  if (!scene.terrain || !scene.terrain->granular()) return false;
+  if (s.placed) return *s.placed == scene::PlacedWhen::afterSettling;
+  if (s.aboveBed) return true;
+  return scene.terrain->settleTimeLimit > 0 && (s.moves() || kind == SurfaceKind::mesh);
+}
+
 } // namespace
 
 std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
@@ -40,12 +48,16 @@ std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
     all.push_back({{.name = section.name.value_or(fmt::format("{}{}", base::wordOf(kind), number)),
                     .kind = kind,
                     .number = number,
+                    .place = scene.placeOf(std::string(base::wordOf(kind)), number),
                     .material = section.material,
                     .geometry = {shape, half},
                     .start = pose,
                     .motion = motionOf(section, pose.position),
                     .free = freedomOf(section),
-                    .moves = section.moves()},
+                    .moves = section.moves(),
+                    .hasPivot = section.pivot.has_value(),
+                    .placedLater = isPlacedLater(scene, section, kind),
+                    .aboveBed = section.aboveBed},
                    section});
   };
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {

@@ -74,7 +74,7 @@ public:
         refuse(ball, depth, "the terrain's floor");
     for (std::size_t i = 0; i < around_.surfaces.size(); ++i) {
       const SceneSurface& s = around_.surfaces[i];
-      if (s.free && ball.time > 0) continue;
+      if (s.aboveBed || (s.free && ball.time > 0)) continue;
       if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, fmt::format("{} {}", s.list(), s.number));
@@ -142,14 +142,16 @@ private:
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// [[grain]] and [[grains]], in the order of their ids.
+/// [[grain]] and [[grains]], in the order of their ids; those whose height is known only once a bed has settled are
+/// looked at there.
 void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)
-    placing.place({grains[id].position, grains[id].radius, Setter::grain, k, 0, id, grains[id].fixed});
+    if (!scene.grains[k].aboveBed)
+      placing.place({grains[id].position, grains[id].radius, Setter::grain, k, 0, id, grains[id].fixed});
   for (std::size_t k = 0; k < scene.fills.size(); ++k)
     for (std::int64_t left = placedCount(scene.fills[k]); left > 0; --left, ++id)
-      placing.place({grains[id].position, grains[id].radius, Setter::grains, k, 0, id});
+      if (!scene.fills[k].aboveBed) placing.place({grains[id].position, grains[id].radius, Setter::grains, k, 0, id});
 }
 
 } // namespace

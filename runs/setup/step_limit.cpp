@@ -297,6 +297,16 @@ void checkSpeeds(const scene::Scene& scene, double timeStep) {
                                timeStep, base::roundedDown(most, 4)));
   };
   check("grain", scene.grains), check("grains", scene.fills), check("source", scene.sources);
+  for (std::size_t k = 0; k < scene.fills.size(); ++k)
+    for (const scene::Grain& g : scene.fills[k].fromFile)
+      if (norm(g.velocity) > most)
+        scene.fail(
+            "grains", k, "file",
+            fmt::format("has a grain at ({:.6g}, {:.6g}, {:.6g}) m with a velocity of {:.4g} m/s, more than half "
+                        "the neighbour list's skin in a step of {:.3g} s; keep it below {} m/s, or lower "
+                        "run.time_step, or raise run.skin",
+                        g.position.x, g.position.y, g.position.z, norm(g.velocity), timeStep,
+                        base::roundedDown(most, 4)));
 }
 
 } // namespace grouser::setup

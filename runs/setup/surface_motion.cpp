@@ -33,6 +33,7 @@ SurfaceMotion::State SurfaceMotion::at(double time) const {
     const Vec3d v = law_.spin * (base::sin(half) / rate);
     s.turned = base::Quat{base::cos(half), v.x, v.y, v.z}.normalized();
   }
+  s.pivot = s.centre;
   const Vec3d arm = norm2(arm_) > 0 ? rotate(s.turned, arm_) : Vec3d{};
   s.centre += arm;
   s.velocity += cross(s.spin, arm);

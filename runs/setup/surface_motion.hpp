@@ -30,8 +30,10 @@ public:
     base::Vec3d centre;         ///< [m]
     base::Quat turned;          ///< since the start
     base::Vec3d velocity, spin; ///< of the centre [m/s], [rad/s]
+    base::Vec3d pivot;          ///< [m]
   };
   State at(double time) const;
+  void lift(double way) { law_.pivot.z += way; } ///< all of it, upwards [m]
 
 private:
   SurfaceMotionLaw law_;

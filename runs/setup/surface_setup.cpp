@@ -54,6 +54,20 @@ std::array<double, 2> extentAlong(int axis, const SurfaceSetup& surface, const b
 
 } // namespace
 
+void SurfaceSetup::lift(double way) {
+  start.position.z += way;
+  motion.lift(way);
+}
+
+SurfaceBounds boundsOf(const SurfaceSetup& surface, const base::Pose& pose) {
+  SurfaceBounds bounds;
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] = extentAlong(a, surface, pose);
+    bounds.low[a] = low, bounds.high[a] = high;
+  }
+  return bounds;
+}
+
 std::string faultAtBoundaries(const SurfaceSetup& surface, const base::Pose& pose,
                               const terrain::PeriodicBoundaries& sides, double radius) {
   if (surface.geometry.shape == terrain::SurfaceShape::plane) return "";

@@ -99,7 +99,7 @@ public:
 
   /// Whether the obstacle reaches into the corridor.
   bool meets(const Obstacle& o, const Corridor& c) const {
-    const base::Pose& pose = o.surface.start;
+    const base::Pose pose = placeOf(o.surface);
     const bool plane = o.surface.geometry.shape == terrain::SurfaceShape::plane;
     // Of a plane the corners tell; of all else balls about a lattice of points.
     const double cell = plane ? 1e300 : kCell, radius = plane ? 0 : 0.87 * kCell;
@@ -120,6 +120,15 @@ public:
   }
 
 private:
+  /// At the start; what is put on the bed stands about so high over its surface.
+  base::Pose placeOf(const SceneSurface& s) const {
+    base::Pose pose = s.start;
+    if (!s.aboveBed || !ground_) return pose;
+    const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
+    const double lowest = plane ? pose.position.z : boundsOf(s, pose).low.z;
+    pose.position.z += ground_->height(pose.position.x, pose.position.y) + *s.aboveBed - lowest;
+    return pose;
+  }
   static int cellsOf(double length, double cell) { return std::max(1, static_cast<int>(std::ceil(length / cell))); }
   /// Farthest point of a surface from its own origin [m].
   static double sizeOf(const SceneSurface& s) {

@@ -67,14 +67,32 @@ std::optional<BedCache> BedCache::ofUser(const base::Comm& comm) {
   return folder.empty() ? std::nullopt : std::optional(BedCache(folder, limit));
 }
 
+fs::path BedCache::fileOf(const std::string& origin) const {
+  base::StateHash key;
+  for (const char c : origin) key.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  return folder_ / (kPrefix + key.hex() + ".h5");
+}
+
+std::optional<SettleReport> BedCache::find(const std::string& origin) const {
+  const fs::path file = fileOf(origin);
+  try {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return {};
+    checkStateFile(file, kBedFile);
+    const support::Hdf5File open = support::Hdf5File::open(file);
+    if (open.text("/", "scene") != origin) return {};
+    return readSettled(open);
+  } catch (const std::exception&) {
+    return {}; // a run says what is wrong with it
+  }
+}
+
 SettleReport BedCache::settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress,
                               const base::Comm& comm) {
   const Clock::time_point start = Clock::now();
   const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const std::string& made = bed.origin;
-  base::StateHash key;
-  for (const char c : made) key.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
-  const fs::path file = folder_ / (kPrefix + comm.broadcast(key.hex()) + ".h5");
+  const fs::path file = comm.broadcast(fileOf(made).string());
 
   SettleReport report;
   const auto taken = [&] {

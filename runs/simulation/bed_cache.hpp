@@ -35,10 +35,14 @@ public:
   SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress,
                       const base::Comm& comm);
 
+  /// How the bed of this origin (setup::BedSetup) settled, where it is kept; empty where it is not, or is damaged.
+  std::optional<SettleReport> find(const std::string& origin) const;
+
   /// One line: where the bed came from and how long that took. Empty before settle().
   const std::string& summary() const { return summary_; }
 
 private:
+  std::filesystem::path fileOf(const std::string& origin) const;
   bool reuse(const std::filesystem::path& file, const std::string& origin, terrain::Grains& grains,
              SettleReport& report, const base::Comm& comm) const;
   bool keep(const std::filesystem::path& file, const std::string& origin, const terrain::Grains& grains,

@@ -35,16 +35,22 @@ template <> struct Layout<SurfaceState> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
+template <class Archive, class Settled> void exchangeSettled(Archive& archive, Settled& s) {
+  archive("/settled/time", s.time);
+  archive("/settled/agitation", s.agitation);
+  archive("/settled/steps", s.steps);
+  archive("/settled/friction", s.friction);
+  archive("/settled/highest", s.highest);
+  archive("/settled/mean_height", s.meanHeight);
+}
+
 /// The one list of what is stored, and under which name; the grains' columns say theirs. `archive` writes or reads. On
 /// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/ledger_at_start", s.ledgerAtStart);
   archive("/energy_guard", s.guard);
-  archive("/settled/time", s.settled.time);
-  archive("/settled/agitation", s.settled.agitation);
-  archive("/settled/steps", s.settled.steps);
-  archive("/settled/friction", s.settled.friction);
+  exchangeSettled(archive, s.settled);
   if (archive.present("/bed", s.bed)) {
     auto& b = *s.bed;
     archive("/bed/porosity", b.porosity), archive("/bed/porosity_error", b.porosityError);
@@ -56,6 +62,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/bed/depth", b.depth), archive("/bed/porosity_at_depth", b.porosityAtDepth);
   }
   archive("/undisturbed_surface", s.surface);
+  archive("/lifts", s.lifts);
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);
@@ -297,6 +304,13 @@ void writeState(const fs::path& path, const char* kind, const Checkpoint& checkp
 }
 
 void checkStateFile(const fs::path& path, const char* kind) { support::checkSeal(path, kind, kVersion); }
+
+SettleReport readSettled(const support::Hdf5File& file) {
+  SettleReport settled;
+  Reader reader(file, {});
+  exchangeSettled(reader, settled);
+  return settled;
+}
 
 Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
   Checkpoint checkpoint;

@@ -42,6 +42,7 @@ void writeState(const std::filesystem::path& path, const char* kind, const Check
                 const base::Comm& comm);
 void checkStateFile(const std::filesystem::path& path, const char* kind);
 Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
+SettleReport readSettled(const support::Hdf5File& file); ///< of it, how the bed came to rest
 
 /// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
 /// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by

@@ -5,6 +5,7 @@
 #include "runs/simulation/bed_preparation.hpp"
 #include "runs/simulation/insertion_guard.hpp"
 #include "runs/simulation/tiled_bed.hpp"
+#include "terrain/bed_tops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,8 @@ std::vector<terrain::GrainSpec> tiledGrains(const setup::GroundSetup& setup, con
   return start;
 }
 
+} // namespace
+
 std::vector<std::string> namesOfShapes(const setup::GroundSetup& setup) {
   std::vector<std::string> names;
   for (const setup::SurfaceSetup& s : setup.surfaces)
@@ -54,13 +57,12 @@ std::vector<std::string> namesOfShapes(const setup::GroundSetup& setup) {
   return names;
 }
 
-} // namespace
-
 Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, const base::Comm& comm) {
   Ground ground;
   ground.surface = setup.surface, ground.rigid = setup.rigid;
   if (!setup.grains) return ground;
   const setup::GrainsSetup& g = *setup.grains;
+  if (g.bed && g.bed->alone) return buildGround(*g.bed->alone, exec, comm);
   terrain::PartitionOptions partition = g.partition;
   partition.comm = comm;
   const auto make = [&](const std::vector<terrain::GrainSpec>& start) {
@@ -80,6 +82,32 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
   return ground;
 }
 
+namespace {
+
+/// Fills in how high the bed stands.
+void measureHeight(const setup::BedSetup& bed, const terrain::Grains& grains, SettleReport& report) {
+  const terrain::Rectangle& w = bed.walls;
+  const double diameter = 2 * grains.model().radius;
+  const auto nodes = [&](double length) { return std::max(2, static_cast<int>(std::ceil(length / diameter)) + 1); };
+  const terrain::NodeGrid fine{nodes(w.width()),
+                               nodes(w.length()),
+                               w.width() / (nodes(w.width()) - 1),
+                               w.length() / (nodes(w.length()) - 1),
+                               w.xMin,
+                               w.yMin};
+  double sum = 0, highest = -1e300;
+  std::int64_t covered = 0;
+  for (const double top : terrain::highestTops(grains.system().exec, grains, fine, diameter)) {
+    if (!std::isfinite(top)) continue;
+    sum += top, ++covered;
+    highest = std::max(highest, top);
+  }
+  if (covered == 0) return;
+  report.highest = highest, report.meanHeight = sum / static_cast<double>(covered);
+}
+
+} // namespace
+
 SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
   SettleReport report;
   try {
@@ -93,6 +121,7 @@ SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const S
     if (progress.failed) progress.failed(grains, error.what());
     throw;
   }
+  measureHeight(bed, grains, report);
   return report;
 }
 
@@ -100,8 +129,8 @@ void keepSurface(Ground& ground, const base::Exec& exec) {
   ground.undisturbed = std::make_shared<terrain::BedSurface>(exec, *ground.grains, ground.rigid->view(), *ground.walls);
 }
 
-void keepSurface(Ground& ground, const std::vector<double>& heights) {
-  ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * ground.grains->model().radius, heights);
+void keepSurface(Ground& ground, const std::vector<double>& heights, double radius) {
+  ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * radius, heights);
 }
 
 terrain::BedStructure structureOf(const Ground& ground) {

@@ -48,9 +48,15 @@ struct SettleReport {
   double agitation{}; ///< mean kinetic energy a grain over m g radius [-]
   std::int64_t steps{};
   double friction{}; ///< [-] with which the bed was prepared; 0: with its own
+  /// Of the bed then: the highest grain's top, and the mean over its area of the highest top within a diameter [m].
+  double highest{}, meanHeight{};
 };
 
-/// Lays the grains and places the walls. Nothing moves yet, but a tile that is to be copied settles.
+/// Names of the surfaces that are no meshes, in their order.
+std::vector<std::string> namesOfShapes(const setup::GroundSetup& setup);
+
+/// Lays the grains and places the walls. Nothing moves yet, but a tile that is to be copied settles. Where more is put
+/// on a bed once it has settled (placed_on_bed.hpp), the ground is the bed alone.
 /// On several ranks each takes the grains of its subdomain.
 Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {});
 
@@ -59,9 +65,10 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
 /// fault: the message says that it was while the bed settled.
 SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress);
 
-/// Of a ground with a bed: takes its surface as it lies now for the undisturbed one, or `heights` of one taken earlier.
+/// Of a ground with a bed: takes its surface as it lies now for the undisturbed one, or `heights` of one taken earlier,
+/// with the radius of its largest grains [m].
 void keepSurface(Ground& ground, const base::Exec& exec);
-void keepSurface(Ground& ground, const std::vector<double>& heights);
+void keepSurface(Ground& ground, const std::vector<double>& heights, double radius);
 
 /// Measures the bed, whose surface has been kept.
 terrain::BedStructure structureOf(const Ground& ground);

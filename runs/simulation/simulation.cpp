@@ -2,6 +2,7 @@
 #include "runs/simulation/simulation.hpp"
 
 #include "base/error.hpp"
+#include "runs/simulation/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
                        const base::Comm& comm, BedCache* beds)
     : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)) {
   if (hasBed()) {
-    const setup::BedSetup& bed = *setup_.ground.grains->bed;
+    const setup::BedSetup& bed = *bedGround().grains->bed;
     if (bed.settle.timeLimit > 0)
       settled_ = beds ? beds->settle(bed, *ground_.grains, progress, comm) : settle(bed, *ground_.grains, progress);
     keepSurface(ground_, exec);
@@ -32,12 +33,19 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
       ground_.structure = structureOf(ground_);
       checkStructure(bed, *ground_.structure);
     }
+    if (isPutOnBed()) {
+      lifts_ = liftsOnto(*ground_.grains, setup_.ground, comm);
+      lift(setup_.ground, lifts_);
+      requireRoom(*ground_.grains, setup_.ground, comm);
+      takeIntoScene(ground_, setup_.ground, exec, comm);
+    }
   }
   surface_ = surfaceHeight(ground_);
   if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_);
   if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
   if (ground_.grains) ground_.grains->setSteps(0);
   makeSurfaces(nullptr);
+  if (isPutOnBed()) putGrains(ground_, setup_.ground);
   if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
   start_ = wholeLedger();
   addGrains();

@@ -87,13 +87,20 @@ private:
   std::string impactNote(const Ledger& now) const;
   void makeSurfaces(const SurfaceStates* former);
   const contact::GrainLoadsView* partLoads() const;
-  bool hasBed() const { return ground_.grains && setup_.ground.grains->bed; }
+  bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }
+  /// Whether the bed settles alone, and what the scene has beyond it comes afterwards.
+  bool isPutOnBed() const { return hasBed() && setup_.ground.grains->bed->alone; }
+  /// In which the bed settles.
+  const setup::GroundSetup& bedGround() const {
+    return isPutOnBed() ? *setup_.ground.grains->bed->alone : setup_.ground;
+  }
 
-  const setup::SimulationSetup setup_;
+  setup::SimulationSetup setup_; ///< changes no more once things stand on the settled bed
   base::Exec exec_;
   base::Comm comm_;
   Ground ground_;
   SettleReport settled_;
+  std::vector<double> lifts_; ///< of what is put on a settled bed; see liftsOnto()
   std::function<double(double, double)> surface_;
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;

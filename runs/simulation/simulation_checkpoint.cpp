@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/simulation.hpp"
 
+#include "base/bits.hpp"
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/simulation/placed_on_bed.hpp"
 
 namespace grouser::simulation {
 
@@ -10,6 +12,8 @@ std::string SimulationState::hash(const base::Comm& comm) const {
   base::StateHash hash;
   if (grains) hash = terrain::hashOf(*grains, comm);
   if (surfaces) hash.add(surfaces->words());
+  for (const double way : lifts)
+    if (way != 0) hash.add(base::bitsAs<std::uint64_t>(way));
   if (vehicle) hash.add(vehicle->words());
   if (mechanism) hash.add(mechanism->words());
   return hash.hex();
@@ -21,6 +25,7 @@ SimulationState Simulation::save() const {
   SimulationState state;
   state.steps = steps_;
   state.settled = settled_;
+  state.lifts = lifts_;
   state.bed = ground_.structure;
   state.ledgerAtStart = start_.counted();
   state.guard = guard_.save();
@@ -32,16 +37,29 @@ SimulationState Simulation::save() const {
   return state;
 }
 
+namespace {
+
+/// Where something has been put on a settled bed: with all grains of the state.
+Ground groundOf(setup::GroundSetup& setup, const SimulationState& state, const base::Exec& exec,
+                const base::Comm& comm) {
+  if (!setup.grains || !setup.grains->bed || !setup.grains->bed->alone || !state.grains)
+    return buildGround(setup, exec, comm);
+  lift(setup, state.lifts);
+  return groundAt(setup, *state.grains, exec, comm);
+}
+
+} // namespace
+
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
                        const base::Comm& comm)
-    : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)),
-      settled_(state.settled), steps_(state.steps) {
+    : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(groundOf(setup_.ground, state, exec, comm)),
+      settled_(state.settled), lifts_(state.lifts), steps_(state.steps) {
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
       state.mechanism.has_value() != setup_.mechanism.has_value() ||
       state.surfaces.has_value() != (ground_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
-  if (hasBed()) keepSurface(ground_, state.surface);
+  if (hasBed()) keepSurface(ground_, state.surface, bedGround().grains->model.radius);
   ground_.structure = state.bed;
   surface_ = surfaceHeight(ground_);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);

@@ -25,6 +25,7 @@ struct SimulationState {
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
+  std::vector<double> lifts; ///< of what was put on a settled bed [m]; empty without
 
   /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
   /// which call it.

@@ -17,6 +17,7 @@ struct SurfaceState {
   double turnover{};                   ///< of one that forces move: its absolute work in each step, since the start [J]
   base::Vec3d impulse, angularImpulse; ///< on the grains since the start [N s], [N m s about the origin of the world]
   base::Vec3d force, torque;           ///< sums over the steps since the last row [N], [N m]
+  base::Vec3d pivotTorque;             ///< the same of the torque about the pivot [N m]
   double power{};                      ///< the same [W]
 };
 

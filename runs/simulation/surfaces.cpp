@@ -105,6 +105,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
     s.impulse -= load.force * timeStep_;
     s.angularImpulse -= (load.torque + cross(centre, load.force)) * timeStep_;
     s.force += load.force, s.torque += load.torque, s.power += power;
+    s.pivotTorque += load.torque + cross(law.centre - law.pivot, load.force);
   }
   ++states_.meanSteps;
   place(grains, step + 1);
@@ -113,7 +114,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
 Surfaces::Observation Surfaces::observe(std::size_t i, std::int64_t step) const {
   const SurfaceState& s = states_.surfaces[i];
   const double share = states_.meanSteps > 0 ? 1 / static_cast<double>(states_.meanSteps) : 0.0;
-  return {s.force * share, s.torque * share, s.power * share, pose(i, step).position};
+  return {s.force * share, s.torque * share, s.pivotTorque * share, s.power * share, pose(i, step).position};
 }
 
 std::vector<std::pair<std::string, double>> Surfaces::meshesPressing(std::uint32_t grain) const {
@@ -126,7 +127,7 @@ std::vector<std::pair<std::string, double>> Surfaces::meshesPressing(std::uint32
 }
 
 void Surfaces::restartMeans() {
-  for (SurfaceState& s : states_.surfaces) s.force = s.torque = {}, s.power = 0;
+  for (SurfaceState& s : states_.surfaces) s.force = s.torque = s.pivotTorque = {}, s.power = 0;
   states_.meanSteps = 0;
 }
 

@@ -43,6 +43,7 @@ public:
   /// Loads by the grains, about the centre, and the power of what moves the surface: means since restartMeans().
   struct Observation {
     base::Vec3d force, torque; ///< [N], [N m]
+    base::Vec3d pivotTorque;   ///< about the pivot [N m]
     double power{};            ///< [W]
     base::Vec3d position;      ///< of the centre now [m]
   };

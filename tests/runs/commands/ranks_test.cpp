@@ -34,8 +34,8 @@ double lastOf(const std::string& csv, const std::string& column) {
   return 0;
 }
 
-TEST_F(OnRanks, PeriodicBoundariesMovingSurfacesAndSourcesGiveTheBitsOfOneRank) {
-  for (const char* scene : {"chute", "moving", "rain"}) {
+TEST_F(OnRanks, PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRank) {
+  for (const char* scene : {"chute", "moving", "rain", "rigs"}) {
     const std::string words = "run '" GROUSER_SOURCE_DIR "/tests/scenes/" + std::string(scene) +
                               ".toml' --steps 2500 --hash --force --set output.frames=false --set output.picture=false "
                               "--set output.plots=false --out " +

@@ -145,6 +145,38 @@ TEST(Blocks, FileIsReadAndABrokenLineNamed) {
   }
 }
 
+TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
+  const std::string file = testing::TempDir() + "/moving.txt";
+  const auto read = [&](const std::string& lines, const std::vector<std::string>& overrides = {}) {
+    std::ofstream(file) << lines;
+    return parse("[material.a]\n[[grains]]\nform = \"file\"\nmaterial = \"a\"\nvelocity = [0, 0, -1]\n"
+                 "spin = [0, 2, 0]\nfile = \"" +
+                     file + "\"\n",
+                 overrides);
+  };
+  const auto all =
+      placedGrains(read("0, 0, 1, 0.1\n1, 0, 1, 0.1, 0.5, +0.25, 0\n2, 0, 1, 0.1, 1e-1, 0, 0, 7, 8, -9\n"));
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].velocity, (base::Vec3d{0, 0, -1})) << "the section's";
+  EXPECT_EQ(all[1].velocity, (base::Vec3d{0.5, 0.25, 0}));
+  EXPECT_EQ(all[1].spin, (base::Vec3d{0, 2, 0}));
+  EXPECT_EQ(all[2].velocity, (base::Vec3d{0.1, 0, 0}));
+  EXPECT_EQ(all[2].spin, (base::Vec3d{7, 8, -9}));
+  for (const char* bad :
+       {"1 0 1 0.1 5", "1 0 1 0.1 5 5", "1 0 1 0.1 1 2 3 4", "1 0 1 0.1 1 2 x", "1 0 1 0.1 1 2 3 4 5 6 7",
+        "1 0 1 0.1 1 2 -", "1 0 1 0.1 nan 0 0", "1 0 1 0.1 2e4 0 0", "1 0 1 -0.1 0 0 0"}) {
+    try {
+      read(std::string("0 0 1 0.1\n") + bad + "\n");
+      ADD_FAILURE() << bad << " was taken";
+    } catch (const base::InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("moving.txt:2: "), std::string::npos) << e.what();
+    }
+  }
+  const scene::Scene quick = read("0 0 1 0.1 100 0 0\n");
+  EXPECT_THROW(checkSpeeds(quick, 1e-3), base::InputError) << "farther than the skin in a step";
+  EXPECT_NO_THROW(checkSpeeds(quick, 1e-5));
+}
+
 TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
   for (const std::string precision : {"single", "double"}) {
     const scene::Scene s = parse(kMixed, {"run.precision=" + precision});

@@ -95,6 +95,7 @@ const NamedChange kHashed[] = {
     {"spring of a wall", [](SimulationState& s) { s.grains->wallShear[1].x += 1; }},
     {"rolling angle of a wall", [](SimulationState& s) { s.grains->wallRolling[1].y += 1; }},
     {"offset of a surface", [](SimulationState& s) { s.surfaces->surfaces[1].offset += 1; }},
+    {"lift onto a settled bed", [](SimulationState& s) { s.lifts[1] += 1; }},
     {"speed of a surface", [](SimulationState& s) { s.surfaces->surfaces[2].speed += 1; }},
     {"patch on a mesh", [](SimulationState& s) { s.surfaces->patches.memories[2] ^= 1; }},
     {"rolling angle on a mesh", [](SimulationState& s) { s.surfaces->patches.angles[1] += 1; }},

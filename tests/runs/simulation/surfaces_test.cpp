@@ -306,7 +306,9 @@ TEST(Mill, EnergyOfTheGrainsIsTheWorkOfItsSurfaces) {
 TEST(Surfaces, PlanSaysWhichThereAre) {
   const std::string with = commands::planText(sceneOf(kMill)),
                     without = commands::planText(sceneOf(grainAt("[0, 0, 0]")));
-  EXPECT_NE(with.find("plane0, box0, drum, cylinder1; 3 moved, 1 free"), std::string::npos) << with;
+  EXPECT_NE(with.find("plane0, box0, drum, cylinder1; 3 moved, 1 free, 1 of these pulled or turned besides"),
+            std::string::npos)
+      << with;
   EXPECT_NE(with.find("moving surfaces"), std::string::npos);
   EXPECT_NE(without.find("off  surfaces"), std::string::npos) << without;
   EXPECT_EQ(made(sceneOf(grainAt("[0, 0, 0]")), 1)->surfaces(), nullptr);
@@ -434,7 +436,8 @@ TEST(Surfaces, WhatCannotBeIsRefusedByName) {
       {"box.lid.velocity", "[0,0,0.1]", "where free leaves it to the forces"},
       {"box.lid.amplitude", "[0,0,0.1]", "frequency [Hz] is missing"},
       {"box.lid.frequency", "3", "has no meaning without amplitude"},
-      {"box.lid.spin", "[1,0,0]", "about another axis than z"},
+      {"box.lid.placed", "after_settling", "has no meaning without a bed of grains"},
+      {"box.lid.above_bed", "0.1", "has no meaning without a bed of grains"},
       {"box.lid.pivot", "[1,0,0]", "has no meaning without spin"},
       {"box.lid.start", "1.0", "that is not moved"},
       {"box.lid.free", "w", "x, y, z"},

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/bed_alone.hpp"
+
+#include "runs/setup/scene_surfaces.hpp"
+
+#include <algorithm>
+
+namespace grouser::setup {
+
+bool isPutOnBed(const scene::Scene& scene) {
+  if (!scene.terrain || !scene.terrain->granular()) return false;
+  if (!scene.grains.empty() || !scene.fills.empty()) return true;
+  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
+  return std::any_of(surfaces.begin(), surfaces.end(), [](const SceneSurface& s) { return s.placedLater; });
+}
+
+scene::Scene sceneOfBed(scene::Scene scene) {
+  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
+  const auto removeLater = [&](SurfaceKind kind, auto& sections) {
+    for (auto s = surfaces.rbegin(); s != surfaces.rend(); ++s)
+      if (s->kind == kind && s->placedLater) sections.erase(sections.begin() + static_cast<std::ptrdiff_t>(s->number));
+  };
+  removeLater(SurfaceKind::plane, scene.planes), removeLater(SurfaceKind::box, scene.boxes);
+  removeLater(SurfaceKind::cylinder, scene.cylinders), removeLater(SurfaceKind::mesh, scene.meshes);
+  scene.grains.clear(), scene.fills.clear(), scene.sources.clear();
+  scene.vehicle.reset(), scene.driver = {}, scene.mechanism = {};
+  return scene;
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+
+/// Beds that settle before anything is put on them.
+namespace grouser::setup {
+
+/// Whether grains, meshes or surfaces of the scene are put on its bed once that has settled.
+bool isPutOnBed(const scene::Scene& scene);
+
+/// The scene as if it ended with its bed: terrain, what stands in it from the start, and nothing that comes later. Its
+/// bed settles with the bits of a scene that has no more than this, whatever is put on it afterwards, and with the time
+/// step of that scene.
+scene::Scene sceneOfBed(scene::Scene scene);
+
+} // namespace grouser::setup

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/placed_on_bed.hpp"
+
+#include "base/error.hpp"
+#include "runs/simulation/insertion_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace grouser::simulation {
+
+using base::Vec3d;
+using terrain::GrainState;
+
+namespace {
+
+/// A surface that is put on a bed may press a grain by this share of its radius: what rounded digits leave.
+constexpr double kPressed = 0.01;
+
+constexpr double kNone = -1e300;
+
+std::string at(const Vec3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
+
+/// A grain of this rank's rows.
+struct Row {
+  std::uint32_t id;
+  Vec3d position; ///< [m]
+  double radius;  ///< [m]
+};
+
+std::vector<Row> rowsOf(const terrain::Grains& bed) {
+  const terrain::GrainSnapshot s = bed.snapshot();
+  std::vector<Row> rows(s.position.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k] = {static_cast<std::uint32_t>(s.first + k), s.position[k],
+               s.radius.empty() ? bed.model().radius : double{s.radius[k]}};
+  return rows;
+}
+
+/// Whether a ball reaches into [low, high] along x or y, or one of its images beyond periodic boundaries does.
+bool isOver(int axis, double place, double radius, const setup::SurfaceBounds& b,
+            const terrain::PeriodicBoundaries& sides) {
+  const auto reaches = [&](double x) { return x + radius > b.low[axis] && x - radius < b.high[axis]; };
+  const auto& periodic = sides[static_cast<std::size_t>(axis)];
+  if (!periodic) return reaches(place);
+  const double period = (*periodic)[1] - (*periodic)[0];
+  return reaches(place) || reaches(place + period) || reaches(place - period);
+}
+
+/// How far to lift what these bounds hold, so that its lowest point stands `above` over the highest grain under it.
+double liftOf(const std::vector<Row>& rows, const setup::SurfaceBounds& bounds, double above,
+              const terrain::PeriodicBoundaries& sides, const std::string& place, const base::Comm& comm) {
+  double top = kNone;
+  for (const Row& g : rows)
+    if (isOver(0, g.position.x, g.radius, bounds, sides) && isOver(1, g.position.y, g.radius, bounds, sides))
+      top = std::max(top, g.position.z + g.radius);
+  comm.maximum(&top, 1);
+  if (top == kNone)
+    throw base::InputError(fmt::format("{}.above_bed [m]: no grain of the bed lies under it, between x = {:.6g} and "
+                                       "{:.6g} m, y = {:.6g} and {:.6g} m; move it over the bed, or give its height "
+                                       "instead",
+                                       place, bounds.low.x, bounds.high.x, bounds.low.y, bounds.high.y));
+  return top + above - bounds.low.z;
+}
+
+setup::SurfaceBounds boundsOf(const setup::SurfaceSetup& s) {
+  constexpr double kWide = 1e300;
+  if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh)
+    return {{-kWide, -kWide, s.start.position.z}, {kWide, kWide, kWide}};
+  return setup::boundsOf(s, s.start);
+}
+
+setup::SurfaceBounds boundsOf(const std::vector<terrain::GrainSpec>& grains) {
+  setup::SurfaceBounds b{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+  for (const terrain::GrainSpec& g : grains) {
+    const Vec3d reach{g.radius, g.radius, g.radius};
+    b.low = base::min(b.low, g.position - reach), b.high = base::max(b.high, g.position + reach);
+  }
+  return b;
+}
+
+/// The grain that something stands in deepest.
+struct Deepest {
+  double share = kNone, depth = 0; ///< of the radius [-], [m]
+  Row grain{};
+};
+
+Deepest deepestIn(const setup::SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
+  const setup::SurfaceBounds b = boundsOf(surface);
+  const bool plane = surface.geometry.shape == terrain::SurfaceShape::plane && !surface.mesh;
+  Deepest deepest;
+  for (const Row& g : rows) {
+    bool near = true;
+    for (int a = 0; a < 3 && !plane; ++a)
+      near = near && g.position[a] + g.radius > b.low[a] && g.position[a] - g.radius < b.high[a];
+    if (!near) continue;
+    const double depth = setup::startingOverlap(surface, g.position, g.radius);
+    if (depth > deepest.share * g.radius) deepest = {depth / g.radius, depth, g};
+  }
+  // Of all ranks: the deepest, of equal ones the first.
+  for (const Deepest& other : comm.gatherValue(deepest))
+    if (other.share > deepest.share || (other.share == deepest.share && other.grain.id < deepest.grain.id))
+      deepest = other;
+  return deepest;
+}
+
+void requireRoomInBed(const setup::SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
+  const Deepest d = deepestIn(surface, rows, comm);
+  if (!(d.share > kPressed)) return;
+  throw base::InputError(
+      fmt::format("{}: {} would stand {:.3g} m deep in grain {} of the settled bed, of radius {:g} m at {}, more than "
+                  "{:g} of that; give above_bed [m], which puts it on the settled bed, move it, or set placed = "
+                  "\"before\", with which the bed is laid around it",
+                  surface.place, surface.name, d.depth, d.grain.id, d.grain.radius, at(d.grain.position), kPressed));
+}
+
+/// What Grains::add() does not see: meshes, and walls where the height was not known before.
+void requireRoomFor(const setup::PlacedGrains& section, const setup::GroundSetup& scene) {
+  const setup::GrainsSetup& all = *scene.grains;
+  const auto refuse = [&](const terrain::GrainSpec& g, double depth, const std::string& what) {
+    if (depth > all.model.maxOverlap * g.radius)
+      throw base::InputError(fmt::format("{}: a grain of radius {:g} m {} would stand {:.3g} m deep in {}, more than "
+                                         "run.max_overlap = {:g} of its radius; move it",
+                                         section.place, g.radius, at(g.position), depth, what, all.model.maxOverlap));
+  };
+  for (const terrain::GrainSpec& g : section.grains) {
+    for (const setup::SurfaceSetup& s : scene.surfaces)
+      if (s.mesh) refuse(g, setup::startingOverlap(s, g.position, g.radius), s.name);
+    for (std::size_t w = 0; section.aboveBed && w < all.boundaries.walls.size(); ++w)
+      refuse(g, g.radius - dot(all.boundaries.walls[w].normal, g.position) + all.boundaries.walls[w].offset,
+             all.wallNames[w]);
+  }
+}
+
+/// Where the grains of a state lie, all of them on every rank.
+std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const base::PositionScale& scale,
+                                        const std::vector<int>& materials, const base::Comm& comm) {
+  std::vector<terrain::GrainSpec> mine;
+  for (std::size_t k = 0; k < rows.rows(); ++k)
+    mine.push_back({scale.toMetres(rows.position[k]),
+                    {},
+                    {},
+                    rows.radius.empty() ? 0.0 : double{rows.radius[k]},
+                    materials[rows.material.empty() ? 0 : rows.material[k]],
+                    !rows.fixed.empty() && rows.fixed[k] != 0});
+  if (comm.alone()) return mine;
+  std::vector<terrain::GrainSpec> all;
+  for (const std::vector<terrain::GrainSpec>& part : comm.gatherAll(mine))
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+void makeGrains(Ground& ground, const setup::GroundSetup& scene, const std::vector<terrain::GrainSpec>& start,
+                const base::Exec& exec, const base::Comm& comm) {
+  const setup::GrainsSetup& g = *scene.grains;
+  terrain::PartitionOptions partition = g.partition;
+  partition.comm = comm;
+  ground.grains = std::make_unique<terrain::Grains>(exec, g.model, g.boundaries, start, partition);
+  guardInsertion(*ground.grains, g.sources, namesOfShapes(scene));
+}
+
+/// The place of each of the bed's boundaries among those of the scene: walls, the floor, then surfaces.
+std::vector<std::size_t> boundariesInScene(const setup::GroundSetup& scene) {
+  const terrain::Boundaries& all = scene.grains->boundaries;
+  std::vector<std::size_t> places;
+  std::size_t next = 0;
+  while (next < all.walls.size() + (all.floor ? 1 : 0)) places.push_back(next++);
+  for (const setup::SurfaceSetup& s : scene.surfaces) {
+    if (s.mesh) continue;
+    if (!s.placedLater) places.push_back(next);
+    ++next;
+  }
+  return places;
+}
+
+/// Velocities and springs of the bed's grains, in rows that lie as `bed` does.
+void takeMotion(const GrainState& bed, bool sameUnits, GrainState& scene) {
+  scene.velocity = bed.velocity, scene.spin = bed.spin, scene.remainders = bed.remainders;
+  if (!sameUnits)
+    for (terrain::Remainders& r : scene.remainders) r.position = 0; // its place has been rounded
+  if (scene.layout.periodic) scene.crossings = bed.crossings;
+  scene.contacts = bed.contacts, scene.neighbour = bed.neighbour;
+  const auto orNone = [&](const std::vector<base::Vec3f>& springs) {
+    return springs.empty() ? std::vector<base::Vec3f>(bed.neighbour.size()) : springs;
+  };
+  if (scene.layout.friction) scene.contactShear = orNone(bed.contactShear);
+  if (scene.layout.rolling) scene.contactRolling = orNone(bed.contactRolling);
+}
+
+/// What holds them on walls, floor and surfaces.
+void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& places, GrainState& scene) {
+  const auto from = static_cast<std::size_t>(bed.layout.boundaries),
+             to = static_cast<std::size_t>(scene.layout.boundaries);
+  for (std::size_t k = 0; k < bed.rows(); ++k)
+    for (std::size_t b = 0; b < from; ++b) {
+      if (!(bed.wallBits[k] >> b & 1u)) continue;
+      const std::size_t place = places[b];
+      scene.wallBits[k] |= 1u << place;
+      if (!bed.wallShear.empty()) scene.wallShear[k * to + place] = bed.wallShear[k * from + b];
+      if (!bed.wallRolling.empty()) scene.wallRolling[k * to + place] = bed.wallRolling[k * from + b];
+    }
+}
+
+} // namespace
+
+std::vector<double> liftsOnto(const terrain::Grains& bed, const setup::GroundSetup& scene, const base::Comm& comm) {
+  const std::vector<Row> rows = rowsOf(bed);
+  const terrain::PeriodicBoundaries& sides = scene.grains->boundaries.periodic;
+  std::vector<double> lifts;
+  for (const setup::SurfaceSetup& s : scene.surfaces)
+    lifts.push_back(s.aboveBed ? liftOf(rows, boundsOf(s), *s.aboveBed, sides, s.place, comm) : 0.0);
+  for (const setup::PlacedGrains& p : scene.grains->onBed)
+    lifts.push_back(p.aboveBed ? liftOf(rows, boundsOf(p.grains), *p.aboveBed, sides, p.place, comm) : 0.0);
+  return lifts;
+}
+
+void lift(setup::GroundSetup& scene, const std::vector<double>& lifts) {
+  setup::GrainsSetup& grains = *scene.grains;
+  if (lifts.size() != scene.surfaces.size() + grains.onBed.size())
+    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  auto way = lifts.begin();
+  auto boundary = grains.boundaries.surfaces.begin();
+  for (setup::SurfaceSetup& s : scene.surfaces) {
+    s.lift(*way++);
+    if (!s.mesh) (boundary++)->start = setup::startingPose(s);
+  }
+  for (setup::PlacedGrains& p : grains.onBed) {
+    for (terrain::GrainSpec& g : p.grains) g.position.z += *way;
+    ++way;
+  }
+}
+
+void requireRoom(const terrain::Grains& bed, const setup::GroundSetup& scene, const base::Comm& comm) {
+  const std::vector<Row> rows = rowsOf(bed);
+  for (const setup::SurfaceSetup& s : scene.surfaces)
+    if (s.placedLater) requireRoomInBed(s, rows, comm);
+  for (const setup::PlacedGrains& p : scene.grains->onBed) requireRoomFor(p, scene);
+}
+
+void takeIntoScene(Ground& ground, const setup::GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {
+  const setup::GrainsSetup &alone = *scene.grains->bed->alone->grains, &all = *scene.grains;
+  const GrainState bed = ground.grains->state();
+  const base::PositionScale scale = ground.grains->scale();
+  std::vector<int> materials(std::max<std::size_t>(1, alone.model.materials.count()), all.bed->material);
+  for (std::size_t k = 0; k < alone.materials.size(); ++k)
+    materials[k] = static_cast<int>(std::find(all.materials.begin(), all.materials.end(), alone.materials[k]) -
+                                    all.materials.begin());
+  std::vector<terrain::GrainSpec> start = specsOf(bed, scale, materials, comm);
+  for (terrain::GrainSpec& g : start)
+    if (g.radius == 0) g.radius = alone.model.radius;
+  ground.grains.reset(); // memory for one of them
+  makeGrains(ground, scene, start, exec, comm);
+  GrainState rows = ground.grains->state();
+  takeMotion(bed, scale.unit == ground.grains->scale().unit, rows);
+  takeBoundaries(bed, boundariesInScene(scene), rows);
+  ground.grains->restore(rows);
+}
+
+Ground groundAt(const setup::GroundSetup& scene, const GrainState& rows, const base::Exec& exec,
+                const base::Comm& comm) {
+  Ground ground;
+  ground.surface = scene.surface, ground.rigid = scene.rigid;
+  ground.walls = scene.grains->bed->walls;
+  std::vector<int> materials(std::max<std::size_t>(1, scene.grains->materials.size()));
+  for (std::size_t k = 0; k < materials.size(); ++k) materials[k] = static_cast<int>(k);
+  makeGrains(ground, scene, specsOf(rows, base::positionScale(2 * scene.grains->model.radius), materials, comm), exec,
+             comm);
+  return ground;
+}
+
+void putGrains(Ground& ground, const setup::GroundSetup& scene) {
+  terrain::Grains& grains = *ground.grains;
+  for (const setup::PlacedGrains& p : scene.grains->onBed) {
+    grains.onInsertionOverlap([&](const terrain::InsertionOverlap& o) {
+      throw base::InputError(fmt::format(
+          "{}: its grain {} would stand {:.3g} m deep in {}, more than run.max_overlap = {:g} of the radius; give "
+          "above_bed [m], which puts it on the settled bed, or move it",
+          p.place, at(p.grains[o.entering].position), o.overlap,
+          o.grain ? fmt::format("grain {} {}", *o.grain, at(o.position)) : namesOfShapes(scene)[o.surface],
+          grains.model().maxOverlap));
+    });
+    grains.add(p.grains);
+  }
+  grains.onInsertionOverlap({});
+  guardInsertion(grains, scene.grains->sources, namesOfShapes(scene));
+}
+
+} // namespace grouser::simulation
