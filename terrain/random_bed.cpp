@@ -20,7 +20,7 @@ constexpr double kGap = 0.02;     // between grains, and to floor and walls, in 
 constexpr double kWindow = 4;     // half the height in which a grain's place is looked for, in its radii
 constexpr int kTriesAWindow = 40; // before it grows by half
 constexpr double kEnds = 1.15, kRoughFloor = 0.35; // see the header
-constexpr int kSlices = 200;      // of a graded bed, to count its grains
+constexpr int kSlices = 200;                       // of a graded bed, to count its grains
 
 void check(const RandomBedOptions& o) {
   requireOfBed(o.radii.smallest() > 0 && std::isfinite(o.radii.largest()), "radius [m]", o.radii.smallest(),

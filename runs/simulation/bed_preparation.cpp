@@ -30,8 +30,8 @@ double porosityAt(const setup::PreparationSetup& preparation, double friction, c
 
 } // namespace
 
-void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall, const SettleProgress& progress,
-                     SettleReport& report) {
+void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall,
+                     const SettleProgress& progress, SettleReport& report) {
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
   const double unit = bed.restEnergy * static_cast<double>(grains.count() - grains.system().fixedCount);

@@ -17,9 +17,8 @@ constexpr double kRadius = 0.01;
 /// A box of grains from z = 0, with level surface and floor.
 BedStructure measured(const std::vector<LyingGrain>& grains, double side, double height) {
   return measureBed(
-      grains, {{0, side, 0, side},
-                             {},
-                             [](double, double) { return 0.0; }, [height](double, double) { return height; }});
+      grains,
+      {{0, side, 0, side}, {}, [](double, double) { return 0.0; }, [height](double, double) { return height; }});
 }
 
 /// Face-centred cubic, touching by `overlap` [m].
