@@ -150,10 +150,12 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
              s.soil.preparationFriction, s.cell.length, s.cell.width, s.cell.depth, s.seeds);
   runAll(s, pieces, command.pieces);
   if (!pieces.whole()) return;
-  std::string csv = "rolling friction [-],load [Pa],seeds,peak [-],half width,residual [-],half width,core angle "
-                    "[deg],half width,porosity [-],half width,porosity at the end [-],half width,inertial number [-]\n";
-  std::string angles = "rolling friction [-],seeds,angle [deg],half width,peak angle [deg],half width,core angle "
-                       "[deg],half width,cohesion [Pa],half width\n";
+  std::string csv =
+      "rolling friction [-],load [Pa],seeds,peak [-],half width of peak,residual [-],half width of residual,"
+      "core angle [deg],half width of core angle,porosity [-],half width of porosity,porosity at the end [-],"
+      "half width at the end,inertial number [-]\n";
+  std::string angles = "rolling friction [-],seeds,angle [deg],half width of angle,peak angle [deg],half width of peak "
+                       "angle,core angle [deg],half width of core angle,cohesion [Pa],half width of cohesion\n";
   for (const double rolling : s.rollingFrictions) {
     std::vector<std::vector<ShearStrength>> runs;
     const std::string text = stressTable(s, pieces, rolling, runs, csv);

@@ -22,9 +22,11 @@ double radians(double degrees) { return degrees * base::kPi / 180; }
 
 TEST(Bearing, FactorsAreThoseOfVesicsTable) {
   // Vesic 1973, table 1: angle [deg], N_c, N_q, N_gamma, given to two digits after the point.
-  const std::array<std::array<double, 4>, 5> published{
-      {{0, 5.14, 1.00, 0.00}, {20, 14.83, 6.40, 5.39}, {25, 20.72, 10.66, 10.88}, {30, 30.14, 18.40, 22.40},
-       {40, 75.31, 64.20, 109.41}}};
+  const std::array<std::array<double, 4>, 5> published{{{0, 5.14, 1.00, 0.00},
+                                                        {20, 14.83, 6.40, 5.39},
+                                                        {25, 20.72, 10.66, 10.88},
+                                                        {30, 30.14, 18.40, 22.40},
+                                                        {40, 75.31, 64.20, 109.41}}};
   for (const auto& [angle, nc, nq, ngamma] : published) {
     const BearingFactors f = bearingFactors(radians(angle));
     EXPECT_NEAR(f.nc, nc, 0.0051) << angle;
