@@ -105,7 +105,7 @@ CoreStress coreStress(const terrain::Grains& grains, const BedSize& size, double
     for (const std::size_t end = c + state.contacts[g]; c < end; ++c) {
       const std::size_t other = state.neighbour[c];
       contacts += counts;
-      const Vec3d branch = period.apart(state.position[g], state.position[other]).as<double>() * scale.unit;
+      const Vec3d branch = period.apart(state.position[other], state.position[g]).as<double>() * scale.unit;
       if (const double middle = z - 0.5 * branch.z; middle < low || middle > high) continue;
       const double distance = norm(branch), overlap = radius(g) + radius(other) - distance;
       Vec3d force = branch * (law.stiffness * overlap / distance); // on g

@@ -65,6 +65,7 @@ class Case:
     def __init__(self, options):
         self.bin, self.deep, self.plate = options.bin * D, options.deep * D, options.plate * D
         self.speed, self.sinkage = options.speed, options.sinkage * options.plate * D
+        self.tall = self.sinkage + 4 * D  # of the plate: no grain comes to lie on it
         smallest = DENSITY * math.pi / 6 * (D * (1 - SPREAD)) ** 3
         contact = math.pi / math.sqrt(STIFFNESS / (smallest / 2) - (damping() / 2) ** 2)
         self.step = float(f"{contact / options.steps:.3g}")
@@ -120,13 +121,13 @@ def press_grouser(case, grouser, folder, top):
         middle = 0.5 * case.bin
         text = case.scene(case.sinkage / case.speed, case.sinkage / case.speed / 1000, (
             f"[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n"
-            f"[[box]]\nname = \"plate\"\nmaterial = \"grain\"\nposition = [{middle!r}, {middle!r}, {top + D!r}]\n"
-            f"size = [{case.plate!r}, {case.plate!r}, {2 * D}]\nvelocity = [0, 0, {-case.speed!r}]\n"), 1)
+            f"[[box]]\nname = \"plate\"\nmaterial = \"grain\"\nposition = [{middle!r}, {middle!r}, {top + 0.5 * case.tall!r}]\n"
+            f"size = [{case.plate!r}, {case.plate!r}, {case.tall!r}]\nvelocity = [0, 0, {-case.speed!r}]\n"), 1)
         (folder / "press.toml").write_text(text)
         seconds = call([grouser, "run", str(folder / "press.toml"), "--out", str(folder / "press"), "--force"],
                        folder / "press.log")
         with open(folder / "press" / "timeseries.csv") as file:
-            rows = [(top + D - float(row["surfaces.plate.position.z [m]"]), float(row["surfaces.plate.force.z [N]"]))
+            rows = [(top + 0.5 * case.tall - float(row["surfaces.plate.position.z [m]"]), float(row["surfaces.plate.force.z [N]"]))
                     for row in csv.DictReader(file)]
         numpy.savetxt(table, rows, delimiter=",", fmt="%.9g", header=f"sinkage [m],force [N]; {seconds:.1f} s")
     return numpy.loadtxt(table, delimiter=",")
@@ -136,7 +137,7 @@ def write_plate(path, case, top):
     """The plate as an STL of twelve triangles."""
     middle, half = 0.5 * case.bin, 0.5 * case.plate
     low = numpy.array([middle - half, middle - half, top])
-    high = numpy.array([middle + half, middle + half, top + 2 * D])
+    high = numpy.array([middle + half, middle + half, top + case.tall])
     corner = [numpy.where([(k >> a) & 1 for a in range(3)], high, low) for k in range(8)]
     sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     with open(path, "w") as out:
@@ -205,7 +206,7 @@ def press_liggghts(case, program, folder, top, bed):
         write_plate(folder / "plate.stl", case, top)
         with open(folder / "bed.data", "w") as out:
             out.write(f"bed\n\n{len(bed)} atoms\n3 atom types\n\n"
-                      f"{-D} {case.bin + D} xlo xhi\n{-D} {case.bin + D} ylo yhi\n{-D} {top + 6 * D} zlo zhi\n\nAtoms\n\n")
+                      f"{-D} {case.bin + D} xlo xhi\n{-D} {case.bin + D} ylo yhi\n{-D} {top + case.tall + 4 * D} zlo zhi\n\nAtoms\n\n")
             for k, (x, y, z, r) in enumerate(bed):
                 out.write("%d 1 %.17g %g %.17g %.17g %.17g\n" % (k + 1, 2 * r, DENSITY, x, y, z))
         (folder / "in.plate").write_text(liggghts_input(case, top))
@@ -279,10 +280,10 @@ def main():
     parser.add_argument("--liggghts", default="liggghts")
     parser.add_argument("--out", default="out/plate_reference")
     parser.add_argument("--seeds", type=int, default=8)
-    parser.add_argument("--bin", type=float, default=14, help="width of the bin [grains]")
-    parser.add_argument("--deep", type=float, default=9, help="depth of the bed [grains]")
-    parser.add_argument("--plate", type=float, default=7, help="side of the square plate [grains]")
-    parser.add_argument("--sinkage", type=float, default=0.4, help="[plates]")
+    parser.add_argument("--bin", type=float, default=16, help="width of the bin [grains]")
+    parser.add_argument("--deep", type=float, default=8, help="depth of the bed [grains]")
+    parser.add_argument("--plate", type=float, default=8, help="side of the square plate [grains]")
+    parser.add_argument("--sinkage", type=float, default=0.3, help="[plates]")
     parser.add_argument("--speed", type=float, default=0.05, help="[m/s]")
     parser.add_argument("--steps", type=float, default=20, help="steps in the shortest contact")
     options = parser.parse_args()
