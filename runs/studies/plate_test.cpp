@@ -117,7 +117,7 @@ Table pushPlate(const Soil& soil, const PlateTest& test, std::int64_t seed, cons
   writeBed(folder / "bed.txt", bed);
   if (!keep.empty()) writeBed(keep, bed);
   const double surface = surfaceHeight(bed, size, d), bottom = topUnder(soil, test, bed) + 1e-3 * d;
-  const double solid = test.lattice ? solidFraction(bed, size, 0, surface)
+  const double solid = test.lattice ? solidFraction(bed, size, 0.5 * d, surface - d)
                                     : solidFraction(bed, size, kOffEnds * d, surface - kOffEnds * d);
   const double way = bottom - surface + test.sinkage * b;
   const std::string text = soil.scene(way / speed, seed, soil.grains.friction, {0, 0, -kGravity}, size.run()) + below +

@@ -176,7 +176,7 @@ Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int
     const CoreStress core = coreStress(*simulation.ground().grains, size, low, high);
     const double porosity = 1 - solidFraction(grainsOf(simulation, size), size, low, high);
     table.rows.push_back({rate * height * std::max(0.0, simulation.time() - start) / consolidated, plates.shear,
-                          plates.normal, plates.height / d, core.xx, core.zz, core.xz, core.zx, porosity,
+                          plates.normal, plates.height / d, core.xx, core.zz, -core.xz, -core.zx, porosity,
                           core.coordination,
                           rate * height / plates.height * d * std::sqrt(soil.grains.density / stress)});
   }

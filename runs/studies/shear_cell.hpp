@@ -15,7 +15,7 @@ struct ShearCell {
   int rows = 200;                            ///< of a table
 };
 
-/// Columns of a run's table; compression is positive.
+/// Columns of a run's table; compression is positive, and shear that the upper plate's way makes.
 inline const std::vector<std::string> kShearColumns = {
     "strain [-]",   "shear stress [Pa]", "normal stress [Pa]", "height [d]",       "core xx [Pa]",       "core zz [Pa]",
     "core xz [Pa]", "core zx [Pa]",      "porosity [-]",       "coordination [-]", "inertial number [-]"};
@@ -38,7 +38,8 @@ ShearStrength shearStrength(const Table& run);
 /// Angle [rad] whose sine is the radius of Mohr's circle over the distance of its centre.
 double mohrCoulombAngle(double xx, double zz, double xz);
 
-/// Mean stress of a region [Pa] from its contacts, and contacts a grain.
+/// Mean stress of a region [Pa] from its contacts, force times branch vector (Love 1927, Weber 1966), compression
+/// positive, and contacts a grain.
 struct CoreStress {
   double xx = 0, zz = 0, xz = 0, zx = 0, coordination = 0;
 };
