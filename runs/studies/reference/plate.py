@@ -12,6 +12,7 @@ Finished runs are kept in the folder and not repeated, so a call that was stoppe
 LIGGGHTS: Debian's package `liggghts` (3.8.0). Python: numpy, h5py, matplotlib of Debian.
 """
 import argparse
+import concurrent.futures
 import csv
 import math
 import pathlib
@@ -127,8 +128,10 @@ def press_grouser(case, grouser, folder, top):
         seconds = call([grouser, "run", str(folder / "press.toml"), "--out", str(folder / "press"), "--force"],
                        folder / "press.log")
         with open(folder / "press" / "timeseries.csv") as file:
-            rows = [(top + 0.5 * case.tall - float(row["surfaces.plate.position.z [m]"]), float(row["surfaces.plate.force.z [N]"]))
-                    for row in csv.DictReader(file)]
+            rows = [(top + 0.5 * case.tall - float(row["surfaces.plate.position.z [m]"]),
+                     float(row["surfaces.plate.force.z [N]"])) for row in csv.DictReader(file)]
+        # Forces are means since the row before: they belong to the middle of the way in between.
+        rows = [(0.5 * (before[0] + row[0]), row[1]) for before, row in zip(rows, rows[1:])]
         numpy.savetxt(table, rows, delimiter=",", fmt="%.9g", header=f"sinkage [m],force [N]; {seconds:.1f} s")
     return numpy.loadtxt(table, delimiter=",")
 
@@ -286,21 +289,31 @@ def main():
     parser.add_argument("--sinkage", type=float, default=0.3, help="[plates]")
     parser.add_argument("--speed", type=float, default=0.05, help="[m/s]")
     parser.add_argument("--steps", type=float, default=20, help="steps in the shortest contact")
+    parser.add_argument("--jobs", type=int, default=1, help="runs of grouser at the same time")
+    parser.add_argument("--only", choices=["grouser"], help="does grouser's part alone, as where there is no LIGGGHTS; "
+                        "a later call, also elsewhere with a copy of the folder, does the rest")
     options = parser.parse_args()
     case = Case(options)
     out = pathlib.Path(options.out)
     out.mkdir(parents=True, exist_ok=True)
     print(f"bin {options.bin:g} d, {options.deep:g} d deep, {case.grains} grains of {1e3 * D:g} mm +- {100 * SPREAD:g} %; "
           f"plate {options.plate:g} d at {case.speed} m/s to {case.sinkage:.3f} m; step {case.step} s")
-    results, tables = [], []
-    for seed in range(1, options.seeds + 1):
+    seeds = range(1, options.seeds + 1)
+
+    def prepare(seed):
         folder = out / f"seed{seed}"
         folder.mkdir(exist_ok=True)
         bed = pour(case, options.grouser, folder, seed)
-        top = float((bed[:, 2] + bed[:, 3])[
-            (abs(bed[:, 0] - case.bin / 2) < case.plate / 2 + D) & (abs(bed[:, 1] - case.bin / 2) < case.plate / 2 + D)
-        ].max()) + 1e-6
-        ours = press_grouser(case, options.grouser, folder, top)
+        near = (abs(bed[:, :2] - case.bin / 2) < case.plate / 2 + D).all(axis=1)
+        top = float((bed[near, 2] + bed[near, 3]).max()) + 1e-6
+        return folder, bed, top, press_grouser(case, options.grouser, folder, top)
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        prepared = list(pool.map(prepare, seeds))
+    if options.only:
+        return
+    results, tables = [], []
+    for seed, (folder, bed, top, ours) in zip(seeds, prepared):
         theirs = press_liggghts(case, options.liggghts, folder, top, bed)
         results.append((slice_means(ours, case.sinkage), slice_means(theirs, case.sinkage)))
         tables.append((ours, theirs))
