@@ -22,8 +22,8 @@ struct PlateTest {
   double breadth = 12;          ///< [d] of a strip along x; diameter of a circular plate
   double bin = 7, depth = 2.5;  ///< [breadths] between the boundaries along x, and of the bed
   double thickness = 12;        ///< [d] of a strip's bed along y; beside a circular plate it is the bin's
-  double sinkage = 0.4;         ///< [breadths] below the bed's surface, to which the plate is pushed
-  double inertialNumber = 8e-4; ///< [-] speed over breadth times d sqrt(density / pressure expected)
+  double sinkage = 0.3;         ///< [breadths] below the bed's surface, to which the plate is pushed
+  double inertialNumber = 9e-4; ///< [-] speed over breadth times d sqrt(density / pressure expected)
   int rows = 300;               ///< of a table
 
   BedSize bed(const Soil& soil) const;

@@ -15,7 +15,7 @@ struct PlatesCommand {
   double stripBin = 7, stripDepth = 2.5;     ///< [breadths]
   double circularBin = 5, circularDepth = 2; ///< [breadths]
   double thickness = 12;                     ///< [d] of a strip's bed
-  double sinkage = 0.4, inertialNumber = 8e-4;
+  double sinkage = 0.3, inertialNumber = 9e-4;
   double friction = 0.5, rollingFriction = 0, preparationFriction = 0.5;
   double angle = 0, angleError = 0; ///< [deg] of internal friction as measured, half width of its interval; 0: none
   bool keepBeds = false;

@@ -11,7 +11,7 @@ struct PreparationCommand {
   PieceOptions pieces;
   std::vector<double> porosities = {0.36, 0.38, 0.40, 0.42, 0.44, 0.46};
   double friction = 0.5, rollingFriction = 0;
-  double width = 14, depth = 14; ///< [d] of a bed between periodic boundaries
+  double width = 12, depth = 12; ///< [d] of a bed between periodic boundaries
   int seeds = 8;
 };
 /// `grouser study preparation`

@@ -18,8 +18,8 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kBar = 0.01; // [-] of the porosity
-constexpr double kRadius = 0.005;
+constexpr double kBar = 0.01;     // [-] of the porosity
+constexpr double kRadius = 0.025; // [m]
 
 std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
   const double d = 2 * kRadius;
