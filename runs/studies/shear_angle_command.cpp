@@ -35,9 +35,9 @@ Samples samplesOf(const ShearAngleCommand& command) {
   s.soil.preparationFriction = command.preparationFriction;
   s.stresses = command.stresses, s.rollingFrictions = command.rollingFrictions, s.seeds = command.seeds;
   if (command.place.quick) {
-    s.soil.grains.stiffness = 2e4;
-    s.cell.length = 8, s.cell.width = 6, s.cell.depth = 6, s.cell.inertialNumber = 1e-2, s.cell.strain = 0.2;
-    s.cell.rows = 40;
+    s.soil.grains.stiffness = 1e4;
+    s.cell.length = 8, s.cell.width = 6, s.cell.depth = 6, s.cell.inertialNumber = 2e-2, s.cell.strain = 0.15;
+    s.cell.rows = 30;
     s.stresses = {2000}, s.rollingFrictions = {0}, s.seeds = 2;
   }
   return s;

@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
                                                    {"peak tau/sigma", "core angle", "not shown"}},
                                          StudyCall{"plates",
                                                    "--quick --threads 1 --angle 24 --angle-error 1",
-                                                   {"plates.csv", "extent.csv", "recipe.json", "plates.png"},
+                                                   {"plates.csv", "recipe.json", "plates.png"},
                                                    {"pressure [kPa]", "measured/theory"}}),
                          [](const auto& study) {
                            std::string name = study.param.name;
