@@ -22,16 +22,15 @@ constexpr int kLatticeLayers = 5; // as the beds of before had
 constexpr double kLatticeSpacing = 2.02;
 constexpr double kRestAgain = 1e-5, kPatience = 3; // of m g r; [s]
 
-/// What bears the bed, as sections of a scene; the floor's grains are written into `folder`.
-std::string floorSections(const Soil& soil, const PlateTest& test, std::int64_t seed, const std::string& file,
-                          const std::filesystem::path& folder) {
-  const double d = soil.grains.diameter();
+/// What bears the bed, as sections of a scene.
+std::string floorSections(const Soil& soil, const PlateTest& test, std::int64_t seed) {
   if (test.floor == BedFloor::fixed) {
-    writeBed(folder / file, roughFloor(soil, test.bed(soil), seed));
-    // The plane behind them catches what should not be there.
-    return fmt::format("[[grains]]\nform = \"file\"\nfile = \"{}\"\nmaterial = \"grain\"\nfixed = true\n"
-                       "[[plane]]\nmaterial = \"grain\"\npoint = [0, 0, {:.17g}]\n",
-                       file, -2 * d);
+    std::string text;
+    for (const BedGrain& g : roughFloor(soil, test.bed(soil), seed))
+      text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
+                          "fixed = true\n",
+                          g.position.x, g.position.y, g.position.z, g.radius);
+    return text;
   }
   SampleGrains floor = soil.grains;
   if (test.floor == BedFloor::rough) floor.friction = kRoughFriction;
@@ -104,14 +103,14 @@ Table pushPlate(const Soil& soil, const PlateTest& test, std::int64_t seed, cons
                 const std::filesystem::path& keep, const base::Exec& exec) {
   const double d = soil.grains.diameter(), b = test.breadth * d, speed = test.speed(soil);
   const BedSize size = test.bed(soil);
-  const std::string below = floorSections(soil, test, seed, "floor.txt", folder);
+  const std::string below = floorSections(soil, test, seed);
   BedGrains bed;
   if (test.lattice) {
     bed = layLattice(soil, size, below, seed, folder, exec);
   } else {
     bed = pourBed(soil, size, below, seed, folder, exec);
   }
-  // Grains of the floor have the first ids, and stand in a file of their own.
+  // Grains of the floor have the first ids, and stand in sections of their own.
   if (test.floor == BedFloor::fixed)
     bed.erase(bed.begin(), bed.begin() + static_cast<std::ptrdiff_t>(roughFloor(soil, size, seed).size()));
   writeBed(folder / "bed.txt", bed);
