@@ -70,11 +70,29 @@ void addPlates(CLI::App& study, PlatesCommand& c) {
   plates->callback([&c] { studyPlatesCommand(c); });
 }
 
+void addPreparation(CLI::App& study, PreparationCommand& c) {
+  CLI::App* preparation = study.add_subcommand(
+      "preparation",
+      "Beds of [terrain] that ask for a porosity: what they reach, and with which friction while settling");
+  preparation->add_option("--porosities", c.porosities, "asked for [-]")
+      ->check(support::between(0.2, 0.7))
+      ->capture_default_str();
+  addNumber(*preparation, "--friction", c.friction, 0, 5, "of the grains [-]");
+  addNumber(*preparation, "--rolling-friction", c.rollingFriction, 0, 5, "the same of rolling [-]");
+  addNumber(*preparation, "--width", c.width, 6, 1000, "of a bed between periodic boundaries [d]; not with --quick");
+  addNumber(*preparation, "--depth", c.depth, 4, 1000, "of a bed [d]; not with --quick");
+  addSeeds(*preparation, c.seeds, "beds of each porosity");
+  addPieceOptions(*preparation, c.pieces);
+  addPlace(*preparation, c.place, "preparation", "two porosities, two small beds: in seconds");
+  preparation->callback([&c] { studyPreparationCommand(c); });
+}
+
 } // namespace
 
 void addSoilStudies(CLI::App& study, SoilStudies& studies) {
   addShearAngle(study, studies.shearAngle);
   addPlates(study, studies.plates);
+  addPreparation(study, studies.preparation);
 }
 
 } // namespace grouser::studies

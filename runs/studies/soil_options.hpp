@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/studies/plates.hpp"
+#include "runs/studies/preparation.hpp"
 #include "runs/studies/shear_angle.hpp"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@ namespace grouser::studies {
 struct SoilStudies {
   ShearAngleCommand shearAngle;
   PlatesCommand plates;
+  PreparationCommand preparation;
 };
 void addSoilStudies(CLI::App& study, SoilStudies& studies);
 

@@ -133,10 +133,15 @@ INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
                                                    "--quick --threads 1",
                                                    {"shear_angle.csv", "angles.csv", "recipe.json", "shear_angle.png"},
                                                    {"peak tau/sigma", "core angle", "not shown"}},
-                                         StudyCall{"plates",
-                                                   "--quick --threads 1 --angle 24 --angle-error 1",
-                                                   {"plates.csv", "recipe.json", "plates.png"},
-                                                   {"pressure [kPa]", "measured/theory"}}),
+                                         StudyCall{
+                                             "plates",
+                                             "--quick --threads 1 --angle 24 --angle-error 1",
+                                             {"plates.csv", "extent.csv", "bearing.csv", "recipe.json", "plates.png"},
+                                             {"pressure [kPa]", "difference to the base strip", "measured/theory"}},
+                                         StudyCall{"preparation",
+                                                   "--quick --threads 1",
+                                                   {"preparation.csv", "recipe.json", "preparation.png"},
+                                                   {"wanted", "0.400", "0.420", "contacts"}}),
                          [](const auto& study) {
                            std::string name = study.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');
