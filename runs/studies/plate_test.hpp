@@ -20,7 +20,7 @@ struct PlateTest {
   BedFloor floor = BedFloor::fixed;
   bool lattice = false;         ///< instead of a poured bed: equal spheres laid in a lattice
   double breadth = 12;          ///< [d] of a strip along x; diameter of a circular plate
-  double bin = 7, depth = 2.5;  ///< [breadths] between the boundaries along x, and of the bed
+  double bin = 8, depth = 2;    ///< [breadths] between the boundaries along x, and of the bed
   double thickness = 12;        ///< [d] of a strip's bed along y; beside a circular plate it is the bin's
   double sinkage = 0.3;         ///< [breadths] below the bed's surface, to which the plate is pushed
   double inertialNumber = 9e-4; ///< [-] speed over breadth times d sqrt(density / pressure expected)

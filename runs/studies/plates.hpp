@@ -12,7 +12,7 @@ struct PlatesCommand {
   std::vector<std::string> cases; ///< names of plateCases(); empty: all
   int seeds = 8;
   double breadth = 12;                       ///< [d]
-  double stripBin = 7, stripDepth = 2.5;     ///< [breadths]
+  double stripBin = 8, stripDepth = 2;       ///< [breadths]
   double circularBin = 5, circularDepth = 2; ///< [breadths]
   double thickness = 12;                     ///< [d] of a strip's bed
   double sinkage = 0.3, inertialNumber = 9e-4;
