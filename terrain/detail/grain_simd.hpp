@@ -331,7 +331,8 @@ private:
     if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
-      if (load.deepest > data_.maxSurfaceShare * forces_.radius) deepest = kThrough;
+      const float radius = kManySizes ? data_.velocity[i].w : forces_.radius;
+      if (load.deepest > data_.maxSurfaceShare * radius) deepest = kThrough;
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};
