@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What contacts of parts are saved as, and are restored from.
 #include "base/algorithms.hpp"
+#include "base/bits.hpp"
 #include "base/error.hpp"
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
@@ -34,9 +35,9 @@ std::vector<std::uint32_t> SavedPatches::words() const {
 
 std::vector<std::uint32_t> SavedGrainPatches::words() const {
   std::vector<std::uint32_t> words = memories;
-  words.resize(memories.size() + angles.size());
   static_assert(sizeof(float) == sizeof(std::uint32_t));
-  if (!angles.empty()) std::memcpy(words.data() + memories.size(), angles.data(), angles.size() * sizeof(float));
+  for (const std::vector<float>* numbers : {&angles, &dents})
+    for (const float number : *numbers) words.push_back(base::bitsAs<std::uint32_t>(number));
   return words;
 }
 
@@ -55,19 +56,23 @@ SavedGrainPatches GrainPartContacts::save() const {
   memory.resize(pairs_ * kPatches);
   std::vector<base::Vec3f> angle = angle_.toHost();
   if (rolling_) angle.resize(pairs_ * kPatches);
+  std::vector<float> dent = dent_.toHost();
+  if (crushes_) dent.resize(pairs_ * kPatches);
   if (held_ != Held::everywhere && !comm_.alone()) {
     const auto keys = comm_.gatherAll(key);
     const auto memories = comm_.gatherAll(memory);
     const auto angles = comm_.gatherAll(angle);
-    key.clear(), memory.clear(), angle.clear();
+    const auto dents = comm_.gatherAll(dent);
+    key.clear(), memory.clear(), angle.clear(), dent.clear();
     for (std::size_t r = 0; r < keys.size(); ++r) {
       key.insert(key.end(), keys[r].begin(), keys[r].end());
       memory.insert(memory.end(), memories[r].begin(), memories[r].end());
       angle.insert(angle.end(), angles[r].begin(), angles[r].end());
+      dent.insert(dent.end(), dents[r].begin(), dents[r].end());
     }
   }
   std::vector<std::uint32_t> order(key.size()), words;
-  std::vector<float> angles;
+  std::vector<float> angles, dents;
   for (std::size_t e = 0; e < key.size(); ++e) order[e] = static_cast<std::uint32_t>(e);
   base::sortByKey(base::cpuExec(1), key.data(), order.data(), key.size());
   for (std::size_t k = 0; k < key.size(); ++k)
@@ -80,17 +85,21 @@ SavedGrainPatches GrainPartContacts::save() const {
       std::memcpy(raw + 2, &m, sizeof m);
       words.insert(words.end(), raw, raw + kWords);
       if (rolling_) angles.insert(angles.end(), {angle[at].x, angle[at].y, angle[at].z});
+      if (crushes_) dents.push_back(dent[at]);
     }
-  return {words, angles, allSums()};
+  return {words, angles, dents, allSums(), allDeepest()};
 }
 
 void GrainPartContacts::restore(const SavedGrainPatches& saved) {
-  if (saved.sums.size() != sums_.size() || saved.memories.size() % kWords != 0 ||
-      saved.angles.size() != (rolling_ ? saved.memories.size() / kWords * 3 : 0))
+  if (saved.sums.size() != sums_.size() || saved.deepest.size() != deepest_.size() ||
+      saved.memories.size() % kWords != 0 ||
+      saved.angles.size() != (rolling_ ? saved.memories.size() / kWords * 3 : 0) ||
+      saved.dents.size() != (crushes_ ? saved.memories.size() / kWords : 0))
     refuse();
   std::vector<std::uint64_t> keys;
   std::vector<PatchMemory> memories;
   std::vector<base::Vec3f> angles;
+  std::vector<float> dents;
   std::size_t place = 0;
   for (std::size_t w = 0; w < saved.memories.size(); w += kWords) {
     std::uint64_t key;
@@ -99,6 +108,7 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
       keys.push_back(key);
       memories.resize(keys.size() * kPatches);
       if (rolling_) angles.resize(memories.size());
+      if (crushes_) dents.resize(memories.size());
       place = 0;
     }
     if ((key & 0xFFFFu) >= partCount_ || place == kPatches) refuse();
@@ -106,6 +116,7 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
     std::memcpy(f, &saved.memories[w + 2], sizeof f);
     const std::size_t at = (keys.size() - 1) * kPatches + place++;
     memories[at] = {{f[0], f[1], f[2]}, {f[3], f[4], f[5]}};
+    if (crushes_) dents[at] = saved.dents[w / kWords];
     if (!rolling_) continue;
     const float* a = saved.angles.data() + w / kWords * 3;
     angles[at] = {a[0], a[1], a[2]};
@@ -116,6 +127,8 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
   key_.assign(keys);
   memory_.assign(memories);
   angle_.assign(angles);
+  dent_.assign(dents);
+  deepest_.assign(saved.deepest);
   sums_.assign(comm_.first() ? saved.sums : std::vector<std::int64_t>(saved.sums.size()));
 }
 

@@ -8,12 +8,15 @@
 
 namespace grouser::contact {
 
+/// A contact deeper than this share of the (smaller) grain's radius counts as squeezed [-].
+inline constexpr double kSqueezed = 0.2;
+
 /// What one rigid part does to one grain in one step: the force in quanta (exactly what the part receives with the
 /// opposite sign) and the torque about the grain's centre [N m].
 struct GrainLoad {
   base::Vec3l force;
   base::Vec3f torque;
-  float deepest; ///< overlap [m]
+  float deepest; ///< overlap [m]; negative: of a grain that has been crushed to its middle
 };
 
 /// Loads from rigid parts as the grains' kernel sees them. `range[i]` packs first * 256 + count of the loads of slot i.

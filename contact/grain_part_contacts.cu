@@ -6,6 +6,9 @@
 #include "base/for_each_group.cuh"
 #include "contact/grain_part_kernel.cuh"
 
+#include <algorithm>
+#include <cmath>
+
 namespace grouser::contact {
 
 using base::Position;
@@ -67,6 +70,8 @@ struct RestorePatches {
   PatchMemory* memory;
   const Vec3f* oldAngle;
   Vec3f* angle; ///< null without rolling friction
+  const float* oldDent;
+  float* dent; ///< null where no grain crushes
   GROUSER_HD void operator()(int e) const {
     std::int64_t low = 0, high = oldCount;
     while (low < high) {
@@ -81,6 +86,7 @@ struct RestorePatches {
       const std::int64_t from = found ? static_cast<std::int64_t>(oldIndex[low]) * kPatches + k : 0;
       memory[e * kPatches + k] = found ? old[from] : PatchMemory{};
       if (angle) angle[e * kPatches + k] = found ? oldAngle[from] : Vec3f{};
+      if (dent) dent[e * kPatches + k] = found ? oldDent[from] : 0.0f;
     }
   }
 };
@@ -111,7 +117,8 @@ struct Forget {
 GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
                                      const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
                                      const base::Comm& comm, const GrainPartMaterials& materials)
-    : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()), rolling_(false), features_(0) {
+    : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()), rolling_(false), crushes_(materials.crush()),
+      features_(0) {
   std::vector<BasicLaw<float>> laws;
   for (const ContactLaw& law : materials.laws) laws.push_back(law.as<float>());
   if (laws.empty()) laws.push_back(model.law.as<float>());
@@ -120,6 +127,12 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   laws_ = base::Array<BasicLaw<float>>(exec, laws);
   massPerCube_ = base::Array<double>(exec, materials.massPerCube);
   angle_ = base::Array<Vec3f>(exec), oldAngle_ = base::Array<Vec3f>(exec);
+  dent_ = base::Array<float>(exec), oldDent_ = base::Array<float>(exec);
+  energyHeld_ = base::Array<std::int64_t>(exec);
+  std::vector<Crushing> crushing;
+  for (std::size_t m = 0; crushes_ && m < materials.laws.size(); ++m)
+    crushing.push_back(crushingOf(materials.crushing[m], materials.laws[m]));
+  crushing_ = base::Array<Crushing>(exec, crushing);
   std::vector<SurfaceGridView> views;
   for (const base::SphereSet* set : sets) {
     const double edge = set->spacing > 0.006 ? 0.75 * set->spacing : 0.0045;
@@ -132,6 +145,8 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
       const double r = s.radius + s.flat;
       low = base::min(low, s.centre - Vec3d{r, r, r}), high = base::max(high, s.centre + Vec3d{r, r, r});
     }
+    constexpr double kFarAway = 1e100; // its square is a number
+    if (!part.meets) low = high = {kFarAway, kFarAway, kFarAway};
     part.boxLow = low, part.boxHigh = high;
   }
   gridViews_ = base::Array<SurfaceGridView>(exec, views);
@@ -145,13 +160,16 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   memory_ = base::Array<PatchMemory>(exec);
   oldMemory_ = base::Array<PatchMemory>(exec);
   load_ = base::Array<GrainLoad>(exec);
-  sums_ = base::Array<std::int64_t>(exec, 8);
+  sums_ = base::Array<std::int64_t>(exec, kPartSums);
+  deepest_ = base::Array<std::uint64_t>(exec);
+  forgetPressed();
 }
 
 /// What is sent with a pair.
 std::vector<ExchangeField> GrainPartContacts::history() {
   std::vector<ExchangeField> fields{{key_.data(), 2}, {memory_.data(), kPatches * sizeof(PatchMemory) / 4}};
   if (rolling_) fields.push_back({angle_.data(), kPatches * sizeof(Vec3f) / 4});
+  if (crushes_) fields.push_back({dent_.data(), kPatches});
   return fields;
 }
 
@@ -179,6 +197,7 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
   key_.resizeKeeping(pairs_ + exchange_->importCount());
   memory_.resizeKeeping(kPatches * key_.size());
   if (rolling_) angle_.resizeKeeping(kPatches * key_.size());
+  if (crushes_) dent_.resizeKeeping(kPatches * key_.size());
   exchange_->setImportSlots(pairs_);
   exchange_->finish(history());
   pairs_ += exchange_->importCount();
@@ -191,6 +210,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   key_.swap(oldKey_);
   memory_.swap(oldMemory_);
   angle_.swap(oldAngle_);
+  dent_.swap(oldDent_);
   oldIndex_.resize(oldPairs);
   base::iota(exec_, oldIndex_.data(), oldPairs);
   base::sortByKey(exec_, oldKey_.data(), oldIndex_.data(), oldPairs);
@@ -215,7 +235,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   const std::vector<PartMotion> poses = motion.toHost();
   const std::vector<GrainPart> parts = parts_.toHost();
   for (std::size_t p = 0; p < partCount_; ++p)
-    for (int corner = 0; corner < 8; ++corner) {
+    for (int corner = parts[p].meets ? 0 : 8; corner < 8; ++corner) {
       const Vec3d c{corner & 1 ? parts[p].boxHigh.x : parts[p].boxLow.x,
                     corner & 2 ? parts[p].boxHigh.y : parts[p].boxLow.y,
                     corner & 4 ? parts[p].boxHigh.z : parts[p].boxLow.z};
@@ -231,13 +251,14 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   slot_.resize(pairs_);
   memory_.resize(pairs_ * kPatches);
   if (rolling_) angle_.resize(pairs_ * kPatches);
+  if (crushes_) dent_.resize(pairs_ * kPatches), energyHeld_.resize(pairs_);
   load_.resize(pairs_);
   list.key = key_.data(), list.slot = slot_.data();
   base::forEach(exec_, "list parts near grains", n, list);
   base::forEach(exec_, "restore patch history", static_cast<std::int64_t>(pairs_),
                 RestorePatches{key_.data(), oldKey_.data(), oldIndex_.data(), static_cast<std::int64_t>(oldPairs),
-                               oldMemory_.data(), memory_.data(), oldAngle_.data(),
-                               rolling_ ? angle_.data() : nullptr});
+                               oldMemory_.data(), memory_.data(), oldAngle_.data(), rolling_ ? angle_.data() : nullptr,
+                               oldDent_.data(), crushes_ ? dent_.data() : nullptr});
   held_ = Held::listed;
 }
 
@@ -249,27 +270,83 @@ std::vector<std::int64_t> GrainPartContacts::allSums() const {
 
 void GrainPartContacts::computeOn(const base::Exec& exec, const GrainsView& grains,
                                   const base::Array<PartMotion>& motion, PartLoad* loads) {
-  base::setZero(exec, sums_.data(), 2 * sizeof(std::int64_t));
+  base::setZero(exec, sums_.data(), kSumsOfStep * sizeof(std::int64_t));
   const auto run = [&]<unsigned kFeatures>() {
-    base::forEachGroup<16>(exec, "grain-part contacts", static_cast<std::int64_t>(pairs_),
-                           GrainPartForces<kFeatures>{model_, laws_.data(), massPerCube_.data(), grains, motion.data(),
-                                                      parts_.data(), gridViews_.data(), key_.data(), slot_.data(),
-                                                      memory_.data(), rolling_ ? angle_.data() : nullptr, load_.data(),
-                                                      loads, sums_.data()});
+    base::forEachGroup<16>(
+        exec, "grain-part contacts", static_cast<std::int64_t>(pairs_),
+        GrainPartForces<kFeatures>{model_, laws_.data(), massPerCube_.data(), grains, motion.data(), parts_.data(),
+                                   gridViews_.data(), key_.data(), slot_.data(), memory_.data(),
+                                   rolling_ ? angle_.data() : nullptr, crushes_ ? crushing_.data() : nullptr,
+                                   crushes_ ? dent_.data() : nullptr, crushes_ ? energyHeld_.data() : nullptr,
+                                   static_cast<int>(partCount_), load_.data(), loads, sums_.data(), deepest_.data()});
   };
   // Most beds are linear with friction; all else takes the general functions.
-  if ((features_ & ~kFriction) == 0 && !model_.manyRadii)
+  if ((features_ & ~kFriction) == 0 && !model_.manyRadii && !crushes_)
     run.template operator()<kFriction>();
   else
     run.template operator()<kGeneral>();
 }
 
-GrainLoadsView GrainPartContacts::grainLoads() { return {range_.data(), load_.data(), model_.force, sums_.data() + 5}; }
+GrainLoadsView GrainPartContacts::grainLoads() {
+  return {range_.data(), load_.data(), model_.force, sums_.data() + kReceivedByGrains};
+}
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = allSums();
   const auto energy = [&](std::size_t k) { return model_.energy.value(q[k]); };
-  return {q[0], energy(1), energy(2), energy(3), energy(4), model_.force.value({q[5], q[6], q[7]}) * model_.timeStep};
+  constexpr std::size_t kForce = kReceivedByGrains;
+  return {q[kPatchesNow],          q[kSqueezedNow],
+          energy(kElasticNow),     energy(kDampedByParts),
+          energy(kRubbedByParts),  energy(kRolledByParts),
+          energy(kCrushedByParts), model_.force.value({q[kCutByCrushing], 0, 0}).x * model_.timeStep,
+          q[kCappedNow],           model_.force.value({q[kForce], q[kForce + 1], q[kForce + 2]}) * model_.timeStep};
+}
+
+std::vector<std::uint32_t> GrainPartContacts::ended() const {
+  std::vector<std::uint32_t> mine, all;
+  if (crushes_ && held_ == Held::listed) {
+    const std::vector<std::uint64_t> key = key_.toHost();
+    const std::vector<GrainLoad> load = load_.toHost();
+    for (std::size_t e = 0; e < pairs_; ++e)
+      if (load[e].deepest < 0) mine.push_back(static_cast<std::uint32_t>(key[e] >> 16));
+  }
+  for (const std::vector<std::uint32_t>& rank : comm_.gatherAll(mine)) all.insert(all.end(), rank.begin(), rank.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+void GrainPartContacts::takeOut(const std::vector<std::uint32_t>& ids) {
+  const std::vector<std::uint64_t> key = key_.toHost();
+  const std::vector<std::int64_t> held = energyHeld_.toHost();
+  std::vector<std::uint32_t> theirs;
+  std::vector<std::int64_t> sums = sums_.toHost();
+  for (std::size_t e = 0; e < pairs_; ++e) {
+    if (!std::binary_search(ids.begin(), ids.end(), static_cast<std::uint32_t>(key[e] >> 16))) continue;
+    theirs.push_back(static_cast<std::uint32_t>(e));
+    sums[kElasticNow] -= held[e], sums[kCrushedByParts] += held[e];
+  }
+  sums_.assign(sums);
+  const base::Array<std::uint32_t> pairs(exec_, theirs);
+  base::forEach(exec_, "forget grains taken out", static_cast<std::int64_t>(theirs.size()),
+                Forget{pairs.data(), memory_.data()});
+  restore(save()); // grains will lie in other slots, and perhaps on other ranks
+}
+
+void GrainPartContacts::forgetPressed() { deepest_.assign(std::vector<std::uint64_t>(partCount_, kNotPressed)); }
+
+std::vector<std::uint64_t> GrainPartContacts::allDeepest() const {
+  std::vector<std::uint64_t> deepest = deepest_.toHost();
+  comm_.minimum(deepest.data(), deepest.size());
+  return deepest;
+}
+
+std::optional<GrainPartContacts::MostPressed> GrainPartContacts::mostPressed() const {
+  const std::vector<std::uint64_t> deepest = allDeepest();
+  const auto most = std::min_element(deepest.begin(), deepest.end());
+  if (most == deepest.end() || *most == kNotPressed) return {};
+  return MostPressed{static_cast<int>(most - deepest.begin()), static_cast<std::uint32_t>(*most),
+                     static_cast<double>(base::bitsAs<float>(static_cast<std::uint32_t>(~(*most >> 32))))};
 }
 
 std::vector<GrainPartContacts::Press> GrainPartContacts::pressing(std::uint32_t grain) const {
@@ -278,8 +355,8 @@ std::vector<GrainPartContacts::Press> GrainPartContacts::pressing(std::uint32_t 
     const std::vector<std::uint64_t> key = key_.toHost();
     const std::vector<GrainLoad> load = load_.toHost();
     for (std::size_t e = 0; e < pairs_; ++e)
-      if (key[e] >> 16 == grain && load[e].deepest > 0)
-        found.push_back({static_cast<int>(key[e] & 0xFFFFu), load[e].deepest});
+      if (key[e] >> 16 == grain && load[e].deepest != 0)
+        found.push_back({static_cast<int>(key[e] & 0xFFFFu), std::fabs(load[e].deepest)});
   }
   std::vector<Press> all;
   for (const std::vector<Press>& rank : comm_.gatherAll(found)) all.insert(all.end(), rank.begin(), rank.end());
@@ -288,7 +365,8 @@ std::vector<GrainPartContacts::Press> GrainPartContacts::pressing(std::uint32_t 
 
 std::size_t GrainPartContacts::bytes() const {
   std::size_t total = range_.bytes() + count_.bytes() + slot_.bytes() + key_.bytes() + oldKey_.bytes() +
-                      memory_.bytes() + oldMemory_.bytes() + angle_.bytes() + oldAngle_.bytes() + load_.bytes();
+                      memory_.bytes() + oldMemory_.bytes() + angle_.bytes() + oldAngle_.bytes() + dent_.bytes() +
+                      oldDent_.bytes() + load_.bytes();
   for (const SurfaceGrid& grid : grids_) total += grid.bytes();
   return total;
 }

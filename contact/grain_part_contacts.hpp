@@ -4,6 +4,7 @@
 #include "base/comm.hpp"
 #include "base/position.hpp"
 #include "contact/contact_law.hpp"
+#include "contact/crushing.hpp"
 #include "contact/exchange.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/grain_part_model.hpp"
@@ -13,6 +14,7 @@
 #include "contact/saved_contacts.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace grouser::contact {
@@ -37,7 +39,8 @@ public:
   /// Lists the pairs for grains in their present slots; history is restored by grain id and part.
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
-  /// Contact loads of this step. `loads` (one a part) is added to.
+  /// Contact loads of this step. `loads` is added to: one a part, and where grains crush one more, whose force.x counts
+  /// the pairs whose grain has been crushed to its middle.
   void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
     computeOn(exec_, grains, motion, loads);
   }
@@ -55,10 +58,28 @@ public:
     float overlap; ///< [m]
   };
   std::vector<Press> pressing(std::uint32_t grain) const;
+  /// Grains that were crushed to their middle in the last compute, by id, ascending; of all ranks, which all call it.
+  std::vector<std::uint32_t> ended() const;
+  /// Forgets grains that are taken out before the next step: what their contacts held is dissipated by crushing.
+  /// Refresh before the next compute. All ranks call it.
+  void takeOut(const std::vector<std::uint32_t>& ids);
+  bool crush() const { return crushes_; }
+  /// The grain that was pressed by the greatest share of its radius since forgetPressed(); of all ranks.
+  struct MostPressed {
+    int part;
+    std::uint32_t grain;
+    double share; ///< of its radius [-]
+  };
+  std::optional<MostPressed> mostPressed() const;
+  void forgetPressed();
   struct Ledger {
     std::int64_t contacts{};             ///< patches in touch at the last compute
+    std::int64_t squeezed{};             ///< pairs deeper than kSqueezed then
     double elastic{};                    ///< held in their springs [J]
     double damped{}, rubbed{}, rolled{}; ///< dissipated since the start [J]
+    double crushed{};                    ///< the same where grains crush [J]
+    double cutImpulse{};                 ///< that springs would have given without it since the start [N s]
+    std::int64_t capped{};               ///< patches at the force at which their grain crushes, at the last compute
     base::Vec3d impulseOnGrains;         ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const; ///< of all ranks, which all call it
@@ -70,6 +91,7 @@ public:
 
 private:
   std::vector<std::int64_t> allSums() const;
+  std::vector<std::uint64_t> allDeepest() const;
   std::vector<ExchangeField> history();
 
   base::Exec exec_;
@@ -91,14 +113,18 @@ private:
   base::Array<std::uint32_t> range_, count_, slot_, oldIndex_;
   base::Array<std::uint64_t> key_, oldKey_;
   base::Array<PatchMemory> memory_, oldMemory_;
-  bool rolling_;
+  bool rolling_, crushes_;
   base::Array<base::Vec3f> angle_,
-      oldAngle_;                      ///< rolling angles [rad] beside the memories; empty without rolling friction
-  base::Array<BasicLaw<float>> laws_; ///< by material
+      oldAngle_;                         ///< rolling angles [rad] beside the memories; empty without rolling friction
+  base::Array<float> dent_, oldDent_;    ///< [m] beside the memories; empty where no grain crushes
+  base::Array<std::int64_t> energyHeld_; ///< of each pair [quanta]; empty where no grain crushes
+  base::Array<BasicLaw<float>> laws_;    ///< by material
+  base::Array<Crushing> crushing_;       ///< by material; empty where none crushes
   base::Array<double> massPerCube_;
   unsigned features_;
   base::Array<GrainLoad> load_;
-  base::Array<std::int64_t> sums_; ///< of this step: contacts, elastic; since the start: damped, rubbed, rolled, force
+  base::Array<std::int64_t> sums_;     ///< [kPartSums]
+  base::Array<std::uint64_t> deepest_; ///< by part, since forgetPressed()
 };
 
 } // namespace grouser::contact

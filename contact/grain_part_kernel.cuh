@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/bits.hpp"
 #include "base/for_each_group.cuh"
+#include "contact/crushing.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/grain_part_model.hpp"
 #include "contact/grains_view.hpp"
@@ -15,6 +17,13 @@ namespace grouser::contact {
 inline constexpr float kSameNormal = 0.9f; // cosine: contacts within 26 degrees are one patch
 inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face are one patch
 inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is the one it was in the step before
+inline constexpr float kOtherSide = -0.5f; // cosine: a patch on the far side of the part
+
+/// Smallest of what is pressed by the greatest share of its radius, and of those of the first grain.
+GROUSER_HD std::uint64_t pressKey(float share, std::uint32_t grain) {
+  return static_cast<std::uint64_t>(~base::bitsAs<std::uint32_t>(share)) << 32 | grain;
+}
+inline constexpr std::uint64_t kNotPressed = ~std::uint64_t{0};
 
 /// One patch of the present step, before it is matched to those of the step before.
 struct TouchedPatch {
@@ -35,10 +44,15 @@ template <unsigned kFeatures> struct GrainPartForces {
   const std::uint64_t* key;
   const std::uint32_t* slot;
   PatchMemory* memory;
-  base::Vec3f* angle; ///< null without rolling friction
+  base::Vec3f* angle;       ///< null without rolling friction
+  const Crushing* crushing; ///< by material; null where none crushes
+  float* dent;              ///< of each patch [m]; null too
+  std::int64_t* energyHeld; ///< in the springs of each pair [quanta]; null too
+  int endedAt;              ///< place behind the loads of the parts, whose force.x counts grains that have ended
   GrainLoad* load;
   PartLoad* partLoad;
-  std::int64_t* sums;
+  std::int64_t* sums;     ///< [kPartSums]
+  std::uint64_t* pressed; ///< by part, of the grain that it presses most: see pressKey()
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
     const int i = static_cast<int>(slot[e]);
@@ -51,27 +65,49 @@ template <unsigned kFeatures> struct GrainPartForces {
     PairLoad sum;
     PatchMemory fresh[kPatches] = {};
     base::Vec3f freshAngle[kPatches] = {};
+    float freshDent[kPatches] = {};
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
     base::Vec3f* heldAngle = angle ? angle + static_cast<std::int64_t>(e) * kPatches : nullptr;
-    unsigned used = 0;
+    float* heldDent = dent ? dent + static_cast<std::int64_t>(e) * kPatches : nullptr;
+    unsigned used = 0, begun = 0;
     for (int k = 0; k < found; ++k) {
       const int former = recall(held, patches[k].normal, used);
+      if (former < 0) begun |= 1u << k;
       fresh[k] = {patches[k].normal, former < 0 ? base::Vec3f{} : held[former].shear};
       if (angle && former >= 0) freshAngle[k] = heldAngle[former];
-      apply(part, ball, patches[k], {fresh[k].shear, freshAngle[k]}, sum);
+      if (dent && former >= 0) freshDent[k] = heldDent[former];
+      apply(part, ball, patches[k], {fresh[k].shear, freshAngle[k], freshDent[k]}, sum);
     }
+    if (begun) noteTunnelling(ball, patches, found, begun, held, used, sum.onGrain);
     for (int k = 0; k < kPatches; ++k) {
       held[k] = fresh[k];
       if (angle) heldAngle[k] = freshAngle[k];
+      if (dent) heldDent[k] = freshDent[k];
+    }
+    const float share = sum.onGrain.deepest / static_cast<float>(ball.radius);
+    if ((kFeatures & kGeneral) && crushing) {
+      energyHeld[e] = model.energy.quantise(sum.elastic);
+      if (share >= 1 && mayCrush(ball)) {
+        // Crushed to its middle: the host takes it out before the next step.
+        sum.onGrain.deepest = -sum.onGrain.deepest;
+        base::atomicAdd64(&partLoad[endedAt].force.x, 1);
+      }
     }
     load[e] = sum.onGrain;
     if (found == 0) return;
     addTo(partLoad[p].force, -sum.onGrain.force);
     addTo(partLoad[p].torque, sum.torqueOnPart);
-    base::atomicAdd64(sums + 0, found);
-    base::atomicAdd64(sums + 1, model.energy.quantise(sum.elastic));
+    base::atomicAdd64(sums + kPatchesNow, found);
+    base::atomicAdd64(sums + kElasticNow, model.energy.quantise(sum.elastic));
     for (int cause = 0; cause < 3; ++cause)
-      base::atomicAdd64(sums + 2 + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
+      base::atomicAdd64(sums + kDampedByParts + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
+    if ((kFeatures & kGeneral) && crushing) {
+      base::atomicAdd64(sums + kCappedNow, sum.capped);
+      base::atomicAdd64(sums + kCrushedByParts, model.energy.quantise(sum.crushed));
+      base::atomicAdd64(sums + kCutByCrushing, model.force.quantise(sum.cut));
+    }
+    if (share > static_cast<float>(kSqueezed)) base::atomicAdd64(sums + kSqueezedNow, 1);
+    base::atomicMin64(pressed + p, pressKey(share, static_cast<std::uint32_t>(key[e] >> 16)));
   }
 
 private:
@@ -80,19 +116,27 @@ private:
     base::Vec3d x, v, w;
     double radius, mass;
     int material;
+    bool fixed; ///< never moves, and does not crush
   };
   /// The history of a patch, which its force moves on.
   struct Springs {
     base::Vec3f& shear;
     base::Vec3f& rolled; ///< rolling angle [rad]
+    float& dent;         ///< of a grain that crushes [m]
   };
   /// Sums over the patches of a pair.
   struct PairLoad {
     GrainLoad onGrain{};
     base::Vec3l torqueOnPart{};
-    double elastic = 0; ///< held in springs [J]
-    float lost[3] = {}; ///< dissipated by dashpots, sliding and rolling resistance [J]
+    double elastic = 0;          ///< held in springs [J]
+    float lost[3] = {};          ///< dissipated by dashpots, sliding and rolling resistance [J]
+    double crushed = 0, cut = 0; ///< dissipated [J], force cut off [N] where the grain crushes
+    int capped = 0;              ///< patches
   };
+
+  GROUSER_HD bool mayCrush(const Ball& ball) const {
+    return (kFeatures & kGeneral) && crushing && !ball.fixed && crushing[ball.material].strength > 0;
+  }
 
   GROUSER_HD Ball ballOf(int i) const {
     const base::Vec4f velocity = grains.velocity[i], spin = grains.spin[i];
@@ -101,7 +145,8 @@ private:
               spin.xyz().template as<double>(),
               model.radius,
               model.mass,
-              0};
+              0,
+              velocity.w < 0};
     if (!model.manyRadii) return ball;
     ball.material = static_cast<int>(spin.w);
     const double r = fabs(static_cast<double>(velocity.w)); // less than 0: a fixed grain
@@ -159,33 +204,70 @@ private:
     return best;
   }
 
+  /// A grain that a step has carried through a thin part touches it deeply, at once, from the other side: it counts as
+  /// pressed beyond its middle.
+  GROUSER_HD static void noteTunnelling(const Ball& ball, const TouchedPatch* patches, int found, unsigned begun,
+                                        const PatchMemory* held, unsigned used, GrainLoad& onGrain) {
+    const float radius = static_cast<float>(ball.radius);
+    for (int k = 0; k < found; ++k) {
+      if (!(begun >> k & 1) || patches[k].overlap < 0.5f * radius) continue;
+      for (int q = 0; q < kPatches; ++q)
+        if (!(used >> q & 1) && dot(held[q].normal, patches[k].normal) < kOtherSide)
+          onGrain.deepest = radius + patches[k].overlap;
+    }
+  }
+
+  /// Makes of a contact what its spring sees of it where the grain crushes. False: the surfaces are apart in the dent;
+  /// what the tangential spring still held is lost to sliding.
+  GROUSER_HD static bool crush(const Crushing& crushing, ContactGeometry& touch, const Springs& springs, float dt,
+                               BasicLaw<float>& law, PairLoad& sum) {
+    const Yielded y = yieldContact<kFeatures>(crushing, law, touch.overlap, dot(touch.velocity, touch.normal), dt,
+                                              touch.effectiveMass, touch.effectiveRadius, springs.dent);
+    sum.crushed += static_cast<double>(y.dissipated), sum.cut += static_cast<double>(y.cut);
+    sum.capped += y.capped ? 1 : 0;
+    if (y.overlap <= 0) {
+      if (!law.hertz) sum.lost[1] += 0.5f * law.tangentialStiffness * dot(springs.shear, springs.shear);
+      springs.shear = springs.rolled = {};
+      return false;
+    }
+    touch.overlap = y.overlap;
+    law.damping *= y.damping, law.rootDamping *= y.damping;
+    return true;
+  }
+
   /// Force of one patch, in the part's frame as the history is, then quantised in the world.
   GROUSER_HD void apply(const PartMotion& part, const Ball& ball, const TouchedPatch& patch, const Springs& springs,
                         PairLoad& sum) const {
-    const BasicLaw<float>& law = laws[ball.material];
+    if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
+    const BasicLaw<float>* law = laws + ball.material;
     const base::Vec3d outward = part.rotation * patch.normal.template as<double>();
     const base::Vec3d arm = outward * -(ball.radius - static_cast<double>(patch.overlap));
     const base::Vec3d point = ball.x + arm;
     const base::Vec3d relative = ball.v + cross(ball.w, arm) - part.velocityAt(point);
     const float mass = static_cast<float>(ball.mass), radius = static_cast<float>(ball.radius);
     const float dt = static_cast<float>(model.timeStep);
-    const ContactGeometry touch{-patch.normal, patch.overlap,
-                                transposedTimes(part.rotation, relative).template as<float>(), mass, radius};
-    const Reaction reaction = contactForce<kFeatures>(law, touch, dt, springs.shear);
+    ContactGeometry touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(),
+                          mass, radius};
+    BasicLaw<float> yielding;
+    if (mayCrush(ball)) {
+      yielding = *law;
+      if (!crush(crushing[ball.material], touch, springs, dt, yielding, sum)) return;
+      law = &yielding;
+    }
+    const Reaction reaction = contactForce<kFeatures>(*law, touch, dt, springs.shear);
     const base::Vec3l quanta = model.force.quantise(part.rotation * reaction.force.template as<double>());
     const base::Vec3d force = model.force.value(quanta);
     sum.onGrain.force += quanta;
     sum.onGrain.torque += cross(arm, force).template as<float>();
     sum.lost[0] += reaction.damped, sum.lost[1] += reaction.rubbed;
-    sum.elastic += storedEnergy(law, static_cast<double>(patch.overlap), ball.radius, springs.shear);
-    if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
+    sum.elastic += storedEnergy(*law, static_cast<double>(touch.overlap), ball.radius, springs.shear);
     sum.torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
-    if ((kFeatures & kGeneral) && law.rollingFriction > 0) {
+    if ((kFeatures & kGeneral) && law->rollingFriction > 0) {
       const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
       const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
       const base::Vec3f torque =
-          rollingTorque(law, how, reaction.pressing, reaction.normalStiffness, dt, springs.rolled, sum.lost[2]);
-      const float k = rollingStiffness(law, reaction.normalStiffness, radius);
+          rollingTorque(*law, how, reaction.pressing, reaction.normalStiffness, dt, springs.rolled, sum.lost[2]);
+      const float k = rollingStiffness(*law, reaction.normalStiffness, radius);
       sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
       // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.
       const base::Vec3l turned = model.torque.quantise(part.rotation * torque.template as<double>());

@@ -6,6 +6,7 @@
 #include "base/vec.hpp"
 #include "contact/contact_law.hpp"
 
+#include <algorithm>
 #include <vector>
 
 /// What contacts of grains with rigid parts are computed from, and what is kept of them.
@@ -24,7 +25,24 @@ struct PatchMemory {
 /// A rigid part, for contacts with grains.
 struct GrainPart {
   int surface{};               ///< index of its unique sphere set
-  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]
+  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]; far away where grains do not meet it
+  bool meets{true};            ///< whether grains meet it
+};
+
+/// What the contacts of grains with parts are summed into: whole numbers, those of energies and forces in quanta.
+enum PartSum : int {
+  kPatchesNow,    ///< in touch in this step
+  kElasticNow,    ///< held in their springs
+  kSqueezedNow,   ///< pairs of grain and part deeper than kSqueezed
+  kCappedNow,     ///< patches at the force at which their grain crushes
+  kDampedByParts, ///< since the start, as all that follow
+  kSumsOfStep = kDampedByParts,
+  kRubbedByParts,
+  kRolledByParts,
+  kCrushedByParts,   ///< dissipated where grains crush
+  kCutByCrushing,    ///< force that springs would have had more, a step each
+  kReceivedByGrains, ///< x, y, z: force, a step each
+  kPartSums = kReceivedByGrains + 3
 };
 
 /// Constants of the contacts between grains and parts. Kernels take a copy. Forces are computed in single precision.
@@ -42,6 +60,11 @@ struct GrainPartModel {
 struct GrainPartMaterials {
   std::vector<ContactLaw> laws;
   std::vector<double> massPerCube; ///< [kg/m3]
+  std::vector<double> crushing{};  ///< crushing strength [Pa], 0: does not crush; empty: no material does
+
+  bool crush() const {
+    return std::any_of(crushing.begin(), crushing.end(), [](double strength) { return strength > 0; });
+  }
 };
 
 } // namespace grouser::contact

@@ -21,12 +21,14 @@ struct SavedPatches {
 /// Contacts of grains with parts.
 struct SavedGrainPatches {
   /// Eight words a patch in touch: key (grain id << 16 | part), low word first; PatchMemory. By ascending key, patches
-  /// of one key in their order. The hash takes these and the angles.
+  /// of one key in their order. The hash takes these, the angles and the dents.
   std::vector<std::uint32_t> memories;
-  std::vector<float> angles;      ///< [patches][3] rolling angle of each [rad]; empty without rolling friction
-  std::vector<std::int64_t> sums; ///< of the last step and since the start, as GrainPartContacts keeps them
+  std::vector<float> angles;          ///< [patches][3] rolling angle of each [rad]; empty without rolling friction
+  std::vector<float> dents;           ///< [patches] of each [m]; empty where no grain crushes
+  std::vector<std::int64_t> sums;     ///< of the last step and since the start (PartSum)
+  std::vector<std::uint64_t> deepest; ///< [parts] of each the grain that it has pressed most since the last row
 
-  /// For the hash: memories, then angles.
+  /// For the hash: memories, angles, dents.
   std::vector<std::uint32_t> words() const;
 };
 

@@ -47,9 +47,10 @@ std::vector<std::uint32_t> ownSlots(const GrainSystem& system) {
   return slots;
 }
 
-std::vector<int> blocksOf(const base::Comm& comm, std::size_t total, const std::vector<std::uint32_t>& ids) {
+std::vector<int> blocksOf(const GrainSystem& system, const std::vector<std::uint32_t>& ids) {
   std::vector<int> block;
-  for (const std::uint32_t id : ids) block.push_back(blockOf(comm, static_cast<std::int64_t>(total), id));
+  for (const std::uint32_t id : ids)
+    block.push_back(blockOf(system.comm, static_cast<std::int64_t>(system.present()), placeAmong(system.gone, id)));
   return block;
 }
 
@@ -154,7 +155,7 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   const std::vector<std::uint32_t> slots = ownSlots(system);
   GrainState s;
   s.layout = system.constants.layout();
-  s.total = static_cast<std::int64_t>(system.count);
+  s.total = static_cast<std::int64_t>(system.present()), s.gone = system.gone;
   s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
   s.books = system.books.save(system.comm);
   saveFields(system.arrays, slots, s);
@@ -162,7 +163,7 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   saveTravelled(system, slots, s);
   saveBoundarySprings(system, slots, s);
   saveContacts(system, slots, s);
-  return system.comm.alone() ? s : redistribute(system.comm, s, blocksOf(system.comm, system.count, s.id));
+  return system.comm.alone() ? s : redistribute(system.comm, s, blocksOf(system, s.id));
 }
 
 GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const SnapshotOptions& options) {
@@ -184,9 +185,10 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const Snapsho
     for (const std::uint32_t i : slots) rows.contactForce.push_back(force[i]);
   }
   const base::Comm& comm = system.comm;
-  if (!comm.alone()) rows = redistributeRows(comm, rows, blocksOf(comm, system.count, rows.id));
+  if (!comm.alone()) rows = redistributeRows(comm, rows, blocksOf(system, rows.id));
   GrainSnapshot out;
-  out.first = blockStart(comm, static_cast<std::int64_t>(system.count), comm.rank()), out.total = system.count;
+  out.total = system.present(), out.id = rows.id;
+  out.first = blockStart(comm, static_cast<std::int64_t>(out.total), comm.rank());
   for (const Position& p : rows.position) out.position.push_back(system.constants.scale.toMetres(p));
   out.velocity = rows.velocity, out.spin = rows.spin, out.radius = rows.radius;
   out.fixed = rows.fixed, out.contactForce = rows.contactForce;
@@ -196,10 +198,11 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const Snapsho
 GrainCheckpoint::GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows)
     : asThen_(saved.rebuilds > 0 && saved.skin == system.constants.model.skin) {
   const auto count = static_cast<std::int64_t>(system.count);
-  if (saved.total < count || (saved.total > count && !grows) || saved.layout != system.constants.layout())
+  const std::int64_t given = saved.total + static_cast<std::int64_t>(saved.gone.size());
+  if (given < count || (given > count && !grows) || saved.layout != system.constants.layout())
     throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
                                        "resume with the scene that was run",
-                                       saved.total, count));
+                                       given, count));
   std::vector<int> owner;
   for (std::size_t k = 0; k < saved.rows(); ++k) owner.push_back(system.ownerOf(placeAtList(saved, k)));
   own_ = redistribute(system.comm, saved, owner);
@@ -212,7 +215,7 @@ Position GrainCheckpoint::placeAtList(const GrainState& s, std::size_t k) const 
 
 void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   system.finishGhostUpdate(); // else it would overwrite loaded grains with the ghosts of the old ones
-  system.count = static_cast<std::size_t>(own_.total);
+  system.count = static_cast<std::size_t>(own_.total) + own_.gone.size(), system.gone = own_.gone;
   system.fixedCount =
       static_cast<std::size_t>(system.comm.sumOf(std::count(own_.fixed.begin(), own_.fixed.end(), std::uint32_t{1})));
   system.arrays.setSlots(own_.rows());

@@ -23,6 +23,8 @@ public:
   Subdomain& subdomain() { return subdomain_; }
   /// Cuts for the next migration; local, but the same on all ranks.
   void setPartition(const Partition& partition) { subdomain_.setPartition(partition); }
+  /// Leaves the cuts where they are for a while: grains that are loaded must stay with the rank that loads them.
+  void keepCuts(std::int64_t step) { balancedAt_ = step; }
   /// Called before grains migrate, in their old slots: with the rank that the grain of each slot now belongs to
   /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after. One
   /// listener: throws std::logic_error where there is one already.

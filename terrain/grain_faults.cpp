@@ -26,7 +26,11 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
                   static_cast<double>(system.steps) * c.model.timeStep, id, found[0], found[1], found[2]);
   switch (fault) {
   case Fault::overlap:
-    throw GrainFault(fault, id, fmt::format("{} overlaps by more than {:.3g} of its radius", where, c.model.maxOverlap),
+    throw GrainFault(fault, id,
+                     fmt::format("{} overlaps another by more than {:.3g} of its radius", where, c.model.maxOverlap),
+                     "use stiffer contacts (material stiffness) or a smaller time_step");
+  case Fault::through:
+    throw GrainFault(fault, id, where + " is about to pass through what is rigid",
                      "use stiffer contacts (material stiffness) or a smaller time_step");
   case Fault::range:
     throw GrainFault(fault, id,

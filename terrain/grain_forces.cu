@@ -62,7 +62,7 @@ double forceRatio(const GrainSystem& system) {
   std::int64_t total = sum.toHost().front();
   system.comm.sum(&total, 1);
   return scale.checked(total, "changes of velocity") / weightChange /
-         static_cast<double>(std::max<std::size_t>(1, system.count - system.fixedCount));
+         static_cast<double>(std::max<std::size_t>(1, system.present() - system.fixedCount));
 }
 
 std::vector<base::Vec3f> contactForces(const GrainSystem& system) {

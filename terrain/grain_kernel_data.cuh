@@ -23,6 +23,7 @@ struct GrainKernelData {
   float unitsPerLength;                                        ///< a power of two
   float diameter, maxOverlap, maxSpeed2;
   float maxOverlapShare;   ///< of a grain's own radius, where they differ [-]
+  float maxSurfaceShare;   ///< the same with walls, floor and surfaces, whether or not they differ [-]
   base::Vec3d gravityStep; // g dt
   const Wall* walls;
   int wallCount, boundaryCount; ///< planes; planes, floor and surfaces together, in this order

@@ -23,11 +23,23 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
   using Kernel::d, Kernel::f, Kernel::has;
   using Law = contact::BasicLaw<Real>;
 
-  enum Sum { kKinetic, kRotational, kPotential, kElastic, kTouching, kAtBoundary, kMomentum, kAngular = 9, kSums = 12 };
+  enum Sum {
+    kKinetic,
+    kRotational,
+    kPotential,
+    kElastic,
+    kTouching,
+    kAtBoundary,
+    kMomentum,
+    kAngular = kMomentum + 3,
+    kSqueezedPairs = kAngular + 3,
+    kSqueezedAtBoundary,
+    kSums
+  };
   static constexpr int kBanks = 64; // so that threads rarely add to the same sums at a time
 
   base::FixedPoint energy, momentum, angular;
-  base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching twice
+  base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching and squeezed pairs twice
   /// Complements of the deepest overlap [units] and the largest speed [um/s]; the first sum that a grain's share is too
   /// large for.
   std::uint64_t* extremes;
@@ -35,7 +47,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
 
   struct Held {
     double elastic = 0, deepest = 0;
-    std::int64_t touching = 0, boundary = 0;
+    std::int64_t touching = 0, boundary = 0, squeezed = 0, squeezedAtBoundary = 0;
   };
 
   GROUSER_HD void operator()(int i) const {
@@ -72,6 +84,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     share[kPotential] = energy.quantise(-m * dot(gravity, way));
     share[kElastic] = energy.quantise(held.elastic);
     share[kTouching] = held.touching, share[kAtBoundary] = held.boundary;
+    share[kSqueezedPairs] = held.squeezed, share[kSqueezedAtBoundary] = held.squeezedAtBoundary;
     const Vec3d turning = cross(way, v) * m + w * inertia;
     for (int a = 0; a < 3; ++a) {
       share[kMomentum + a] = momentum.quantise(m * v[a]);
@@ -108,6 +121,7 @@ private:
           (alone ? 1 : 0.5) * stored(law, overlap, ri * rj / (ri + rj), alone ? mi : mi * mj / (mi + mj), history);
       held.deepest = overlap > held.deepest ? overlap : held.deepest;
       held.touching += alone ? 2 : 1;
+      if (overlap > contact::kSqueezed * (ri < rj ? ri : rj)) held.squeezed += alone ? 2 : 1;
     }
   }
 
@@ -125,6 +139,7 @@ private:
                              static_cast<double>(size.mass), history);
       held.deepest = overlap > held.deepest ? overlap : held.deepest;
       ++held.boundary;
+      if (overlap > contact::kSqueezed * radius) ++held.squeezedAtBoundary;
     }
   }
 
@@ -234,6 +249,8 @@ GrainLedger measureLedger(GrainSystem& system) {
   ledger.potential = q[Sums::kPotential] * energy.quantum, ledger.elastic = q[Sums::kElastic] * energy.quantum;
   ledger.contacts = static_cast<std::int64_t>(q[Sums::kTouching]) / 2;
   ledger.boundaryContacts = static_cast<std::int64_t>(q[Sums::kAtBoundary]);
+  ledger.squeezed = static_cast<std::int64_t>(q[Sums::kSqueezedPairs]) / 2;
+  ledger.squeezedAtBoundaries = static_cast<std::int64_t>(q[Sums::kSqueezedAtBoundary]);
   for (int a = 0; a < 3; ++a) {
     const auto axis = static_cast<std::size_t>(a);
     ledger.momentum[a] = q[Sums::kMomentum + axis] * momentum.quantum;

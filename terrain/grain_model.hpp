@@ -55,10 +55,12 @@ struct GrainModel {
   contact::ContactLaw law;      ///< grain on grain
   contact::ContactLaw floorLaw; ///< grain on the height-field floor, where there is one
   double skin{0.3};             ///< of the neighbour list, as a share of the smallest grain's radius [-]
-  double maxOverlap{0.2};       ///< as a share of the grain's radius [-]; more stops the run
-  bool fixedGrains{false};      ///< whether some grains are fixed: those at the start say so too
-  bool ledger{true};            ///< whether books are kept of work and what is dissipated
-  GrainMaterials materials;     ///< instead of law, floorLaw and the walls' laws where grains are of several
+  double maxOverlap{0.5};       ///< of two grains, as a share of either's radius [-]; more stops the run
+  double maxSurfaceOverlap{0.8}; ///< the same with walls, floor and surfaces; with parts it is 1
+  double maxEntryOverlap{0.2};   ///< of grains that enter [-]
+  bool fixedGrains{false};       ///< whether some grains are fixed: those at the start say so too
+  bool ledger{true};             ///< whether books are kept of work and what is dissipated
+  GrainMaterials materials;      ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};
   bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
   int mostSimdLanes{16};  ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
@@ -82,6 +84,8 @@ struct GrainLedger {
   base::Vec3d impulse, angularImpulse; ///< by gravity, walls and floor [N s], [N m s about the origin]
   std::int64_t contacts{};             ///< pairs of grains in touch
   std::int64_t boundaryContacts{};     ///< grains in touch with walls, floor and surfaces
+  std::int64_t squeezed{};             ///< pairs of grains deeper than contact::kSqueezed
+  std::int64_t squeezedAtBoundaries{}; ///< the same with walls, floor and surfaces
   double deepestOverlap{};             ///< [m]
   double fastest{};                    ///< [m/s]
 };

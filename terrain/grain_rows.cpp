@@ -5,6 +5,7 @@
 #include "terrain/row_exchange.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace grouser::terrain {
 
@@ -46,8 +47,59 @@ std::vector<std::uint32_t> GrainState::words() const {
 
 GrainState GrainState::withoutRows() const {
   GrainState out;
-  out.layout = layout, out.total = total, out.skin = skin, out.rebuilds = rebuilds, out.books = books;
+  out.layout = layout, out.total = total, out.gone = gone, out.skin = skin, out.rebuilds = rebuilds, out.books = books;
   return out;
+}
+
+void GrainState::remove(const std::vector<std::uint32_t>& ids) {
+  const auto isOne = [&ids](std::uint32_t which) { return std::binary_search(ids.begin(), ids.end(), which); };
+  GrainState kept = withoutRows();
+  RowCursor at;
+  std::vector<std::uint32_t> words;
+  for (; at.row < rows(); ++at.row) {
+    words.clear();
+    RowPacker packer(at, words);
+    visitRow(*this, packer);
+    if (isOne(id[at.row])) continue;
+    kept.id.push_back(id[at.row]);
+    RowReader reader(words.data());
+    visitRow(kept, reader);
+  }
+  // Of the contacts those that are left.
+  std::size_t from = 0, to = 0;
+  for (std::uint32_t& count : kept.contacts) {
+    std::uint32_t left = 0;
+    for (std::uint32_t k = 0; k < count; ++k, ++from) {
+      if (isOne(kept.neighbour[from])) continue;
+      kept.neighbour[to] = kept.neighbour[from];
+      if (layout.friction) kept.contactShear[to] = kept.contactShear[from];
+      if (layout.rolling) kept.contactRolling[to] = kept.contactRolling[from];
+      ++to, ++left;
+    }
+    count = left;
+  }
+  kept.neighbour.resize(to);
+  if (layout.friction) kept.contactShear.resize(to);
+  if (layout.rolling) kept.contactRolling.resize(to);
+  kept.gone.insert(kept.gone.end(), ids.begin(), ids.end());
+  std::sort(kept.gone.begin(), kept.gone.end());
+  kept.total -= static_cast<std::int64_t>(ids.size());
+  *this = std::move(kept);
+}
+
+std::uint32_t placeAmong(const std::vector<std::uint32_t>& gone, std::uint32_t id) {
+  return id - static_cast<std::uint32_t>(std::lower_bound(gone.begin(), gone.end(), id) - gone.begin());
+}
+
+std::vector<std::uint32_t> idsFrom(const std::vector<std::uint32_t>& gone, std::uint64_t first, std::size_t count) {
+  std::vector<std::uint32_t> ids;
+  // The id at a place is the place and as many more as are gone before that id.
+  std::uint64_t before = 0;
+  for (std::uint64_t place = first; ids.size() < count; ++place) {
+    while (before < gone.size() && gone[before] <= place + before) ++before;
+    ids.push_back(static_cast<std::uint32_t>(place + before));
+  }
+  return ids;
 }
 
 GrainState redistribute(const base::Comm& comm, const GrainState& rows, const std::vector<int>& destination) {

@@ -30,7 +30,8 @@ struct GrainLayout {
 /// each has some of the rows; on one, all.
 struct GrainState {
   GrainLayout layout;
-  std::int64_t total{};                    ///< grains of the scene
+  std::int64_t total{};                    ///< grains of the scene that are there
+  std::vector<std::uint32_t> gone;         ///< ids of those that were taken out, ascending; on all ranks the same
   std::vector<std::uint32_t> id;           ///< [rows], ascending
   std::vector<base::Position> position;    ///< [rows]
   std::vector<base::Vec3f> velocity;       ///< [rows] [m/s]
@@ -59,6 +60,8 @@ struct GrainState {
   /// For the hash: what the next step depends on, grain by grain.
   std::vector<std::uint32_t> words() const;
   GrainState withoutRows() const;
+  /// Takes grains out, and the contacts of others with them; `ids` ascend, and are of all ranks.
+  void remove(const std::vector<std::uint32_t>& ids);
 
   // All columns but `id`, twice: in the order of the state hash and in that of files, neither of which may change.
 
@@ -94,7 +97,8 @@ struct GrainState {
 
 /// The grains of a scene on the host, by id, for output: all of them, or on several ranks this rank's block of ids.
 struct GrainSnapshot {
-  std::uint64_t first{}, total{};    ///< id of the first; grains of the scene
+  std::uint64_t first{}, total{};    ///< place of the first among them; grains of the scene that are there
+  std::vector<std::uint32_t> id;     ///< ascending
   std::vector<base::Vec3d> position; ///< [m]
   std::vector<base::Vec3f> velocity; ///< [m/s]
   std::vector<base::Vec3f> spin;     ///< [rad/s]
@@ -116,6 +120,10 @@ GrainState redistribute(const base::Comm& comm, const GrainState& rows, const st
 base::StateHash hashOf(const GrainState& rows, const base::Comm& comm);
 /// The rank that holds grain `id` of `total` where rows are distributed by id, in blocks: for files.
 int blockOf(const base::Comm& comm, std::int64_t total, std::uint32_t id);
+/// Place of a grain among those that are there, by id.
+std::uint32_t placeAmong(const std::vector<std::uint32_t>& gone, std::uint32_t id);
+/// Ids of `count` grains that are there, from the place `first` among them on.
+std::vector<std::uint32_t> idsFrom(const std::vector<std::uint32_t>& gone, std::uint64_t first, std::size_t count);
 /// First id of a rank's block; that of rank `size` is `total`.
 std::uint64_t blockStart(const base::Comm& comm, std::int64_t total, int rank);
 

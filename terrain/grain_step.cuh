@@ -68,7 +68,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
     if (has(kFixed) && sum.held.any) bookHeld(i, p, sum.held);
-    if (has(kBoundaries)) addBoundaries(i, sum);
+    if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque, sum);
@@ -217,9 +217,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     addLoads(i, size, force, torque, sum);
     bookHeld(i, p, {(-force).template as<Real>(), (-torque).template as<Real>()});
-    const float most = has(kManyRadii) ? d.maxOverlapShare * static_cast<float>(size.radius) : d.maxOverlap;
-    if (sum.deepest > most)
-      base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(Fault::overlap) << 56 | d.id[i]);
+    if (sum.deepest >= kThrough)
+      base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(Fault::through) << 56 | d.id[i]);
   }
 
   /// Impulses of what never moves are booked as those of walls. Few grains have any.
@@ -232,13 +231,13 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     addToBank(d.books, i / 32, books);
   }
 
-  GROUSER_HD void addBoundaries(int i, Sum& sum) const {
+  GROUSER_HD void addBoundaries(int i, const GrainSize<Real>& size, Sum& sum) const {
     const std::uint32_t place = d.boundaryOf[i];
     if (place == 0) return;
     const BoundaryLoad<Real>& load = f.boundaryLoads[place - 1];
     sum.force += load.force;
     sum.torque += load.torque;
-    if (static_cast<float>(load.deepest) > sum.deepest) sum.deepest = static_cast<float>(load.deepest);
+    if (static_cast<float>(load.deepest) > d.maxSurfaceShare * static_cast<float>(size.radius)) sum.deepest = kThrough;
   }
 
   /// Moving surfaces receive exactly the opposite.
@@ -259,7 +258,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       torque += load.torque.template as<double>();
       // Stones do get caught between tooth and track: a part may press a grain deeper than grains may press each other,
       // but not to its middle.
-      if (load.deepest > static_cast<float>(size.radius)) sum.deepest = load.deepest;
+      if (load.deepest > static_cast<float>(size.radius)) sum.deepest = kThrough;
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
@@ -352,7 +351,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     else if (!inside)
       fault = Fault::range;
     else if (deepest > maxOverlap)
-      fault = Fault::overlap;
+      fault = deepest < kThrough ? Fault::overlap : Fault::through;
     else if (speed2 > d.maxSpeed2)
       fault = Fault::speed;
     if (fault != Fault::none) base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);

@@ -64,6 +64,7 @@ GrainKernelData GrainSystem::kernelData() {
   d.unitsPerSpeed = dt * constants.scale.perMetre;
   d.maxOverlap = static_cast<float>(model.maxOverlap * r);
   d.maxOverlapShare = static_cast<float>(model.maxOverlap);
+  d.maxSurfaceShare = static_cast<float>(model.maxSurfaceOverlap);
   const double maxSpeed = 0.5 * model.skin * constants.smallestRadius / dt;
   d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
   d.gravityStep = model.gravity * dt;

@@ -26,10 +26,12 @@ struct GrainSystem {
   GrainBoundaries boundaries;
   contact::NeighbourList neighbours;
   std::unique_ptr<GrainDistribution> distribution; ///< null on one rank
-  std::size_t count;                               ///< grains of the scene
+  std::size_t count;                               ///< ids given so far
+  std::vector<std::uint32_t> gone;                 ///< those of grains that were taken out, ascending
   std::size_t fixedCount{0};                       ///< those of them that never move
   std::int64_t steps{0}, rebuilds{0};              ///< steps taken; neighbour lists made
 
+  std::size_t present() const { return count - gone.size(); } ///< grains of the scene that are there
   /// By slot: not 0 for ghosts; null where there are none.
   const std::uint32_t* ghosts() const { return distribution ? distribution->subdomain().ghostMarks() : nullptr; }
   /// The same on the host, zeros where there are none.

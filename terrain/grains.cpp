@@ -111,8 +111,10 @@ GrainState Grains::state() const { return GrainCheckpoint::state(system_); }
 void Grains::restore(const GrainState& saved, bool grows) {
   const GrainCheckpoint checkpoint(saved, system_, grows);
   checkpoint.loadAsListed(system_);
+  if (system_.distribution) system_.distribution->keepCuts(system_.steps);
   invalidateNeighbours();
   refreshNeighbours();
+  slotsChanged_ = true; // for whoever relies on slots, too
   if (!checkpoint.loadAsSaved(system_)) invalidateNeighbours();
 }
 

@@ -19,7 +19,7 @@ public:
   Grains(const base::Exec& exec, const GrainModel& model, const Boundaries& boundaries,
          const std::vector<GrainSpec>& start, const PartitionOptions& partition = {});
 
-  std::size_t count() const { return system_.count; } ///< of the scene; local
+  std::size_t count() const { return system_.present(); } ///< of the scene, that are there; local
   const GrainModel& model() const { return system_.constants.model; }
   const base::PositionScale& scale() const { return system_.constants.scale; }
   /// What the grains consist of, to read: constants, fields, boundaries, neighbours as last listed. Local.

@@ -61,7 +61,7 @@ double radiusOf(const GrainSpec& grain, const GrainConstants& c) {
 std::optional<InsertionOverlap> overlapWithSurface(const std::vector<GrainSpec>& entering, const GrainSystem& system) {
   for (std::size_t k = 0; k < entering.size(); ++k) {
     const double radius = radiusOf(entering[k], system.constants);
-    const double allowed = system.constants.model.maxOverlap * radius;
+    const double allowed = system.constants.model.maxEntryOverlap * radius;
     if (const auto overlap = system.boundaries.overlapOf(entering[k].position, radius, allowed))
       return InsertionOverlap{k, overlap->depth, {}, {}, overlap->surface};
   }
@@ -92,7 +92,7 @@ std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::
                                      c.period, device.data(), static_cast<std::int64_t>(all.size()),
                                      scale.fromMetres((low + high) * 0.5), reach * scale.perMetre * (1 + 1e-6),
                                      c.manyRadii() ? 0.0 : c.model.radius * scale.perMetre, scale.perMetre,
-                                     c.model.maxOverlap, deepest.data()});
+                                     c.model.maxEntryOverlap, deepest.data()});
   std::uint64_t key = deepest.toHost().front();
   system.comm.minimum(&key, 1);
   return key;

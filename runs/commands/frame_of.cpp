@@ -47,8 +47,8 @@ void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contact
   if (contactForces && !known) s.contactForce.assign(s.position.size(), {kNone, kNone, kNone});
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     frame.positions.push_back(s.position[i].as<float>());
-    frame.ids.push_back(static_cast<std::uint32_t>(s.first + i));
   }
+  frame.ids = std::move(s.id);
   frame.velocities = std::move(s.velocity), frame.contactForces = std::move(s.contactForce);
   frame.borders = bordersOf(grains);
   frame.withFixed = grains.system().constants.has(terrain::kFixed);

@@ -172,6 +172,10 @@ std::string switches(const scene::Scene& scene) {
   text += surfacesLine(scene);
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
+  const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilMeets == scene::SoilMeets::shoes;
+  text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_meets = \"shoes\"" : "");
+  text +=
+      onOff(setup::crushes(scene), "crushing grains", setup::crushes(scene) ? "against parts" : "no crushing_strength");
   const scene::MechanismSections& m = scene.mechanism;
   text += onOff(!m.empty(), "mechanism",
                 m.empty() ? "no [[body]]" : output::integratorText(setup::solverOptions(scene.run)));

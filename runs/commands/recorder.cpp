@@ -86,6 +86,7 @@ void setLedgerRow(output::RowBuilder& row, const simulation::Ledger& l, bool tou
   row.set("ledger/dissipated_damping", l.dissipated.damping);
   row.set("ledger/dissipated_friction", l.dissipated.friction);
   row.set("ledger/dissipated_rolling", l.dissipated.rolling);
+  row.set("ledger/dissipated_crushing", l.dissipated.crushing);
   row.set("ledger/dissipated_parts", l.dissipated.parts);
   row.set("ledger/dissipated_joints", l.dissipated.joints);
   row.set("ledger/integration_error", l.integrationError);
@@ -163,6 +164,7 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
   const setup::SimulationSetup& setup = simulation_.setup();
   if (const simulation::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
+    if (simulation_.ground().grains) writer_.fact("soil_meets", setup.vehicle->soilMeetsShoesAlone ? "shoes" : "all");
     writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
     writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
     if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);
@@ -175,6 +177,11 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
                         output::surfaceMesh(setup.planes, surfaces->surface(i))});
   ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(setup.planes);
   writer_.setParts(parts_, ground_);
+  std::vector<std::string> names;
+  for (const output::FramePart& part : parts_) names.push_back(part.name);
+  if (simulation_.ground().grains) writer_.namesOfParts(names);
+  squeezed_ = SqueezedRecord(channels_, names);
+  for (const output::Row& row : writer_.formerRows()) squeezed_.add(row);
   if (const auto& grains = simulation_.ground().grains;
       grains && output::GrainsCsv::isWanted(setup, static_cast<std::int64_t>(grains->count())))
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
@@ -189,6 +196,15 @@ void Recorder::row() {
     row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
     row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
     row_.set("terrain/max_speed", l.fastestGrain);
+    row_.set("terrain/capped", static_cast<double>(l.cappedNow)), row_.set("terrain/cut_impulse", l.cutImpulse);
+    row_.set("terrain/crushed", simulation_.takenOut().grains);
+    row_.set("terrain/squeezed", static_cast<double>(l.squeezedPairs));
+    row_.set("terrain/squeezed_at_boundaries", static_cast<double>(l.squeezedAtBoundaries));
+    row_.set("terrain/squeezed_by_parts", static_cast<double>(l.squeezedByParts));
+    if (const auto most = simulation_.pressedMost()) {
+      row_.set("terrain/part_overlap", most->share);
+      row_.set("terrain/part_overlap_by", most->part);
+    }
     row_.set("terrain/rebuilds", static_cast<double>(grains->system().rebuilds));
   }
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
@@ -203,6 +219,7 @@ void Recorder::row() {
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
   setLedgerRow(row_, l, !simulation_.mechanism());
   writer_.row(row_.row());
+  squeezed_.add(row_.row());
   if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
   simulation_.restartMeans();
 }
@@ -224,9 +241,10 @@ void Recorder::lastFrame() {
 output::Frame Recorder::currentFrame() const {
   output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
-  // Forces are those of the last step: before the first there are none.
+  // Forces are those of the last step: before the first there are none, nor where grains were taken out after it.
   if (const auto& grains = simulation_.ground().grains)
-    addGrains(frame, *grains, simulation_.setup().output.contactForces, simulation_.steps() > begunAt_);
+    addGrains(frame, *grains, simulation_.setup().output.contactForces,
+              simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerVelocities());
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())

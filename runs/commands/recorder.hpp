@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/commands/run_request.hpp"
+#include "runs/commands/squeezed_record.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/grains_csv.hpp"
 #include "runs/output/output.hpp"
@@ -30,6 +31,7 @@ public:
   void picture(int width);
 
   output::RunWriter& writer() { return writer_; }
+  const SqueezedRecord& squeezed() const { return squeezed_; } ///< of all rows so far
 
 private:
   void begin(const RunRequest& options, const simulation::Checkpoint* former);
@@ -42,6 +44,7 @@ private:
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;
+  SqueezedRecord squeezed_;
   std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
   std::optional<output::GrainsCsv> grainsCsv_;
 };

@@ -129,6 +129,10 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->parts().totalSpheres(), rig->parts().setFigures().size());
+    if (simulation.ground().grains && simulation.setup().vehicle->soilMeetsShoesAlone)
+      fmt::print(
+          "soil      meets the shoes alone (vehicle.soil_meets): wheels, sprocket, rollers and idler pass through "
+          "it\n");
   }
   if (const simulation::Mechanism* mechanism = simulation.mechanism())
     fmt::print("{}", output::mechanismSize(*mechanism));
@@ -315,6 +319,39 @@ void describeDrive(const simulation::Simulation& simulation, output::Summary& su
                                                   : "the vehicle was not at rest before the end; raise run.duration");
 }
 
+/// Share of weight x time that crushing may cut off before its loads say little [-].
+constexpr double kSuspect = 0.01;
+
+/// Grains that are squeezed or crush do not end a run; they are shown.
+void describeSqueezed(simulation::Simulation& simulation, Recorder& recorder, output::Summary& summary) {
+  if (simulation.setup().crushes()) {
+    const double cut = simulation.ledger().cutImpulse;
+    std::string share;
+    if (const simulation::VehicleRig* rig = simulation.vehicle()) {
+      const double of = cut / (rig->assembly().mass * norm(simulation.setup().gravity) * simulation.time());
+      share = fmt::format(", {:.3g} % of weight x time{}", 100 * of,
+                          of > kSuspect ? ": the run is suspect; take larger or stronger grains" : "");
+      summary.figures["crushing_cut_over_weight"] = of;
+    }
+    fmt::print("crushing  has cut off {:.4g} N s{}\n", cut, share);
+    summary.figures["crushing_cut_impulse"] = cut;
+    const simulation::TakenOut& gone = simulation.takenOut();
+    if (gone.grains > 0)
+      fmt::print("crushed   {:g} grains of {:.4g} kg, taken out with {:.4g} J and ({:.2g}, {:.2g}, {:.2g}) N s\n",
+                 gone.grains, gone.mass, gone.energy, gone.momentum.x, gone.momentum.y, gone.momentum.z);
+    summary.figures["crushed_grains"] = gone.grains, summary.figures["crushed_mass_kg"] = gone.mass;
+    summary.figures["crushed_energy_J"] = gone.energy;
+  }
+  const SqueezedRecord& squeezed = recorder.squeezed();
+  const std::string text = squeezed.text();
+  if (text.empty()) return;
+  fmt::print("{}", text);
+  summary.figures["squeezed_pairs_most"] = squeezed.pairs;
+  summary.figures["squeezed_at_boundaries_most"] = squeezed.atBoundaries;
+  summary.figures["squeezed_by_parts_most"] = squeezed.byParts;
+  if (squeezed.share > 0) recorder.writer().fact("deepest_in_a_part", squeezed.deepest());
+}
+
 /// Prints the run's energies and momenta, and what finite steps and rounding have made of them.
 void describeLedger(simulation::Simulation& simulation) {
   const simulation::Ledger l = simulation.ledger();
@@ -326,6 +363,7 @@ void describeLedger(simulation::Simulation& simulation) {
   for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
                                     {"friction", d.friction},
                                     {"rolling", d.rolling},
+                                    {"crushing", d.crushing},
                                     {"parts", d.parts},
                                     {"joints", d.joints}})
     if (loss != 0) causes += fmt::format("{}{} {:.4g}", causes.empty() ? "" : ", ", cause, loss);
@@ -418,6 +456,7 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
     describeLedger(simulation);
+    describeSqueezed(simulation, recorder, summary);
     fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step), {:.1f} s of CPU "
                "time\n",
                prepared, drove, simulation.steps() - begin, setup.timeStep, summary.figures["microseconds_a_step"],

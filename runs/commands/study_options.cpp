@@ -4,6 +4,7 @@
 #include "runs/studies/cases.hpp"
 #include "runs/studies/multibody_command.hpp"
 #include "runs/studies/options.hpp"
+#include "runs/studies/soil_options.hpp"
 #include "runs/support/option_checks.hpp"
 
 #include <memory>
@@ -31,7 +32,9 @@ void addStudy(CLI::App& app, const Invocation&) {
   multibody->callback([command] { studies::studyMultibodyCommand(*command); });
   const auto grains = std::make_shared<studies::GrainStudies>();
   studies::addGrainStudies(*study, *grains);
-  study->callback([grains] {}); // keeps alive what those fill
+  const auto soils = std::make_shared<studies::SoilStudies>();
+  studies::addSoilStudies(*study, *soils);
+  study->callback([grains, soils] {}); // keeps alive what those fill
 }
 
 } // namespace grouser::commands

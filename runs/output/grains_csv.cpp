@@ -65,6 +65,7 @@ GrainsCsv::GrainsCsv(const fs::path& folder, std::optional<std::int64_t> kept, c
 
 void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grains) {
   const terrain::GrainSnapshot mine = grains.snapshot();
+  const auto id = onFirst(mine.id, comm_);
   const auto position = onFirst(mine.position, comm_);
   const auto velocity = onFirst(mine.velocity, comm_), spin = onFirst(mine.spin, comm_);
   const auto radius = onFirst(mine.radius, comm_); // empty where all are alike
@@ -72,8 +73,8 @@ void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grain
   for (std::size_t i = 0; i < position.size(); ++i) {
     const auto& p = position[i];
     const auto &v = velocity[i], &w = spin[i];
-    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", step, time, i, p.x, p.y, p.z, v.x, v.y, v.z, w.x,
-                         w.y, w.z, radius.empty() ? grains.model().radius : static_cast<double>(radius[i]));
+    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", step, time, id[i], p.x, p.y, p.z, v.x, v.y, v.z,
+                         w.x, w.y, w.z, radius.empty() ? grains.model().radius : static_cast<double>(radius[i]));
   }
   file_.flush();
   check();

@@ -266,6 +266,20 @@ void RunWriter::constant(const std::string& path, const std::string& unit, doubl
   impl_->series->results.attribute("/" + path, "unit", unit);
 }
 
+void RunWriter::fact(const std::string& key, const std::string& text) {
+  if (!impl_->series) return;
+  impl_->series->results.attribute("/", key, text);
+  impl_->series->manifest.note(key, text);
+}
+
+void RunWriter::namesOfParts(const std::vector<std::string>& names) {
+  if (impl_->series && !names.empty()) impl_->series->results.attribute("/", "parts", names);
+}
+
+std::vector<Row> RunWriter::formerRows() const {
+  return impl_->options.former ? impl_->options.former->rows : std::vector<Row>{};
+}
+
 void RunWriter::surface(const UndisturbedSurface& surface) {
   if (!impl_->series) return;
   support::Hdf5File& file = impl_->series->results;

@@ -56,6 +56,11 @@ public:
   /// A constant of the run in results.h5, e.g. "vehicle/pitch_radius" [m].
   void constant(const std::string& path, const std::string& unit, double value);
 
+  /// A fact of the run, in manifest.json and as an attribute of results.h5.
+  void fact(const std::string& key, const std::string& text);
+  /// The names of parts that rows speak of by their places, as an attribute of results.h5.
+  void namesOfParts(const std::vector<std::string>& names);
+
   /// The undisturbed surface that sinkage is measured from, in results.h5: terrain/surface/{x, y, height}.
   void surface(const UndisturbedSurface& surface);
 
@@ -75,6 +80,8 @@ public:
   /// Instead of finish: the run was stopped and may be resumed.
   void stop(const std::string& reason);
 
+  /// That were kept of a former run; of the first rank.
+  std::vector<Row> formerRows() const;
   std::int64_t rows() const;   ///< written so far, former ones among them
   std::int64_t frames() const; ///< the same
   /// Step of the last row that was kept of a former run; -1: none was. Of the first rank.

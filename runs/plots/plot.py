@@ -29,6 +29,8 @@ def main():
         for name in names:
             figure = PLOTS[name](run)
             if figure is not None:
+                if run.text("soil_meets") not in ("", "all"):
+                    figure.text(0.995, 0.003, f"soil meets {run.text('soil_meets')} alone", fontsize=7, ha="right")
                 figure.savefig(pathlib.Path(folder) / f"{name}.png", dpi=150)
 
 

@@ -19,6 +19,11 @@ class Run:
         values = item["value"][:] if "value" in item else item[:]
         return values[: len(self.time)] if "value" in item else float(values[0])
 
+    def text(self, name):
+        """A fact of the run; "" where it has none of this name."""
+        value = self._file.attrs.get(name, "")
+        return value.decode() if isinstance(value, bytes) else str(value)
+
     def field(self, path):
         """What is no series: all of it."""
         return self._file[path][:] if path in self._file else None

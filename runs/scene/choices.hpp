@@ -32,6 +32,12 @@ enum class Arrangement { random, lattice };
 /// Of [vehicle]: whether the chassis moves, or is held as on a bench.
 enum class ChassisMount { free, fixed };
 
+/// Of [vehicle]: the parts that soil meets.
+enum class SoilMeets {
+  all,  ///< every part but the hull
+  shoes ///< nothing of the inner running gear: no wheel, sprocket, idler or roller
+};
+
 /// Of the world.
 enum class Axis { x, y, z };
 
@@ -61,6 +67,10 @@ template <> struct EnumWords<scene::Arrangement> {
 template <> struct EnumWords<scene::ChassisMount> {
   using E = scene::ChassisMount;
   static constexpr EnumWord<E> list[] = {{E::free, "free"}, {E::fixed, "fixed"}};
+};
+template <> struct EnumWords<scene::SoilMeets> {
+  using E = scene::SoilMeets;
+  static constexpr EnumWord<E> list[] = {{E::all, "all"}, {E::shoes, "shoes"}};
 };
 template <> struct EnumWords<scene::Axis> {
   using E = scene::Axis;

@@ -74,6 +74,11 @@ Table<Material> materialTable() {
         "R_eff (DMT); 0 leaves it out")
       .atLeast(0)
       .atMost(1e6);
+  t.add("crushing_strength", &S::crushingStrength, "Pa",
+        "sigma_f of the grains: against parts of a vehicle and meshes their normal force is at most sigma_f d^2 (d: "
+        "diameter), beyond which they crush (docs/crushing.md); without it they do not")
+      .above(0)
+      .atMost(1e13);
   return t;
 }
 

@@ -78,9 +78,12 @@ Table<RunSettings> runTable() {
       .atMost(1e-3)
       .orWord("auto");
   t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);
-  t.add("max_overlap", &S::maxOverlap, "-", "overlap in grain radii beyond which the run stops as unsound")
+  t.add("max_overlap", &S::maxOverlap, "-",
+        "overlap in grain radii beyond which the run stops as unsound; \"auto\": 0.5 between grains, 0.8 at planes, "
+        "floor and surfaces, 0.2 where grains enter; at parts and meshes always 1, where a grain passes through")
       .above(0)
-      .atMost(1);
+      .atMost(1)
+      .orWord("auto");
   t.add("periodic", &S::periodic, "",
         "whether boundaries along x, y are periodic: grains that leave through one enter through the opposite one");
   t.add("domain_x", &S::domainX, "m",

@@ -55,11 +55,13 @@ struct RunSettings {
   multibody::Integrator integrator = multibody::Integrator::kRattle;
   int integratorOrder = 2; ///< 2, 4, 6, 8
   multibody::Springs springs = multibody::Springs::kImplicit;
-  std::optional<double> constraintTolerance;  ///< [m], [rad] to which joints are closed; empty: the solver's own
-  double skin = 0.3;                          ///< [-] of a grain's radius
-  double maxOverlap = 0.2;                    ///< [-] of a grain's radius; beyond it the run stops
-  std::array<bool, 2> periodic{false, false}; ///< x, y
+  std::optional<double> constraintTolerance; ///< [m], [rad] to which joints are closed; empty: the solver's own
+  double skin = 0.3;                         ///< [-] of a grain's radius
+  std::optional<double> maxOverlap; ///< [-] of a grain's radius; beyond it the run stops; empty: as GrainModel has it
+  std::array<bool, 2> periodic{false, false};            ///< x, y
   std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
+  /// [-] of a grain's radius, at most where it is set into the scene, and under its own weight.
+  double entryOverlap() const { return maxOverlap.value_or(terrain::GrainModel{}.maxEntryOverlap); }
   bool operator==(const RunSettings&) const = default;
 };
 
@@ -84,7 +86,8 @@ struct Material {
   std::optional<double> tangentialDampingRatio;
   double rollingFriction = 0;
   double rollingDampingRatio = 0.3;
-  double cohesion = 0; ///< [J/m2] energy of adhesion
+  double cohesion = 0;                    ///< [J/m2] energy of adhesion
+  std::optional<double> crushingStrength; ///< [Pa] of its grains against parts; empty: they do not crush
   bool operator==(const Material&) const = default;
 };
 
@@ -189,6 +192,7 @@ struct Vehicle {
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   ChassisMount chassis = ChassisMount::free;
+  SoilMeets soilMeets = SoilMeets::all; ///< which parts grains touch
   bool operator==(const Vehicle&) const = default;
 };
 

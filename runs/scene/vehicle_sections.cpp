@@ -37,6 +37,10 @@ Table<Vehicle> vehicleTable() {
         "of the parts against grains; where not given they are of the grains' own material, but with friction_ground "
         "of the vehicle file; on rigid ground all contact data are the vehicle file's");
   t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
+  t.add(
+      "soil_meets", &S::soilMeets, "",
+      "parts that grains touch: all but the hull, or the shoes alone, so that no grain is pinched by sprocket, wheels, "
+      "rollers or idler, which pass through those that lie on the track; named in all results");
   return t;
 }
 

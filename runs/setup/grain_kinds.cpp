@@ -41,4 +41,11 @@ GrainKinds grainKinds(const scene::Scene& scene) {
   return kinds;
 }
 
+bool crushes(const scene::Scene& scene) {
+  if (!scene.vehicle && scene.meshes.empty()) return false;
+  const std::vector<std::string> all = grainKinds(scene).material;
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& name) { return scene.material(name).crushingStrength.has_value(); });
+}
+
 } // namespace grouser::setup

@@ -26,6 +26,8 @@ struct GrainKinds {
   int indexOf(const std::string& name) const;
 };
 GrainKinds grainKinds(const scene::Scene& scene);
+/// Whether grains crush against parts of a vehicle or meshes.
+bool crushes(const scene::Scene& scene);
 
 /// The single grains and those of blocks, in the order of the file: their place is their id. Reads the files that
 /// blocks name. Throws InputError: no room for all, a broken line.

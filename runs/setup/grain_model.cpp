@@ -60,7 +60,9 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.timeStep = timeStep;
   model.gravity = scene.run.gravity;
   model.skin = scene.run.skin;
-  model.maxOverlap = scene.run.maxOverlap;
+  model.maxOverlap = scene.run.maxOverlap.value_or(model.maxOverlap);
+  model.maxSurfaceOverlap = scene.run.maxOverlap.value_or(model.maxSurfaceOverlap);
+  model.maxEntryOverlap = scene.run.entryOverlap();
   model.precision = scene.run.precision;
   model.fixedGrains =
       (scene.terrain && scene.terrain->granular() && scene.terrain->floorGrains) ||

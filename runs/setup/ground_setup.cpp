@@ -223,6 +223,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
     if (specFriction) law.friction = *specFriction;
     all.laws.push_back(law);
     all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));
+    all.crushing.push_back(scene.material(soil).crushingStrength.value_or(0));
   }
   return all;
 }

@@ -43,6 +43,10 @@ struct SimulationSetup {
   RunSetup run;
   OutputSetup output;
   DrawnPlanes planes;
+
+  bool crushes() const {
+    return ground.grains && ground.grains->partLaws.crush();
+  } ///< whether grains do, against parts
 };
 
 /// Compiles a scene for a run on `ranks` ranks. Throws InputError with the place of what is not possible.

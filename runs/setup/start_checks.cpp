@@ -118,11 +118,11 @@ private:
   }
 
   /// `radius`: of the smaller one [m].
-  bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.maxOverlap * radius; }
+  bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.entryOverlap() * radius; }
 
   [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
-    const std::string how = fmt::format("overlaps {} by {:.3g} m, more than run.max_overlap = {:g} of its radius", with,
-                                        overlap, scene_.run.maxOverlap);
+    const std::string how = fmt::format("overlaps {} by {:.3g} m, more than {:g} of its radius (run.max_overlap)", with,
+                                        overlap, scene_.run.entryOverlap());
     if (ball.setter == Setter::grain)
       scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
     if (ball.setter == Setter::grains)

@@ -188,7 +188,7 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
 /// Throws where a grain at rest sinks deeper than a run may bear: contacts so soft hold nothing up, last longer than
 /// runs do, and their energies have no scale in common with those of gravity.
 void checkSoftness(const scene::Scene& scene) {
-  const double gravity = norm(scene.run.gravity), most = scene.run.maxOverlap;
+  const double gravity = norm(scene.run.gravity), most = scene.run.entryOverlap();
   if (gravity == 0) return;
   for (const GrainContact& c : grainContacts(scene, Of::largest)) {
     const double sinks = sinksBy(c.law, c.mass * gravity, c.effectiveRadius) / c.radius;

@@ -31,6 +31,7 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
   setup.sphereRadius = v.sphereRadius;
+  setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
   setup.driver = driverOptions(scene.driver);
   // What hangs or weighs nothing presses on no ground.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();

@@ -15,10 +15,11 @@ namespace grouser::setup {
 struct VehicleSetup {
   vehicle::VehicleSpec spec;
   Placement place;
-  double clearance{};    ///< between the lowest grouser and the ground at the start [m]
-  bool onTerrain{};      ///< else it hangs at height 0
-  bool fixChassis{};     ///< as on a bench
-  double sphereRadius{}; ///< of the parts' sphere sets [m]
+  double clearance{};         ///< between the lowest grouser and the ground at the start [m]
+  bool onTerrain{};           ///< else it hangs at height 0
+  bool fixChassis{};          ///< as on a bench
+  double sphereRadius{};      ///< of the parts' sphere sets [m]
+  bool soilMeetsShoesAlone{}; ///< and no other part
   vehicle::DriverOptions driver;
   double largestTurn = std::numeric_limits<double>::infinity(); ///< of a body in a step [rad]
 };

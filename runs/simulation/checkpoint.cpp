@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <type_traits>
 
@@ -30,7 +29,9 @@ template <> struct Layout<base::Position> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::Remainders> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::Crossings> { using Number = std::int32_t; };
 template <class T> struct Layout<base::Vec3<T>> { using Number = T; };
+template <> struct Layout<std::uint64_t> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
+template <> struct Layout<TakenOut> { using Number = double; };
 template <> struct Layout<SurfaceState> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
@@ -51,6 +52,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   archive("/ledger_at_start", s.ledgerAtStart);
   archive("/energy_guard", s.guard);
   exchangeSettled(archive, s.settled);
+  archive("/taken_out", s.taken);
   if (archive.present("/bed", s.bed)) {
     auto& b = *s.bed;
     archive("/bed/porosity", b.porosity), archive("/bed/porosity_error", b.porosityError);
@@ -72,6 +74,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;
     archive("/grains/total", g.total);
+    archive("/grains/gone", g.gone);
     archive("/grains/layout", g.layout);
     const auto path = [](const char* column) { return std::string("/grains/") + column; };
     terrain::GrainState::visitColumns(
@@ -86,7 +89,9 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/surfaces/mean_steps", s.surfaces->meanSteps);
     archive("/surfaces/patches/memories", s.surfaces->patches.memories);
     archive("/surfaces/patches/angles", s.surfaces->patches.angles);
+    archive("/surfaces/patches/dents", s.surfaces->patches.dents);
     archive("/surfaces/patches/sums", s.surfaces->patches.sums);
+    archive("/surfaces/patches/deepest", s.surfaces->patches.deepest);
   }
   if (archive.present("/vehicle", s.vehicle)) {
     auto& v = *s.vehicle;
@@ -99,7 +104,9 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/ground/sums", v.ground.sums);
     archive("/vehicle/bed/memories", v.bed.memories);
     archive("/vehicle/bed/angles", v.bed.angles);
+    archive("/vehicle/bed/dents", v.bed.dents);
     archive("/vehicle/bed/sums", v.bed.sums);
+    archive("/vehicle/bed/deepest", v.bed.deepest);
     archive("/vehicle/ground_forces", v.groundForces);
     archive("/vehicle/mean_steps", v.meanSteps);
     archive("/vehicle/alarm_forces", v.alarmForces);
@@ -323,9 +330,7 @@ Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
   reader("/frames", checkpoint.frames);
   exchange(reader, checkpoint.state);
   if (auto& grains = checkpoint.state.grains) {
-    grains->id.resize(grains->rows());
-    std::iota(grains->id.begin(), grains->id.end(),
-              static_cast<std::uint32_t>(terrain::blockStart(comm, grains->total, comm.rank())));
+    grains->id = terrain::idsFrom(grains->gone, terrain::blockStart(comm, grains->total, comm.rank()), grains->rows());
   }
   return checkpoint;
 }

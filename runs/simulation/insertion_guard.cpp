@@ -24,13 +24,15 @@ void guardInsertion(terrain::Grains& grains, const setup::Sources& sources, cons
         source = batch.source, grain = batch.grains[c.entering - before];
       before += batch.grains.size();
     }
-    const std::string message = fmt::format(
-        "{} would set a grain {} at step {}, time {:.6g} s, {:.3g} m deep in {}, more than run.max_overlap = {:g} of "
-        "the radius; let it enter elsewhere (low, high), later (start), or leave those before it more time to get away "
-        "(every, number, velocity)",
-        sources.source(source).place, at(grain.position), all->steps(),
-        static_cast<double>(all->steps()) * all->model().timeStep, c.overlap,
-        c.grain ? fmt::format("grain {} {}", *c.grain, at(c.position)) : surfaces[c.surface], all->model().maxOverlap);
+    const std::string message =
+        fmt::format("{} would set a grain {} at step {}, time {:.6g} s, {:.3g} m deep in {}, more than {:g} of the "
+                    "radius (run.max_overlap); let it enter elsewhere (low, high), later (start), or leave those "
+                    "before it more time to get away "
+                    "(every, number, velocity)",
+                    sources.source(source).place, at(grain.position), all->steps(),
+                    static_cast<double>(all->steps()) * all->model().timeStep, c.overlap,
+                    c.grain ? fmt::format("grain {} {}", *c.grain, at(c.position)) : surfaces[c.surface],
+                    all->model().maxEntryOverlap);
     if (all->steps() == 0) throw base::InputError(message);
     throw base::SimulationError(message);
   });

@@ -13,10 +13,11 @@ struct Dissipated {
   double damping{};  ///< dashpots of grains' contacts, with whatever they touch
   double friction{}; ///< sliding of grains
   double rolling{};  ///< rolling resistance of grains
+  double crushing{}; ///< grains that crush against parts
   double parts{};    ///< contacts of rigid parts with each other and with rigid ground
   double joints{};   ///< dampers and end stops of joints and springs
 
-  double total() const { return damping + friction + rolling + parts + joints; }
+  double total() const { return damping + friction + rolling + crushing + parts + joints; }
 };
 
 /// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length
@@ -39,6 +40,10 @@ struct Ledger {
   base::Vec3d impulseResidual;                   ///< on vehicle plus on bed [N s]
 
   std::int64_t grainContacts{}, boundaryContacts{}, partContacts{}, patches{};
+  /// Contacts deeper than a fifth of the grain's radius: of two grains; with planes, floor and surfaces; with parts.
+  std::int64_t squeezedPairs{}, squeezedAtBoundaries{}, squeezedByParts{};
+  std::int64_t cappedNow{};                ///< contacts with parts at the force at which their grain crushes
+  double cutImpulse{};                     ///< that springs of these would have given without it, since the start [N s]
   double deepestOverlap{}, fastestGrain{}; ///< [m], [m/s]
 
   /// Makes it count from `start`, and closes it: integrationError and residual follow from the others.

@@ -30,7 +30,7 @@ MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& ex
   if (auto* ranks = grains.distribution())
     ranks->onMigrate([this](const std::uint32_t* destination) { contacts_->migrate(destination); });
   motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
-  sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size());
+  sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size() + 1); // and the count of grains that have ended
   loads_.resize(sets_.size());
 }
 

@@ -34,6 +34,13 @@ public:
   std::vector<contact::GrainPartContacts::Press> pressing(std::uint32_t grain) const {
     return contacts_->pressing(grain);
   }
+  std::optional<contact::GrainPartContacts::MostPressed> mostPressed() const { return contacts_->mostPressed(); }
+  void forgetPressed() { contacts_->forgetPressed(); }
+  /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
+  std::vector<std::uint32_t> endedGrains() const {
+    return (sums_.host() + sets_.size())->force.x == 0 ? std::vector<std::uint32_t>{} : contacts_->ended();
+  }
+  void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
   contact::SavedGrainPatches save() const { return contacts_->save(); }
   void restore(const contact::SavedGrainPatches& saved);
 

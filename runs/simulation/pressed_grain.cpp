@@ -25,8 +25,9 @@ struct Found {
 
 std::optional<Found> findGrain(const terrain::Grains& grains, const terrain::GrainSnapshot& block, std::uint32_t id) {
   std::vector<Found> mine;
-  if (id >= block.first && id - block.first < block.position.size()) {
-    const std::size_t i = id - block.first;
+  const auto at = std::lower_bound(block.id.begin(), block.id.end(), id);
+  if (at != block.id.end() && *at == id) {
+    const auto i = static_cast<std::size_t>(at - block.id.begin());
     const Vec3d velocity = block.velocity[i].as<double>();
     mine.push_back({block.position[i], velocity,
                     block.radius.empty() ? grains.model().radius : static_cast<double>(block.radius[i])});
@@ -58,21 +59,21 @@ void addGrains(std::vector<PressedGrain::Presser>& by, const terrain::Grains& gr
                const terrain::PeriodicBoundaries& sides) {
   std::vector<Neighbour> mine;
   for (std::size_t i = 0; i < block.position.size(); ++i) {
-    if (block.first + i == id) continue;
+    if (block.id[i] == id) continue;
     const Vec3d apart = nearestImage(own.position - block.position[i], sides);
     const double radius = block.radius.empty() ? grains.model().radius : static_cast<double>(block.radius[i]),
                  distance = norm(apart), overlap = own.radius + radius - distance;
-    if (overlap > 0) mine.push_back({block.first + i, overlap, distance > 0 ? apart * (1 / distance) : Vec3d{}});
+    if (overlap > 0) mine.push_back({block.id[i], overlap, distance > 0 ? apart * (1 / distance) : Vec3d{}});
   }
   for (const std::vector<Neighbour>& rank : grains.system().comm.gatherAll(mine))
-    for (const Neighbour& n : rank) by.push_back({fmt::format("grain {}", n.id), n.overlap, n.normal});
+    for (const Neighbour& n : rank) by.push_back({fmt::format("grain {}", n.id), n.overlap, n.normal, false});
 }
 
 void addRigid(std::vector<PressedGrain::Presser>& by, const setup::GroundSetup& setup,
               const std::function<base::Pose(std::size_t)>& surfacePose, const Found& own) {
   const terrain::Boundaries& around = setup.grains->boundaries;
   const auto add = [&by](const std::string& name, double overlap, const Vec3d& normal) {
-    if (overlap > 0) by.push_back({name, overlap, normal});
+    if (overlap > 0) by.push_back({name, overlap, normal, true});
   };
   for (std::size_t w = 0; w < around.walls.size(); ++w)
     add(setup.grains->wallNames[w], own.radius - dot(around.walls[w].normal, own.position) + around.walls[w].offset,
@@ -113,6 +114,13 @@ std::string PressedGrain::sentence() const {
   for (std::size_t i = 0; i < std::min(kMostNamed, by.size()); ++i)
     all += (i == 0 ? "it is pressed by " : ", ") + named(by[i]);
   return all;
+}
+
+const PressedGrain::Presser* PressedGrain::rigidPresser() const {
+  const Presser* most = nullptr;
+  for (const Presser& p : by)
+    if (p.rigid && (!most || p.overlap > most->overlap)) most = &p;
+  return most;
 }
 
 bool PressedGrain::fallsFreely(const Vec3d& gravity) const {

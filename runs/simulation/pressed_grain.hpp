@@ -12,12 +12,20 @@
 
 namespace grouser::simulation {
 
+/// The grain that a part has pressed by the greatest share of its radius.
+struct PressedMost {
+  int part{-1}; ///< among the parts of the results' frames; -1: none has pressed any
+  std::uint32_t grain{};
+  double share{}; ///< [-]
+};
+
 /// A grain that has stopped a run, and what it touches.
 struct PressedGrain {
   struct Presser {
     std::string name;   ///< "plane 'lid'"
     double overlap{};   ///< [m]
     base::Vec3d normal; ///< unit, from there to the grain; zero where it is not known
+    bool rigid{true};   ///< no grain
   };
   base::Vec3d position, velocity; ///< [m], [m/s]
   double radius{};                ///< [m]
@@ -26,6 +34,8 @@ struct PressedGrain {
   /// "it is pinched between plane 'lid' (1.2 mm) and plane 0 (1 mm)", of several the deepest two that face each other;
   /// "it is pressed by grain 7 (0.3 mm)", at most three of them; empty where it touches nothing.
   std::string sentence() const;
+  /// What is rigid that presses it most; null where nothing is.
+  const Presser* rigidPresser() const;
   /// Whether it touches nothing and moves as what falls does. `gravity` [m/s2].
   bool fallsFreely(const base::Vec3d& gravity) const;
 };

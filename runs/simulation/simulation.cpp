@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/simulation/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
+#include "terrain/grain_removal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,7 @@ void Simulation::step(StepObserver* observer) {
   if (surfaces_) surfaces_->advance(*grains, steps_);
   done(Stage::grainStepEnded);
   ++steps_;
+  takeOutCrushed();
   addGrains();
   if (vehicle_ && steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
   afterStep();
@@ -136,6 +138,25 @@ void Simulation::addGrains() {
   start_.move(before, wholeLedger());
 }
 
+/// Takes out the grains that were crushed to their middle in this step, so that none passes through a part. What their
+/// contacts with parts held is dissipated; all else that they had the ledger goes on counting as it was.
+void Simulation::takeOutCrushed() {
+  if (!setup_.crushes()) return;
+  const std::vector<std::uint32_t> ids = vehicle_ ? vehicle_->contacts().endedGrains() : surfaces_->endedGrains();
+  if (ids.empty()) return;
+  if (vehicle_)
+    vehicle_->takeOut(ids);
+  else
+    surfaces_->takeOut(ids);
+  const Ledger before = wholeLedger();
+  const double mass = terrain::removeGrains(*ground_.grains, ids);
+  const Ledger after = wholeLedger();
+  start_.move(before, after);
+  taken_.grains += static_cast<double>(ids.size()), taken_.mass += mass;
+  taken_.energy += before.kinetic - after.kinetic + before.potential - after.potential + before.elastic - after.elastic;
+  taken_.momentum += before.momentum - after.momentum;
+}
+
 void Simulation::checkAlarm() {
   const std::string alarm = vehicle_->alarm(steps_);
   if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
@@ -146,11 +167,12 @@ Ledger Simulation::wholeLedger() {
   if (ground_.grains) {
     const terrain::GrainLedger g = ground_.grains->ledger();
     l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = g.elastic;
-    l.dissipated = {g.damped, g.rubbed, g.rolled, 0, 0};
+    l.dissipated = {g.damped, g.rubbed, g.rolled, 0, 0, 0};
     l.work = g.work, l.turnover = g.turnover;
     l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
     l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;
     l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
+    l.squeezedPairs = g.squeezed, l.squeezedAtBoundaries = g.squeezedAtBoundaries;
     l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
   }
   if (vehicle_) vehicle_->addTo(l);
@@ -172,8 +194,13 @@ PressedGrain Simulation::pressed(std::uint32_t grain) {
   std::vector<std::pair<std::string, double>> parts;
   if (vehicle_) parts = vehicle_->contacts().pressing(grain);
   if (surfaces_) parts = surfaces_->meshesPressing(grain);
-  for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}});
+  for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}, true});
   return pressed;
+}
+
+std::optional<PressedMost> Simulation::pressedMost() const {
+  if (vehicle_) return vehicle_->contacts().pressedMost();
+  return surfaces_ ? surfaces_->pressedMost() : std::nullopt;
 }
 
 /// Hertz contacts of faster impacts are stiffer than the step was chosen for.
@@ -189,7 +216,7 @@ std::string Simulation::impactNote(const Ledger& now) const {
 
 std::string Simulation::causeOf(const terrain::GrainFault& fault) {
   using terrain::Fault;
-  if (fault.fault != Fault::overlap && fault.fault != Fault::speed) return {};
+  if (fault.fault != Fault::overlap && fault.fault != Fault::speed && fault.fault != Fault::through) return {};
   const Ledger now = ledger();
   if (const std::string verdict = energyVerdict(now); !verdict.empty())
     return verdict + (guard_.slidingGives(now, energyHeld(now))
@@ -202,11 +229,16 @@ std::string Simulation::causeOf(const terrain::GrainFault& fault) {
     return grain.fallsFreely(setup_.gravity)
                ? "it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before"
                : "";
-  const std::string by = grain.sentence();
+  std::string by = grain.sentence();
+  if (const PressedGrain::Presser* through = fault.fault == Fault::through ? grain.rigidPresser() : nullptr)
+    by = fmt::format("{} has taken {:.3g} mm of its radius of {:.3g} mm{}", through->name, 1e3 * through->overlap,
+                     1e3 * grain.radius, by.empty() ? by : "; " + by);
   return fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
-                     "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or raise "
-                     "run.max_overlap",
-                     by.empty() ? by : by + "; ", norm(grain.velocity));
+                     "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or {}",
+                     by.empty() ? by : by + "; ", norm(grain.velocity),
+                     vehicle_ && fault.fault == Fault::through
+                         ? "keep soil out of the running gear (vehicle.soil_meets)"
+                         : "raise run.max_overlap");
 }
 
 /// Ledger and guard, after each step.

@@ -58,6 +58,9 @@ public:
     if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
   }
+  const TakenOut& takenOut() const { return taken_; } ///< since the start
+  /// By a part or mesh since restartMeans(); empty where grains meet none. All ranks call it.
+  std::optional<PressedMost> pressedMost() const;
   const SettleReport& settled() const { return settled_; }
 
   using Ledger = simulation::Ledger;
@@ -74,6 +77,7 @@ public:
 private:
   void checkAlarm();
   void addGrains();
+  void takeOutCrushed();
   void afterStep();
   /// Since the grains, bodies and surfaces were made.
   Ledger wholeLedger();
@@ -107,6 +111,7 @@ private:
   std::unique_ptr<Mechanism> mechanism_;
   EnergyGuard guard_;
   std::int64_t steps_{0};
+  TakenOut taken_;
   Ledger start_; ///< before the first step; the ledger counts from here
 };
 

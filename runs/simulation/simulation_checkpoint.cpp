@@ -29,6 +29,7 @@ SimulationState Simulation::save() const {
   state.bed = ground_.structure;
   state.ledgerAtStart = start_.counted();
   state.guard = guard_.save();
+  state.taken = taken_;
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
   if (surfaces_) state.surfaces = surfaces_->save();
@@ -79,6 +80,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   }
   start_.setCounted(state.ledgerAtStart);
   guard_.restore(state.guard);
+  taken_ = state.taken;
 }
 
 } // namespace grouser::simulation

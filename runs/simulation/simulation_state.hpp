@@ -13,6 +13,13 @@
 
 namespace grouser::simulation {
 
+/// Grains that were crushed to their middle and taken out.
+struct TakenOut {
+  double grains{}, mass{}; ///< [-], [kg]
+  double energy{};         ///< kinetic, potential and elastic that they had [J]
+  base::Vec3d momentum;    ///< [N s]
+};
+
 /// All of a simulation on which later bits or later output depend. Free of device, threads and lists.
 struct SimulationState {
   std::int64_t steps{};
@@ -26,6 +33,7 @@ struct SimulationState {
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
   std::vector<double> lifts; ///< of what was put on a settled bed [m]; empty without
+  TakenOut taken; ///< since the start
 
   /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
   /// which call it.

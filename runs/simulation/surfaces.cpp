@@ -126,7 +126,15 @@ std::vector<std::pair<std::string, double>> Surfaces::meshesPressing(std::uint32
   return named;
 }
 
+std::optional<PressedMost> Surfaces::pressedMost() const {
+  if (!meshes_) return {};
+  const auto most = meshes_->mostPressed();
+  if (!most) return PressedMost{};
+  return PressedMost{static_cast<int>(shapes_) + most->part, most->grain, most->share};
+}
+
 void Surfaces::restartMeans() {
+  if (meshes_) meshes_->forgetPressed();
   for (SurfaceState& s : states_.surfaces) s.force = s.torque = s.pivotTorque = {}, s.power = 0;
   states_.meanSteps = 0;
 }
@@ -134,9 +142,10 @@ void Surfaces::restartMeans() {
 void Surfaces::addTo(Ledger& ledger) const {
   if (meshes_) {
     const contact::GrainPartContacts::Ledger m = meshes_->ledger();
-    ledger.elastic += m.elastic, ledger.partContacts += m.contacts;
+    ledger.elastic += m.elastic, ledger.partContacts += m.contacts, ledger.squeezedByParts += m.squeezed;
     ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed,
         ledger.dissipated.rolling += m.rolled;
+    ledger.dissipated.crushing += m.crushed, ledger.cappedNow += m.capped, ledger.cutImpulse += m.cutImpulse;
   }
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const SurfaceState& s = states_.surfaces[i];

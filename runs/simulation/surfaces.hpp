@@ -4,6 +4,7 @@
 #include "runs/setup/ground_setup.hpp"
 #include "runs/simulation/ledger.hpp"
 #include "runs/simulation/mesh_contacts.hpp"
+#include "runs/simulation/pressed_grain.hpp"
 #include "runs/simulation/surface_state.hpp"
 #include "terrain/grains.hpp"
 
@@ -51,6 +52,13 @@ public:
   void restartMeans();
   /// Names of the meshes that press a grain, and by how much [m]; all ranks call it.
   std::vector<std::pair<std::string, double>> meshesPressing(std::uint32_t grain) const;
+
+  /// Grains that a mesh has crushed to their middle in this step, by id; all ranks call it.
+  std::vector<std::uint32_t> endedGrains() const {
+    return meshes_ ? meshes_->endedGrains() : std::vector<std::uint32_t>{};
+  }
+  void takeOut(const std::vector<std::uint32_t>& grains) { meshes_->takeOut(grains); }
+  std::optional<PressedMost> pressedMost() const; ///< by a mesh since restartMeans(); empty without meshes
 
   /// Adds the work of what moves them, energies of surfaces that forces move, and contacts with meshes.
   void addTo(Ledger& ledger) const;

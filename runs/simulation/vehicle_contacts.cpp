@@ -20,14 +20,14 @@ constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their 
 
 VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                  const setup::GroundSetup& setup, const base::Exec& exec, double timeStep,
-                                 const Ground& ground)
+                                 const Ground& ground, bool shoesAlone)
     : assembly_(assembly), parts_(parts), exec_(exec), side_(exec), graph_(exec), replicated_(ground.grains.get()),
       timeStep_(timeStep) {
   if (ground.grains) comm_ = ground.grains->system().comm;
   const std::size_t n = parts.contactParts();
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
   travelled_ = base::Mirrored<double>(exec_, 2);
-  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n);
+  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n + 1); // and the count of grains that have ended
   // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
   const double largest = 1e4 * assembly_.mass * 9.81;
   quanta_.force = base::fixedPointFor(largest, 46);
@@ -36,7 +36,7 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   quanta_.area = base::fixedPointFor(1, 40);
   groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
   makeTrack();
-  makeGround(setup, ground);
+  makeGround(setup, ground, shoesAlone);
 }
 
 void VehicleContacts::makeTrack() {
@@ -50,12 +50,15 @@ void VehicleContacts::makeTrack() {
       parts_.setOfContactPart(), pairs);
 }
 
-void VehicleContacts::makeGround(const setup::GroundSetup& setup, const Ground& ground) {
+void VehicleContacts::makeGround(const setup::GroundSetup& setup, const Ground& ground, bool shoesAlone) {
   if (ground.grains) {
     const contact::GrainPartModel model = grainPartModel(*setup.grains, *ground.grains, kBedMargin);
     groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
     std::vector<contact::GrainPart> parts;
-    for (const int set : parts_.setOfContactPart()) parts.push_back({set, {}, {}});
+    const std::vector<int> sets = parts_.setOfContactPart();
+    for (std::size_t c = 0; c < sets.size(); ++c)
+      parts.push_back(
+          {sets[c], {}, {}, !shoesAlone || assembly_.parts[parts_.partOf(c)].kind == vehicle::PartKind::kShoe});
     bed_ =
         std::make_unique<contact::GrainPartContacts>(exec_, model, parts_.sets(), parts, comm_, setup.grains->partLaws);
     if (auto* ranks = ground.grains->distribution())
@@ -159,7 +162,7 @@ void VehicleContacts::collect(multibody::Loads& loads) {
   // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
   constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
   static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
-  if (bed_) comm_.sum(&(loadSums_.host() + n)->force.x, n * kNumbers);
+  if (bed_) comm_.sum(&(loadSums_.host() + n)->force.x, (n + 1) * kNumbers);
   for (multibody::Wrench& wrench : loads.external) wrench = {};
   for (std::size_t c = 0; c < n; ++c) {
     multibody::Wrench& wrench = loads.external[static_cast<std::size_t>(assembly_.parts[parts_.partOf(c)].body)];
@@ -172,6 +175,11 @@ void VehicleContacts::collect(multibody::Loads& loads) {
                         cross(motion_.host()[c].centre, groundForceQuantum_.value(ground[c].force))) *
                        timeStep_;
   }
+}
+
+std::vector<std::uint32_t> VehicleContacts::endedGrains() const {
+  if (!bed_ || (loadSums_.host() + 2 * parts_.contactParts())->force.x == 0) return {};
+  return bed_->ended();
 }
 
 const base::Vec3l& VehicleContacts::groundForce(std::size_t c) const {
@@ -206,8 +214,9 @@ VehicleContacts::Ledger VehicleContacts::ledger() const {
     const contact::GrainPartContacts::Ledger bed = bed_->ledger();
     ledger.elastic += bed.elastic;
     ledger.damped = bed.damped, ledger.rubbed = bed.rubbed, ledger.rolled = bed.rolled;
+    ledger.crushed = bed.crushed, ledger.cutImpulse = bed.cutImpulse, ledger.capped = bed.capped;
     ledger.angularOnParts = angularOnParts_;
-    ledger.grainContacts = bed.contacts;
+    ledger.grainContacts = bed.contacts, ledger.squeezed = bed.squeezed;
     ledger.impulseOnGrains = bed.impulseOnGrains;
     ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
   }
@@ -221,6 +230,14 @@ std::vector<std::pair<std::string, double>> VehicleContacts::pressing(std::uint3
     named.emplace_back("the " + assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
                        static_cast<double>(p.overlap));
   return named;
+}
+
+std::optional<PressedMost> VehicleContacts::pressedMost() const {
+  if (!bed_) return {};
+  const auto most = bed_->mostPressed();
+  if (!most) return PressedMost{};
+  const std::size_t part = parts_.partOf(static_cast<std::size_t>(most->part));
+  return PressedMost{static_cast<int>(part), most->grain, most->share};
 }
 
 std::size_t VehicleContacts::samplesListed() const {

@@ -7,6 +7,7 @@
 #include "contact/patch_contacts.hpp"
 #include "multibody/state.hpp"
 #include "runs/simulation/ground.hpp"
+#include "runs/simulation/pressed_grain.hpp"
 #include "runs/simulation/replicated_work.hpp"
 #include "runs/simulation/step_observer.hpp"
 #include "runs/simulation/vehicle_parts.hpp"
@@ -15,6 +16,7 @@
 #include "vehicle/assembly.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace grouser::simulation {
@@ -25,8 +27,9 @@ class VehicleContacts {
 public:
   /// `assembly`, `parts` and the grains of `ground` outlive it, and it outlives the grains' steps: on several ranks it
   /// registers with their migration, as MeshContacts does.
+  /// `shoesAlone`: grains meet no other part.
   VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const setup::GroundSetup& setup,
-                  const base::Exec& exec, double timeStep, const Ground& ground);
+                  const base::Exec& exec, double timeStep, const Ground& ground, bool shoesAlone = false);
   VehicleContacts(const VehicleContacts&) = delete;
   VehicleContacts& operator=(const VehicleContacts&) = delete;
 
@@ -49,12 +52,14 @@ public:
 
   /// Energies of the contacts [J].
   struct Ledger {
-    double elastic{};                    ///< held now
-    double dissipated{};                 ///< since the start, of parts with each other and with rigid ground
-    double damped{}, rubbed{}, rolled{}; ///< since the start, of parts with grains
-    std::int64_t patches{};              ///< of parts on parts and on ground
-    std::int64_t grainContacts{};
-    base::Vec3d impulseOnParts; ///< from the grains since the start [N s]
+    double elastic{};                         ///< held now
+    double dissipated{};                      ///< since the start, of parts with each other and with rigid ground
+    double damped{}, rubbed{}, rolled{};      ///< since the start, of parts with grains
+    double crushed{}, cutImpulse{};           ///< the same where grains crush, the latter [N s]
+    std::int64_t capped{};                    ///< contacts at the force at which their grain crushes
+    std::int64_t patches{};                   ///< of parts on parts and on ground
+    std::int64_t grainContacts{}, squeezed{}; ///< the latter deeper than contact::kSqueezed
+    base::Vec3d impulseOnParts;               ///< from the grains since the start [N s]
     base::Vec3d impulseOnGrains;
     base::Vec3d angularOnParts; ///< about the origin of the world, from the grains since the start [N m s]
   };
@@ -62,6 +67,14 @@ public:
 
   /// Names of the parts that press a grain, and by how much [m]; all ranks call it.
   std::vector<std::pair<std::string, double>> pressing(std::uint32_t grain) const;
+  /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
+  std::vector<std::uint32_t> endedGrains() const;
+  void takeOut(const std::vector<std::uint32_t>& grains) { bed_->takeOut(grains); }
+  /// Since forgetPressed(); of all ranks, which all call it.
+  std::optional<PressedMost> pressedMost() const;
+  void forgetPressed() {
+    if (bed_) bed_->forgetPressed();
+  }
 
   /// Listed as near now: samples of parts against parts and rigid ground, and pairs of grain and part.
   std::size_t samplesListed() const;
@@ -73,7 +86,7 @@ public:
 
 private:
   void makeTrack();
-  void makeGround(const setup::GroundSetup& setup, const Ground& ground);
+  void makeGround(const setup::GroundSetup& setup, const Ground& ground, bool shoesAlone);
   contact::PartMotion motionOf(std::size_t contactPart, const multibody::State& state) const;
 
   // What compute() is made of.

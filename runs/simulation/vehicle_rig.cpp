@@ -51,7 +51,8 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
       observer_(std::make_unique<vehicle::Observer>(assembly_)) {
   const base::Comm comm = ground.grains ? ground.grains->system().comm : base::Comm{};
   parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm);
-  contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground);
+  contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
+                                                setup.vehicle->soilMeetsShoesAlone);
 }
 
 void VehicleRig::collectLoads() {
@@ -147,12 +148,13 @@ void VehicleRig::addTo(Ledger& ledger) const {
   ledger.driveWork += b.driveWork;
   ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
   ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
+  ledger.dissipated.crushing += c.crushed, ledger.cappedNow += c.capped, ledger.cutImpulse += c.cutImpulse;
   ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.dissipated();
   ledger.momentum += b.now.linearMomentum, ledger.angularMomentum += b.now.angularMomentum;
   // The grains' own residual still lacks what the parts gave them.
   ledger.momentumResidual += b.linearLeftOver - c.impulseOnGrains;
   ledger.angularResidual += b.angularLeftOver + c.angularOnParts;
-  ledger.partContacts += c.grainContacts, ledger.patches += c.patches;
+  ledger.partContacts += c.grainContacts, ledger.patches += c.patches, ledger.squeezedByParts += c.squeezed;
   ledger.impulseResidual += c.impulseOnParts + c.impulseOnGrains;
 }
 

@@ -46,7 +46,8 @@ public:
 
   /// Ground loads are means since the last restartMeans(): on grains a single step says little.
   vehicle::Observation observe() const;
-  void restartMeans() { rowMeans_.restart(); }
+  void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
+  void restartMeans() { rowMeans_.restart(), contacts_->forgetPressed(); }
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }

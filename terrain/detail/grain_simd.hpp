@@ -215,7 +215,7 @@ private:
     if (const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
-      if (load.deepest > deepest) deepest = load.deepest;
+      if (load.deepest > data_.maxSurfaceShare * forces_.radius) deepest = kThrough;
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};

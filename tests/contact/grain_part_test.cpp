@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace grouser::contact::testing {
 namespace {
 
@@ -50,6 +52,7 @@ struct Bench {
   struct Result {
     Vec3d onGrain, onPart, torqueOnPart, torqueOnGrain;
     std::int64_t patches;
+    double deepest = 0; ///< [m]
   };
   Result touch(const Vec3d& x, const Vec3d& v, const PartMotion& part, bool refresh = true) {
     const OneGrain grain(exec, model.scale.fromMetres(x), v.as<float>());
@@ -65,6 +68,7 @@ struct Bench {
     std::vector<GrainLoad> load(range & 255u);
     base::copyToHost(exec, load.data(), view.load + (range >> 8), load.size() * sizeof(GrainLoad));
     for (const GrainLoad& l : load) r.onGrain += view.force.value(l.force), r.torqueOnGrain += l.torque.as<double>();
+    for (const GrainLoad& l : load) r.deepest = std::max(r.deepest, static_cast<double>(l.deepest));
     r.onPart = model.force.value(loads.at(0).force);
     r.torqueOnPart = model.torque.value(loads.at(0).torque);
     r.patches = contacts->ledger().contacts;
@@ -134,6 +138,59 @@ TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
   const double down = model.force.value(loads.at(0).force.z), up = model.force.value(loads.at(1).force.z);
   EXPECT_NEAR(down, -kStiffness * overlap, 0.05);
   EXPECT_NEAR(up, kStiffness * overlap, 0.05);
+}
+
+TEST(GrainOnPlate, WhoseMiddleHasComeThroughASurfaceIsDeeperThanItsRadius) {
+  Bench bench(plate(0.1, 0.008, 0.008));
+  EXPECT_LT(bench.touch({0, 0, 1e-4}, {}, atRest({})).deepest, kRadius);
+  EXPECT_GT(bench.touch({0, 0, -1e-4}, {}, atRest({})).deepest, kRadius);
+}
+
+TEST(GrainOnPlate, ThatAStepHasCarriedThroughAThinPlateCountsAsPressedBeyondItsMiddle) {
+  // 4 mm thin, as spheres of 2 mm; from 3 mm above the upper face to 3 mm below the lower one.
+  Bench bench(plate(0.1, 0.002, 0.004, 0.004));
+  EXPECT_NEAR(bench.touch({0, 0, 0.003}, {}, atRest({})).deepest, kRadius - 0.003, 1e-6);
+  EXPECT_GT(bench.touch({0, 0, -0.007}, {}, atRest({}), false).deepest, kRadius);
+  // From there on it lies on the lower face, as one does that has always been there.
+  EXPECT_NEAR(bench.touch({0, 0, -0.007}, {}, atRest({}), false).deepest, kRadius - 0.003, 1e-6);
+}
+
+TEST(GrainOnPlate, BetweenTwoFacesOfOnePartThatBothLetGoDoesNotCountAsCarriedThrough) {
+  // First touch is never half a radius deep.
+  Bench bench(plate(0.1, 0.002, 0.004, 0.004));
+  EXPECT_NEAR(bench.touch({0, 0, kRadius - 1e-4}, {}, atRest({})).deepest, 1e-4, 1e-6);
+  EXPECT_NEAR(bench.touch({0, 0, -0.004 - kRadius + 1e-4}, {}, atRest({}), false).deepest, 1e-4, 1e-6);
+}
+
+TEST(GrainOnPlate, WhatIsPressedMostSinceTheLastRowIsKeptWithItsGrain) {
+  Bench bench(plate(0.1, 0.008, 0.008));
+  EXPECT_FALSE(bench.contacts->mostPressed());
+  for (const double share : {0.1, 0.4, 0.3}) bench.touch({0, 0, (1 - share) * kRadius}, {}, atRest({}));
+  const auto most = bench.contacts->mostPressed();
+  ASSERT_TRUE(most);
+  EXPECT_EQ(most->part, 0);
+  EXPECT_EQ(most->grain, 0u);
+  EXPECT_NEAR(most->share, 0.4, 1e-6) << "float, and positions in units of 4e-10 m";
+  EXPECT_EQ(bench.contacts->ledger().squeezed, 1) << "in the last step alone, 0.3";
+  const SavedGrainPatches saved = bench.contacts->save();
+  bench.contacts->forgetPressed();
+  EXPECT_FALSE(bench.contacts->mostPressed());
+  bench.contacts->restore(saved);
+  EXPECT_NEAR(bench.contacts->mostPressed()->share, 0.4, 1e-6);
+}
+
+TEST(GrainOnPlate, APartThatGrainsDoNotMeetIsNotFelt) {
+  const base::SphereSet set = plate(0.1, 0.008, 0.008);
+  const Bench bench(set);
+  GrainPartContacts contacts(bench.exec, bench.model, {&set}, {{0, {}, {}, false}, {0, {}, {}}});
+  const OneGrain grain(bench.exec, bench.model.scale.fromMetres({0, 0, kRadius - 1e-3}), {});
+  const base::Array<PartMotion> motion(bench.exec, std::vector{atRest({}), atRest({})});
+  base::Array<PartLoad> loads(bench.exec, 2);
+  contacts.refresh(grain.view(), motion);
+  contacts.compute(grain.view(), motion, loads.data());
+  EXPECT_EQ(contacts.pairs(), 1u);
+  EXPECT_EQ(loads.at(0).force, base::Vec3l{});
+  EXPECT_LT(loads.at(1).force.z, 0);
 }
 
 TEST(GrainOnPlate, KeepsItsFrictionSpringThroughARefresh) {

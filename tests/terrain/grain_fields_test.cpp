@@ -50,8 +50,9 @@ TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
   EXPECT_TRUE(distinct(inFiles));
   EXPECT_EQ(row.places, inFiles);
   const std::size_t columns = inFiles.size() + 1; // and `id`
-  EXPECT_EQ(sizeof(GrainState), sizeof(GrainLayout) + sizeof state.total + columns * sizeof(std::vector<int>) +
-                                    sizeof(decltype(state.books)) + sizeof state.skin + sizeof state.rebuilds);
+  EXPECT_EQ(sizeof(GrainState), sizeof(GrainLayout) + sizeof state.total + sizeof state.gone +
+                                    columns * sizeof(std::vector<int>) + sizeof(decltype(state.books)) +
+                                    sizeof state.skin + sizeof state.rebuilds);
 }
 
 TEST(GrainFields, WidthsFollowFromTheLayout) {

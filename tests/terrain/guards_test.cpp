@@ -3,6 +3,7 @@
 #include "grain_fixture.hpp"
 
 #include "base/error.hpp"
+#include "terrain/grain_faults.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,54 @@ TEST(Guards, DeepOverlapStopsTheRun) {
   m.maxOverlap = 0.2;
   Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, {{1.7 * m.radius, 0, 0}, {}, {}}});
   EXPECT_THROW(advance(grains, 1), base::SimulationError);
+}
+
+/// The fault of one step of a grain that is `overlap` radii deep in a plane.
+Fault faultAtPlane(double overlap, int lanes) {
+  GrainModel m = ball(1e-6);
+  m.mostSimdLanes = lanes;
+  try {
+    Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, (1 - overlap) * m.radius}, {}, {}}});
+    advance(grains, 1);
+  } catch (const GrainFault& fault) {
+    return fault.fault;
+  }
+  return Fault::none;
+}
+
+TEST(Guards, AGrainMayBeSqueezedButNotPassThroughAPlane) {
+  for (const int lanes : {16, 1}) {
+    EXPECT_EQ(faultAtPlane(0.79, lanes), Fault::none) << "lanes " << lanes;
+    EXPECT_EQ(faultAtPlane(0.81, lanes), Fault::through) << "lanes " << lanes;
+  }
+}
+
+TEST(Guards, TwoGrainsMayOverlapByHalfARadiusAndTheirOverlapIsCounted) {
+  for (const int lanes : {16, 1}) {
+    GrainModel m = ball(1e-6);
+    m.mostSimdLanes = lanes;
+    const auto pair = [&](double overlap) {
+      return Grains(base::cpuExec(1), m, {},
+                    {{{0, 0, 0}, {}, {}}, {{(2 - overlap) * m.radius, 0, 0}, {}, {}}, {{1, 0, 0}, {}, {}}});
+    };
+    Grains light = pair(0.19), squeezed = pair(0.21), deep = pair(0.49), beyond = pair(0.51);
+    EXPECT_EQ(light.ledger().squeezed, 0);
+    EXPECT_EQ(squeezed.ledger().squeezed, 1);
+    EXPECT_NO_THROW(advance(deep, 1)) << "lanes " << lanes;
+    EXPECT_THROW(advance(beyond, 1), GrainFault) << "lanes " << lanes;
+  }
+}
+
+TEST(Guards, SqueezedContactsWithPlanesAreCountedApart) {
+  const GrainModel m = ball(1e-6);
+  const auto counted = [&](double overlap) {
+    Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, (1 - overlap) * m.radius}, {}, {}}});
+    const GrainLedger l = grains.ledger();
+    EXPECT_EQ(l.squeezed, 0);
+    return l.squeezedAtBoundaries;
+  };
+  EXPECT_EQ(counted(0.19), 0);
+  EXPECT_EQ(counted(0.21), 1);
 }
 
 TEST(Guards, GrainsThatComeToOnePlaceStopTheRun) {

@@ -105,6 +105,8 @@ const NamedChange kHashed[] = {
     {"spring on the ground", [](SimulationState& s) { s.vehicle->ground.states[2].shear.z += 1; }},
     {"patch on a part", [](SimulationState& s) { s.vehicle->bed.memories[0] ^= 1; }},
     {"rolling angle on a part", [](SimulationState& s) { s.vehicle->bed.angles[2] += 1; }},
+    {"dent on a part", [](SimulationState& s) { s.vehicle->bed.dents[2] += 1; }},
+    {"dent on a mesh", [](SimulationState& s) { s.surfaces->patches.dents[1] += 1; }},
     {"body of the mechanism", [](SimulationState& s) { s.mechanism->bodies[2] += 1; }},
 };
 
@@ -122,6 +124,8 @@ const NamedChange kUnhashed[] = {
     {"mean ground force", [](SimulationState& s) { s.vehicle->groundForces[1].z += 1; }},
     {"book of the vehicle's bodies", [](SimulationState& s) { s.vehicle->bodies.back() += 1; }},
     {"book of the mechanism", [](SimulationState& s) { s.mechanism->bodies.back() += 1; }},
+    {"grains taken out", [](SimulationState& s) { s.taken.mass += 1; }},
+    {"what was pressed most", [](SimulationState& s) { s.vehicle->bed.deepest[1] ^= 1; }},
     {"worst gap", [](SimulationState& s) { s.mechanism->worst[0] += 1; }},
 };
 

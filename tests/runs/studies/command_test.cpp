@@ -72,6 +72,47 @@ TEST_F(RandomStudy, GoesOnWithTheTableThatAStoppedCallHasLeft) {
   EXPECT_EQ(call("study stability --seed 4").code, 2) << "of random scenes alone";
 }
 
+class PieceStudy : public ProgramTest {};
+
+TEST_F(PieceStudy, PartsShareTheRunsAndALastCallMakesTheTables) {
+  const std::string words = "study plates --quick --cases rough --seeds 2 --threads 1 --out results";
+  const fs::path runs = folder_ / "results" / "runs";
+  const Outcome part = call(words + " --part 2/2");
+  ASSERT_EQ(part.code, 0) << part.errors;
+  EXPECT_FALSE(fs::exists(runs / "rough_seed1.csv"));
+  ASSERT_TRUE(fs::exists(runs / "rough_seed2.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "results" / "plates.csv")) << "of all runs only";
+  const std::string second = contents(runs / "rough_seed2.csv");
+
+  // Kept runs are read, not done again.
+  put(runs / "rough_seed1.csv", second);
+  const Outcome all = call(words + " --resume");
+  ASSERT_EQ(all.code, 0) << all.errors;
+  EXPECT_EQ(contents(runs / "rough_seed1.csv"), second);
+  EXPECT_EQ(contents(runs / "rough_seed2.csv"), second);
+  EXPECT_NE(all.out.find("+- 0.00"), std::string::npos) << "two equal runs\n" << all.out;
+  EXPECT_TRUE(fs::exists(folder_ / "results" / "plates.csv"));
+
+  const Outcome other = call(words + " --resume --friction 0.3");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
+  EXPECT_EQ(call(words).code, 2) << "there are results in it";
+
+  // A file that a user has cut short.
+  put(runs / "rough_seed1.csv", "sinkage [m],force [N]\n0.1\n");
+  EXPECT_EQ(call(words + " --resume").code, 2);
+}
+
+TEST_F(PieceStudy, RefusesWhatIsNoPartNoCaseAndNoAngle) {
+  for (const char* words : {"--part 0/2", "--part 3/2", "--part 1", "--part a/b", "--part 1/2x", "--cases base,round",
+                            "--angle -1", "--angle-error 1", "--seeds 1", "--device tpu", "--sinkage 0"}) {
+    const Outcome o = call(std::string("study plates --quick --out results ") + words);
+    EXPECT_EQ(o.code, 2) << words << "\n" << o.out;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "results")) << "nothing is begun";
+  EXPECT_EQ(call("study shear-angle --quick --stresses 1 --out results").code, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
                          testing::Values(StudyCall{"impact",
                                                    "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
@@ -87,8 +128,25 @@ INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
                                                    "--quick --grains 200 --configurations 2 --drift-grains 50 "
                                                    "--gas-time 0.05 --bed-time 0.05 --runs 2 --threads 1",
                                                    {"touch.csv", "drift.csv", "macroscopic.csv", "precision.png"},
-                                                   {"float from the origin", "growth", "std. error"}}),
-                         [](const auto& study) { return study.param.name; });
+                                                   {"float from the origin", "growth", "std. error"}},
+                                         StudyCall{"shear-angle",
+                                                   "--quick --threads 1",
+                                                   {"shear_angle.csv", "angles.csv", "recipe.json", "shear_angle.png"},
+                                                   {"peak tau/sigma", "core angle", "not shown"}},
+                                         StudyCall{
+                                             "plates",
+                                             "--quick --threads 1 --angle 24 --angle-error 1",
+                                             {"plates.csv", "extent.csv", "bearing.csv", "recipe.json", "plates.png"},
+                                             {"pressure [kPa]", "difference to the base strip", "measured/theory"}},
+                                         StudyCall{"preparation",
+                                                   "--quick --threads 1",
+                                                   {"preparation.csv", "recipe.json", "preparation.png"},
+                                                   {"wanted", "0.400", "0.420", "contacts"}}),
+                         [](const auto& study) {
+                           std::string name = study.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 } // namespace
 } // namespace grouser::studies

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/contact_law.hpp"
+
+/// Grains that crush: the normal force of a contact is at most F_c = sigma_f d^2 (d: diameter; sigma_f: crushing
+/// strength; Jaeger 1967, Int. J. Rock Mech. Min. Sci. 4:219). Beyond it the contact yields: what it is pressed in
+/// further, its `dent`, stays, and the spring sees the elastic overlap e = overlap - dent alone:
+///
+///   F = F_spring(e),  0 <= e <= y,  F_spring(y) = F_c
+///   overlap - dent > y:  dent = overlap - y, which dissipates (F_c - pull) x the growth of the dent
+///   overlap <= dent:     the surfaces are apart in the dent: no force, no energy
+///
+/// (the pull is that of cohesion). The stored energy is that of the spring at e: a function of the state (overlap,
+/// dent), so that loading to the cap and back gives what is elastic, along the same curve, and no more. Linear:
+/// unloading has the slope k, and what a blow of relative energy E leaves is F_c^2 / (2 k) / E of it. The dashpot adds
+/// to the spring up to F_c and not beyond.
+namespace grouser::contact {
+
+/// Of one material; constants of its contacts with parts.
+struct Crushing {
+  float strength;   ///< sigma_f [Pa]; 0: does not crush
+  float hertzYield; ///< y over the radius, of a Hertz contact [-]
+};
+
+inline Crushing crushingOf(double strength, const ContactLaw& law) {
+  if (!law.hertz || strength <= 0) return {static_cast<float>(strength), 0};
+  // K sqrt(R) y^1.5 = 4 sigma_f R^2: (y / R)^3 = (4 sigma_f / K)^2, by Newton's iteration from above.
+  const double ratio = 4 * strength / law.stiffness, cube = ratio * ratio;
+  double y = cube > 1 ? cube : 1;
+  for (int k = 0; k < 200; ++k) y -= (y * y * y - cube) / (3 * y * y);
+  return {static_cast<float>(strength), static_cast<float>(y)};
+}
+
+/// What the cap makes of a contact in one step.
+struct Yielded {
+  float overlap;    ///< elastic [m]; not positive where the surfaces are apart in the dent
+  float damping;    ///< share of the law's normal damping that acts [-]
+  float dissipated; ///< [J]
+  float cut;        ///< force that the spring would have more without the cap [N]
+  bool capped;
+};
+
+/// Lets the `dent` grow. `approach`: speed at which the surfaces approach [m/s]. The effective radius is the grain's.
+template <unsigned kFeatures> GROUSER_HD Yielded yieldContact(const Crushing& crushing, const BasicLaw<float>& law,
+                                                              float overlap, float approach, float dt, float mass,
+                                                              float radius, float& dent) {
+  const float cap = 4 * crushing.strength * radius * radius;
+  const float most = law.hertz ? crushing.hertzYield * radius : cap / law.stiffness;
+  Yielded y{overlap - dent, 1, 0, 0, false};
+  if (y.overlap >= most) {
+    const float growth = y.overlap - most;
+    dent = overlap - most;
+    y.overlap = most, y.capped = true;
+    // Where the contact has gone over from one place of the part to another it is deeper at once, without any work.
+    const float way = approach > 0 ? approach * dt : 0;
+    y.dissipated = (cap - law.pullPerRadius * radius) * (growth > 1.5f * way ? way : growth);
+    y.cut = coefficientsOf<kFeatures>(law, overlap, mass, radius).elastic - cap;
+  }
+  if (y.overlap <= 0 || approach <= 0) return y;
+  const Coefficients<float> c = coefficientsOf<kFeatures>(law, y.overlap, mass, radius);
+  const float dashpot = c.damping * approach, room = cap - c.elastic;
+  if (dashpot > room) y.damping = room > 0 ? room / dashpot : 0;
+  return y;
+}
+
+} // namespace grouser::contact

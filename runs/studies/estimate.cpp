@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/studies/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::studies {
+
+namespace {
+
+/// Mean, and variance of the mean.
+struct Moments {
+  double mean = 0, variance = 0;
+  int freedom = 0;
+};
+
+Moments momentsOf(std::span<const double> values) {
+  Moments m;
+  const double n = static_cast<double>(values.size());
+  for (const double v : values) m.mean += v / n;
+  for (const double v : values) m.variance += (v - m.mean) * (v - m.mean);
+  m.freedom = static_cast<int>(values.size()) - 1;
+  m.variance = m.freedom > 0 ? m.variance / m.freedom / n : std::numeric_limits<double>::infinity();
+  return m;
+}
+
+} // namespace
+
+support::Estimate interval95(std::span<const double> values) {
+  const Moments m = momentsOf(values);
+  if (m.freedom < 1) return {m.mean, std::numeric_limits<double>::infinity()};
+  return {m.mean, support::student95(m.freedom) * std::sqrt(m.variance)};
+}
+
+support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b) {
+  const Moments ma = momentsOf(a), mb = momentsOf(b);
+  const double difference = (mb.mean - ma.mean) / ma.mean, variance = ma.variance + mb.variance;
+  if (ma.freedom < 1 || mb.freedom < 1) return {difference, std::numeric_limits<double>::infinity()};
+  if (variance == 0) return {difference, 0};
+  const double freedom =
+      variance * variance / (ma.variance * ma.variance / ma.freedom + mb.variance * mb.variance / mb.freedom);
+  return {difference,
+          support::student95(std::max(1, static_cast<int>(freedom + 1e-9))) * std::sqrt(variance) / std::fabs(ma.mean)};
+}
+
+Verdict judge(const support::Estimate& difference, double bar) {
+  const double size = std::fabs(difference.value);
+  if (size + difference.halfWidth <= bar) return Verdict::equal;
+  return size - difference.halfWidth > bar ? Verdict::differs : Verdict::notShown;
+}
+
+std::string verdictText(Verdict verdict) {
+  switch (verdict) {
+  case Verdict::equal:
+    return "equal";
+  case Verdict::differs:
+    return "differs";
+  default:
+    return "not shown";
+  }
+}
+
+std::string plusMinus(const support::Estimate& estimate, int digits) {
+  if (!std::isfinite(estimate.halfWidth)) return fmt::format("{:.{}f} +- ?", estimate.value, digits);
+  return fmt::format("{:.{}f} +- {:.{}f}", estimate.value, digits, estimate.halfWidth, digits);
+}
+
+std::string percent(const support::Estimate& estimate, int digits) {
+  return plusMinus({100 * estimate.value, 100 * estimate.halfWidth}, digits) + " %";
+}
+
+} // namespace grouser::studies

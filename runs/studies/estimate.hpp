@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/support/line_fit.hpp"
+
+#include <span>
+#include <string>
+
+/// What a few seeds tell: means with intervals, and whether two of them are equal within a bar.
+namespace grouser::studies {
+
+/// Mean and half width of its 95 % interval by Student's distribution; infinite for fewer than two values.
+support::Estimate interval95(std::span<const double> values);
+
+/// (mean b - mean a) / mean a with its 95 % half width, from samples of their own: Welch's interval, with the degrees
+/// of freedom of Satterthwaite rounded down. The scatter of the divisor is left out.
+support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b);
+
+enum class Verdict {
+  equal,   ///< the whole interval lies within the bar
+  differs, ///< the whole interval lies outside
+  notShown ///< too wide to tell
+};
+/// Of a difference whose interval is to lie in [-bar, bar].
+Verdict judge(const support::Estimate& difference, double bar);
+std::string verdictText(Verdict verdict); ///< "equal", "differs", "not shown"
+
+/// "12.3 +- 0.4" with so many digits after the point.
+std::string plusMinus(const support::Estimate& estimate, int digits);
+/// The same in percent.
+std::string percent(const support::Estimate& estimate, int digits = 1);
+
+} // namespace grouser::studies

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser study preparation`: beds of [terrain] that ask for a porosity, and what they have got.
+#include "base/error.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/simulation/simulation.hpp"
+#include "runs/studies/preparation.hpp"
+#include "runs/support/device_choice.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/stop_signals.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grouser::studies {
+
+namespace {
+
+constexpr double kBar = 0.01;     // [-] of the porosity
+constexpr double kRadius = 0.025; // [m]
+
+std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
+  const double d = 2 * kRadius;
+  return fmt::format("version = 1\n[run]\nduration = 0.01\nperiodic = [true, true]\nseed = {}\n[material.grain]\n"
+                     "stiffness = {:g}\nrestitution = 0.3\nfriction = {:.17g}\nrolling_friction = {:.17g}\n[terrain]\n"
+                     "heightmap = \"heightmaps/flat.png\"\nsize = [{:.17g}, {:.17g}]\nheight_range = [0, 0]\n"
+                     "material = \"grain\"\ngrain_radius = {:.17g}\ndepth = {:.17g}\nporosity = {:.17g}\n"
+                     "settle_time_limit = 20\ncache = false\n",
+                     seed, c.place.quick ? 2e4 : 1e5, c.friction, c.rollingFriction, c.width * d, c.width * d, kRadius,
+                     c.depth * d, porosity);
+}
+
+std::string nameOf(double porosity, int seed) { return fmt::format("porosity{:g}_seed{}", porosity, seed); }
+
+/// One row; without numbers where the porosity cannot be reached.
+Table prepare(const PreparationCommand& c, double porosity, int seed, const base::Exec& exec, std::string& refused) {
+  Table table;
+  table.names = kPreparationColumns;
+  try {
+    const scene::Scene scene = setup::parseScene(sceneOf(c, porosity, seed), "preparation.toml");
+    const simulation::Simulation simulation(setup::simulationSetup(scene), exec,
+                                            [](double, double) { stopStudyIfAsked(); });
+    const terrain::BedStructure& bed = *simulation.ground().structure;
+    table.rows.push_back({porosity, bed.porosity, simulation.settled().friction, bed.coordination, bed.rattlers,
+                          bed.order, static_cast<double>(bed.grains)});
+  } catch (const base::InputError& error) {
+    refused = error.what();
+  }
+  return table;
+}
+
+nlohmann::ordered_json recipeOf(const PreparationCommand& c) {
+  return {{"study", "preparation"},        {"friction", c.friction}, {"rolling_friction", c.rollingFriction},
+          {"radius_m", kRadius},           {"width_d", c.width},     {"depth_d", c.depth},
+          {"quick", c.place.quick ? 1 : 0}};
+}
+
+} // namespace
+
+void studyPreparationCommand(const PreparationCommand& given) {
+  PreparationCommand c = given;
+  if (c.place.quick) c.porosities = {0.40, 0.42}, c.seeds = 2, c.width = 9, c.depth = 7;
+  Pieces pieces("preparation", c.place, c.pieces, recipeOf(c));
+  const support::StopSignals signals;
+  const auto begin = std::chrono::steady_clock::now();
+  fmt::print("          spheres of {:g} mm +- 25 %, friction {:g}, rolling friction {:g}, {:g} d wide between periodic "
+             "boundaries, {:g} d deep; {} seeds, +- 95 %\n",
+             2e3 * kRadius, c.friction, c.rollingFriction, c.width, c.depth, c.seeds);
+  const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
+  support::Progress progress("preparing");
+  const double all = static_cast<double>(c.porosities.size()) * c.seeds;
+  int done = 0;
+  for (const double porosity : c.porosities)
+    for (int seed = 1; seed <= c.seeds; ++seed) {
+      const std::string name = nameOf(porosity, seed);
+      progress.update(done++ / all, name);
+      if (!pieces.due(name)) continue;
+      std::string refused;
+      pieces.keep(name, prepare(c, porosity, seed, exec, refused));
+      if (!refused.empty()) progress.note(fmt::format("{}: {}\n", name, refused));
+    }
+  progress.finish(fmt::format("{} of {} beds are there", all - pieces.left(), all));
+  if (!pieces.whole()) return;
+
+  std::string csv = "wanted [-],seeds,porosity [-],half width of porosity,preparation friction [-],coordination "
+                    "[-],half width of coordination,"
+                    "rattlers [-],order [-],verdict\n";
+  fmt::print("\n  {:>7} {:>6} {:>18} {:>10} {:>16} {:>9} {:>8}  within {:g}\n", "wanted", "seeds", "porosity",
+             "friction", "contacts", "rattlers", "order", kBar);
+  for (const double porosity : c.porosities) {
+    std::vector<double> reached, friction, contacts, rattlers, order;
+    for (int seed = 1; seed <= c.seeds; ++seed) {
+      const std::string name = nameOf(porosity, seed);
+      if (!pieces.has(name)) continue;
+      const Table run = pieces.read(name);
+      if (run.rows.empty()) continue;
+      reached.push_back(run.values("porosity [-]").front());
+      friction.push_back(run.values("preparation friction [-]").front());
+      contacts.push_back(run.values("coordination [-]").front());
+      rattlers.push_back(run.values("rattlers [-]").front()), order.push_back(run.values("order [-]").front());
+    }
+    if (reached.empty()) {
+      fmt::print("  {:>7.3f} {:>6}   out of reach\n", porosity, 0);
+      csv += fmt::format("{:g},0,,,,,,,,out of reach\n", porosity);
+      continue;
+    }
+    const support::Estimate n = interval95(reached), z = interval95(contacts);
+    const std::string verdict = verdictText(judge({n.value - porosity, n.halfWidth}, kBar));
+    fmt::print("  {:>7.3f} {:>6} {:>18} {:>10.4f} {:>16} {:>9.3f} {:>8.3f}  {}\n", porosity, reached.size(),
+               plusMinus(n, 4), meanOf(friction).mean, plusMinus(z, 2), meanOf(rattlers).mean, meanOf(order).mean,
+               verdict);
+    csv += fmt::format("{:g},{},{:.5g},{:.3g},{:.4g},{:.4g},{:.3g},{:.3g},{:.3g},{}\n", porosity, reached.size(),
+                       n.value, n.halfWidth, meanOf(friction).mean, z.value, z.halfWidth, meanOf(rattlers).mean,
+                       meanOf(order).mean, verdict);
+  }
+  fmt::print("  friction: with which the bed comes to rest; it then gets its own back\n");
+  if (pieces.left() > 0) fmt::print("{} runs are missing: call again with --resume\n", pieces.left());
+  support::writeTextFile(pieces.folder() / "preparation.csv", csv, "--out");
+  nlohmann::ordered_json more = recipeOf(c);
+  more["seeds"] = c.seeds;
+  writeStudyOrigin(pieces.folder(), "preparation",
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), more);
+  output::drawPicture("study_preparation.py", {pieces.folder() / "preparation.csv"},
+                      pieces.folder() / "preparation.png");
+  fmt::print("tables    {}\n", pieces.folder().string());
+}
+
+} // namespace grouser::studies

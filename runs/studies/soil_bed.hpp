@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "runs/simulation/simulation.hpp"
+#include "runs/studies/sample.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Disordered beds of spheres for virtual soil tests: poured, at rest, and taken from one scene into the next.
+namespace grouser::studies {
+
+/// The spheres of a soil, and how a bed of them is prepared.
+struct Soil {
+  SampleGrains grains;
+  double spread = 0.25;                    ///< radii are uniform, by number, within this share of the mean
+  double preparationFriction = 0.5;        ///< [-] between grains while they come to rest: the less, the denser
+  double stepsPerContact = 14;             ///< of the shortest contact
+  double meanVolume() const;               ///< of a grain [m3]
+  std::string toml(double friction) const; ///< [material.grain]
+  /// The start of a scene: [run] with these, and the material.
+  std::string scene(double duration, std::int64_t seed, double friction, const base::Vec3d& gravity,
+                    const std::string& run) const;
+};
+
+struct BedGrain {
+  base::Vec3d position; ///< [m]
+  double radius = 0;    ///< [m]
+};
+using BedGrains = std::vector<BedGrain>;
+
+/// Between periodic boundaries at 0 and these.
+struct BedSize {
+  double length = 0, width = 0, depth = 0; ///< [m]
+  std::string run() const;                 ///< keys of [run]
+};
+
+/// Pours a bed from a cloud upon `below` (sections of a scene that bear it at about z = 0) and lets it come to rest.
+/// `folder`: where `below` looks for its files. Throws InputError where it does not come to rest.
+BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
+                  const std::filesystem::path& folder, const base::Exec& exec);
+
+/// A rough floor: places of grains that never move, in a layer whose tops reach to about z = 0.
+BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed);
+
+/// Lines of x, y, z, r [m], as [[grains]] of form "file" reads them.
+void writeBed(const std::filesystem::path& file, const BedGrains& grains);
+/// The grains of a run as they are now, back between their periodic boundaries of `size`.
+BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size);
+
+/// Steps until the mean kinetic energy a grain is below `agitation` of m g r for a while; false where `limit` [s] pass.
+bool comeToRest(simulation::Simulation& simulation, double agitation, double limit);
+
+/// Volume of the grains between two heights over the volume there [-].
+double solidFraction(const BedGrains& grains, const BedSize& size, double low, double high);
+/// Height below which the grains fill the bed: mean of the tops of the highest grain in columns two grains wide [m].
+double surfaceHeight(const BedGrains& grains, const BedSize& size, double diameter);
+
+} // namespace grouser::studies

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/studies/soil_options.hpp"
+
+#include "runs/support/option_checks.hpp"
+
+namespace grouser::studies {
+
+namespace {
+
+void addPlace(CLI::App& app, StudyPlace& place, const std::string& name, const std::string& quick) {
+  app.add_flag("--quick", place.quick, quick);
+  app.add_option("--out,--output", place.folder, "folder of the tables and the plot; default: out/study_" + name);
+  app.add_flag("--force", place.force, "overwrite what is in that folder");
+}
+
+CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
+                       const std::string& help) {
+  return app.add_option(name, value, help)->check(support::between(low, high))->capture_default_str();
+}
+
+void addSeeds(CLI::App& app, int& seeds, const std::string& help) {
+  app.add_option("--seeds", seeds, help)->check(support::wholeNumber(2, 1000))->capture_default_str();
+}
+
+void addShearAngle(CLI::App& study, ShearAngleCommand& c) {
+  CLI::App* shear = study.add_subcommand(
+      "shear-angle",
+      "Simple shear of poured beds between toothed plates: angle of internal friction and cohesion, with "
+      "and without rolling friction (hours on one core: --part)");
+  addNumber(*shear, "--friction", c.friction, 0, 5, "between grains, and between grains and plates [-]");
+  addNumber(*shear, "--preparation-friction", c.preparationFriction, 0, 5,
+            "between grains while a sample is poured: the less, the denser [-]");
+  shear->add_option("--rolling-frictions", c.rollingFrictions, "soils that differ in rolling friction [-]")
+      ->check(support::between(0.0, 5.0))
+      ->capture_default_str();
+  shear->add_option("--stresses", c.stresses, "on the upper plate [Pa]")
+      ->check(support::between(100.0, 1e6))
+      ->capture_default_str();
+  addSeeds(*shear, c.seeds, "samples of each load and soil");
+  addPieceOptions(*shear, c.pieces);
+  addPlace(*shear, c.place, "shear-angle", "one load, two small samples, sheared fast: in seconds");
+  shear->callback([&c] { studyShearAngleCommand(c); });
+}
+
+void addPlates(CLI::App& study, PlatesCommand& c) {
+  CLI::App* plates = study.add_subcommand(
+      "plates",
+      "Plates pushed into poured beds: pressure over sinkage, what floor, depth and width of the bed do to it, "
+      "and bearing capacity against theory (made for a GPU)");
+  plates->add_option("--cases", c.cases, "of base, rough, deep, wide, old, circular, separated by commas; default: all")
+      ->delimiter(',');
+  addSeeds(*plates, c.seeds, "beds of each case");
+  addNumber(*plates, "--breadth", c.breadth, 2, 1000, "of the strip, and diameter of the circular plate [d]");
+  addNumber(*plates, "--strip-bin", c.stripBin, 1.5, 100, "between the boundaries beside the strip [breadths]");
+  addNumber(*plates, "--strip-depth", c.stripDepth, 0.5, 100, "of the strip's bed [breadths]");
+  addNumber(*plates, "--strip-thickness", c.thickness, 4, 1000, "of the strip's bed along the strip [d]");
+  addNumber(*plates, "--circular-bin", c.circularBin, 1.5, 100, "between the boundaries beside the circle [breadths]");
+  addNumber(*plates, "--circular-depth", c.circularDepth, 0.5, 100, "of the circle's bed [breadths]");
+  addNumber(*plates, "--sinkage", c.sinkage, 0.01, 2, "to which the plates are pushed [breadths]");
+  addNumber(*plates, "--inertial-number", c.inertialNumber, 1e-6, 0.1, "speed/breadth d sqrt(density/pressure) [-]");
+  addNumber(*plates, "--friction", c.friction, 0, 5, "between grains, and between grains and plate [-]");
+  addNumber(*plates, "--rolling-friction", c.rollingFriction, 0, 5, "the same of rolling [-]");
+  addNumber(*plates, "--preparation-friction", c.preparationFriction, 0, 5,
+            "between grains while a bed is poured: the less, the denser [-]");
+  addNumber(*plates, "--angle", c.angle, 0, 60, "of internal friction, for theory: core angle of shear-angle [deg]");
+  addNumber(*plates, "--angle-error", c.angleError, 0, 20, "half width of its interval [deg]")->needs("--angle");
+  plates->add_flag("--keep-beds", c.keepBeds, "writes each bed as lines of x, y, z, r, for other programs");
+  addPieceOptions(*plates, c.pieces);
+  addPlace(*plates, c.place, "plates", "small plates on small beds, two seeds, pushed fast: in seconds");
+  plates->callback([&c] { studyPlatesCommand(c); });
+}
+
+void addPreparation(CLI::App& study, PreparationCommand& c) {
+  CLI::App* preparation = study.add_subcommand(
+      "preparation",
+      "Beds of [terrain] that ask for a porosity: what they reach, and with which friction while settling");
+  preparation->add_option("--porosities", c.porosities, "asked for [-]")
+      ->check(support::between(0.2, 0.7))
+      ->capture_default_str();
+  addNumber(*preparation, "--friction", c.friction, 0, 5, "of the grains [-]");
+  addNumber(*preparation, "--rolling-friction", c.rollingFriction, 0, 5, "the same of rolling [-]");
+  addNumber(*preparation, "--width", c.width, 6, 1000, "of a bed between periodic boundaries [d]; not with --quick");
+  addNumber(*preparation, "--depth", c.depth, 4, 1000, "of a bed [d]; not with --quick");
+  addSeeds(*preparation, c.seeds, "beds of each porosity");
+  addPieceOptions(*preparation, c.pieces);
+  addPlace(*preparation, c.place, "preparation", "two porosities, two small beds: in seconds");
+  preparation->callback([&c] { studyPreparationCommand(c); });
+}
+
+} // namespace
+
+void addSoilStudies(CLI::App& study, SoilStudies& studies) {
+  addShearAngle(study, studies.shearAngle);
+  addPlates(study, studies.plates);
+  addPreparation(study, studies.preparation);
+}
+
+} // namespace grouser::studies

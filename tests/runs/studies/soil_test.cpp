@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Post-processing of the virtual soil tests against published values and closed forms, and small samples.
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/studies/plates.hpp"
+#include "runs/studies/shear_angle.hpp"
+#include "tests/runs/folder_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace grouser::studies {
+
+using namespace test; // fixtures
+
+namespace {
+
+double radians(double degrees) { return degrees * base::kPi / 180; }
+
+TEST(Bearing, FactorsAreThoseOfVesicsTable) {
+  // Vesic 1973, table 1: angle [deg], N_c, N_q, N_gamma, given to two digits after the point.
+  const std::array<std::array<double, 4>, 5> published{{{0, 5.14, 1.00, 0.00},
+                                                        {20, 14.83, 6.40, 5.39},
+                                                        {25, 20.72, 10.66, 10.88},
+                                                        {30, 30.14, 18.40, 22.40},
+                                                        {40, 75.31, 64.20, 109.41}}};
+  for (const auto& [angle, nc, nq, ngamma] : published) {
+    const BearingFactors f = bearingFactors(radians(angle));
+    EXPECT_NEAR(f.nc, nc, 0.0051) << angle;
+    EXPECT_NEAR(f.nq, nq, 0.0051) << angle;
+    EXPECT_NEAR(f.ngamma, ngamma, 0.0051) << angle;
+  }
+}
+
+TEST(Bearing, PressureIsTerzaghisSumAndItsAngleIsFoundAgain) {
+  const double weight = 15e3, b = 0.28, z = 0.05;
+  // By hand from the table: 15000 (0.05 18.40 + 0.14 22.40); a circle with 1 + tan 30 deg = 1.577 and 0.6.
+  EXPECT_NEAR(bearingPressure(PlateShape::strip, radians(30), weight, b, z), 60840, 15);
+  EXPECT_NEAR(bearingPressure(PlateShape::circular, radians(30), weight, b, z), 49990, 15);
+  for (const PlateShape shape : {PlateShape::strip, PlateShape::circular}) {
+    const double q = bearingPressure(shape, radians(27.5), weight, b, z);
+    EXPECT_NEAR(bearingAngle(shape, q, weight, b, z), radians(27.5), 1e-9); // bisection to 2^-60 of 60 deg
+  }
+  // Linear in the sinkage: the mean over a slice is that of its middle.
+  EXPECT_NEAR(meanBearing(PlateShape::strip, radians(30), weight, b, 0.02, 0.08),
+              bearingPressure(PlateShape::strip, radians(30), weight, b, z), 1e-6);
+}
+
+TEST(StudyEstimate, IntervalsAreStudents) {
+  // Mean 3, standard deviation sqrt(2.5), five values: half width 2.776 sqrt(2.5 / 5).
+  const std::vector<double> five{1, 2, 3, 4, 5};
+  EXPECT_NEAR(interval95(five).halfWidth, 2.776 * std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(std::isinf(interval95(std::vector<double>{7}).halfWidth));
+  // Equal variances and sizes: Welch's freedom is 2 (n - 1) = 8, of which the quantile is 2.306.
+  const std::vector<double> more{2, 3, 4, 5, 6};
+  const support::Estimate difference = relativeDifference(five, more);
+  EXPECT_NEAR(difference.value, 1.0 / 3, 1e-12);
+  EXPECT_NEAR(difference.halfWidth, 2.306 * std::sqrt(1.0) / 3, 1e-12);
+  // One of them without scatter: the freedom is the other's, 4.
+  const std::vector<double> same{3, 3, 3, 3, 3};
+  EXPECT_NEAR(relativeDifference(same, five).halfWidth, 2.776 * std::sqrt(0.5) / 3, 1e-12);
+}
+
+TEST(StudyEstimate, AWideIntervalIsNeverAgreement) {
+  EXPECT_EQ(judge({0.01, 0.03}, 0.05), Verdict::equal);
+  EXPECT_EQ(judge({0.00, 0.06}, 0.05), Verdict::notShown);
+  EXPECT_EQ(judge({0.04, 0.02}, 0.05), Verdict::notShown);
+  EXPECT_EQ(judge({-0.10, 0.04}, 0.05), Verdict::differs);
+  EXPECT_EQ(judge(interval95(std::vector<double>{0.0}), 0.05), Verdict::notShown) << "one seed tells nothing";
+}
+
+TEST(ShearAngleFit, LineThroughTheStressesOfEachSeed) {
+  // Two soils: tau = 100 Pa + sigma tan 25 deg, and the same at 27 deg without cohesion.
+  std::vector<std::vector<ShearStrength>> runs(2);
+  for (const double sigma : {10e3, 30e3, 60e3}) {
+    for (int k = 0; k < 2; ++k) {
+      ShearStrength s;
+      s.normal = sigma, s.shear = (k == 0 ? 100 : 0) + sigma * std::tan(radians(25 + 2 * k));
+      s.residual = s.shear / sigma, s.peak = 1.1 * s.residual, s.mohrCoulomb = radians(26 + 2 * k);
+      runs[static_cast<std::size_t>(k)].push_back(s);
+    }
+  }
+  const ShearAngle a = shearAngle(runs);
+  EXPECT_NEAR(a.angle.value, 26, 1e-9);
+  EXPECT_NEAR(a.angle.halfWidth, 12.706 * 1, 1e-6); // standard error of 25 and 27: 1
+  EXPECT_NEAR(a.cohesion.value, 50, 1e-6);
+  EXPECT_NEAR(a.mohrCoulomb.value, 27, 1e-9);
+  EXPECT_GT(a.peakAngle.value, a.angle.value);
+}
+
+TEST(ShearAngleFit, MohrsCircle) {
+  // Principal stresses 3 and 1 in any direction: sin phi = 1/2.
+  EXPECT_NEAR(mohrCoulombAngle(3, 1, 0), radians(30), 1e-12);
+  EXPECT_NEAR(mohrCoulombAngle(2, 2, 1), radians(30), 1e-12);
+  EXPECT_EQ(mohrCoulombAngle(2, 2, 0), 0);
+}
+
+TEST(ShearAngleFit, PeakAndResidualOfARun) {
+  Table run;
+  run.names = kShearColumns;
+  for (int k = 0; k <= 100; ++k) {
+    const double ratio = k < 40 ? 0.01 * k : k < 50 ? 0.45 : 0.3;
+    run.rows.push_back({0.004 * k, 1000 * ratio, 1000, 10, 1200, 1000, 1000 * ratio, 1000 * ratio, 0.4, 5, 5e-4});
+  }
+  const ShearStrength s = shearStrength(run);
+  EXPECT_NEAR(s.residual, 0.3, 1e-12);
+  EXPECT_NEAR(s.peak, 0.45, 1e-12) << "a mean over a twentieth of the strain";
+  EXPECT_NEAR(s.mohrCoulomb, std::asin(std::hypot(0.1, 0.3) / 1.1), 1e-12);
+}
+
+class SoilSample : public FolderTest {};
+
+/// Soft, so that steps are long.
+Soil softSoil() {
+  Soil soil;
+  soil.grains.stiffness = 1e4, soil.grains.restitution = 0.3;
+  return soil;
+}
+
+TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
+  ShearCell cell;
+  cell.length = 8, cell.width = 6, cell.depth = 7, cell.inertialNumber = 1e-2, cell.strain = 0.06, cell.rows = 10;
+  const Table run = shearCell(softSoil(), cell, 1000, 1, folder_, base::cpuExec(1));
+  ASSERT_EQ(run.rows.size(), 11u);
+  const double plates = run.values("normal stress [Pa]").back();
+  EXPECT_NEAR(plates, 1000, 50) << "the load, within what shaking adds";
+  // A tenth: shaking and dashpots, which the contacts' springs do not know of, and 6 layers of grains.
+  EXPECT_NEAR(run.values("core zz [Pa]").back(), plates, 0.15 * plates);
+  EXPECT_NEAR(run.values("core xz [Pa]").back(), run.values("shear stress [Pa]").back(), 0.15 * plates);
+  const ShearStrength s = shearStrength(run);
+  EXPECT_GT(s.residual, 0.15);
+  EXPECT_LT(s.residual, 0.6);
+  EXPECT_GT(s.porosityBefore, 0.36);
+  EXPECT_LT(s.porosityBefore, 0.46);
+}
+
+TEST_F(SoilSample, LessPreparationFrictionMakesADenserBed) {
+  Soil rough = softSoil(), smooth = softSoil();
+  smooth.preparationFriction = 0;
+  const BedSize size{0.07, 0.07, 0.08};
+  const std::string floor = "[[plane]]\nmaterial = \"grain\"\n";
+  const auto solid = [&](const Soil& soil) {
+    const BedGrains bed = pourBed(soil, size, floor, 1, folder_, base::cpuExec(1));
+    return solidFraction(bed, size, 0.02, surfaceHeight(bed, size, 0.01) - 0.02);
+  };
+  // Poured spheres of these radii: 0.58 to 0.61 with a friction of 0.5, 0.64 without.
+  EXPECT_NEAR(solid(rough), 0.595, 0.025);
+  EXPECT_GT(solid(smooth), solid(rough) + 0.02);
+}
+
+TEST_F(SoilSample, PlateFeelsTheBedOnlyOnceItTouches) {
+  PlateTest test;
+  test.floor = BedFloor::rough, test.breadth = 4, test.bin = 3, test.depth = 1.5, test.thickness = 6;
+  test.sinkage = 0.25, test.inertialNumber = 3e-2, test.rows = 40;
+  const Table run = pushPlate(softSoil(), test, 1, folder_, {}, base::cpuExec(1));
+  ASSERT_EQ(run.rows.size(), 40u);
+  const double b = 0.04;
+  EXPECT_NEAR(run.values("sinkage [m]").back(), test.sinkage * b, 0.03 * test.sinkage * b);
+  const double area = test.area(softSoil());
+  EXPECT_NEAR(area, 0.04 * 0.06, 1e-12);
+  const double early = meanPressure(run, area, 0, 0.05 * b), late = meanPressure(run, area, 0.2 * b, 0.25 * b);
+  EXPECT_GT(late, early);
+  // Theory at 15 and 45 degrees, far below and above any bed of spheres.
+  EXPECT_GT(late, bearingPressure(PlateShape::strip, radians(15), 14e3, b, 0.22 * b));
+  EXPECT_LT(late, bearingPressure(PlateShape::strip, radians(45), 14e3, b, 0.22 * b));
+}
+
+TEST(PlateCases, DoublingChangesOneThing) {
+  PlatesCommand command;
+  const std::vector<PlateCase> all = plateCases(command);
+  ASSERT_EQ(all.size(), 6u);
+  const Soil soil;
+  const BedSize base = all[0].test.bed(soil);
+  EXPECT_EQ(all[0].test.floor, BedFloor::fixed);
+  EXPECT_EQ(all[1].test.floor, BedFloor::rough);
+  EXPECT_DOUBLE_EQ(all[2].test.bed(soil).depth, 2 * base.depth);
+  EXPECT_DOUBLE_EQ(all[2].test.bed(soil).length, base.length);
+  EXPECT_DOUBLE_EQ(all[3].test.bed(soil).length, 2 * base.length);
+  EXPECT_DOUBLE_EQ(all[3].test.bed(soil).depth, base.depth);
+  command.cases = {"deep", "nonsense"};
+  EXPECT_THROW(plateCases(command), base::InputError);
+}
+
+} // namespace
+} // namespace grouser::studies
