@@ -33,7 +33,7 @@ struct SimulationState {
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
   std::vector<double> lifts; ///< of what was put on a settled bed [m]; empty without
-  TakenOut taken; ///< since the start
+  TakenOut taken;            ///< since the start
 
   /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
   /// which call it.
