@@ -3,7 +3,6 @@
 
 #include "terrain/grain_checkpoint.hpp"
 #include "terrain/grain_faults.hpp"
-#include "terrain/grain_forces.hpp"
 #include "terrain/grain_kernel_data.cuh"
 #include "terrain/grain_ledger.hpp"
 
@@ -127,7 +126,5 @@ GrainLedger Grains::ledger() {
   system_.finishGhostUpdate();
   return measureLedger(system_);
 }
-
-double Grains::forceRatio() const { return terrain::forceRatio(system_); }
 
 } // namespace grouser::terrain

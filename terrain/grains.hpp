@@ -81,9 +81,6 @@ public:
   /// are placed beforehand.
   void restore(const GrainState& state, bool grows = false);
   GrainLedger ledger();
-  /// Mean over the grains of the resultant of all forces on a grain over its weight [-], in the step that was taken
-  /// last: 1 in free fall, 0 in balance. Only right after a step; 0 without gravity.
-  double forceRatio() const;
 
 private:
   void rebuild();

@@ -18,18 +18,9 @@ using base::Table;
 
 constexpr double kLeastPeriod = 12; // of a tile, in radii [-]
 
-Table<Terrain> terrainTable() {
+/// How the grains of a bed are laid.
+void addArrangement(Table<Terrain>& t) {
   using S = Terrain;
-  Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
-  t.add("heightmap", &S::heightmap, "",
-        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points; looked for in the scene's folder, the "
-        "working folder, the assets folder")
-      .required();
-  t.add("size", &S::size, "m", "extent in x, from 0, and in y, to both sides of 0").above(0).atMost(1e5).required();
-  t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();
-  t.add("kind", &S::kind, "", "a bed of grains or rigid ground");
-  t.add("material", &S::material, "", "of the grains, or of the rigid ground").required();
-  t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");
   t.add("arrangement", &S::arrangement, "",
         "how grains are laid before they settle: rained from random places, or in a lattice, which settles to a nearly "
         "regular packing");
@@ -76,6 +67,21 @@ Table<Terrain> terrainTable() {
         fmt::format("lattice: solid fraction expected once settled; {:g} where not given", S::kPacking))
       .atLeast(0.3)
       .atMost(0.74);
+}
+
+Table<Terrain> terrainTable() {
+  using S = Terrain;
+  Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
+  t.add("heightmap", &S::heightmap, "",
+        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points; looked for in the scene's folder, the "
+        "working folder, the assets folder")
+      .required();
+  t.add("size", &S::size, "m", "extent in x, from 0, and in y, to both sides of 0").above(0).atMost(1e5).required();
+  t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();
+  t.add("kind", &S::kind, "", "a bed of grains or rigid ground");
+  t.add("material", &S::material, "", "of the grains, or of the rigid ground").required();
+  t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");
+  addArrangement(t);
   t.add("tile", &S::tile, "m",
         "x, y of a piece that is settled alone, with periodic boundaries, and copied over the terrain; needs a level "
         "floor")

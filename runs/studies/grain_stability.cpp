@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/grain_stability.hpp"
+#include "terrain/grain_forces.hpp"
 #include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -103,7 +104,7 @@ void settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start
   for (int k = 0; k < kTimes; ++k) {
     grains.stop();
     advance(kBetween);
-    resting.forceRatio = grains.forceRatio();
+    resting.forceRatio = terrain::forceRatio(grains.system());
     if (resting.forceRatio < kAtRest) break;
     stopStudyIfAsked();
   }

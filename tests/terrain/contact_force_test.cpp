@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The resultant of the contact forces on each grain, as snapshots give it on request.
 #include "grain_fixture.hpp"
+#include "terrain/grain_forces.hpp"
 
 #include <gtest/gtest.h>
 #include <stdexcept>
@@ -54,7 +55,7 @@ TEST(ContactForce, HeapAtRest_CarriesItsWeight) {
   for (int k = 0; k < 300 && left > 1e-4; ++k) {
     grains.stop();
     advance(grains, 500);
-    left = grains.forceRatio();
+    left = forceRatio(grains.system());
   }
   ASSERT_LT(left, 1e-3) << "the heap rests";
   Vec3d sum;

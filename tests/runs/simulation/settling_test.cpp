@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/ground.hpp"
+#include "terrain/grain_forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
     const SettleReport report = settle(*setup.grains->bed, *ground.grains, [](double, double) {});
     ground.grains->refreshNeighbours();
     ground.grains->step();
-    ratio = ground.grains->forceRatio();
+    ratio = terrain::forceRatio(ground.grains->system());
     return report;
   };
   double loose = 0, tight = 0;

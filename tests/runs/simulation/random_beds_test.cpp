@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random beds: prepared to a porosity, graded, on rough floors, the same on all threads, after a resume and in tiles.
-#include "runs/simulation/bed_preparation.hpp"
-
 #include "base/error.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"

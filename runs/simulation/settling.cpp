@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/simulation/bed_preparation.hpp"
+#include "runs/simulation/settling.hpp"
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "terrain/bed_tops.hpp"
+#include "terrain/grain_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +23,33 @@ constexpr double kStillPrepared = 10; // times the energy of rest: with little f
 /// Porosity of the small bed settled with this friction.
 double porosityAt(const setup::PreparationSetup& preparation, double friction, const base::Exec& exec,
                   const SettleProgress& progress) {
-  Ground ground = buildGround(*preparation.sample, exec);
+  Ground ground = layGround(*preparation.sample, exec);
   SettleReport report;
   settleWithFriction(*preparation.sample->grains->bed, *ground.grains, friction, progress, report);
   keepSurface(ground, exec);
   return structureOf(ground).porosity;
+}
+
+/// Fills in how high the bed stands.
+void measureHeight(const setup::BedSetup& bed, const terrain::Grains& grains, SettleReport& report) {
+  const terrain::Rectangle& w = bed.walls;
+  const double diameter = 2 * grains.model().radius;
+  const auto nodes = [&](double length) { return std::max(2, static_cast<int>(std::ceil(length / diameter)) + 1); };
+  const terrain::NodeGrid fine{nodes(w.width()),
+                               nodes(w.length()),
+                               w.width() / (nodes(w.width()) - 1),
+                               w.length() / (nodes(w.length()) - 1),
+                               w.xMin,
+                               w.yMin};
+  double sum = 0, highest = -1e300;
+  std::int64_t covered = 0;
+  for (const double top : terrain::highestTops(grains.system().exec, grains, fine, diameter)) {
+    if (!std::isfinite(top)) continue;
+    sum += top, ++covered;
+    highest = std::max(highest, top);
+  }
+  if (covered == 0) return;
+  report.highest = highest, report.meanHeight = sum / static_cast<double>(covered);
 }
 
 } // namespace
@@ -49,7 +73,8 @@ void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wante
     }
     report.steps += checkEvery;
     report.time = static_cast<double>(report.steps) * dt;
-    if (wanted.forceRatio) forceRatio = grains.forceRatio(); // before anything else is done with the step
+    if (wanted.forceRatio)
+      forceRatio = terrain::forceRatio(grains.system()); // before anything else is done with the step
     const terrain::GrainLedger ledger = grains.ledger();
     report.agitation = (ledger.kinetic + ledger.rotational) / unit;
     progress(report.time, report.agitation);
@@ -113,6 +138,23 @@ double frictionFor(const setup::PreparationSetup& preparation, const base::Exec&
       high = friction, above = off;
   }
   return friction;
+}
+
+SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
+  SettleReport report;
+  try {
+    if (bed.preparation) {
+      report.friction = frictionFor(*bed.preparation, grains.system().exec, progress);
+      settleWithFriction(bed, grains, report.friction, progress, report);
+    } else {
+      settleUntilRest(bed, bed.settle, grains, bed.fall, progress, report);
+    }
+  } catch (const base::SimulationError& error) {
+    if (progress.failed) progress.failed(grains, error.what());
+    throw;
+  }
+  measureHeight(bed, grains, report);
+  return report;
 }
 
 } // namespace grouser::simulation
