@@ -35,8 +35,7 @@ std::vector<Row> rowsOf(const terrain::Grains& bed) {
   const terrain::GrainSnapshot s = bed.snapshot();
   std::vector<Row> rows(s.position.size());
   for (std::size_t k = 0; k < rows.size(); ++k)
-    rows[k] = {static_cast<std::uint32_t>(s.first + k), s.position[k],
-               s.radius.empty() ? bed.model().radius : double{s.radius[k]}};
+    rows[k] = {s.id[k], s.position[k], s.radius.empty() ? bed.model().radius : double{s.radius[k]}};
   return rows;
 }
 
@@ -121,10 +120,11 @@ void requireRoomInBed(const setup::SurfaceSetup& surface, const std::vector<Row>
 void requireRoomFor(const setup::PlacedGrains& section, const setup::GroundSetup& scene) {
   const setup::GrainsSetup& all = *scene.grains;
   const auto refuse = [&](const terrain::GrainSpec& g, double depth, const std::string& what) {
-    if (depth > all.model.maxOverlap * g.radius)
+    if (depth > all.model.maxEntryOverlap * g.radius)
       throw base::InputError(fmt::format("{}: a grain of radius {:g} m {} would stand {:.3g} m deep in {}, more than "
-                                         "run.max_overlap = {:g} of its radius; move it",
-                                         section.place, g.radius, at(g.position), depth, what, all.model.maxOverlap));
+                                         "{:g} of its radius (run.max_overlap); move it",
+                                         section.place, g.radius, at(g.position), depth, what,
+                                         all.model.maxEntryOverlap));
   };
   for (const terrain::GrainSpec& g : section.grains) {
     for (const setup::SurfaceSetup& s : scene.surfaces)
@@ -276,11 +276,11 @@ void putGrains(Ground& ground, const setup::GroundSetup& scene) {
   for (const setup::PlacedGrains& p : scene.grains->onBed) {
     grains.onInsertionOverlap([&](const terrain::InsertionOverlap& o) {
       throw base::InputError(fmt::format(
-          "{}: its grain {} would stand {:.3g} m deep in {}, more than run.max_overlap = {:g} of the radius; give "
+          "{}: its grain {} would stand {:.3g} m deep in {}, more than {:g} of the radius (run.max_overlap); give "
           "above_bed [m], which puts it on the settled bed, or move it",
           p.place, at(p.grains[o.entering].position), o.overlap,
           o.grain ? fmt::format("grain {} {}", *o.grain, at(o.position)) : namesOfShapes(scene)[o.surface],
-          grains.model().maxOverlap));
+          grains.model().maxEntryOverlap));
     });
     grains.add(p.grains);
   }

@@ -65,7 +65,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   surface_ = surfaceHeight(ground_);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {
-    ground_.grains->restore(*state.grains, !setup_.ground.grains->sources.empty());
+    ground_.grains->restore(*state.grains, isPutOnBed() || !setup_.ground.grains->sources.empty());
     ground_.grains->setSteps(steps_);
     if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
   }

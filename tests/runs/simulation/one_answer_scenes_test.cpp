@@ -63,7 +63,8 @@ TEST(OneAnswerBed, TwentyThousandGrainsOverTenThousandSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OneAnswerScenes,
-                         testing::Values(Golden{"chute", 4000, "5a9fa64e8fdd3ca7", {"run.skin=0.6"}},
+                         testing::Values(Golden{"rigs", 1900, "6cb95c122f442e47", {"run.skin=0.6"}},
+                                         Golden{"chute", 4000, "5a9fa64e8fdd3ca7", {"run.skin=0.6"}},
                                          Golden{"moving", 4000, "858daf9fbde2f86e", {"run.skin=0.6"}},
                                          Golden{"rain", 5000, "245e5d2a7169fea8", {"run.skin=0.7"}},
                                          Golden{"mixture", 1500, "fef0375713db4e20", {"run.skin=0.5"}},

@@ -96,6 +96,25 @@ TEST(PutOnBed, BedHasTheBitsOfOneAloneWhateverIsPutOnIt) {
   EXPECT_NEAR(with->settled().highest, highestUnder(with->ground().grains->snapshot(), n, -9, 9, -9, 9), 1e-7);
 }
 
+TEST(PutOnBed, SpringsOnWhatStoodInTheBedStayItsOwn) {
+  // Four walls, the floor, then surfaces: the sill is the bed's sixth boundary, and the scene's seventh.
+  const std::string sill = "[[box]]\nname = \"sill\"\nposition = [0.05, 0, 0]\nsize = [0.04, 0.6, 0.05]\n"
+                           "material = \"steel\"\n";
+  const terrain::GrainState alone = made(sceneOf(sill))->ground().grains->state(),
+                            rig = made(sceneOf(plate(kFree + "above_bed = 0.01\n") + sill))->ground().grains->state();
+  ASSERT_EQ(alone.layout.boundaries, 6);
+  ASSERT_EQ(rig.layout.boundaries, 7);
+  int touching = 0;
+  for (std::size_t k = 0; k < alone.rows(); ++k) {
+    EXPECT_EQ(rig.wallBits[k] >> 6 & 1u, alone.wallBits[k] >> 5 & 1u);
+    EXPECT_EQ(rig.wallBits[k] >> 5 & 1u, 0u) << "the plate stands above";
+    EXPECT_EQ(rig.wallShear[7 * k + 6], alone.wallShear[6 * k + 5]);
+    EXPECT_EQ(rig.wallShear[7 * k + 4], alone.wallShear[6 * k + 4]);
+    touching += norm(alone.wallShear[6 * k + 5]) > 0 ? 1 : 0;
+  }
+  EXPECT_GT(touching, 2);
+}
+
 TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
   const auto bed = made(sceneOf(""))->ground().grains->snapshot();
   const auto s =
