@@ -18,8 +18,9 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kBar = 0.01;     // [-] of the porosity
-constexpr double kRadius = 0.025; // [m]
+constexpr double kBar = 0.01;                   // [-] of the porosity
+constexpr double kRadius = 0.025;               // [m]
+constexpr double kStiffness = 4e5, kSoft = 2e5; // [N/m] rained grains meet at some m/s; quick ones fall less deep
 
 std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
   const double d = 2 * kRadius;
@@ -28,8 +29,8 @@ std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
                      "heightmap = \"heightmaps/flat.png\"\nsize = [{:.17g}, {:.17g}]\nheight_range = [0, 0]\n"
                      "material = \"grain\"\ngrain_radius = {:.17g}\ndepth = {:.17g}\nporosity = {:.17g}\n"
                      "settle_time_limit = 20\ncache = false\n",
-                     seed, c.place.quick ? 2e4 : 1e5, c.friction, c.rollingFriction, c.width * d, c.width * d, kRadius,
-                     c.depth * d, porosity);
+                     seed, c.place.quick ? kSoft : kStiffness, c.friction, c.rollingFriction, c.width * d, c.width * d,
+                     kRadius, c.depth * d, porosity);
 }
 
 std::string nameOf(double porosity, int seed) { return fmt::format("porosity{:g}_seed{}", porosity, seed); }
