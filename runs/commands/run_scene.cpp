@@ -2,6 +2,7 @@
 #include "runs/commands/run_scene.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/bed_text.hpp"
 #include "runs/commands/failed_run.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
@@ -99,21 +100,6 @@ void describePlaced(const simulation::Simulation& simulation) {
   fmt::print("placed    {} grains on the settled bed\n", grains);
 }
 
-/// How the bed came to rest, and what it is made of.
-void describeBed(const simulation::Simulation& simulation) {
-  const simulation::SettleReport& settled = simulation.settled();
-  if (settled.steps > 0)
-    fmt::print("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius{}\n", settled.time,
-               settled.agitation,
-               settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
-  const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
-  if (!bed || bed->grains == 0) return;
-  fmt::print("bed       porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
-             "surface   {:.4f} m in the mean, {:.4f} to {:.4f} m; {:.4f} m above the floor, {:.1f} mean diameters\n",
-             bed->porosity, bed->porosityError, bed->coordination, 100 * bed->rattlers, 100 * bed->order,
-             bed->settledHeight, bed->lowest, bed->highest, bed->thickness, bed->thickness / bed->meanDiameter);
-}
-
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
@@ -121,9 +107,7 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
-  describeBed(simulation);
-  if (simulation.settled().highest != 0)
-    fmt::print("          highest grain up to {:.6g} m\n", simulation.settled().highest);
+  fmt::print("{}", bedText(simulation));
   describePlaced(simulation);
   if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
@@ -134,6 +118,7 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
           "soil      meets the shoes alone (vehicle.soil_meets): wheels, sprocket, rollers and idler pass through "
           "it\n");
   }
+  for (const std::string& note : bedNotes(simulation)) fmt::print("note      {}\n", note);
   if (const simulation::Mechanism* mechanism = simulation.mechanism())
     fmt::print("{}", output::mechanismSize(*mechanism));
   std::fflush(stdout);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/bed_text.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::commands {
+
+namespace {
+
+constexpr double kDeep = 1.6, kWide = 9.6; // of the pad's width
+constexpr double kGrainsInPad = 20;
+
+} // namespace
+
+std::string bedText(const simulation::Simulation& simulation) {
+  const simulation::SettleReport& settled = simulation.settled();
+  std::string text;
+  if (settled.steps > 0)
+    text = fmt::format("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius{}\n", settled.time,
+                       settled.agitation,
+                       settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
+  if (const std::optional<terrain::BedStructure>& bed = simulation.ground().structure; bed && bed->grains > 0)
+    text += fmt::format(
+        "bed       porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
+        "surface   {:.4f} m in the mean, {:.4f} to {:.4f} m; {:.4f} m above the floor, {:.1f} mean diameters\n",
+        bed->porosity, bed->porosityError, bed->coordination, 100 * bed->rattlers, 100 * bed->order, bed->settledHeight,
+        bed->lowest, bed->highest, bed->thickness, bed->thickness / bed->meanDiameter);
+  if (settled.highest != 0) text += fmt::format("          highest grain up to {:.6g} m\n", settled.highest);
+  return text;
+}
+
+std::vector<std::string> bedNotes(const TrackOnBed& t) {
+  std::vector<std::string> notes;
+  const double deep = kDeep * t.padWidth, wide = t.gauge + kWide * t.padWidth, fine = t.padWidth / kGrainsInPad;
+  if (t.thickness < deep)
+    notes.push_back(fmt::format("the bed is {:.2f} m deep, and tracks {:.2f} m wide work on it {:.2f} m deep: sinkage "
+                                "and traction depend on the floor; terrain.depth = {:.2g} frees them of it",
+                                t.thickness, t.padWidth, deep, deep));
+  if (t.walls && t.width < wide)
+    notes.push_back(
+        fmt::format("the bed is {:.2f} m wide, and both tracks work on it {:.2f} m wide: its walls hold the "
+                    "soil; a terrain.size of {:.2g} m across frees it of them",
+                    t.width, wide, wide));
+  if (t.meanDiameter > fine)
+    notes.push_back(fmt::format("a pad is {:.1f} mean grains wide, and {:g} are wanted: so coarse a soil carries more; "
+                                "terrain.grain_radius = {:.2g} has them",
+                                t.padWidth / t.meanDiameter, kGrainsInPad, 0.5 * fine));
+  if (!t.roughFloor)
+    notes.push_back("the floor is smooth: grains roll on it as on the balls of a bearing; terrain.floor_grains = true "
+                    "makes it rough");
+  return notes;
+}
+
+std::vector<std::string> bedNotes(const simulation::Simulation& simulation) {
+  const simulation::VehicleRig* rig = simulation.vehicle();
+  const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
+  if (!rig || !bed || bed->grains == 0) return {};
+  const terrain::GrainSystem& grains = simulation.ground().grains->system();
+  const vehicle::VehicleSpec& spec = rig->assembly().spec;
+  return bedNotes({2 * spec.shoe.padHalfWidth, 2 * spec.trackOffset, bed->thickness,
+                   simulation.ground().walls->length(), bed->meanDiameter, !grains.constants.period.along(1),
+                   grains.fixedCount > 0});
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/simulation/simulation.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::commands {
+
+/// Lines on how the bed came to rest and what it is made of; empty without one.
+std::string bedText(const simulation::Simulation& simulation);
+
+/// A vehicle and the bed under it.
+struct TrackOnBed {
+  double padWidth;     ///< b [m]
+  double gauge;        ///< between the middles of the tracks [m]
+  double thickness;    ///< of the bed [m]
+  double width;        ///< across the vehicle's way [m]
+  double meanDiameter; ///< of the grains [m]
+  bool walls;          ///< at the sides, and not periodic boundaries
+  bool roughFloor;
+};
+
+/// What so small a bed, or one of so few grains, cannot tell: a note for each rule that it breaks. The mechanism below
+/// a strip of width b reaches 1.6 b deep and 9.6 b wide where the angle of friction is 30 degrees (Prandtl); fewer than
+/// 20 grains in the width of a plate make it sink less (docs/beds.md).
+std::vector<std::string> bedNotes(const TrackOnBed& track);
+
+/// The notes of a run with a vehicle on a bed; empty without.
+std::vector<std::string> bedNotes(const simulation::Simulation& simulation);
+
+} // namespace grouser::commands

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run says of a bed that is too small for its vehicle.
+#include "runs/commands/bed_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::commands {
+
+TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
+  const TrackOnBed good{0.28, 1.9, 0.45, 4.6, 0.014, true, true};
+  EXPECT_TRUE(bedNotes(good).empty());
+  const auto only = [&](auto change, const char* word) {
+    TrackOnBed t = good;
+    change(t);
+    const std::vector<std::string> notes = bedNotes(t);
+    return notes.size() == 1 && notes.front().find(word) != std::string::npos;
+  };
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.thickness = 0.44; }, "terrain.depth = 0.45"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size of 4.6 m"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.meanDiameter = 0.015; }, "terrain.grain_radius = 0.007"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.roughFloor = false; }, "terrain.floor_grains"));
+  TrackOnBed periodic = good;
+  periodic.width = 2, periodic.walls = false;
+  EXPECT_TRUE(bedNotes(periodic).empty());
+}
+
+} // namespace grouser::commands
