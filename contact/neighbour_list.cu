@@ -24,7 +24,8 @@ constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD load
 NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                              const base::Period& period)
     : exec_(exec), diameter_(diameter), skin_(skin), period_(period), width_(width), count_(exec), start_(exec),
-      slot_(exec), history_(exec), touching_(exec), id_(exec), order_(exec), cellStart_(exec), bounds_(exec, 6) {}
+      slot_(exec), reach_(exec), history_(exec), touching_(exec), id_(exec), order_(exec), cellStart_(exec),
+      bounds_(exec, 6) {}
 
 void NeighbourList::sort(const Position* position, std::size_t count) {
   sorted_ = count;
@@ -122,6 +123,11 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const auto width = static_cast<std::size_t>(width_);
   if (places > slot_.size()) slot_.resize(places + places / 16), history_.resize(slot_.size() * width);
   base::forEach(exec_, "list neighbours", n, ListNear{near, id, {start_.data(), stride_}, slot_.data()});
+  if (radii.sphere) {
+    reach_.resize(slot_.size());
+    base::forEach(exec_, "list reaches", n,
+                  ListReach{radii, {start_.data(), stride_}, count_.data(), slot_.data(), reach_.data()});
+  }
   base::setZero(exec_, slot_.data() + places - kSlotsRead, kSlotsRead * sizeof(std::uint32_t));
   id_.resize(sorted_);
   base::copyOnDevice(exec_, id_.data(), id, sorted_ * sizeof(std::uint32_t));
@@ -161,12 +167,13 @@ void NeighbourList::exportRows(const std::uint32_t* slots, std::size_t count, co
 }
 
 NeighbourView NeighbourList::view() {
-  return {{start_.data(), stride_}, count_.data(), slot_.data(), history_.data(), touching_.data(), maskWords_};
+  return {{start_.data(), stride_}, count_.data(),    slot_.data(), reach_.data(),
+          history_.data(),          touching_.data(), maskWords_};
 }
 
 std::size_t NeighbourList::bytes() const {
-  return count_.bytes() + start_.bytes() + slot_.bytes() + history_.bytes() + touching_.bytes() + id_.bytes() +
-         order_.bytes() + cellStart_.bytes();
+  return count_.bytes() + start_.bytes() + slot_.bytes() + reach_.bytes() + history_.bytes() + touching_.bytes() +
+         id_.bytes() + order_.bytes() + cellStart_.bytes();
 }
 
 NeighbourList::HostCopy NeighbourList::toHost() const {

@@ -78,7 +78,7 @@ private:
   int width_;
   std::size_t sorted_{0}; ///< grains of the next list
   bool haveRows_{false};
-  base::Array<std::uint32_t> count_, start_, slot_;
+  base::Array<std::uint32_t> count_, start_, slot_, reach_;
   base::Array<float> history_;
   base::Array<std::uint64_t> touching_;
   base::Array<std::uint32_t> id_; ///< by slot, as at the build

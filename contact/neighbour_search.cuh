@@ -75,4 +75,20 @@ struct ListNear {
   }
 };
 
+/// Beside each neighbour the sum of both radii: a step would fetch them from all over the bed.
+struct ListReach {
+  RadiiInW radii;
+  NeighbourRows rows;
+  const std::uint32_t *count, *slot;
+  std::uint32_t* reach;
+  GROUSER_HD void operator()(int i) const {
+    const std::uint32_t n = count[i];
+    const std::int64_t own = n > 0 ? radii.units(i) : 0;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::int64_t at = rows.at(i, k);
+      reach[at] = static_cast<std::uint32_t>(own + radii.units(static_cast<int>(slot[at])));
+    }
+  }
+};
+
 } // namespace grouser::contact

@@ -22,7 +22,8 @@ struct NeighbourRows {
 /// slot k touched in the last step. A CPU may read slots by eights: what lies behind a row's last is some grain's slot.
 struct NeighbourView : NeighbourRows {
   const std::uint32_t *count, *slot;
-  float* history; ///< null where contacts have none
+  const std::uint32_t* reach; ///< by place: sum of both radii [units]; null among equal spheres
+  float* history;             ///< null where contacts have none
   std::uint64_t* touching;
   std::int64_t maskWords; ///< 1 among equal spheres
 };

@@ -14,7 +14,7 @@ template <class T> struct RollingMotion {
 };
 
 /// Of a sphere on what never moves.
-template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return T(1.4) * mass * radius * radius; }
+template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
 /// Of spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2).
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
   const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
@@ -22,9 +22,9 @@ template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T ra
 }
 
 /// Stiffness of the rolling spring [N m/rad].
-template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<T>& law, T normalStiffness, T radius) {
+template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<ScalarOf<T>>& law, T normalStiffness, T radius) {
   const T arm = law.rollingFriction * radius;
-  return T(2.25) * normalStiffness * (arm * arm);
+  return ScalarOf<T>(2.25) * normalStiffness * (arm * arm);
 }
 
 /// Elastic-plastic spring-dashpot, type C of Ai, Chen, Rotter and Ooi (2011), Powder Technol. 206:269, in space:
@@ -37,37 +37,40 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<T>& law, T norma
 /// about the normal is not resisted. `pressing` and `normalStiffness` are the reaction's. Returns the torque on i [N
 /// m]; on j it is the exact opposite. Adds what it dissipates: by the dashpot, with the spin in the middle of the step
 /// as this torque alone would make it, and at the limit all work but what the spring gains.
-template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<T>& law, const RollingMotion<T>& m, T pressing,
-                                                          T normalStiffness, T dt, base::Vec3<T>& angle,
-                                                          T& dissipated) {
+/// T as in contactForce(): one source for the kernels of both devices and for many contacts at a time.
+template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarOf<T>>& law, const RollingMotion<T>& m,
+                                                          T pressing, T normalStiffness, ScalarOf<T> dt,
+                                                          base::Vec3<T>& angle, T& dissipated) {
+  using Scalar = ScalarOf<T>;
+  const T zero{};
   if (law.rollingFriction <= 0) return angle = {};
   const base::Vec3<T> rolling = m.spin - m.normal * dot(m.spin, m.normal);
   const T stiffness = rollingStiffness(law, normalStiffness, m.radius);
   angle -= m.normal * dot(angle, m.normal);
   const T storedBefore = stiffness * dot(angle, angle);
-  angle += rolling * dt;
-  base::Vec3<T> torque = angle * -stiffness;
-  const T limit = law.rollingFriction * m.radius * (pressing > 0 ? pressing : T(0));
-  const T size2 = dot(torque, torque);
-  const bool slides = size2 > limit * limit;
-  base::Vec3<T> damping{};
-  if (slides) {
-    torque *= limit / squareRoot(size2);
-    angle = stiffness > 0 ? torque * (T(-1) / stiffness) : base::Vec3<T>{};
-  } else {
-    const base::Vec3<T> spring = torque;
-    torque -= rolling * (T(2) * law.rollingDamping * squareRoot(m.inertia * stiffness));
-    const T both2 = dot(torque, torque);
-    if (both2 > limit * limit) torque *= limit / squareRoot(both2);
-    damping = torque - spring;
+  angle += rolling * base::broadcast<T>(dt);
+  const base::Vec3<T> spring = angle * -stiffness;
+  const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero);
+  const T limit2 = limit * limit, size2 = dot(spring, spring);
+  const auto slides = size2 > limit2;
+  // Below the limit the dashpot fills the torque up to it.
+  base::Vec3<T> torque = spring - rolling * (Scalar(2) * law.rollingDamping * squareRoot(m.inertia * stiffness));
+  const T both2 = dot(torque, torque);
+  if (const auto beyond = both2 > limit2; base::any(beyond))
+    torque = base::select(beyond, torque * (limit / squareRoot(both2)), torque);
+  // About their centres spheres are 7/2 times easier to turn than about the point of contact.
+  const base::Vec3<T> middle = rolling + torque * (Scalar(1.75) * dt / m.inertia);
+  T taken = dot(torque - spring, middle) * dt;
+  if (base::any(slides)) {
+    const base::Vec3<T> held = spring * (limit / squareRoot(size2));
+    const base::Vec3<T> shortened =
+        base::select(stiffness > zero, held * (Scalar(-1) / stiffness), base::Vec3<T>{zero, zero, zero});
+    torque = base::select(slides, held, torque);
+    angle = base::select(slides, shortened, angle);
+    const T lost = dot(held, rolling) * dt + Scalar(0.5) * (stiffness * dot(angle, angle) - storedBefore);
+    taken = slides ? lost : taken;
   }
-  if (slides) {
-    dissipated -= dot(torque, rolling) * dt + T(0.5) * (stiffness * dot(angle, angle) - storedBefore);
-  } else {
-    // About their centres spheres are 7/2 times easier to turn than about the point of contact.
-    const base::Vec3<T> middle = rolling + torque * (T(1.75) * dt / m.inertia);
-    dissipated -= dot(damping, middle) * dt;
-  }
+  dissipated -= taken;
   return torque;
 }
 

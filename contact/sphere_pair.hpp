@@ -12,11 +12,11 @@ template <class T> struct SpherePair {
 };
 
 /// From exact squares of integers: the overlap is (D^2 - d^2) / (D + d), without cancellation.
-/// `apart`: from i to j; `distance2` = d^2; `missing2` = D^2 - d^2; `reach` = D, the sum of the radii: all in units of
-/// `unit` [m].
-template <class T> GROUSER_HD SpherePair<T> spherePair(const base::Vec3<T>& apart, const T& distance2,
-                                                       const T& missing2, base::ScalarOf<T> reach,
-                                                       base::ScalarOf<T> unit) {
+/// `apart`: from i to j; `distance2` = d^2; `missing2` = D^2 - d^2; `reach` = D, the sum of the radii, of all pairs or
+/// of each: all in units of `unit` [m].
+template <class T, class Reach> GROUSER_HD SpherePair<T> spherePair(const base::Vec3<T>& apart, const T& distance2,
+                                                                    const T& missing2, const Reach& reach,
+                                                                    base::ScalarOf<T> unit) {
   const T distance = base::squareRoot(distance2);
   return {apart * (base::ScalarOf<T>(1) / distance), distance * unit, missing2 / (reach + distance) * unit};
 }

@@ -65,6 +65,7 @@ struct GrainKernelData {
 /// Constants in the precision of the forces, by value.
 template <class Real> struct ForceData {
   Real radius, unit, timeStep, halfMass, mass, diameterUnits;
+  Real massPerCube;                            ///< mass over radius^3, where there is one material [kg/m3]
   contact::BasicLaw<Real> law;                 ///< grain on grain, of one material
   const contact::BasicLaw<Real>* pairLaws;     ///< [materials][materials], where there are several
   const contact::BasicLaw<Real>* boundaryLaws; ///< [walls, floor, surfaces][materials]
@@ -112,8 +113,8 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
     const int m = has(kManyMaterials) ? static_cast<int>(material) : 0;
     const Real r = static_cast<Real>(radius);
     // Radii are whole units, and floats: both conversions are exact.
-    return {r, static_cast<Real>(d.massPerCube[m]) * r * r * r, static_cast<std::int64_t>(radius * d.unitsPerLength),
-            m};
+    const Real perCube = has(kManyMaterials) ? static_cast<Real>(d.massPerCube[m]) : f.massPerCube;
+    return {r, perCube * r * r * r, static_cast<std::int64_t>(radius * d.unitsPerLength), m};
   }
   GROUSER_HD GrainSize<Real> sizeOf(int i) const {
     return has(kManyRadii) ? sizeOf(d.velocity[i].w, has(kManyMaterials) ? d.spin[i].w : 0.0f) : sizeOf(0, 0);

@@ -6,6 +6,9 @@
 #include "terrain/grain_simd.hpp"
 #include "terrain/grain_step.cuh"
 
+#include <type_traits>
+#include <utility>
+
 namespace grouser::terrain {
 
 using contact::kCohesion;
@@ -20,25 +23,30 @@ template <unsigned... kSets> struct KernelList {};
 
 /// Scenes have a ledger; benches leave it out.
 constexpr unsigned kBed = kFriction | kBoundaries | kLedger;
+/// Beds of soil: each of these, with and without.
+constexpr unsigned soil(int which) {
+  constexpr unsigned kEach[] = {kHertz, kRollingFriction, kManyRadii, kFixed, kLoads};
+  unsigned features = kBed;
+  for (int k = 0; k < 5; ++k) features |= which >> k & 1 ? kEach[k] : 0u;
+  return features;
+}
+template <int... kWhich> KernelList<soil(kWhich)...> soilKernels(std::integer_sequence<int, kWhich...>);
+using SoilKernels = decltype(soilKernels(std::make_integer_sequence<int, 32>{}));
 using StepKernels =
-    KernelList<kBed, kBed | kLoads, kFriction | kBoundaries, kFriction | kBoundaries | kLoads, kFriction | kLedger,
-               kFriction, kLedger, kBoundaries | kLedger, kBed | kRollingFriction, kBed | kLoads | kRollingFriction,
-               kBed | kManyRadii, kBed | kManyRadii | kRollingFriction, kHertz | kBed, kHertz | kBed | kLoads,
-               kHertz | kBed | kRollingFriction, kHertz | kBed | kManyRadii | kRollingFriction, kBed | kPeriodic,
-               kBed | kSurfaces, kBed | kSurfaces | kRollingFriction,
-               // The same on a floor of fixed grains, which is what a bed stands on.
-               kFixed | kBed, kFixed | kBed | kLoads, kFixed | kBed | kRollingFriction,
-               kFixed | kBed | kLoads | kRollingFriction, kFixed | kBed | kManyRadii,
-               kFixed | kBed | kManyRadii | kLoads, kFixed | kBed | kManyRadii | kRollingFriction,
-               kFixed | kBed | kManyRadii | kLoads | kRollingFriction>;
+    KernelList<kFriction | kBoundaries, kFriction | kBoundaries | kLoads, kFriction | kBoundaries | kFixed,
+               kFriction | kBoundaries | kManyRadii, kFriction | kLedger, kFriction, kLedger, kBoundaries | kLedger,
+               kBed | kPeriodic, kBed | kPeriodic | kRollingFriction, kBed | kPeriodic | kManyRadii,
+               kBed | kPeriodic | kManyRadii | kRollingFriction, kBed | kSurfaces, kBed | kSurfaces | kRollingFriction,
+               kFixed | kBed | kSurfaces, kFixed | kBed | kSurfaces | kManyRadii | kRollingFriction>;
 /// The search on a floor needs many registers.
 using BoundaryKernels =
     KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction, kFloor, kFriction | kFloor,
                kFriction | kRollingFriction | kFloor, kHertz | kFriction | kFloor, kFriction | kSurfaces,
                kFriction | kRollingFriction | kSurfaces, kFriction | kSurfaces | kFloor,
-               kFriction | kRollingFriction | kSurfaces | kFloor>;
-/// In double all scenes take the general kernels.
-using NoKernels = KernelList<>;
+               kFriction | kRollingFriction | kSurfaces | kFloor, kFriction | kManyRadii,
+               kFriction | kManyRadii | kFloor, kFriction | kRollingFriction | kManyRadii,
+               kFriction | kRollingFriction | kManyRadii | kFloor, kHertz | kFriction | kRollingFriction | kManyRadii,
+               kHertz | kFriction | kRollingFriction | kManyRadii | kFloor>;
 
 /// Features that the kernel of walls and floor depends on.
 constexpr unsigned kAtBoundaries =
@@ -48,20 +56,35 @@ template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features
   return ((features == kSets) || ...);
 }
 
-/// With or without books. On a CPU a thread takes several grains before it adds to the books that all share.
-template <class Body, class Real> void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
-                                               const ForceData<Real>& f, std::int64_t count) {
+/// Which of both a kernel is compiled for: with books or without. The step's features say so; of walls and floor beds
+/// without books are compiled for the bench.
+template <unsigned kSet> constexpr bool withBooks(bool ofStep) { return !ofStep || kSet & (kLedger | kGeneral); }
+template <unsigned kSet> constexpr bool withoutBooks(bool ofStep) {
+  return ofStep ? !(kSet & kLedger) || kSet & kGeneral : kSet == kFriction || kSet & kGeneral;
+}
+
+/// Returns whether it has run: a kernel that keeps books where there are some. On a CPU a thread takes several grains
+/// before it adds to the books that all share.
+template <template <unsigned, class> class Kernel, unsigned kSet, class Real>
+bool runBody(const base::Exec& exec, const char* name, const GrainKernelData& d, const ForceData<Real>& f,
+             std::int64_t count) {
+  using Body = Kernel<kSet, Real>;
+  constexpr bool kOfStep = std::is_same_v<Body, GrainStep<kSet, Real>>;
   const Body body{{d, f}};
-  if (!d.books) return base::forEach(exec, name, count, body);
-  const std::int64_t items = exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
-  base::forEach(exec, name, items, Booked<Body>{body, count});
+  if constexpr (withoutBooks<kSet>(kOfStep))
+    if (!d.books) return base::forEach(exec, name, count, body), true;
+  if constexpr (withBooks<kSet>(kOfStep))
+    if (d.books) {
+      const std::int64_t items = exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
+      return base::forEach(exec, name, items, Booked<Body>{body, count}), true;
+    }
+  return false;
 }
 
 template <template <unsigned, class> class Body, class Real, unsigned... kSets>
-void runOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, const char* name,
+bool ranOneOf(KernelList<kSets...>, unsigned features, const base::Exec& exec, const char* name,
               const GrainKernelData& d, const ForceData<Real>& f, std::int64_t count) {
-  const bool special = ((features == kSets && (runBody<Body<kSets, Real>>(exec, name, d, f, count), true)) || ...);
-  if (!special) runBody<Body<kGeneral, Real>>(exec, name, d, f, count);
+  return ((features == kSets && runBody<Body, kSets, Real>(exec, name, d, f, count)) || ...);
 }
 
 } // namespace
@@ -71,25 +94,29 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
   const unsigned features = model.specialised ? d.features & ~kFloor : kGeneral;
   if (const int width = exec.onCpu() ? simdWidth(features, f.law, model.mostSimdLanes) : 1; width > 1)
     return runGrainSimd(exec, d, f, count, width);
-  runOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count);
+  if (ranOneOf<GrainStep>(SoilKernels{}, features, exec, "grain step", d, f, count)) return;
+  if (ranOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count)) return;
+  runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count);
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                               std::int64_t count, const GrainModel&) {
-  runOneOf<GrainStep>(NoKernels{}, d.features, exec, "grain step", d, f, count);
+  runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count); // in double all scenes take the general kernels
 }
 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                                      std::int64_t near, const GrainModel& model) {
   const unsigned features = model.specialised ? d.features & kAtBoundaries : kGeneral;
-  runOneOf<BoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near);
+  if (!ranOneOf<BoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near))
+    runBody<BoundaryContacts, kGeneral>(exec, "boundary contacts", d, f, near);
 }
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                                      std::int64_t near, const GrainModel&) {
-  runOneOf<BoundaryContacts>(NoKernels{}, d.features & kAtBoundaries, exec, "boundary contacts", d, f, near);
+  runBody<BoundaryContacts, kGeneral>(exec, "boundary contacts", d, f, near);
 }
 
 bool hasOwnKernel(unsigned features, Precision precision) {
-  return precision == Precision::single && listed(StepKernels{}, features & ~kFloor);
+  features &= ~kFloor;
+  return precision == Precision::single && (listed(SoilKernels{}, features) || listed(StepKernels{}, features));
 }
 
 std::string featureText(unsigned features) {

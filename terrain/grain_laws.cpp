@@ -27,6 +27,7 @@ GrainLaws::GrainLaws(const base::Exec& exec, const GrainConstants& c,
   std::vector<double> massPerCube;
   for (const double density : model.materials.density) massPerCube.push_back(density * (4.0 / 3 * base::kPi));
   if (massPerCube.empty()) massPerCube.push_back(model.mass / (model.radius * model.radius * model.radius));
+  first_ = massPerCube.front();
   massPerCube_ = base::Array<double>(exec, massPerCube);
 }
 
@@ -41,11 +42,12 @@ template <class Real> ForceData<Real> GrainLaws::forceData(const GrainConstants&
   const auto real = [](double value) { return static_cast<Real>(value); };
   const GrainModel& m = c.model;
   const Laws<Real>& l = laws<Real>();
-  return {real(m.radius),      real(c.scale.unit),
-          real(m.timeStep),    real(0.5 * m.mass),
-          real(m.mass),        real(static_cast<double>(c.diameterUnits)),
-          m.law.as<Real>(),    l.pairs.data(),
-          l.boundaries.data(), nullptr};
+  return {real(m.radius),   real(c.scale.unit),
+          real(m.timeStep), real(0.5 * m.mass),
+          real(m.mass),     real(static_cast<double>(c.diameterUnits)),
+          real(first_),     m.law.as<Real>(),
+          l.pairs.data(),   l.boundaries.data(),
+          nullptr};
 }
 template ForceData<float> GrainLaws::forceData(const GrainConstants&) const;
 template ForceData<double> GrainLaws::forceData(const GrainConstants&) const;

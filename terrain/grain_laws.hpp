@@ -40,6 +40,7 @@ private:
   Laws<float> single_; ///< one of the two is empty
   Laws<double> double_;
   base::Array<double> massPerCube_; ///< [materials] mass over radius^3 [kg/m3]
+  double first_{};                  ///< of the first material
 };
 
 } // namespace grouser::terrain

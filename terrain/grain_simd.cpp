@@ -23,8 +23,10 @@ struct StepSome {
 } // namespace
 
 int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
-  constexpr unsigned kKnown = contact::kFriction | kBoundaries | kLoads | kLedger | kFixed;
-  if (features & ~kKnown) return 1;
+  constexpr unsigned kKnown = contact::kHertz | contact::kFriction | contact::kRollingFriction | kManyRadii |
+                              kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic | kFixed;
+  constexpr unsigned kRough = contact::kHertz | contact::kRollingFriction | kManyRadii; // compiled with friction only
+  if (features & ~kKnown || (features & kRough && !(features & contact::kFriction))) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
 #if defined(__x86_64__)
   // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
@@ -54,12 +56,17 @@ void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, co
                lost, books);
 }
 
+void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books) {
+  const GrainStep<contact::kGeneral, float> step{{d, f}};
+  step.run(k, books);
+}
+
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
                 float& deepest) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
   GrainStep<contact::kGeneral, float>::Sum sum;
   sum.deepest = deepest;
-  step.addLoads(i, step.sizeOf(0, 0), force, torque, sum);
+  step.addLoads(i, step.sizeOf(i), force, torque, sum);
   deepest = sum.deepest;
 }
 

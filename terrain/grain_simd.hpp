@@ -24,6 +24,7 @@ void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, co
                   const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books);
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
                 float& deepest);
+void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books);
 /// Adds what some grains of a launch, from `first` on, have done.
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
 /// GrainStep's own, of a grain that never moves and of forces by such grains.

@@ -93,7 +93,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     for (std::uint32_t first = 0; first == 0 || first < n; first += 64) {
       const std::uint32_t count = has(kManyRadii) && n - first > 64 ? 64 : n - first;
       const std::int64_t row = d.neighbours.at(i, first);
-      const std::uint64_t before = *touching, now = findTouching(p, row, count, own.size, sum);
+      const std::uint64_t before = *touching, now = findTouching(p, row, count, sum);
       for (std::uint64_t rest = now; rest != 0; rest &= rest - 1) {
         const int k = base::lowestBit(rest);
         touchNeighbour(row + k * d.neighbours.stride, before >> k & 1, p, own, sum);
@@ -105,22 +105,21 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// Which of `count` listed neighbours touch, a bit each.
   GROUSER_HD std::uint64_t findTouching(const base::Position& p, std::int64_t row, std::uint32_t count,
-                                        const GrainSize<Real>& own, Sum& sum) const {
+                                        Sum& sum) const {
     constexpr std::uint32_t kTogether = 4; // loads issued before the first result is used
     std::uint64_t touching = 0;
     for (std::uint32_t first = 0; first < count; first += kTogether) {
       base::Position there[kTogether];
-      std::uint32_t j[kTogether];
-      for (std::uint32_t k = 0; k < kTogether; ++k)
-        j[k] = d.neighbours.slot[row + (first + k < count ? first + k : first) * d.neighbours.stride];
+      std::uint32_t j[kTogether], reach[kTogether] = {};
+      for (std::uint32_t k = 0; k < kTogether; ++k) {
+        const std::int64_t at = row + (first + k < count ? first + k : first) * d.neighbours.stride;
+        j[k] = d.neighbours.slot[at];
+        if (has(kManyRadii)) reach[k] = d.neighbours.reach[at];
+      }
       for (std::uint32_t k = 0; k < kTogether; ++k) there[k] = d.position[j[k]];
       for (std::uint32_t k = 0; k < kTogether; ++k) {
         const std::int64_t distance2 = base::squaredNorm(Kernel::apart(p, there[k]));
-        std::int64_t reach2 = d.diameterUnits2;
-        if (has(kManyRadii)) {
-          const std::int64_t units = own.units + Kernel::sizeOf(static_cast<int>(j[k])).units;
-          reach2 = units * units;
-        }
+        const std::int64_t reach2 = has(kManyRadii) ? squareOf(reach[k]) : d.diameterUnits2;
         if (distance2 >= reach2 || first + k >= count) continue;
         if (distance2 == 0) // no direction to push in: the overlap alarm
           sum.deepest = d.diameter;
@@ -129,6 +128,11 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       }
     }
     return touching;
+  }
+
+  /// In one multiplication, of 32 bits to 64.
+  GROUSER_HD static std::int64_t squareOf(std::uint32_t units) {
+    return static_cast<std::int64_t>(std::uint64_t{units} * units);
   }
 
   /// The contact with the neighbour at place `at` of the list. `heldBefore`: it was there in the last step.
@@ -147,8 +151,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     Real reach = f.diameterUnits;
     if (has(kManyRadii)) {
       other.size = Kernel::sizeOf(velocity.w, spin.w);
-      const std::int64_t units = own.size.units + other.size.units;
-      reach2 = units * units, reach = static_cast<Real>(units);
+      const std::uint32_t units = d.neighbours.reach[at];
+      reach2 = squareOf(units), reach = static_cast<Real>(units);
     }
     const std::int64_t distance2 = base::squaredNorm(apart);
     touchGrain(history,

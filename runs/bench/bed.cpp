@@ -3,6 +3,7 @@
 #include "runs/bench/bench.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "base/random.hpp"
 #include "base/rounded.hpp"
 #include "contact/restitution.hpp"
@@ -36,28 +37,60 @@ double median(std::vector<double> values) {
   return n == 0 ? 0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
+/// Radii that a bed's grains have [m].
+struct Radii {
+  double mean, smallest, largest;
+};
+/// The mean cube of radii that are uniform between mean (1 - s) and mean (1 + s) is mean^3 (1 + s^2).
+Radii radiiOf(const BedBench& b) {
+  const double s = b.radiiSpread, mean = s > 0 ? b.radius * base::pow(1 + s * s, -1.0 / 3) : b.radius;
+  return {mean, mean * (1 - s), mean * (1 + s)};
+}
+
+/// Springs and dashpots of grains of effective mass `mass` [kg].
+contact::ContactLaw lawOf(const BedBench& b, double mass) {
+  contact::ContactLaw law;
+  const bool manyMasses = b.radiiSpread > 0;
+  // 2/7 and 1/2 are the scene's defaults of the tangential ratios.
+  if (b.hertz) {
+    const double radius = 0.5 * b.radius, contactRadius = std::sqrt(radius * 1e-3 * b.radius);
+    law.hertz = true, law.stiffness = static_cast<float>(b.stiffness / (1.5 * contactRadius));
+    law.tangentialStiffness = static_cast<float>(1.2 * law.stiffness);
+    law.rootDamping =
+        static_cast<float>(2 * contact::hertzDampingRatioFor(b.restitution, false) * std::sqrt(1.5 * law.stiffness));
+    law.tangentialRootDamping = static_cast<float>(0.5 * law.rootDamping);
+  } else {
+    const double ratio = contact::dampingRatioFor(b.restitution, false);
+    const double damping = 2 * std::sqrt(b.stiffness / mass) * ratio;
+    law.stiffness = static_cast<float>(b.stiffness);
+    law.tangentialStiffness = static_cast<float>(b.stiffness * 2 / 7);
+    law.damping = manyMasses ? 0 : static_cast<float>(damping);
+    law.tangentialDamping = manyMasses ? 0 : static_cast<float>(0.5 * damping);
+    law.rootDamping = manyMasses ? static_cast<float>(2 * ratio * std::sqrt(b.stiffness)) : 0;
+    law.tangentialRootDamping = static_cast<float>(0.5 * law.rootDamping);
+  }
+  law.friction = static_cast<float>(b.friction);
+  law.rollingFriction = static_cast<float>(b.rolling), law.rollingDamping = b.rolling > 0 ? 0.3f : 0;
+  return law;
+}
+
 terrain::GrainModel modelOf(const BedBench& b) {
+  const Radii radii = radiiOf(b);
   terrain::GrainModel model;
-  model.radius = b.radius;
-  model.mass = base::sphereMass(b.density, b.radius);
+  model.radius = radii.largest, model.smallestRadius = b.radiiSpread > 0 ? radii.smallest : 0;
+  model.mass = base::sphereMass(b.density, radii.largest);
   model.timeStep = b.timeStep;
   model.gravity = {0, 0, -kGravity};
   model.skin = b.skin, model.mostSimdLanes = b.lanes;
   model.ledger = b.ledger;
-  // A pair of grains weighs half a grain; 2/7 and 1/2 are the scene's defaults of the tangential ratios.
-  const double damping =
-      2 * std::sqrt(b.stiffness / (0.5 * model.mass)) * contact::dampingRatioFor(b.restitution, false);
-  model.law.stiffness = static_cast<float>(b.stiffness);
-  model.law.damping = static_cast<float>(damping);
-  model.law.tangentialStiffness = static_cast<float>(b.stiffness * 2 / 7);
-  model.law.tangentialDamping = static_cast<float>(0.5 * damping);
-  model.law.friction = static_cast<float>(b.friction);
+  model.law = lawOf(b, 0.5 * model.mass); // a pair of grains weighs half a grain
   model.floorLaw = model.law;
-  const double limit = contact::stableStep(std::sqrt(8 * b.stiffness / model.mass), 0);
+  const double lightest = base::sphereMass(b.density, radii.smallest);
+  const double limit = contact::stableStep(std::sqrt(8 * b.stiffness / lightest), 0);
   if (b.timeStep > limit)
     throw base::InputError(fmt::format(
         "bench bed: a step of {:g} s is above {} s, where grains of radius {} m become unstable; give --time-step",
-        b.timeStep, base::roundedDown(limit, 3), b.radius));
+        b.timeStep, base::roundedDown(limit, 3), radii.smallest));
   return model;
 }
 
@@ -68,34 +101,50 @@ std::int64_t sideOf(std::int64_t grains) {
   return side;
 }
 
+double edgeOf(const BedBench& b) { return static_cast<double>(sideOf(b.grains)) * kSpacing * radiiOf(b).largest; }
+
 std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
   const std::int64_t side = sideOf(b.grains);
-  const double spacing = kSpacing * b.radius;
-  const double shift = 0.5 * b.jitter * (kSpacing - 2) * b.radius; // grains never touch at the start
+  const Radii radii = radiiOf(b);
+  const double spacing = kSpacing * radii.largest;
+  const double shift = 0.5 * b.jitter * (kSpacing - 2) * radii.largest; // grains never touch at the start
   std::vector<terrain::GrainSpec> start;
   start.reserve(static_cast<std::size_t>(b.grains));
   for (std::int64_t i = 0; i < b.grains; ++i) {
     const auto id = static_cast<std::uint64_t>(i);
-    const auto shake = [&](std::uint64_t axis) { return (2 * base::uniform(kSeed, kPurpose, id, axis) - 1) * shift; };
+    const auto random = [&](std::uint64_t use) { return 2 * base::uniform(kSeed, kPurpose, id, use) - 1; };
     const std::int64_t column = i % side, row = i / side % side, layer = i / (side * side);
     const Vec3d place{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5,
                       static_cast<double>(layer) + 0.5};
-    start.push_back({place * spacing + Vec3d{shake(0), shake(1), shake(2)}, {}, {}});
+    terrain::GrainSpec grain{place * spacing + Vec3d{random(0), random(1), random(2)} * shift, {}, {}};
+    if (b.radiiSpread > 0) grain.radius = radii.mean * (1 + b.radiiSpread * random(3));
+    start.push_back(grain);
+  }
+  if (!b.fixedFloor) return start;
+  // Tops at z = 0, holes smaller than any grain.
+  const double edge = edgeOf(b);
+  const auto across = static_cast<std::int64_t>(std::ceil(edge / (2 * radii.smallest)));
+  for (std::int64_t i = 0; i < across * across; ++i) {
+    const Vec3d place{static_cast<double>(i % across) + 0.5, static_cast<double>(i / across) + 0.5, 0};
+    start.push_back(
+        {place * (edge / static_cast<double>(across)) - Vec3d{0, 0, radii.mean}, {}, {}, radii.mean, 0, true});
   }
   return start;
 }
 
 terrain::Boundaries box(const BedBench& b, const terrain::GrainModel& model) {
-  const double edge = static_cast<double>(sideOf(b.grains)) * kSpacing * b.radius;
+  const double edge = edgeOf(b);
   contact::ContactLaw law = model.law;
   // Against a wall the whole grain swings: the same restitution is less damping.
   law.damping /= std::sqrt(2.0f), law.tangentialDamping /= std::sqrt(2.0f);
-  return {{{{0, 0, 1}, 0, law},
-           {{1, 0, 0}, 0, law},
-           {{-1, 0, 0}, -edge, law},
-           {{0, 1, 0}, 0, law},
-           {{0, -1, 0}, -edge, law}},
-          {}};
+  terrain::Boundaries box;
+  if (!b.fixedFloor) box.walls.push_back({{0, 0, 1}, 0, law});
+  if (b.periodic)
+    box.periodic = {std::array{0.0, edge}, std::array{0.0, edge}};
+  else
+    box.walls.insert(box.walls.end(),
+                     {{{1, 0, 0}, 0, law}, {{-1, 0, 0}, -edge, law}, {{0, 1, 0}, 0, law}, {{0, -1, 0}, -edge, law}});
+  return box;
 }
 
 void advance(terrain::Grains& grains, std::int64_t steps) {
@@ -167,7 +216,9 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   const double n = static_cast<double>(b.grains);
   const terrain::GrainLedger ledger = grains.ledger();
   f.contactsPerGrain = static_cast<double>(ledger.contacts + ledger.boundaryContacts) / n;
-  f.kineticPerGrain = (ledger.kinetic + ledger.rotational) / n / (model.mass * kGravity * b.radius);
+  f.kineticPerGrain =
+      (ledger.kinetic + ledger.rotational) / n / (base::sphereMass(b.density, b.radius) * kGravity * b.radius);
+  f.features = terrain::featureText(grains.system().constants.features);
   const std::vector<std::uint32_t> count = grains.system().neighbours.toHost().count;
   f.listLength = static_cast<double>(comm.sumOf(std::accumulate(count.begin(), count.end(), std::int64_t{0}))) / n;
   f.bytesPerGrain = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(grains.system().deviceBytes()))) / n;

@@ -126,6 +126,7 @@ void printBed(const BedBench& b, const BedFigures& f, int ranks) {
   const double share = f.rebuildMicroseconds / f.stepsBetweenRebuilds;
   fmt::print("settling  {:.2f} s wall; kinetic energy a grain {:.2g} of m g radius\n", f.settleSeconds,
              f.kineticPerGrain);
+  fmt::print("features  {}\n", f.features);
   fmt::print("speed     {:.3e} particle-steps/s (median of {} batches of {} steps; {:.3e} to {:.3e})\n",
              rate(b, f.times.median()), f.times.microseconds.size(), f.times.steps, rate(b, f.times.most()),
              rate(b, f.times.least()));
@@ -157,6 +158,9 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["time_step_s"] = b.timeStep;
   json["settle_time_s"] = b.settleTime;
   json["ledger"] = b.ledger;
+  json["radii_spread"] = b.radiiSpread;
+  json["rolling_friction"] = b.rolling;
+  json["features"] = f.features;
   json["settling_wall_s"] = f.settleSeconds;
   json["kinetic_energy_a_grain_over_mgr"] = f.kineticPerGrain;
   json["microseconds_a_step"] = jsonOf(f.times);

@@ -34,6 +34,11 @@ struct BedBench {
   double restitution = 0.5; ///< [-]
   double stiffness = 1e6;   ///< [N/m]
   double density = 2500;    ///< [kg/m3]
+  double radiiSpread = 0;   ///< radii are uniform within this share of their mean, of the same mean volume [-]
+  bool hertz = false;       ///< Hertz' law, as stiff as `stiffness` at an overlap of 1e-3 radii
+  double rolling = 0;       ///< rolling friction [-]
+  bool fixedFloor = false;  ///< a layer of fixed grains in place of the plane below, not counted in `grains`
+  bool periodic = false;    ///< along x and y, in place of walls
   double timeStep = 5e-5;   ///< [s]
   double settleTime = 0.5;  ///< [s]
   std::int64_t steps = 0;   ///< of one batch; 0: as many as take about a second
@@ -47,6 +52,7 @@ struct BedFigures {
   BatchTimes times;
   double contactsPerGrain = 0;     ///< pairs in touch, each counted once, and contacts with walls, over grains [-]
   double listLength = 0;           ///< neighbours listed a grain, mean, each pair from both sides [-]
+  std::string features;            ///< in words
   double stepsBetweenRebuilds = 0; ///< [-]; infinite where none was needed while timing
   double rebuildMicroseconds = 0;  ///< of one rebuild, median
   double bytesPerGrain = 0;        ///< on the device [B]

@@ -37,6 +37,16 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
   bed.add_option("--stiffness", b.stiffness, "[N/m]")
       ->check(support::positive("a stiffness in N/m"))
       ->capture_default_str();
+  bed.add_option("--radii-spread", b.radiiSpread,
+                 "radii uniform within this share of their mean, of the same mean volume as --radius [-]")
+      ->check(CLI::Range(0.0, 0.8))
+      ->capture_default_str();
+  bed.add_flag("--hertz", b.hertz, "Hertz' law, as stiff as --stiffness at an overlap of 1e-3 radii");
+  bed.add_option("--rolling", b.rolling, "rolling friction [-]")
+      ->check(support::notNegative("a number"))
+      ->capture_default_str();
+  bed.add_flag("--fixed-floor", b.fixedFloor, "a layer of fixed grains in place of the plane below");
+  bed.add_flag("--periodic", b.periodic, "along x and y, in place of walls");
 }
 
 void addBed(CLI::App& benches, const Invocation& invocation) {

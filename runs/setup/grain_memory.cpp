@@ -48,7 +48,7 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   m.state = fieldBytes(bare);
   m.boundaries = fieldBytes(layout) - fieldBytes(bare);
   // Count, start, mask, id and order of a row.
-  m.lists = 4 * kWord + kMask + kPlaces * kWord;
+  m.lists = 4 * kWord + kMask + kPlaces * kWord * (layout.radii ? 2 : 1); // the slot, and the sum of radii
   m.history = kPlaces * history;
   // Contacts that are set aside, with a start, and one cell of the grid.
   m.rebuild = kContacts * (kWord + history) + 2 * kWord;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/grain_stability.hpp"
-#include "terrain/grain_forces.hpp"
 #include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "terrain/grain_forces.hpp"
 
 #include "base/error.hpp"
 #include "base/random.hpp"

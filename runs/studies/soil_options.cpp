@@ -83,7 +83,7 @@ void addPreparation(CLI::App& study, PreparationCommand& c) {
   addNumber(*preparation, "--depth", c.depth, 4, 1000, "of a bed [d]; not with --quick");
   addSeeds(*preparation, c.seeds, "beds of each porosity");
   addPieceOptions(*preparation, c.pieces);
-  addPlace(*preparation, c.place, "preparation", "two porosities, two small beds: in seconds");
+  addPlace(*preparation, c.place, "preparation", "one porosity, two small beds: half a minute");
   preparation->callback([&c] { studyPreparationCommand(c); });
 }
 

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/simd_rows.hpp"
 #include "contact/sphere_pair.hpp"
+#include "terrain/detail/grain_simd_books.hpp"
 #include "terrain/grain_simd.hpp"
 
-namespace grouser::terrain::detail {
+#include <utility>
 
-using base::Double4;
-using base::Float4;
-using base::Int4;
-using base::load;
-using base::Simd;
-using base::store;
+namespace grouser::terrain::detail {
 
 /// The step of grains k in [first, last) of a launch, kWidth contacts side by side. It takes the grains in blocks whose
 /// contacts fit into the processor's first cache, and each block in four sweeps:
@@ -29,19 +24,15 @@ using base::store;
 ///
 /// This is compiled for processors that may not be there: it calls nothing that is not inlined, lest a copy made for
 /// wide registers serve the whole program.
-template <int kWidth, bool kWithFriction, bool kWithLedger> class GrainSimd {
+template <int kWidth, unsigned kFeatures> class GrainSimd {
 public:
-  GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces) : data_(data), forces_(forces) {}
+  GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces)
+      : data_(data), forces_(forces), block_(data) {}
 
   /// Of the grains that have been advanced.
   GROUSER_SIMD GrainBooks books() const {
     GrainBooks books = books_;
-    for (int l = 0; l < 4; ++l) {
-      books.of[kWork] += work_[l], books.of[kTurnover] += turnover_[l];
-      books.of[kDamped] += damped_[l], books.of[kRubbed] += rubbed_[l];
-      for (int a = 0; a < 3; ++a) books.of[kMoment + a] += moment_[a][l];
-    }
-    books.of[kMass] += advanced_ * kMassQuanta;
+    block_.addTo(books);
     return books;
   }
 
@@ -50,18 +41,27 @@ public:
     const ForceData<float> f = forces_;
     for (int k = first; k < last;) {
       const int from = k;
-      grains_ = contacts_ = toBook_ = 0;
-      do find(k++);
-      while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts);
+      grains_ = contacts_ = 0;
+      block_.begin();
+      while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts) find(k++);
+      if (k == from) { // among many small ones it has more neighbours than a block
+        stepAlone(data_, f, k++, books_);
+        continue;
+      }
       begin_[grains_] = contacts_;
       for (int c = 0; c < contacts_; ++c) collect(c);
+      if (periodic())
+        for (int g = 0; g < grains_; ++g)
+          if (atSide_[g]) collectAcross(g);
       for (int c = contacts_; c % kWidth != 0; ++c) // lanes of the last group that no contact takes
-        apart_[c] = moving_[c] = turning_[c] = spring_[c] = Float4{};
+        apart_[c] = moving_[c] = turning_[c] = theirs_[c] = spring_[c] = angle_[c] = Float4{};
       for (int c = 0; c < contacts_; c += kWidth) computeContacts(c, f);
       if (kWithFriction)
         for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]), spring_[c]);
+      if (kWithRolling)
+        for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]) + 3, angle_[c]);
       for (int g = 0; g < grains_; ++g) advance(g, slotOf(from + g));
-      if (kWithLedger) bookAll();
+      if (kWithLedger) block_.bookAll();
     }
   }
 
@@ -69,20 +69,26 @@ private:
   using Float = Simd<float, kWidth>;
   using Int = Simd<std::int32_t, kWidth>;
   using Long = Simd<std::int64_t, kWidth>;
-  using Long4 = Simd<std::int64_t, 4>;
   using Vec = base::Vec3<Float>;
-  static constexpr unsigned kLaw = kWithFriction ? contact::kFriction : 0u;
-  static constexpr int kGrains = 64, kContacts = 192; ///< of a block
-  static constexpr int kFound = kWidth < 8 ? 4 : 8;   ///< candidates that are tried side by side
+  static constexpr unsigned kLaw =
+      kFeatures & (contact::kHertz | contact::kFriction | contact::kRollingFriction | contact::kManyMasses);
+  static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
+                        kWithRolling = kFeatures & contact::kRollingFriction, kManySizes = kFeatures & kManyRadii;
+  static constexpr bool kBothSpins = kWithRolling || kManySizes;                  ///< are needed, not their sum alone
+  static constexpr int kGrains = BlockBooks<kFeatures>::kGrains, kContacts = 192; ///< of a block
+  static constexpr int kFound = kWidth < 8 ? 4 : 8; ///< candidates that are tried side by side
   using Found = Simd<std::int32_t, kFound>;
+  using FoundFloat = Simd<float, kFound>;
 
+  // Of these a step decides as it runs: they are asked for once a grain or a group of contacts.
   GROUSER_SIMD bool hasFixed() const { return data_.features & kFixed; }
+  GROUSER_SIMD bool periodic() const { return data_.features & kPeriodic; }
   GROUSER_SIMD int slotOf(int k) const { return data_.active ? static_cast<int>(data_.active[k]) : k; }
   GROUSER_SIMD int candidatesOf(int k) const { return static_cast<int>(data_.neighbours.count[slotOf(k)]); }
 
   /// History of a place of the neighbour list.
   GROUSER_SIMD float* springOf(std::uint32_t entry) const {
-    return data_.neighbours.history + contact::historyWidth(contact::kFriction) * std::size_t{entry};
+    return data_.neighbours.history + contact::historyWidth(kFeatures) * std::size_t{entry};
   }
 
   /// Appends the contacts of the k-th grain to the block.
@@ -91,16 +97,17 @@ private:
     const std::uint32_t row = data_.neighbours.start[i]; // its places follow each other
     const std::uint32_t* const slot = data_.neighbours.slot + row;
     const Int4 p = load<Int4>(data_.position + i);
-    // Squares of distances in float are right to 5 roundings, 3e-7: beyond this margin they decide.
-    const auto reach2 = static_cast<float>(data_.diameterUnits2);
-    const float surely2 = reach2 * (1 - 2e-6f), perhaps2 = reach2 * (1 + 2e-6f);
+    const std::uint32_t* const reach = kManySizes ? data_.neighbours.reach + row : nullptr;
+    const bool atSide = periodic() && isAtSide(p);
+    auto reach2 = base::broadcast<FoundFloat>(static_cast<float>(data_.diameterUnits2));
     Found lane;
     for (int l = 0; l < kFound; ++l) lane[l] = l;
 
     std::uint64_t now = 0;
     int c = contacts_;
     begin_[grains_] = c;
-    samePlace_[grains_] = false;
+    samePlace_[grains_] = false, atSide_[grains_] = atSide;
+    std::uint64_t* before = data_.neighbours.touching + (kManySizes ? i * data_.neighbours.maskWords : i);
     for (int m = 0; m < n; m += kFound) {
       Found other[4];
       base::gatherRows<kFound>(data_.position, slot + m, other);
@@ -109,38 +116,72 @@ private:
       const auto z = base::convert<float>(other[2] - p[2]);
       const auto distance2 = x * x + y * y + z * z;
       const unsigned inRow = n - m < kFound ? (1u << (n - m)) - 1 : (1u << kFound) - 1;
+      if (kManySizes) {
+        const auto units = base::convert<float>(load<Found>(reach + m));
+        reach2 = units * units;
+      }
+      // Squares of distances in float are right to 5 roundings, 3e-7: beyond this margin they decide.
+      const auto surely2 = reach2 * (1 - 2e-6f), perhaps2 = reach2 * (1 + 2e-6f);
       const auto open = ((distance2 < perhaps2) & (distance2 >= surely2)) | (distance2 == 0.0f);
       unsigned touching = base::laneBits(distance2 < surely2) & inRow;
-      if (const unsigned undecided = base::laneBits(open) & inRow) [[unlikely]]
-        touching = decide(i, slot + m, touching, undecided);
+      if (const unsigned undecided = (atSide ? ~0u : base::laneBits(open)) & inRow) [[unlikely]]
+        touching = decide(i, slot + m, kManySizes ? reach + m : reach, touching, undecided);
       base::storeMarked(other_ + c, load<Found>(slot + m), touching);
       base::storeMarked(entry_ + c, lane + static_cast<std::int32_t>(row + m), touching);
       store(grain_ + c, Found{} + i);
-      now |= std::uint64_t{touching} << m;
+      now |= std::uint64_t{touching} << m % 64;
       c += __builtin_popcount(touching);
+      if (kManySizes && (m + kFound) % 64 == 0 && m + kFound < n) { // a word of bits is full
+        begin(*before, now, row + static_cast<std::uint32_t>(m / 64 * 64));
+        *before++ = now, now = 0;
+      }
     }
-    std::uint64_t& before = data_.neighbours.touching[i];
-    if (kWithFriction) // springs of contacts that begin are not stretched yet
-      for (std::uint64_t begun = now & ~before; begun != 0; begun &= begun - 1)
-        base::store3(springOf(row + static_cast<std::uint32_t>(__builtin_ctzll(begun))), Float4{});
-    before = now;
+    begin(*before, now, row + static_cast<std::uint32_t>(n > 0 ? (n - 1) / 64 * 64 : 0));
+    *before = now;
     contacts_ = c;
     ++grains_;
   }
+  /// Springs of contacts that begin are not stretched yet. Bit k is of place `first` + k.
+  GROUSER_SIMD void begin(std::uint64_t before, std::uint64_t now, std::uint32_t first) const {
+    if (!kWithFriction) return;
+    for (std::uint64_t begun = now & ~before; begun != 0; begun &= begun - 1) {
+      float* const spring = springOf(first + static_cast<std::uint32_t>(__builtin_ctzll(begun)));
+      base::store3(spring, Float4{});
+      if (kWithRolling) base::store3(spring + 3, Float4{});
+    }
+  }
 
   /// Corrects those bits of `touching` that are set in `open`, by exact squares.
-  GROUSER_SIMD unsigned decide(int i, const std::uint32_t* slot, unsigned touching, unsigned open) {
-    const Int4 p = load<Int4>(data_.position + i);
+  GROUSER_SIMD unsigned decide(int i, const std::uint32_t* slot, const std::uint32_t* reach, unsigned touching,
+                               unsigned open) {
     for (; open != 0; open &= open - 1) {
       const int l = __builtin_ctz(open);
-      const std::int64_t distance2 = squareOf(load<Int4>(data_.position + slot[l]) - p);
+      const std::int64_t distance2 = squareOf(apart(i, slot[l]));
       touching &= ~(1u << l);
       if (distance2 == 0)
         samePlace_[grains_] = true;
-      else if (distance2 < data_.diameterUnits2)
+      else if (distance2 < (reach ? std::int64_t{reach[l]} * reach[l] : data_.diameterUnits2))
         touching |= 1u << l;
     }
     return touching;
+  }
+  /// From i to the nearest image of j.
+  GROUSER_SIMD Int4 apart(std::uint32_t i, std::uint32_t j) const {
+    if (!periodic()) return load<Int4>(data_.position + j) - load<Int4>(data_.position + i);
+    const base::Vec3l way = data_.period.apart(data_.position[i], data_.position[j]);
+    return Int4{static_cast<std::int32_t>(way.x), static_cast<std::int32_t>(way.y), static_cast<std::int32_t>(way.z),
+                0};
+  }
+  /// Whether a neighbour of a grain here may lie beyond a periodic boundary.
+  GROUSER_SIMD bool isAtSide(const Int4& place) const {
+    const base::Vec3l u = base::toUnits(base::bitsAs<base::Position>(place));
+    const auto skin = static_cast<std::int64_t>(2 * __builtin_sqrt(static_cast<double>(data_.halfSkinUnits2))) + 2;
+    const std::int64_t near = data_.diameterUnits + 2 * skin;
+    bool atSide = false;
+    for (int a = 0; a < 2; ++a)
+      if (const std::int64_t in = u[a] - data_.period.low[a]; data_.period.along(a))
+        atSide = atSide || in < near || in >= data_.period.length[a] - near;
+    return atSide;
   }
   GROUSER_SIMD static std::int64_t squareOf(const Int4& v) {
     const std::int64_t x = v[0], y = v[1], z = v[2];
@@ -151,19 +192,66 @@ private:
   GROUSER_SIMD void collect(int c) {
     const std::uint32_t i = grain_[c], j = other_[c];
     store(apart_ + c, load<Int4>(data_.position + j) - load<Int4>(data_.position + i));
-    // Of grains of one radius the fourth number is 1 where j never moves, else 0.
-    store(moving_ + c, load<Float4>(data_.velocity + i) - load<Float4>(data_.velocity + j));
-    store(turning_ + c, load<Float4>(data_.spin + i) + load<Float4>(data_.spin + j));
+    const auto v = load<Float4>(data_.velocity + i), u = load<Float4>(data_.velocity + j);
+    // The fourth number: of grains of one radius 1 where j never moves, else 0; of others what velocities have there.
+    Float4 relative = v - u;
+    if (kManySizes) relative[3] = u[3];
+    moving_[c] = relative;
+    auto spin = load<Float4>(data_.spin + i);
+    if (kBothSpins) {
+      theirs_[c] = load<Float4>(data_.spin + j);
+      if (kManySizes) spin[3] = v[3];
+    } else {
+      spin += load<Float4>(data_.spin + j);
+    }
+    turning_[c] = spin;
     if (kWithFriction) spring_[c] = base::load3(springOf(entry_[c]));
+    if (kWithRolling) angle_[c] = base::load3(springOf(entry_[c]) + 3);
+  }
+  /// Of a grain at a periodic boundary.
+  GROUSER_SIMD void collectAcross(int g) {
+    for (int c = begin_[g]; c < begin_[g + 1]; ++c) store(apart_ + c, apart(grain_[c], other_[c]));
   }
 
   GROUSER_SIMD static Vec firstThree(const Float (&r)[4]) { return {r[0], r[1], r[2]}; }
 
+  /// What the law needs of both grains of each contact.
+  struct Pair {
+    Long reach2;
+    Float reach, mass, share;              ///< effective mass; of what is dissipated, that of grain i
+    Float ownMass, ownRadius, otherRadius; ///< where they differ
+    Float otherMass;
+  };
+  /// `own`, `other`: velocity.w of both; of grains of one radius `other` tells whether it never moves.
+  GROUSER_SIMD Pair pairOf(const Float& own, const Float& other, const ForceData<float>& f) const {
+    Pair pair{};
+    pair.share = base::broadcast<Float>(0.5f);
+    const auto fixed = kManySizes ? other < 0.0f : other > 0.5f;
+    if (kManySizes) {
+      pair.ownRadius = own, pair.otherRadius = base::absolute(other);
+      const Int units = base::convert<std::int32_t>(pair.ownRadius * data_.unitsPerLength) +
+                        base::convert<std::int32_t>(pair.otherRadius * data_.unitsPerLength);
+      const Long wide = base::convert<std::int64_t>(units);
+      pair.reach2 = wide * wide, pair.reach = base::convert<float>(units);
+      pair.ownMass = f.massPerCube * pair.ownRadius * pair.ownRadius * pair.ownRadius;
+      pair.otherMass = f.massPerCube * pair.otherRadius * pair.otherRadius * pair.otherRadius;
+      pair.mass = pair.ownMass * pair.otherMass / (pair.ownMass + pair.otherMass);
+    } else {
+      pair.reach2 = Long{} + data_.diameterUnits2, pair.reach = base::broadcast<Float>(f.diameterUnits);
+      pair.ownMass = base::broadcast<Float>(f.mass), pair.ownRadius = base::broadcast<Float>(f.radius);
+      pair.mass = base::broadcast<Float>(f.halfMass);
+    }
+    if (!hasFixed()) return pair;
+    pair.mass = fixed ? pair.ownMass : pair.mass, pair.share = fixed ? base::broadcast<Float>(1) : pair.share;
+    return pair;
+  }
+
   /// GrainStep::touchNeighbour() of the contacts from c on. Rows of forces and torques replace those of motion.
   GROUSER_SIMD void computeContacts(int c, const ForceData<float>& f) {
-    Float rows[4], relative[4], turning[4], spring[4];
+    Float rows[4], relative[4], turning[4], theirs[4], spring[4];
     base::loadRows(apart_ + c, rows);
     base::loadRows(moving_ + c, relative), base::loadRows(turning_ + c, turning);
+    if (kBothSpins) base::loadRows(theirs_ + c, theirs);
     Vec shear{};
     if (kWithFriction) base::loadRows(spring_ + c, spring), shear = firstThree(spring);
 
@@ -171,31 +259,57 @@ private:
     const Long x = base::convert<std::int64_t>(apart.x), y = base::convert<std::int64_t>(apart.y),
                z = base::convert<std::int64_t>(apart.z);
     const Long distance2 = x * x + y * y + z * z;
+    const Pair both = pairOf(turning[3], relative[3], f);
     const auto pair = contact::spherePair<Float>(
         {base::convert<float>(apart.x), base::convert<float>(apart.y), base::convert<float>(apart.z)},
-        base::convert<float>(distance2), base::convert<float>(data_.diameterUnits2 - distance2), f.diameterUnits,
-        f.unit);
-    const Vec arm = pair.normal * (0.5f * pair.distance);
-
-    const Vec velocity = firstThree(relative) + cross(firstThree(turning), arm);
-    Float mass = base::broadcast<Float>(f.halfMass), share = base::broadcast<Float>(0.5f);
-    if (hasFixed()) {
-      const auto fixed = relative[3] > 0.5f;
-      mass = fixed ? base::broadcast<Float>(f.mass) : mass, share = fixed ? base::broadcast<Float>(1) : share;
-    }
-    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity, mass,
-                                                     base::broadcast<Float>(0.5f * f.radius)};
+        base::convert<float>(distance2), base::convert<float>(both.reach2 - distance2), both.reach, f.unit);
+    Float lever = 0.5f * pair.distance;
+    if (kManySizes) lever = both.ownRadius - 0.5f * pair.overlap;
+    const Vec arm = pair.normal * lever;
+    Vec velocity = firstThree(relative);
+    Vec spin{};
+    if (kBothSpins) spin = firstThree(turning) - firstThree(theirs);
+    if (kManySizes)
+      velocity += cross(firstThree(turning) * lever + firstThree(theirs) * (both.otherRadius - 0.5f * pair.overlap),
+                        pair.normal);
+    else
+      velocity += cross(kBothSpins ? firstThree(turning) + firstThree(theirs) : firstThree(turning), arm);
+    Float radius = base::broadcast<Float>(0.5f * f.radius);
+    if (kManySizes) radius = both.ownRadius * both.otherRadius / (both.ownRadius + both.otherRadius);
+    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity, both.mass, radius};
     const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
     if (kWithFriction) {
       spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z,
-      spring[3] = kWithLedger ? share * reaction.rubbed : Float{};
+      spring[3] = kWithLedger ? both.share * reaction.rubbed : Float{};
       base::storeRows(spring_ + c, spring);
     }
+    if (kWithRolling) roll(c, f, both, {pair.normal, spin, radius, Float{}}, reaction);
     const Vec torque = cross(arm, reaction.force);
     Float forces[4] = {reaction.force.x, reaction.force.y, reaction.force.z,
-                       kWithLedger ? share * reaction.damped : Float{}};
+                       kWithLedger ? both.share * reaction.damped : Float{}};
     Float torques[4] = {torque.x, torque.y, torque.z, pair.overlap};
     base::storeRows(moving_ + c, forces), base::storeRows(turning_ + c, torques);
+  }
+
+  /// Rolling resistance of these contacts: rows of torques, and what is dissipated, replace those of places.
+  GROUSER_SIMD void roll(int c, const ForceData<float>& f, const Pair& both, contact::RollingMotion<Float> motion,
+                         const contact::BasicReaction<Float>& reaction) {
+    if (kManySizes)
+      motion.inertia = contact::rollingInertia(both.ownMass, both.ownRadius, both.otherMass, both.otherRadius);
+    else
+      motion.inertia = base::broadcast<Float>(contact::rollingInertia(f.mass, f.radius, f.mass, f.radius));
+    if (hasFixed())
+      motion.inertia = both.share > 0.75f ? contact::rollingInertia(both.ownMass, both.ownRadius) : motion.inertia;
+    Float rows[4];
+    base::loadRows(angle_ + c, rows);
+    Vec angle = firstThree(rows);
+    Float rolled{};
+    const Vec torque =
+        contact::rollingTorque(f.law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle, rolled);
+    rows[0] = angle.x, rows[1] = angle.y, rows[2] = angle.z;
+    base::storeRows(angle_ + c, rows);
+    Float torques[4] = {torque.x, torque.y, torque.z, kWithLedger ? both.share * rolled : Float{}};
+    base::storeRows(apart_ + c, torques);
   }
 
   GROUSER_SIMD void advance(int g, int i) {
@@ -204,28 +318,35 @@ private:
       if (kWithLedger) bookHeldContacts(g, i);
     }
     Float4 force{}, torque{}, most{};
-    float rubbed = 0;
+    float rubbed = 0, rolled = 0;
     for (int c = begin_[g]; c < begin_[g + 1]; ++c) {
       if (kWithFriction && kWithLedger) rubbed += spring_[c][3];
       force += moving_[c];
       torque += turning_[c];
+      if (kWithRolling) torque += apart_[c], rolled += apart_[c][3];
       most = turning_[c] > most ? turning_[c] : most;
     }
     float deepest = samePlace_[g] ? data_.diameter : most[3];
-    if (const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0) {
+    const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0;
+    if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
-      if (load.deepest > data_.maxSurfaceShare * forces_.radius) deepest = kThrough;
+      const float radius = kManySizes ? data_.velocity[i].w : forces_.radius;
+      if (load.deepest > data_.maxSurfaceShare * radius) deepest = kThrough;
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};
+    if (data_.features & kSurfaces && place != 0) {
+      const base::Vec3d& pressed = data_.fromSurfaces[place - 1];
+      f4 += Double4{pressed.x, pressed.y, pressed.z, 0};
+    }
     if (data_.features & kLoads && data_.loads.range[i] != 0) {
       base::Vec3d f3{f4[0], f4[1], f4[2]}, t3{t4[0], t4[1], t4[2]};
       addLoadsOf(data_, forces_, i, f3, t3, deepest);
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
-    const Lost lost{static_cast<double>(force[3]), static_cast<double>(rubbed), 0};
-    if (!advanceSimd(i, f4, t4, deepest, lost))
+    const Lost lost{static_cast<double>(force[3]), static_cast<double>(rubbed), static_cast<double>(rolled)};
+    if (atSide_[g] || !advanceSimd(i, f4, t4, deepest, lost))
       advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest, lost, books_);
   }
 
@@ -234,7 +355,10 @@ private:
     Float4 force{}, torque{};
     bool any = false;
     for (int c = begin_[g]; c < begin_[g + 1]; ++c)
-      if (data_.velocity[other_[c]].w < 0) any = true, force += moving_[c], torque += turning_[c];
+      if (data_.velocity[other_[c]].w < 0) {
+        any = true, force += moving_[c];
+        torque += kWithRolling ? turning_[c] + apart_[c] : turning_[c];
+      }
     if (!any) return;
     if (!kWithFriction) torque = Float4{};
     bookHeld(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]});
@@ -269,7 +393,18 @@ private:
     const Int4 kept = load<Int4>(data_.remainders + i);
     Int4 rv = kept << 16 >> 16, rw = kept >> 16;
     const Double4 gravity{data_.gravityStep.x, data_.gravityStep.y, data_.gravityStep.z, 0};
-    const Double4 faster = force * data_.stepPerMass + gravity, turning = torque * data_.stepPerInertia;
+    const float radius = v[3];
+    double stepPerMass = data_.stepPerMass, stepPerInertia = data_.stepPerInertia, mass = data_.mass, massShare = 1,
+           inertia = data_.inertia;
+    float maxOverlap = data_.maxOverlap;
+    if (kManySizes) {
+      const auto own = static_cast<double>(forces_.massPerCube * radius * radius * radius), r = double{radius};
+      inertia = 0.4 * own * r * r;
+      const Double4 shares = Double4{data_.timeStep, data_.timeStep, own, 1} / Double4{own, inertia, data_.mass, 1};
+      stepPerMass = shares[0], stepPerInertia = shares[1], massShare = shares[2], mass = data_.mass * massShare;
+      maxOverlap = data_.maxOverlapShare * radius;
+    }
+    const Double4 faster = force * stepPerMass + gravity, turning = torque * stepPerInertia;
     const CompensatedAxes speed = addCompensatedAxes(v, rv, faster);
     CompensatedAxes turn{};
     if (kWithFriction || data_.features & kLoads) turn = addCompensatedAxes(w, rw, turning);
@@ -291,19 +426,17 @@ private:
     // The high words change where a low word passes its end.
     const Int4 passes =
         (base::bitsAs<Simd<std::uint32_t, 4>>(q) < base::bitsAs<Simd<std::uint32_t, 4>>(p)) ^ (units < 0);
-    const bool ordinary = speed2 <= data_.maxSpeed2 && speed2 < 1e30f && !(deepest > data_.maxOverlap) &&
+    const bool ordinary = speed2 <= data_.maxSpeed2 && speed2 < 1e30f && !(deepest > maxOverlap) &&
                           base::laneBits(passes) == 0 && (base::laneBits(near) & 7) == 7;
     if (!ordinary) return false;
 
     if (kWithLedger) {
-      Double4 work = halfSquaresGained(faster, speed) * data_.mass + halfSquaresGained(turning, turn) * data_.inertia;
-      work[3] = lost.damped;
-      workOf_[toBook_] = work, rubbedOf_[toBook_] = lost.rubbed, placeOf_[toBook_] = p;
-      ++toBook_;
+      const Double4 work = halfSquaresGained(faster, speed) * mass + halfSquaresGained(turning, turn) * inertia;
+      block_.add(work, lost, p, massShare);
     }
     Int4 keep = (rv & 0xFFFF) | rw << 16;
     keep[3] = (kept[3] & ~0x3FFFFFFF) | r[0] | r[1] << 10 | r[2] << 20;
-    v[3] = 0, w[3] = 0;
+    v[3] = kManySizes ? radius : 0, w[3] = 0;
     store(data_.nextPosition + i, q), store(data_.nextVelocity + i, v), store(data_.nextSpin + i, w);
     store(data_.remainders + i, keep);
     if (squareOf(q - base::bitsAs<Int4>(base::load3(data_.reference + i))) > data_.halfSkinUnits2)
@@ -316,74 +449,51 @@ private:
     return faster * (now.sum - faster * 0.5) + now.rounding * now.sum;
   }
 
-  /// GrainStep::book() of the block's grains, four side by side: one by one each would wait for the one before.
-  GROUSER_SIMD void bookAll() {
-    advanced_ += toBook_;
-    for (int g = toBook_; g % 4 != 0; ++g) workOf_[g] = Double4{}, rubbedOf_[g] = 0, placeOf_[g] = Int4{};
-    for (int g = 0; g < toBook_; g += 4) {
-      Double4 work[4] = {workOf_[g], workOf_[g + 1], workOf_[g + 2], workOf_[g + 3]};
-      base::transpose(work); // by axis; what is damped
-      const Double4 all = (work[0] + work[2]) + work[1];
-      work_ += quantaOf(all), turnover_ += quantaOf(all < 0.0 ? -all : all);
-      damped_ += quantaOf(work[3]);
-      if (kWithFriction) rubbed_ += quantaOf(load<Double4>(rubbedOf_ + g));
-      Int4 place[4] = {placeOf_[g], placeOf_[g + 1], placeOf_[g + 2], placeOf_[g + 3]};
-      base::transpose(place);
-      for (int a = 0; a < 3; ++a) moment_[a] += axisOf(place[a], place[3], a);
-    }
-  }
-  /// wholeQuanta() of four energies.
-  GROUSER_SIMD Long4 quantaOf(const Double4& energies) const {
-    const Double4 most = base::broadcast<Double4>(0x1p51), shift = base::broadcast<Double4>(0x1.8p52);
-    Double4 quanta = energies * data_.bookScale.perEnergy;
-    quanta = quanta > -most ? quanta : -most;
-    quanta = quanta < most ? quanta : most;
-    return base::bitsAs<Long4>(quanta + shift) - base::bitsAs<Long4>(shift);
-  }
-  /// base::axisOf() of four places.
-  GROUSER_SIMD static Long4 axisOf(const Int4& low, const Int4& high, int axis) {
-    const Int4 top = high << (22 - 10 * axis) >> 22;
-    return base::convert<std::int64_t>(top) << 32 |
-           base::convert<std::int64_t>(base::bitsAs<Simd<std::uint32_t, 4>>(low));
-  }
-
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
   GrainBooks books_; ///< of what is rare
-  Long4 work_{}, turnover_{}, damped_{}, rubbed_{}, moment_[3] = {};
-  std::int64_t advanced_ = 0; ///< grains
-  int grains_ = 0, contacts_ = 0, toBook_ = 0;
+  BlockBooks<kFeatures> block_;
+  int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];
-  bool samePlace_[kGrains];
+  bool samePlace_[kGrains], atSide_[kGrains];
   // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
   static constexpr int kRows = kContacts + kWidth;
-  alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], spring_[kRows];
+  alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows];
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
-  // Of the block's grains that wait to be booked.
-  Double4 workOf_[kGrains]; ///< by axis, and what is damped
-  double rubbedOf_[kGrains];
-  Int4 placeOf_[kGrains];
 };
 
-template <class Some>
-GROUSER_SIMD void runAndBook(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
-  Some some(d, f);
+template <int kWidth, unsigned kFeatures>
+GROUSER_SIMD void runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
+  GrainSimd<kWidth, kFeatures> some(d, f);
   some.run(first, last);
-  addToBooks(d, first, some.books());
+  if (kFeatures & kLedger) addToBooks(d, first, some.books());
+}
+
+/// What is known at compile time; whatever is not among these features is asked for as a step runs.
+constexpr unsigned kSimdSets[] = {0, contact::kHertz, contact::kRollingFriction,
+                                  contact::kHertz | contact::kRollingFriction};
+
+template <int kWidth, int... kSet> GROUSER_SIMD void runRough(unsigned features, const GrainKernelData& d,
+                                                              const ForceData<float>& f, int first, int last,
+                                                              std::integer_sequence<int, kSet...>) {
+  (((features == (contact::kFriction | kSimdSets[kSet % 4] | (kSet & 4 ? kManyRadii : 0u) | (kSet & 8 ? kLedger : 0u)))
+        ? runOf<kWidth, contact::kFriction | kSimdSets[kSet % 4] | (kSet & 4 ? kManyRadii : 0u) |
+                            (kSet & 8 ? kLedger : 0u)>(d, f, first, last)
+        : void()),
+   ...);
 }
 
 /// Picks the features that are known at compile time.
 template <int kWidth>
 GROUSER_SIMD void runSimd(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
-  const bool friction = d.features & contact::kFriction, ledger = d.features & kLedger;
-  if (friction && ledger)
-    runAndBook<GrainSimd<kWidth, true, true>>(d, f, first, last);
-  else if (friction)
-    GrainSimd<kWidth, true, false>(d, f).run(first, last);
-  else if (ledger)
-    runAndBook<GrainSimd<kWidth, false, true>>(d, f, first, last);
+  const unsigned features =
+      d.features & (contact::kHertz | contact::kFriction | contact::kRollingFriction | kManyRadii | kLedger);
+  if (features == 0)
+    runOf<kWidth, 0>(d, f, first, last);
+  else if (features == kLedger)
+    runOf<kWidth, kLedger>(d, f, first, last);
   else
-    GrainSimd<kWidth, false, false>(d, f).run(first, last);
+    runRough<kWidth>(features, d, f, first, last, std::make_integer_sequence<int, 16>{});
 }
 
 } // namespace grouser::terrain::detail

@@ -2,6 +2,7 @@
 // The law on many contacts side by side: each lane has the bits of that contact alone.
 #include "base/random.hpp"
 #include "base/simd.hpp"
+#include "contact/rolling_resistance.hpp"
 #include "contact_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -99,6 +100,56 @@ TEST(ContactLawSimd, AttractionHertzCohesionAndManyMasses) {
   many.damping = many.tangentialDamping = 0, many.rootDamping = 300, many.tangentialRootDamping = 100;
   expectLanesAsAlone<kFriction | kManyMasses, 8>(many);
   expectLanesAsAlone<kGeneral, 8>(many);
+}
+
+template <int kWidth, class T> void expectRollingAsAlone(T stiffness) {
+  using Numbers = base::Simd<T, kWidth>;
+  BasicLaw<T> law = linear<T>();
+  law.rollingFriction = T(0.1), law.rollingDamping = T(0.3);
+  RandomContacts<T> random;
+  int limited = 0;
+  for (int round = 0; round < 200; ++round) {
+    RollingMotion<Numbers> all{};
+    base::Vec3<Numbers> angles{};
+    Numbers pressing{}, normal{}, lost{};
+    std::array<RollingMotion<T>, kWidth> one;
+    std::array<base::Vec3<T>, kWidth> angle;
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      one[l] = {base::normalized(random.vector(1)), random.vector(random.in(0, 1) < T(0.5) ? 0.1 : 300),
+                random.in(0.002, 0.03), random.in(1e-8, 1e-5)};
+      angle[l] = random.vector(round % 3 ? 1e-4 : 1e-2);
+      if (round == 7 && l == 1) one[l].spin.x = std::numeric_limits<T>::quiet_NaN();
+      for (int a = 0; a < 3; ++a) {
+        all.normal[a][l] = one[l].normal[a], all.spin[a][l] = one[l].spin[a], angles[a][l] = angle[l][a];
+      }
+      all.radius[l] = one[l].radius, all.inertia[l] = one[l].inertia;
+      pressing[l] = random.in(-1, 10), normal[l] = stiffness, lost[l] = T(1e-3);
+    }
+    const auto together = rollingTorque(law, all, pressing, normal, T(1e-5), angles, lost);
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      T taken = T(1e-3);
+      const T pressed = pressing[l];
+      const auto alone = rollingTorque(law, one[l], pressed, stiffness, T(1e-5), angle[l], taken);
+      for (int a = 0; a < 3; ++a) {
+        EXPECT_EQ(bitsOf(together[a][l]), bitsOf(alone[a])) << "lane " << l << ", axis " << a;
+        EXPECT_EQ(bitsOf(angles[a][l]), bitsOf(angle[l][a]));
+      }
+      EXPECT_EQ(bitsOf(lost[l]), bitsOf(taken));
+      limited += norm(alone) >= T(0.9999) * law.rollingFriction * one[l].radius * pressed;
+    }
+  }
+  if (stiffness > 0) {
+    EXPECT_GT(limited, 200 * kWidth / 20);
+    EXPECT_LT(limited, 200 * kWidth * 19 / 20);
+  }
+}
+
+TEST(ContactLawSimd, RollingResistance) {
+  expectRollingAsAlone<4>(1e5f);
+  expectRollingAsAlone<8>(1e5f);
+  expectRollingAsAlone<16>(1e5f);
+  expectRollingAsAlone<4>(1e5);
+  expectRollingAsAlone<8>(0.0f);
 }
 
 } // namespace

@@ -55,7 +55,8 @@ TEST(BatchedSteps, EndSoInDoubleAndOnAFloorToo) {
       advance(single, 150);
       advanceAtOnce(some, 150);
       EXPECT_EQ(some.state().words(), single.state().words());
-      EXPECT_EQ(forceRatio(some.system()), forceRatio(single.system())) << "which needs the velocities of the step before";
+      EXPECT_EQ(forceRatio(some.system()), forceRatio(single.system()))
+          << "which needs the velocities of the step before";
     }
 }
 

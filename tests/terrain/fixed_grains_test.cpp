@@ -3,8 +3,8 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "surface_fixture.hpp"
-#include "tests/device_under_test.hpp"
 #include "terrain/grain_forces.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The CPU's step in lanes against the scalar kernels: the same bits for every width that this processor has.
-#include "grain_fixture.hpp"
+#include "surface_fixture.hpp"
 
 #include "base/random.hpp"
 #include "terrain/grain_simd.hpp"
@@ -16,6 +16,8 @@ struct Kind {
   bool friction = true, ledger = true, walls = true, loads = false, attraction = false;
   int grains = 391; ///< neither a multiple of a width nor of a block
   double wallFriction = 0.5;
+  bool hertz = false, rolling = false, periodic = false, fixed = false, surface = false;
+  double smallest = 1; ///< radii are uniform from this share on [-]
 };
 
 constexpr int kSteps = 400;
@@ -32,18 +34,34 @@ GrainModel modelOf(const Kind& kind) {
   m.law.friction = kind.friction ? 0.4 : 0;
   m.law.tangentialStiffness = 3e4, m.law.tangentialDamping = 300;
   m.ledger = kind.ledger;
+  if (kind.hertz) {
+    m.law.hertz = true, m.law.stiffness = 5e7, m.law.tangentialStiffness = 4e7, m.law.damping = 0;
+    m.law.rootDamping = 3000, m.law.tangentialRootDamping = 1500, m.law.tangentialDamping = 0;
+  }
+  if (kind.rolling) m.law.rollingFriction = 0.1, m.law.rollingDamping = 0.3;
+  if (kind.smallest < 1 && !kind.hertz) m.law.damping = 0, m.law.rootDamping = 60, m.law.tangentialRootDamping = 30;
   return m;
 }
 
 /// A heap that falls, splashes against the walls and comes to lie in part: contacts begin, stick, slide and end.
-std::vector<GrainSpec> heap(int grains) {
+std::vector<GrainSpec> heap(const Kind& kind) {
   std::vector<GrainSpec> start;
+  const int grains = kind.grains;
+  const auto sized = [&](GrainSpec& g, int i) {
+    if (kind.smallest < 1) g.radius = 0.005 * (kind.smallest + (1 - kind.smallest) * die(i, 11));
+  };
   for (int i = 0; i < grains; ++i) {
     GrainSpec g;
     g.position = Vec3d{i % 7 + 0.09 * die(i, 0), i / 7 % 7 + 0.09 * die(i, 1), i / 49 + 0.55} * 0.0105;
     g.velocity = {die(i, 2) - 0.5, die(i, 3) - 0.5, -die(i, 4)};
     g.spin = {100 * die(i, 5), -50 * die(i, 6), 80 * die(i, 7)};
+    sized(g, i);
     start.push_back(g);
+  }
+  for (int i = 0; kind.fixed && i < 81; ++i) {
+    GrainSpec g{{0.0082 * (i % 9) - 0.001, 0.0082 * (i / 9) - 0.001, -0.0045}, {}, {}, 0, 0, true};
+    sized(g, i + 1000);
+    start.insert(start.begin() + i, g);
   }
   return start;
 }
@@ -76,8 +94,13 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
   contact::ContactLaw wall = m.law;
   wall.friction = kind.wallFriction;
   std::vector<Wall> walls;
-  if (kind.walls) walls = {{{0, 0, 1}, 0, wall}, {{1, 0, 0}, -0.01, wall}, {{0, -1, 0}, -0.085, wall}};
-  Grains grains(base::cpuExec(threads), m, {walls, {}}, heap(kind.grains));
+  if (kind.walls && !kind.fixed) walls = {{{0, 0, 1}, 0, wall}};
+  if (kind.walls && !kind.periodic) walls.insert(walls.end(), {{{1, 0, 0}, -0.01, wall}, {{0, -1, 0}, -0.085, wall}});
+  Boundaries around{walls, {}};
+  if (kind.periodic) around.periodic = {std::array{-0.005, 0.0685}, std::array{-0.006, 0.0685}};
+  if (kind.surface) around.surfaces.push_back({boxOf({0.02, 0.02, 0.004}), wall, placed({0.03, 0.03, -0.0035})});
+  m.smallestRadius = kind.smallest < 1 ? kind.smallest * m.radius : 0;
+  Grains grains(base::cpuExec(threads), m, around, heap(kind));
   Pushes pushes;
   for (int s = 0; s < steps; ++s) {
     grains.refreshNeighbours();
@@ -113,16 +136,66 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
   }
 }
 
+/// All that beds of soil have, each with and without.
+TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
+  for (int bits = 0; bits < 32; ++bits) {
+    const Kind kind{.ledger = bits != 7,
+                    .loads = bits % 3 == 1,
+                    .grains = 257,
+                    .hertz = (bits & 1) != 0,
+                    .rolling = (bits & 2) != 0,
+                    .periodic = (bits & 16) != 0,
+                    .fixed = (bits & 8) != 0,
+                    .surface = bits % 5 == 1,
+                    .smallest = bits & 4 ? 0.6 : 1};
+    const auto expected = wordsAfter(kind, 1, 1, kSteps);
+    for (const int lanes : {4, 8, 16})
+      EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, kind " << bits;
+    EXPECT_TRUE(wordsAfter(kind, 16, 2, kSteps, 0.2) == expected) << "two threads, more rebuilds, kind " << bits;
+  }
+}
+
+/// One among many that are six times smaller has more neighbours than a word has bits; one of twelve times more than a
+/// block of contacts holds.
+TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
+  for (const double times : {6.0, 12.0}) {
+    GrainModel m = modelOf({.rolling = true, .smallest = 0.5});
+    const double small = m.radius / times;
+    m.skin = 1.5, m.timeStep = times > 6 ? 5e-7 : 1.5e-6, m.smallestRadius = small;
+    std::vector<GrainSpec> start{{{0, 0, 0}, {0, 0, -1}, {10, 20, 30}, m.radius}};
+    const int across = static_cast<int>(times) + 4;
+    for (int i = 0; i < across * across * across; ++i) {
+      const Vec3d cell{i % across + 0.0, i / across % across + 0.0, i / (across * across) + 0.0};
+      const Vec3d place = (cell - Vec3d{1, 1, 1} * (0.5 * (across - 1))) * (2.05 * small);
+      if (norm(place) > m.radius + 1.01 * small)
+        start.push_back({place, {}, {0, 0, 5}, small * (0.9 + 0.1 * die(i, 1))});
+    }
+    const auto words = [&](int lanes) {
+      m.mostSimdLanes = lanes;
+      Grains grains(base::cpuExec(1), m, {{{{0, 0, 1}, -(across + 1) * 1.05 * small, m.law}}, {}}, start);
+      advance(grains, 1);
+      const contact::NeighbourList::HostCopy lists = grains.system().neighbours.toHost();
+      EXPECT_GT(*std::max_element(lists.count.begin(), lists.count.end()), times > 6 ? 192u : 64u);
+      advance(grains, 700);
+      return grains.state().words();
+    };
+    const auto expected = words(1);
+    for (const int lanes : {4, 8, 16}) EXPECT_TRUE(words(lanes) == expected) << lanes << " lanes, " << times;
+  }
+}
+
 TEST(GrainSimd, TakeTheCommonBedsAndLeaveTheRest) {
   contact::BasicLaw<float> law;
   law.friction = 0.5f;
   const unsigned bed = contact::kFriction | kBoundaries | kLedger | kLoads;
   EXPECT_GE(simdWidth(bed, law, 16), 4);
-  EXPECT_GE(simdWidth(bed | kFixed, law, 16), 4);
   EXPECT_EQ(simdWidth(bed, law, 4), 4);
   EXPECT_EQ(simdWidth(bed, law, 1), 1);
-  for (const unsigned feature : {contact::kHertz, contact::kRollingFriction, contact::kCohesion, contact::kGeneral,
-                                 kManyRadii, kManyMaterials, kPeriodic})
+  for (const unsigned feature :
+       {contact::kHertz, contact::kRollingFriction, kManyRadii, kPeriodic, kSurfaces, kFixed,
+        contact::kHertz | contact::kRollingFriction | kManyRadii | kPeriodic | kSurfaces | kFixed})
+    EXPECT_GE(simdWidth(bed | feature, law, 16), 4);
+  for (const unsigned feature : {contact::kCohesion, contact::kGeneral, kManyMaterials})
     EXPECT_EQ(simdWidth(bed | feature, law, 16), 1);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The share of its weight that a grain's forces leave unbalanced.
 #include "grain_fixture.hpp"
-#include "tests/device_under_test.hpp"
 #include "terrain/grain_forces.hpp"
+#include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
 

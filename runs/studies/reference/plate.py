@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The same plate on the same bed under the same law in grouser and in LIGGGHTS, seed by seed.
 
-    runs/studies/reference/plate.py --grouser build/bin/grouser --seeds 8 --out out/plate_reference
+    runs/studies/reference/plate.py --grouser build/bin/grouser --seeds 16 --out out/plate_reference
 
 For each seed grouser pours a bed of spheres into a bin and settles it; both programs then read the places and radii of
 its grains and push a plate down into it at the same speed. Linear spring and dashpot, tangential spring of 2/7, Coulomb
@@ -282,7 +282,7 @@ def main():
     parser.add_argument("--grouser", default="build/bin/grouser")
     parser.add_argument("--liggghts", default="liggghts")
     parser.add_argument("--out", default="out/plate_reference")
-    parser.add_argument("--seeds", type=int, default=8)
+    parser.add_argument("--seeds", type=int, default=16)
     parser.add_argument("--bin", type=float, default=16, help="width of the bin [grains]")
     parser.add_argument("--deep", type=float, default=8, help="depth of the bed [grains]")
     parser.add_argument("--plate", type=float, default=8, help="side of the square plate [grains]")

@@ -87,6 +87,27 @@ TEST(BenchBed, IsOneBedForAllThreadsAndSkins) {
   EXPECT_NE(benchBed(b, base::cpuExec(1)).stateHash, hash) << "the hash must see the bed";
 }
 
+TEST(BenchBed, OfSoilIsOneBedForAllLanes) {
+  BedBench b{.grains = 500,
+             .radiiSpread = 0.25,
+             .hertz = true,
+             .rolling = 0.1,
+             .fixedFloor = true,
+             .periodic = true,
+             .settleTime = 0.05,
+             .steps = 10,
+             .batches = 1,
+             .ledger = true,
+             .hash = true};
+  const BedFigures wide = benchBed(b, base::cpuExec(2));
+  EXPECT_EQ(wide.features, "hertz, friction, rolling friction, many radii, periodic boundaries, fixed grains, ledger");
+  b.lanes = 1;
+  EXPECT_EQ(benchBed(b, base::cpuExec(1)).stateHash, wide.stateHash);
+  b.rolling = 0;
+  EXPECT_NE(benchBed(b, base::cpuExec(1)).stateHash, wide.stateHash);
+  EXPECT_GT(wide.contactsPerGrain, 0);
+}
+
 TEST(BenchBed, UnstableStepIsAnInputError) {
   BedBench b = tinyBed();
   b.timeStep = 1e-2;

@@ -28,7 +28,7 @@ SimulationState filled() {
       true);
   terrain::GrainState& g = *s.grains;
   g.total = 3, g.id = {0, 1, 2}, g.contacts = {1, 0, 2};
-  g.layout = {1, 1, 1, 1, 1, 1, 1}, g.wallBits = {1, 1, 1};
+  g.layout = {1, 1, 1, 1, 1, 1, 1, 1}, g.wallBits = {1, 1, 1};
   // Behind what moves the bodies stand as many books, which no hash takes.
   for (std::vector<double>* bodies : {&s.vehicle->bodies, &s.mechanism->bodies})
     for (std::size_t k = 0; k < multibody::State::kBooks; ++k) bodies->push_back(++next);
