@@ -98,7 +98,7 @@ TEST(PutOnBed, BedHasTheBitsOfOneAloneWhateverIsPutOnIt) {
 
 TEST(PutOnBed, SpringsOnWhatStoodInTheBedStayItsOwn) {
   // Four walls, the floor, then surfaces: the sill is the bed's sixth boundary, and the scene's seventh.
-  const std::string sill = "[[box]]\nname = \"sill\"\nposition = [0.05, 0, 0]\nsize = [0.04, 0.6, 0.05]\n"
+  const std::string sill = "[[box]]\nname = \"sill\"\nposition = [0.2, 0, -0.05]\nsize = [0.04, 0.4, 0.08]\n"
                            "material = \"steel\"\n";
   const terrain::GrainState alone = made(sceneOf(sill))->ground().grains->state(),
                             rig = made(sceneOf(plate(kFree + "above_bed = 0.01\n") + sill))->ground().grains->state();
