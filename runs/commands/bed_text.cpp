@@ -21,7 +21,7 @@ std::string bedText(const simulation::Simulation& simulation) {
                        settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
   if (const std::optional<terrain::BedStructure>& bed = simulation.ground().structure; bed && bed->grains > 0)
     text += fmt::format(
-        "bed       porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
+        "packing   porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
         "surface   {:.4f} m in the mean, {:.4f} to {:.4f} m; {:.4f} m above the floor, {:.1f} mean diameters\n",
         bed->porosity, bed->porosityError, bed->coordination, 100 * bed->rattlers, 100 * bed->order, bed->settledHeight,
         bed->lowest, bed->highest, bed->thickness, bed->thickness / bed->meanDiameter);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace grouser::scene::detail {
 
@@ -110,13 +112,13 @@ Table<Terrain> terrainTable() {
 
 /// The sieve curve, and the radius in its middle.
 void checkSieves(const Section& section, Terrain& t) {
-  for (const char* key : {"sieve_size", "sieve_passing"})
-    if (!section.has(key))
+  for (const auto& [key, values] : {std::pair{"sieve_size", &t.sieveSize}, {"sieve_passing", &t.sievePassing}})
+    if (values->empty())
       section.fail(key,
                    "is missing, which radius_distribution = \"sieve\" needs; add it, e.g. sieve_size = [0.02, 0.03, "
                    "0.05], sieve_passing = [0, 0.4, 1]");
-  for (const char* key : {"grain_radius", "radius_spread"})
-    if (section.has(key)) section.fail(key, "stands beside a sieve curve, which says the same; remove one of the two");
+  if (section.has("radius_spread"))
+    section.fail("radius_spread", "stands beside a sieve curve, which says the same; remove one of the two");
   const std::vector<double>&size = t.sieveSize, &passing = t.sievePassing;
   if (size.size() != passing.size() || size.size() < 2)
     section.fail("sieve_passing", fmt::format("[-] has {} values, sieve_size has {}; give one a sieve, of at least two",
@@ -130,15 +132,27 @@ void checkSieves(const Section& section, Terrain& t) {
     section.fail("sieve_passing", "[-] must begin with 0 (nothing is finer than the finest sieve) and end with 1 (all "
                                   "is finer than the coarsest); add these sieves");
   const terrain::RadiusDistribution curve{terrain::RadiusLaw::sieve, 0, 0, size, passing};
-  t.grainRadius = curve.medianByMass();
+  const double median = curve.medianByMass();
+  if (t.grainRadius && std::fabs(*t.grainRadius - median) > 1e-9 * median)
+    section.fail("grain_radius",
+                 fmt::format("[m] is not that of the sieve curve, {:g} m; remove it, the curve says it", median));
+  t.grainRadius = median;
+}
+
+void refuseSieves(const Section& section, const Terrain& t) {
+  const char* const why =
+      "belongs to arrangement = \"random\" with radius_distribution = \"sieve\"; add these, or remove it";
+  if (!t.sieveSize.empty()) section.fail("sieve_size", why);
+  if (!t.sievePassing.empty()) section.fail("sieve_passing", why);
 }
 
 /// What belongs to the other arrangement must not stand there; what is not given gets its value.
 void completeArrangement(const Section& section, Terrain& t) {
   using terrain::RadiusLaw;
   if (t.lattice()) {
-    for (const char* key : {"radius_distribution", "radius_spread", "sieve_size", "sieve_passing", "porosity",
-                            "fine_depth", "coarsening", "coarsest_radius"})
+    refuseSieves(section, t);
+    for (const char* key :
+         {"radius_distribution", "radius_spread", "porosity", "fine_depth", "coarsening", "coarsest_radius"})
       if (section.has(key))
         section.fail(key, "belongs to arrangement = \"random\"; remove it, or arrangement = \"lattice\"");
     if (t.layers && t.depth)
@@ -159,8 +173,7 @@ void completeArrangement(const Section& section, Terrain& t) {
   else if (section.has("radius_spread"))
     section.fail("radius_spread", "[-] belongs to a uniform or lognormal radius_distribution; remove it");
   if (t.radiusDistribution == RadiusLaw::sieve) return checkSieves(section, t);
-  for (const char* key : {"sieve_size", "sieve_passing"})
-    if (section.has(key)) section.fail(key, "belongs to radius_distribution = \"sieve\"; add that, or remove it");
+  refuseSieves(section, t);
 }
 
 void checkGrading(const Section& section, const Terrain& t) {
@@ -190,8 +203,6 @@ void checkBed(const Section& section, Terrain& t) {
                                      kLeastPeriod, kLeastPeriod * radius));
   if (std::min(t.size[0], t.size[1]) < 4 * radius)
     section.fail("size", fmt::format("[m] holds less than two grains of radius {} m; enlarge it", radius));
-  if (!t.walls && section.has("wall_friction"))
-    section.fail("wall_friction", "[-] has no meaning with walls = false; remove it");
 }
 
 void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
@@ -203,9 +214,8 @@ void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
   if (t.granular())
     checkBed(section, t);
   else
-    for (const char* key : {"arrangement", "grain_radius", "depth", "radius_distribution", "radius_spread",
-                            "sieve_size", "sieve_passing", "porosity", "fine_depth", "coarsening", "coarsest_radius",
-                            "layers", "spacing", "jitter", "packing", "tile", "floor_grains", "walls", "wall_friction"})
+    for (const char* key : {"grain_radius", "layers", "depth", "tile", "radius_distribution", "radius_spread",
+                            "porosity", "fine_depth", "coarsening", "coarsest_radius", "spacing", "jitter", "packing"})
       if (section.has(key)) section.fail(key, "has no meaning on rigid ground; remove it, or set kind = \"granular\"");
   resolveFile(scene, section, "heightmap", t.heightmap);
 }

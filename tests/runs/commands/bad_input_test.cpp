@@ -229,7 +229,7 @@ std::vector<Mistake> sources() {
       badScene("SourceBeyondTheWalls", "[output]", source("[0.3, 0.3, 0.3]", "", "soil"),
                {"source.0.low", "a wall of the terrain"}, kBed),
       badScene("SourceInTheBed", "[output]", source("[0.3, 0, 0.06]", "", "soil", "0.03"),
-               {"scene.toml:15: source.0 would set a grain", "at step 0", "deep in grain", "elsewhere (low, high)"},
+               {"scene.toml:18: source.0 would set a grain", "at step 0", "deep in grain", "elsewhere (low, high)"},
                kBed),
   };
 }

@@ -79,12 +79,14 @@ protected:
 TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   std::set<std::string> met;
   // What grows fastest meets the limit first: leaving that away, another does. Many grains have a large checkpoint.
-  const std::string csv = " --set output.grains_csv=false", frames = csv + " --set output.frames=false",
+  const std::string csv = " --set output.grains_csv=false",
+                    frames = csv + " --set output.frames=false --set output.picture_width=2400",
                     picture = frames + " --set output.picture=false", many = picture + " --set 'terrain.size=[2, 2]'";
   for (const std::string& more : {std::string(), csv, frames, picture, many}) {
     const Outcome free = run("--hash --out free --force" + more);
     ASSERT_EQ(free.code, 0) << free.errors;
-    for (const int kib : {1, 10, 45, 90, 130, 160, 200, 240, 300, 400, 600, 1000, 1500}) {
+    for (const int kib : {1,   10,  45,  60,  75,  90,  105, 120, 140, 160,  180, 200,
+                          220, 240, 270, 300, 350, 400, 500, 600, 800, 1000, 1500}) {
       const std::string out = "full" + std::to_string(kib);
       fs::remove_all(folder_ / out);
       const Outcome o = run("--out " + out + more, "ulimit -c 0; ulimit -f " + std::to_string(2 * kib) + "; ");

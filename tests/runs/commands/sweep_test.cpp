@@ -176,7 +176,7 @@ TEST_F(Sweep, ForceRunsAll) {
 }
 
 TEST_F(Sweep, AFailedRunStopsNoOther) {
-  EXPECT_EQ(sweep({"grain.0.velocity=[0,0,1],[0,0,-100],[0,0,2]"}), 1);
+  EXPECT_EQ(sweep({"grain.0.velocity=[0,0,1],[0,0,-145],[0,0,2]"}), 1);
   const Csv csv(out() / "summary.csv");
   EXPECT_EQ(csv.at(0, "status"), "finished");
   EXPECT_EQ(csv.at(1, "status"), "failed");
@@ -212,7 +212,7 @@ TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
   EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
   EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "a"));
-  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-100]' --out b");
+  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-145]' --out b");
   EXPECT_EQ(unsound.code, 3);
   EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
 }

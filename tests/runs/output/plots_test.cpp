@@ -39,6 +39,10 @@ protected:
         channels, {});
     writer.constant("vehicle/pitch_radius", "m", 0.245);
     writer.surface({{0, 1, 2}, {-1, 1}, {0, 0.1, 0.2, 0.1, 0.2, 0.3}, "bilinear"});
+    terrain::BedStructure bed;
+    bed.porosity = 0.4, bed.depth = {0.1, 0.3}, bed.porosityAtDepth = {0.5, 0.4};
+    bed.distance = {0.5, 1.5}, bed.radialDistribution = {0, 1.1};
+    writer.bed(bed);
     RowBuilder row(channels);
     for (int r = 0; r < kRows; ++r) {
       std::vector<double> sinkage(kShoes), height(kShoes);

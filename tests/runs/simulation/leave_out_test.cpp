@@ -50,7 +50,7 @@ bool isOn(const scene::Scene& scene, const std::string& what) { return !planLine
 bool isOff(const scene::Scene& scene, const std::string& what) { return !planLine(scene, "off  " + what).empty(); }
 
 TEST(LeaveOut, FrictionlessSceneHasNoHistory) {
-  const scene::Scene rough = bed(), smooth = bed({"material.soil.friction=0"});
+  const scene::Scene rough = bed(), smooth = bed({"material.soil.friction=0", "terrain.wall_friction=0"});
   const auto with = made(rough), without = made(smooth);
   const terrain::Grains &a = *with->ground().grains, &b = *without->ground().grains;
   EXPECT_FALSE(a.system().neighbours.toHost().history.empty());
@@ -126,7 +126,8 @@ TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
 TEST(LeaveOut, PlanNamesTheCost) {
   EXPECT_NE(planLine(bed(), "expected time"), "");
   EXPECT_NE(planLine(bed(), "contact history").find(" 96"), std::string::npos) << planLine(bed(), "contact history");
-  EXPECT_NE(planLine(bed({"material.soil.friction=0"}), "contact history").find(" 0"), std::string::npos);
+  EXPECT_NE(planLine(bed({"material.soil.friction=0", "terrain.wall_friction=0"}), "contact history").find(" 0"),
+            std::string::npos);
 }
 
 TEST(LeaveOut, GrainsAloneHaveNoBoundaries) {
