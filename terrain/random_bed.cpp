@@ -233,7 +233,7 @@ BedPlan planBed(const HeightField& surface, const RandomBedOptions& options) {
           .layers = 0,
           .thickness = options.depth,
           .fall = depths.most() * ((1 - options.porosity) / kLoose - 1),
-          .grains = static_cast<std::int64_t>(grains + 0.5)};
+          .grains = static_cast<std::int64_t>(std::llround(grains))};
 }
 
 std::vector<Seed> layGrains(const HeightField& surface, const RandomBedOptions& options,

@@ -46,8 +46,9 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
                                 "terrain.grain_radius = {:.2g} has them",
                                 t.padWidth / t.meanDiameter, kGrainsInPad, 0.5 * fine));
   if (!t.roughFloor)
-    notes.push_back("the floor is smooth: grains roll on it as on the balls of a bearing; terrain.floor_grains = true "
-                    "makes it rough");
+    notes.emplace_back(
+        "the floor is smooth: grains roll on it as on the balls of a bearing; terrain.floor_grains = true "
+        "makes it rough");
   return notes;
 }
 

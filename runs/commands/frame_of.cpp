@@ -45,9 +45,7 @@ void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contact
   terrain::GrainSnapshot s = grains.snapshot({.contactForces = contactForces && known});
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   if (contactForces && !known) s.contactForce.assign(s.position.size(), {kNone, kNone, kNone});
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
-    frame.positions.push_back(s.position[i].as<float>());
-  }
+  for (const base::Vec3d& p : s.position) frame.positions.push_back(p.as<float>());
   frame.ids = std::move(s.id);
   frame.velocities = std::move(s.velocity), frame.contactForces = std::move(s.contactForce);
   frame.borders = bordersOf(grains);

@@ -17,8 +17,9 @@ bool isPutOnBed(const scene::Scene& scene) {
 scene::Scene sceneOfBed(scene::Scene scene) {
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   const auto removeLater = [&](SurfaceKind kind, auto& sections) {
-    for (auto s = surfaces.rbegin(); s != surfaces.rend(); ++s)
-      if (s->kind == kind && s->placedLater) sections.erase(sections.begin() + static_cast<std::ptrdiff_t>(s->number));
+    for (std::size_t k = surfaces.size(); k-- > 0;) // those behind first, so that numbers stay right
+      if (const SceneSurface& s = surfaces[k]; s.kind == kind && s.placedLater)
+        sections.erase(sections.begin() + static_cast<std::ptrdiff_t>(s.number));
   };
   removeLater(SurfaceKind::plane, scene.planes), removeLater(SurfaceKind::box, scene.boxes);
   removeLater(SurfaceKind::cylinder, scene.cylinders), removeLater(SurfaceKind::mesh, scene.meshes);
