@@ -209,12 +209,12 @@ std::vector<PlateCase> plateCases(const PlatesCommand& c) {
   wide.bin *= 2;
   old.floor = BedFloor::plane, old.lattice = true, old.sinkage = std::min(c.sinkage, kLatticeSinkage);
   circular.shape = PlateShape::circular, circular.bin = c.circularBin, circular.depth = c.circularDepth;
-  const std::vector<PlateCase> all = {{"base", "strip, floor of fixed grains", strip},
-                                      {"rough", "plane floor with friction 2", rough},
-                                      {"deep", "depth doubled", deep},
-                                      {"wide", "width doubled", wide},
-                                      {"old", "five layers in a lattice on a plane floor", old},
-                                      {"circular", "circular plate", circular}};
+  std::vector<PlateCase> all = {{"base", "strip, floor of fixed grains", strip},
+                                {"rough", "plane floor with friction 2", rough},
+                                {"deep", "depth doubled", deep},
+                                {"wide", "width doubled", wide},
+                                {"old", "five layers in a lattice on a plane floor", old},
+                                {"circular", "circular plate", circular}};
   if (c.cases.empty()) return all;
   std::vector<PlateCase> chosen;
   for (const std::string& name : c.cases) {

@@ -18,7 +18,7 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kRadius = 0.01, kLoad = 40, kMass = 1;
+constexpr double kLoad = 40, kMass = 1;
 const double kNormal = kLoad + 9.81 * kMass; // that the load's mass and the load press with [N]
 
 /// Grains in the corner of a rough floor and a rough wall at x = 0.01, below something slick: they stay where they are.

@@ -111,7 +111,7 @@ TEST(RandomBeds, GradedBedKeepsItsFineGrainsAbove) {
 TEST(RandomBeds, TilesKeepTheirPorosity) {
   const std::vector<std::string> wide = {"terrain.size=[1.2, 1.2]", "terrain.porosity=0.4"};
   auto tiled = wide;
-  tiled.push_back("terrain.tile=[0.6, 0.6]");
+  tiled.emplace_back("terrain.tile=[0.6, 0.6]");
   const auto s = simulated(bed(tiled));
   EXPECT_NEAR(structure(*s).porosity, 0.4, 0.012);
   EXPECT_EQ(s->ground().grains->count() % 4, 0u);
