@@ -99,13 +99,13 @@ void sweepCommand(const SweepCommand& command) {
   std::vector<std::string> fixed;
   if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
   if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
-  const SweepPlan plan = planSweep(command.scene, command.sets, fixed);
+  const SweepPlan plan = planSweep(command.scene, command.lists, fixed);
   if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
   SweepOptions options;
   options.program = fs::read_symlink("/proc/self/exe");
   options.folder =
       command.folder.empty() ? fs::path("out") / (plan.scene.stem().string() + "_sweep") : fs::path(command.folder);
-  options.jobs = command.jobs, options.force = command.force;
+  options.jobs = command.jobs, options.seconds = command.seconds, options.force = command.force;
   if (const int failed = runSweep(plan, options))
     throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
                                             plan.runs.size(), (options.folder / "summary.csv").string()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "runs/commands/sweep_plan.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,11 +32,12 @@ void runCommand(const RunCommand& command);
 
 struct SweepCommand {
   std::string scene;
-  std::vector<std::string> sets; ///< "key=value,value..."
-  std::string device;            ///< empty: as the scene says
-  std::optional<int> threads;    ///< empty: as the scene says
-  std::string folder;            ///< empty: out/NAME_sweep
+  SweepLists lists;
+  std::string device;         ///< empty: as the scene says
+  std::optional<int> threads; ///< empty: as the scene says
+  std::string folder;         ///< empty: out/NAME_sweep
   int jobs = 1;
+  double seconds = 0; ///< no run is begun after so many; 0: no end
   bool force = false;
 };
 /// Throws SimulationError where a run has failed, when all have ended.

@@ -41,10 +41,21 @@ void addSweep(CLI::App& app, const Invocation&) {
   sweep->add_option("scene", c.scene, "scene file")->required();
   sweep
       ->add_option(
-          "--set", c.sets,
+          "--set", c.lists.sets,
           "a key and its values, e.g. driver.sprocket_speed=0.5,1,2; may be repeated: all combinations are run")
       ->allow_extra_args(false);
+  sweep
+      ->add_option("--case", c.lists.cases,
+                   "a name, and keys that change together: 'slow: driver.sprocket_speed=0.5, run.duration=16'; a name "
+                   "alone is the scene as it is; may be repeated, the first is the one to compare with")
+      ->allow_extra_args(false);
+  sweep
+      ->add_option("--seeds", c.lists.seeds,
+                   "each combination with run.seed 1 to so many: means with 95 % intervals, and differences")
+      ->check(support::wholeNumber(1, 1000));
   sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(support::wholeNumber(1, 1024));
+  sweep->add_option("--seconds", c.seconds, "no further run is begun after so many; the same call again goes on")
+      ->check(support::notNegative("a time in seconds"));
   sweep->add_option("--out", c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/exec.hpp"
+#include "runs/commands/sweep_intervals.hpp"
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/scene/scene_file.hpp"
@@ -128,20 +129,24 @@ public:
     todo_ = waiting_.size();
   }
 
+  const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
+
   int run() {
     summarise();
     std::size_t next = 0;
-    while (next < waiting_.size() || !running_.empty()) {
-      while (next < waiting_.size() && running_.size() < static_cast<std::size_t>(options_.jobs))
-        launch(waiting_[next++]);
+    const auto more = [&] { return next < waiting_.size() && !isLate(); };
+    while (more() || !running_.empty()) {
+      while (more() && running_.size() < static_cast<std::size_t>(options_.jobs)) launch(waiting_[next++]);
       reap();
       if (progress_.due()) report();
     }
     const auto failed = std::count_if(outcomes_.begin(), outcomes_.end(),
                                       [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
+    const auto finished = std::count_if(outcomes_.begin(), outcomes_.end(),
+                                        [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
     if (todo_ > 0)
-      progress_.finish(
-          fmt::format("{} of {} runs finished", outcomes_.size() - static_cast<std::size_t>(failed), outcomes_.size()));
+      progress_.finish(fmt::format("{} of {} runs finished{}", finished, outcomes_.size(),
+                                   next < waiting_.size() ? "; call again for the others" : ""));
     return static_cast<int>(failed);
   }
 
@@ -155,6 +160,9 @@ private:
   fs::path folder(std::size_t i) const { return options_.folder / plan_.runs[i].name; }
   std::string title(std::size_t i) const {
     return fmt::format("run {} of {}  {:<28}", i + 1, plan_.runs.size(), plan_.runs[i].name);
+  }
+  bool isLate() const {
+    return options_.seconds > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > options_.seconds;
   }
   void summarise() const { writeSummary(plan_, outcomes_, options_.folder); }
 
@@ -216,6 +224,7 @@ private:
   std::vector<std::size_t> waiting_;
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
+  Clock::time_point begin_ = Clock::now();
   support::Progress progress_;
 };
 
@@ -232,10 +241,17 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
         fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
-  const int failed = Runner(plan, options).run();
-  const fs::path summary = options.folder / "summary.csv";
-  fmt::print("summary   {}\n", summary.string());
-  if (options.plot) output::drawPicture("sweep.py", {summary}, options.folder / "summary.png");
+  Runner runner(plan, options);
+  const int failed = runner.run();
+  std::vector<fs::path> tables = {options.folder / "summary.csv"};
+  const SeedIntervals intervals = seedIntervals(plan, sweepFigures(plan, runner.outcomes(), options.folder));
+  if (!intervals.groups.empty()) {
+    fmt::print("{}", intervalsText(intervals));
+    tables.push_back(writeIntervals(intervals, options.folder));
+    fmt::print("intervals {}\n", tables.back().string());
+  }
+  fmt::print("summary   {}\n", tables.front().string());
+  if (options.plot) output::drawPicture("sweep.py", {tables.back()}, options.folder / "summary.png");
   return failed;
 }
 

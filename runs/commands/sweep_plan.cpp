@@ -19,9 +19,15 @@ namespace {
 
 constexpr std::size_t kLongestName = 120; // of a folder; the file system allows 255
 
+/// One value of an axis.
+struct Point {
+  std::string label;                  ///< as given: "0.5", "deep"
+  std::vector<std::string> overrides; ///< "key=value"
+};
+
 struct Axis {
   std::string key;
-  std::vector<std::string> values;
+  std::vector<Point> points;
 };
 
 std::string trimmed(std::string_view text) {
@@ -46,14 +52,71 @@ Axis axisOf(const std::string& set) {
   if (equals == std::string::npos || equals == 0)
     throw InputError(fmt::format(
         "--set {}: no value is given; write key=value,value..., e.g. --set driver.sprocket_speed=1,2", set));
-  Axis axis{set.substr(0, equals), splitValues(std::string_view(set).substr(equals + 1))};
-  for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    if (axis.values[i].empty())
+  Axis axis{set.substr(0, equals), {}};
+  const std::vector<std::string> values = splitValues(std::string_view(set).substr(equals + 1));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].empty())
       throw InputError(fmt::format("--set {}: value {} of the list is empty; remove a comma", set, i + 1));
-    if (std::count(axis.values.begin(), axis.values.end(), axis.values[i]) > 1)
-      throw InputError(fmt::format("--set {}: {} stands there twice; remove one", set, axis.values[i]));
+    if (std::count(values.begin(), values.end(), values[i]) > 1)
+      throw InputError(fmt::format("--set {}: {} stands there twice; remove one", set, values[i]));
+    axis.points.push_back({values[i], {axis.key + "=" + values[i]}});
   }
   return axis;
+}
+
+/// "NAME: key=value, key=value"
+Point caseOf(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  Point point{trimmed(std::string_view(text).substr(0, colon)), {}};
+  if (point.label.empty() || point.label.find_first_of("=,\"") != std::string::npos)
+    throw InputError(fmt::format("--case {}: a case begins with its name; write NAME: key=value, key=value..., e.g. "
+                                 "--case 'deep: terrain.depth=0.6'",
+                                 text));
+  if (colon == std::string::npos || trimmed(std::string_view(text).substr(colon + 1)).empty()) return point;
+  for (const std::string& set : splitValues(std::string_view(text).substr(colon + 1))) {
+    const std::size_t equals = equalsSign(set);
+    if (equals == std::string::npos || equals == 0 || equals + 1 == set.size())
+      throw InputError(fmt::format("--case {}: '{}' is no key=value", text, set));
+    point.overrides.push_back(set);
+  }
+  return point;
+}
+
+Axis caseAxis(const std::vector<std::string>& cases) {
+  Axis axis{kCaseKey, {}};
+  for (const std::string& text : cases) {
+    const Point point = caseOf(text);
+    for (const Point& p : axis.points)
+      if (p.label == point.label) throw InputError(fmt::format("--case {}: two cases have this name", p.label));
+    axis.points.push_back(point);
+  }
+  return axis;
+}
+
+Axis seedAxis(int seeds) {
+  Axis axis{kSeedKey, {}};
+  for (int seed = 1; seed <= seeds; ++seed)
+    axis.points.push_back({fmt::format("{}", seed), {fmt::format("{}={}", kSeedKey, seed)}});
+  return axis;
+}
+
+/// Throws where two of the axes, or a case twice, set the same key.
+void checkKeysApart(const std::vector<Axis>& axes) {
+  std::set<std::string> before;
+  for (const Axis& axis : axes) {
+    std::set<std::string> own;
+    for (const Point& p : axis.points) {
+      std::set<std::string> here;
+      for (const std::string& set : p.overrides) {
+        const std::string key = set.substr(0, equalsSign(set));
+        if (before.contains(key) || !here.insert(key).second)
+          throw InputError(fmt::format("sweep: {} is given twice{}; give it once, with its values joined by commas",
+                                       key, axis.key == kCaseKey ? fmt::format(", by --case {} too", p.label) : ""));
+        own.insert(key);
+      }
+    }
+    before.merge(own);
+  }
 }
 
 std::string lastWord(const std::string& key) { return key.substr(key.rfind('.') + 1); }
@@ -83,12 +146,24 @@ std::string plainText(const std::string& text) {
 std::string folderName(const std::vector<Axis>& swept, const std::vector<std::string>& values,
                        std::set<std::string>& taken) {
   std::string name;
-  for (std::size_t k = 0; k < swept.size(); ++k)
-    name += fmt::format("{}{}={}", k ? "," : "", plainText(shortName(swept[k].key, swept)), plainText(values[k]));
+  for (std::size_t k = 0; k < swept.size(); ++k) {
+    const std::string key = swept[k].key == kCaseKey ? "" : plainText(shortName(swept[k].key, swept)) + "=";
+    name += (k ? "," : "") + key + plainText(values[k]);
+  }
   name.resize(std::min(name.size(), kLongestName));
   std::string unique = name;
   for (int n = 2; !taken.insert(unique).second; ++n) unique = fmt::format("{}~{}", name, n);
   return unique;
+}
+
+/// All lists, in the order of the keys of a sweep.
+std::vector<Axis> axesOf(const SweepLists& lists) {
+  std::vector<Axis> axes;
+  if (!lists.cases.empty()) axes.push_back(caseAxis(lists.cases));
+  for (const std::string& set : lists.sets) axes.push_back(axisOf(set));
+  if (lists.seeds > 0) axes.push_back(seedAxis(lists.seeds));
+  checkKeysApart(axes);
+  return axes;
 }
 
 } // namespace
@@ -117,26 +192,22 @@ std::vector<std::string> splitValues(std::string_view list) {
   return values;
 }
 
-SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::string>& sets,
+SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed) {
+  const std::vector<Axis> axes = axesOf(lists);
+  if (axes.empty())
+    throw InputError(
+        "sweep: nothing is to be varied; add e.g. --set driver.sprocket_speed=0.5,1,2 or --seeds 3, or use "
+        "grouser run");
+  const auto varies = [](const Axis& a) { return a.points.size() > 1 || a.key == kCaseKey; };
+  const bool any = std::any_of(axes.begin(), axes.end(), varies);
   std::vector<Axis> swept;
   std::vector<std::string> same = fixed;
-  std::set<std::string> keys;
-  for (const std::string& set : sets) {
-    const Axis axis = axisOf(set);
-    if (!keys.insert(axis.key).second)
-      throw InputError(fmt::format("--set {}: {} is given twice; join its values with commas", set, axis.key));
-    if (axis.values.size() > 1)
+  for (const Axis& axis : axes)
+    if (varies(axis) || !any)
       swept.push_back(axis);
     else
-      same.push_back(axis.key + "=" + axis.values.front());
-  }
-  if (swept.empty()) {
-    for (const std::string& set : sets) swept.push_back(axisOf(set));
-    same = fixed;
-  }
-  if (swept.empty())
-    throw InputError("sweep: no key is given; add e.g. --set driver.sprocket_speed=0.5,1,2, or use grouser run");
+      same.insert(same.end(), axis.points[0].overrides.begin(), axis.points[0].overrides.end());
 
   SweepPlan plan;
   plan.scene = scene;
@@ -147,8 +218,9 @@ SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::s
     SweepRun run;
     run.overrides = same;
     for (std::size_t k = 0; k < swept.size(); ++k) {
-      run.values.push_back(swept[k].values[at[k]]);
-      run.overrides.push_back(swept[k].key + "=" + run.values.back());
+      const Point& point = swept[k].points[at[k]];
+      run.values.push_back(point.label);
+      run.overrides.insert(run.overrides.end(), point.overrides.begin(), point.overrides.end());
     }
     run.name = folderName(swept, run.values, taken);
     run.scene = setup::loadScene(scene, run.overrides);
@@ -157,7 +229,7 @@ SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::s
     // Count up, the last key fastest.
     more = false;
     for (std::size_t k = swept.size(); k-- > 0 && !more;) {
-      at[k] = (at[k] + 1) % swept[k].values.size();
+      at[k] = (at[k] + 1) % swept[k].points.size();
       more = at[k] != 0;
     }
   }

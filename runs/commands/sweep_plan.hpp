@@ -11,9 +11,20 @@
 /// What a sweep is to run: all combinations of the values given.
 namespace grouser::commands {
 
+/// What is asked of a sweep, as words of the command line.
+struct SweepLists {
+  std::vector<std::string> sets = {}; ///< "key=value,value..."
+  std::vector<std::string> cases =
+      {};        ///< "NAME: key=value, key=value": keys that change together; a name alone: no key
+  int seeds = 0; ///< each combination with run.seed 1 to so many; 0: as the scene says
+};
+
+inline constexpr const char* kCaseKey = "case";     ///< stands for the cases among the keys of a sweep
+inline constexpr const char* kSeedKey = "run.seed"; ///< over its values means and intervals are taken
+
 /// One run of a sweep.
 struct SweepRun {
-  std::string name;                   ///< of its folder: "sprocket_speed=0.5,seed=1"
+  std::string name;                   ///< of its folder: "deep,sprocket_speed=0.5,seed=1"
   std::vector<std::string> values;    ///< as given, one a swept key
   std::vector<std::string> overrides; ///< "key=value", the swept ones and the fixed ones
   scene::Scene scene;                 ///< with the overrides applied
@@ -21,17 +32,17 @@ struct SweepRun {
 
 struct SweepPlan {
   std::filesystem::path scene;
-  std::vector<std::string> keys; ///< the swept ones, in the order given: "driver.sprocket_speed"
+  std::vector<std::string> keys; ///< the swept ones: kCaseKey, those of --set in the order given, kSeedKey
   std::vector<SweepRun> runs;    ///< the last key changes fastest
 };
 
 /// Cuts at commas that stand outside quotes, brackets and braces: "[1, 2],[3, 4]" is two values.
 std::vector<std::string> splitValues(std::string_view list);
 
-/// The runs of `scene` over the product of all lists in `sets` ("key=value,value..."), every scene of them loaded and
-/// checked as `grouser plan` does. A key with one value is fixed; where no key has several, those with one are swept.
-/// `fixed` are overrides for all runs. Throws InputError for the first wrong value, and for a sweep without a key.
-SweepPlan planSweep(const std::filesystem::path& scene, const std::vector<std::string>& sets,
+/// The runs of `scene` over the product of all lists, every scene of them loaded and checked as `grouser plan` does. A
+/// key of --set with one value is fixed; where nothing has several, those with one are swept. `fixed` are overrides for
+/// all runs. Throws InputError for the first wrong value, for a key that is given twice, and for a sweep of nothing.
+SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed = {});
 
 } // namespace grouser::commands

@@ -3,6 +3,7 @@
 
 #include "runs/output/channels.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/support/csv_cell.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -177,16 +178,6 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   return figures;
 }
 
-/// A cell that any reader of CSV takes whole.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-  return cell + "\"";
-}
-
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
-
 /// A number of the manifest, or NaN.
 double numberOf(const nlohmann::json& json, const char* key) {
   const auto at = json.find(key);
@@ -199,22 +190,30 @@ nlohmann::json readManifest(const fs::path& folder) {
   return json.is_object() ? json : nlohmann::json::object();
 }
 
+/// Of one run: all NaN where it has not finished.
+std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
+                              const Columns& columns) {
+  if (outcome.status != output::RunStatus::finished) return figuresOf(nullptr, kNone, columns);
+  std::optional<support::Hdf5File> file;
+  if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
+    file.emplace(support::Hdf5File::open(results));
+  const double driveStart =
+      numberOf(readManifest(folder / run.name).value("figures", nlohmann::json::object()), "drive_start_s");
+  return figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, driveStart), columns);
+}
+
 /// The cells of one run, in the order of the header.
 std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
-                             const Columns& columns) {
-  std::vector<std::string> cells = {quoted(run.name)};
-  for (const std::string& value : run.values) cells.push_back(quoted(value));
+                             const std::vector<double>& figures) {
+  std::vector<std::string> cells = {support::csvCell(run.name)};
+  for (const std::string& value : run.values) cells.push_back(support::csvCell(value));
   cells.emplace_back(base::wordOf(outcome.status));
-  cells.push_back(quoted(outcome.message));
+  cells.push_back(support::csvCell(outcome.message));
   const bool isFinished = outcome.status == output::RunStatus::finished;
   const nlohmann::json manifest = isFinished ? readManifest(folder / run.name) : nlohmann::json::object();
-  for (const char* key : {"wall_time_s", "steps", "simulated_time_s"}) cells.push_back(cell(numberOf(manifest, key)));
-  std::optional<support::Hdf5File> file;
-  if (const fs::path results = folder / run.name / "results.h5"; isFinished && fs::exists(results))
-    file.emplace(support::Hdf5File::open(results));
-  const double driveStart = numberOf(manifest.value("figures", nlohmann::json::object()), "drive_start_s");
-  for (const Figure& f : figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, driveStart), columns))
-    cells.push_back(cell(f.value));
+  for (const char* key : {"wall_time_s", "steps", "simulated_time_s"})
+    cells.push_back(support::csvCell(numberOf(manifest, key)));
+  for (const double value : figures) cells.push_back(support::csvCell(value));
   cells.push_back(manifest.value("state_hash", ""));
   cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
   return cells;
@@ -230,17 +229,28 @@ double steadyFrom(const scene::Scene& scene, double driveStart) {
   return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
 }
 
-fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
+SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
   const Columns columns(plan);
+  SweepFigures all;
+  for (const Figure& f : figuresOf(nullptr, kNone, columns)) all.columns.push_back(f.column);
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    all.values.emplace_back();
+    for (const Figure& f : figuresOf(plan.runs[i], outcomes[i], folder, columns)) all.values[i].push_back(f.value);
+  }
+  return all;
+}
+
+fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
+  const SweepFigures figures = sweepFigures(plan, outcomes, folder);
   std::vector<std::string> header = {"run"};
-  for (const std::string& key : plan.keys) header.push_back(quoted(key));
+  for (const std::string& key : plan.keys) header.push_back(support::csvCell(key));
   for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
     header.emplace_back(column);
-  for (const Figure& f : figuresOf(nullptr, kNone, columns)) header.push_back(f.column);
+  for (const std::string& column : figures.columns) header.push_back(support::csvCell(column));
   header.insert(header.end(), {"state hash", "commit"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, columns), ","));
+    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, figures.values[i]), ","));
 
   fs::path path = folder / "summary.csv";
   support::replaceTextFile(path, text);

@@ -22,10 +22,16 @@ struct SweepOutcome {
 /// `driveStart`: when the drive began [s]; NaN: as the scene says, at the earliest.
 double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_limits<double>::quiet_NaN());
 
+/// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5.
+struct SweepFigures {
+  std::vector<std::string> columns;        ///< name and unit; of a vehicle or a surface only where a run has it
+  std::vector<std::vector<double>> values; ///< [runs][columns]; NaN: none, as of every run that has not finished
+};
+SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
+                          const std::filesystem::path& folder);
+
 /// Writes summary.csv into `folder`: one row a run. Columns: run, the swept keys, status, message, what the run's
-/// manifest says of it, and means and extremes over the steady part from its results.h5; cells without a number are
-/// empty. Columns about a vehicle or about a surface stand there only where a run has it. Replaces the file at once.
-/// Returns its path.
+/// manifest says of it, and its figures; cells without a number are empty. Replaces the file at once. Returns its path.
 std::filesystem::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                                    const std::filesystem::path& folder);
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <vector>
 
 namespace grouser::studies {
 
@@ -44,6 +46,15 @@ support::Estimate relativeDifference(std::span<const double> a, std::span<const 
       variance * variance / (ma.variance * ma.variance / ma.freedom + mb.variance * mb.variance / mb.freedom);
   return {difference,
           support::student95(std::max(1, static_cast<int>(freedom + 1e-9))) * std::sqrt(variance) / std::fabs(ma.mean)};
+}
+
+support::Estimate pairedDifference(std::span<const double> a, std::span<const double> b) {
+  if (a.size() != b.size()) throw std::invalid_argument("pairedDifference: not as many of both");
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(b[i] - a[i]);
+  const support::Estimate d = interval95(differences);
+  const double mean = momentsOf(a).mean;
+  return {d.value / mean, d.halfWidth / std::fabs(mean)};
 }
 
 Verdict judge(const support::Estimate& difference, double bar) {

@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/sweep_intervals.hpp"
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
@@ -54,7 +55,7 @@ protected:
   int sweep(const Words& sets, int jobs = 1, bool force = false) const {
     SweepOptions o = options();
     o.jobs = jobs, o.force = force;
-    return runSweep(planSweep(scene(), sets), o);
+    return runSweep(planSweep(scene(), {sets}), o);
   }
   /// When a run last wrote its manifest; what was left out keeps it.
   fs::file_time_type ended(const std::string& run) const { return fs::last_write_time(out() / run / "manifest.json"); }
@@ -69,7 +70,7 @@ TEST(SweepValues, SplitAtCommasOutsideBracketsAndQuotes) {
 }
 
 TEST_F(Sweep, IsTheProductOfAllListsNamedByTheirValues) {
-  const SweepPlan plan = planSweep(scene(), {"run.seed=1,2", "run.skin=0.5", "grain.0.velocity=[0, 0, 1],[1,0,0]"});
+  const SweepPlan plan = planSweep(scene(), {{"run.seed=1,2", "run.skin=0.5", "grain.0.velocity=[0, 0, 1],[1,0,0]"}});
   EXPECT_EQ(plan.keys, (Words{"run.seed", "grain.0.velocity"}));
   Words names;
   for (const SweepRun& run : plan.runs) {
@@ -84,23 +85,23 @@ TEST_F(Sweep, IsTheProductOfAllListsNamedByTheirValues) {
 
 TEST_F(Sweep, NamesTellKeysOfOneLastWordApart) {
   std::ofstream(scene(), std::ios::app) << "[material.steel]\n";
-  const SweepPlan plan = planSweep(scene(), {"material.glass.friction=0.1,0.2", "material.steel.friction=0.3,0.4"});
+  const SweepPlan plan = planSweep(scene(), {{"material.glass.friction=0.1,0.2", "material.steel.friction=0.3,0.4"}});
   EXPECT_EQ(plan.runs[1].name, "material.glass.friction=0.1,material.steel.friction=0.4");
 }
 
 TEST_F(Sweep, AnEntryOfAListIsNamedByItsWholeKey) {
-  const SweepPlan plan = planSweep(scene(), {"grain.0.position.2=1,2"});
+  const SweepPlan plan = planSweep(scene(), {{"grain.0.position.2=1,2"}});
   EXPECT_EQ(plan.runs[1].name, "grain.0.position.2=2");
 }
 
 TEST_F(Sweep, ValuesThatLookAlikeAsFolderNamesGetTheirOwn) {
-  const SweepPlan plan = planSweep(scene(), {"grain.0.velocity=[0,0,1],[0, 0, 1]"});
+  const SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0, 0, 1]"}});
   EXPECT_EQ(plan.runs[0].name, "velocity=0_0_1");
   EXPECT_EQ(plan.runs[1].name, "velocity=0_0_1~2");
 }
 
 TEST_F(Sweep, OneValueIsASweepOfOneRun) {
-  const SweepPlan plan = planSweep(scene(), {"run.seed=3"});
+  const SweepPlan plan = planSweep(scene(), {{"run.seed=3"}});
   ASSERT_EQ(plan.runs.size(), 1u);
   EXPECT_EQ(plan.runs[0].name, "seed=3");
 }
@@ -109,7 +110,42 @@ TEST_F(Sweep, WrongValuesAreFoundBeforeAnythingRuns) {
   for (const Words& sets : {Words{}, Words{"run.seed=1,-2"}, Words{"run.seed=1,,2"}, Words{"run.seed=1,1"},
                             Words{"run.seed=1,2", "run.seed=3"}, Words{"run.sead=1,2"}, Words{"run.seed"},
                             Words{"run.time_step=1e-5,1e-2"}})
-    EXPECT_THROW(planSweep(scene(), sets), base::InputError) << (sets.empty() ? "" : sets[0]);
+    EXPECT_THROW(planSweep(scene(), {sets}), base::InputError) << (sets.empty() ? "" : sets[0]);
+}
+
+TEST_F(Sweep, ACaseIsKeysThatChangeTogether) {
+  SweepLists lists;
+  lists.cases = {"as it is", "fast: grain.0.velocity=[0, 0, 1], run.duration=2e-3"};
+  lists.sets = {"run.skin=0.3,0.5"}, lists.seeds = 2;
+  const SweepPlan plan = planSweep(scene(), lists);
+  EXPECT_EQ(plan.keys, (Words{"case", "run.skin", "run.seed"}));
+  ASSERT_EQ(plan.runs.size(), 8u);
+  EXPECT_EQ(plan.runs[0].name, "as_it_is,skin=0.3,seed=1");
+  EXPECT_EQ(plan.runs[7].name, "fast,skin=0.5,seed=2");
+  EXPECT_EQ(plan.runs[7].values, (Words{"fast", "0.5", "2"}));
+  EXPECT_EQ(plan.runs[0].scene.run.duration, 1e-3);
+  EXPECT_EQ(plan.runs[7].scene.run.duration, 2e-3);
+  EXPECT_EQ(plan.runs[7].scene.grains[0].velocity, (base::Vec3d{0, 0, 1}));
+  EXPECT_EQ(plan.runs[7].scene.run.seed, 2);
+  EXPECT_EQ(plan.runs[7].scene.run.skin, 0.5);
+}
+
+TEST_F(Sweep, WrongCasesAreFoundBeforeAnythingRuns) {
+  const auto wrong = [&](const Words& cases, const Words& sets, int seeds) {
+    SweepLists lists;
+    lists.cases = cases, lists.sets = sets, lists.seeds = seeds;
+    EXPECT_THROW(planSweep(scene(), lists), base::InputError) << cases[0];
+  };
+  wrong({""}, {}, 0);
+  wrong({": run.seed=1"}, {}, 0);
+  wrong({"run.seed=1"}, {}, 0); // no name
+  wrong({"a: run.seed"}, {}, 0);
+  wrong({"a: run.seed="}, {}, 0);
+  wrong({"a", "a: run.seed=1"}, {}, 0);
+  wrong({"a: run.seed=1, run.seed=2"}, {}, 0);
+  wrong({"a: run.seed=1"}, {"run.seed=1,2"}, 0);
+  wrong({"a: run.seed=1"}, {}, 2);
+  wrong({"a: run.sead=1"}, {}, 0);
 }
 
 TEST_F(Sweep, LeavesAFolderARunAndASummary) {
@@ -160,12 +196,46 @@ TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
   EXPECT_EQ(Csv(out() / "summary.csv").at(2, "status"), "finished");
   // Threads are no other scene; a longer duration is.
   SweepOptions o = options();
-  ASSERT_EQ(runSweep(planSweep(scene(), {"run.seed=1,2,3"}, {"run.threads=2"}), o), 0);
+  ASSERT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2,3"}}, {"run.threads=2"}), o), 0);
   EXPECT_EQ(ended("seed=1"), one);
   writeScene("2e-3");
   ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
   EXPECT_NE(ended("seed=1"), one);
   EXPECT_EQ(Csv(out() / "summary.csv").at(0, "steps"), "200");
+}
+
+TEST_F(Sweep, SeedsGiveIntervalsAndDifferences) {
+  // A named box at a height that the seed has no part in: each case's interval has no width, and the force of a box
+  // that bears two grains is twice that of one.
+  std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"pan\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
+                                           "material = \"glass\"\n";
+  SweepLists lists;
+  lists.cases = {"light", "heavy: material.glass.density=5000"};
+  lists.sets = {"run.duration=0.05", "run.output_interval=1e-3"}, lists.seeds = 3;
+  ASSERT_EQ(runSweep(planSweep(scene(), lists), options()), 0);
+  const Csv csv(out() / "intervals.csv");
+  int seen = 0;
+  for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+    if (csv.at(row, "figure") != "pan force z [N]") continue;
+    ++seen;
+    EXPECT_EQ(csv.at(row, "case"), seen == 1 ? "light" : "heavy");
+    EXPECT_EQ(csv.at(row, "seeds"), "3");
+    EXPECT_EQ(csv.number(row, "half width"), 0);
+    EXPECT_NEAR(csv.number(row, "difference to the first [-]"), seen == 1 ? 0 : 1, 0.1);
+    EXPECT_NEAR(csv.number(row, "half width of the difference [-]"), 0, 1e-14) << "but for rounding of the mean";
+  }
+  EXPECT_EQ(seen, 2);
+  EXPECT_EQ(csv.at(0, "run.seed"), "no such cell");
+}
+
+TEST_F(Sweep, NoRunIsBegunAfterTheTimeGivenAndACallAgainGoesOn) {
+  SweepOptions o = options();
+  o.seconds = 1e-9;
+  EXPECT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2"}}), o), 0);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(1, "status"), "pending");
+  EXPECT_FALSE(fs::exists(out() / "seed=1"));
+  EXPECT_EQ(sweep({"run.seed=1,2"}), 0);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(1, "status"), "finished");
 }
 
 TEST_F(Sweep, ForceRunsAll) {
@@ -192,7 +262,7 @@ TEST_F(Sweep, ARunThatIsKilledIsAFailedRun) {
   fs::permissions(killer, fs::perms::owner_all);
   SweepOptions o = options();
   o.program = killer;
-  EXPECT_EQ(runSweep(planSweep(scene(), {"run.seed=1,2"}), o), 2);
+  EXPECT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2"}}), o), 2);
   EXPECT_NE(Csv(out() / "summary.csv").at(0, "message").find("signal 9"), std::string::npos);
 }
 
@@ -215,6 +285,35 @@ TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
   const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-145]' --out b");
   EXPECT_EQ(unsound.code, 3);
   EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
+}
+
+/// By hand: of 2, 4, 6 the mean is 4 and half the interval t(2) 2 / sqrt 3, t(2) = 4.3027; the differences to 1, 2, 3
+/// are 1, 2, 3 with mean 2 and half width t(2) / sqrt 3, over the first's mean of 2.
+TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
+  SweepPlan plan;
+  plan.keys = {kCaseKey, kSeedKey};
+  for (const char* name : {"base", "other"})
+    for (const char* seed : {"1", "2", "3"}) plan.runs.push_back({"", {name, seed}, {}, {}});
+  plan.runs.push_back({"", {"other", "4"}, {}, {}}); // has no like among the first
+  SweepFigures figures;
+  figures.columns = {"speed [m/s]", "slip [-]"};
+  for (const double v : {1.0, 2.0, 3.0, 2.0, 4.0, 6.0}) figures.values.push_back({v, std::nan("")});
+  figures.values.push_back({std::nan(""), std::nan("")}); // has failed
+  const SeedIntervals all = seedIntervals(plan, figures);
+  ASSERT_EQ(all.groups.size(), 2u);
+  EXPECT_EQ(all.keys, Words{kCaseKey});
+  EXPECT_EQ(all.groups[1].values, Words{"other"});
+  EXPECT_EQ(all.groups[1].runs, 3);
+  const double t = 4.30265 / std::sqrt(3.0); // the program has the quantile to three digits after the point
+  EXPECT_NEAR(all.groups[1].figures[0].value, 4, 1e-12);
+  EXPECT_NEAR(all.groups[1].figures[0].halfWidth, 2 * t, 1e-3);
+  EXPECT_NEAR(all.groups[1].differences[0].value, 1, 1e-12);
+  EXPECT_NEAR(all.groups[1].differences[0].halfWidth, t / 2, 1e-3);
+  EXPECT_EQ(all.groups[0].differences[0].value, 0);
+  EXPECT_TRUE(std::isnan(all.groups[1].figures[1].value)) << "no run has it";
+  EXPECT_NE(intervalsText(all).find("+100.0"), std::string::npos) << intervalsText(all);
+  plan.keys = {kCaseKey, "run.skin"};
+  EXPECT_TRUE(seedIntervals(plan, figures).groups.empty()) << "no seeds, no intervals";
 }
 
 class SweepSummary : public FolderTest {};

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/sweep_intervals.hpp"
+
+#include "runs/studies/estimate.hpp"
+#include "runs/support/csv_cell.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::commands {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Of a vehicle; of surfaces the forces are shown.
+constexpr const char* kShown[] = {"sinkage mean [m]", "sinkage max [m]",    "slip [-]",
+                                  "speed [m/s]",      "drive torque [N m]", "tension mean [N]"};
+
+bool isShown(const std::string& column) {
+  return std::find(std::begin(kShown), std::end(kShown), column) != std::end(kShown) ||
+         column.find(" force ") != std::string::npos;
+}
+
+/// Values of one figure in the runs `rows`, those that have one.
+std::vector<double> valuesOf(const SweepFigures& figures, const std::vector<std::size_t>& rows, std::size_t column) {
+  std::vector<double> values;
+  for (const std::size_t row : rows)
+    if (std::isfinite(figures.values[row][column])) values.push_back(figures.values[row][column]);
+  return values;
+}
+
+/// Runs of a group, and their seeds.
+struct Members {
+  std::vector<std::size_t> rows;
+  std::vector<std::string> seeds;
+};
+
+/// (b - a) / mean a over the seeds that both have.
+support::Estimate difference(const SweepFigures& figures, const Members& a, const Members& b, std::size_t column) {
+  std::vector<double> first, second;
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    const auto same = std::find(b.seeds.begin(), b.seeds.end(), a.seeds[i]);
+    if (same == b.seeds.end()) continue;
+    const double x = figures.values[a.rows[i]][column],
+                 y = figures.values[b.rows[static_cast<std::size_t>(same - b.seeds.begin())]][column];
+    if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y);
+  }
+  if (first.empty()) return {kNone, kNone};
+  return studies::pairedDifference(first, second);
+}
+
+std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < intervals.keys.size(); ++k)
+    words.push_back(intervals.keys[k] == kCaseKey ? group.values[k]
+                                                  : fmt::format("{}={}", intervals.keys[k], group.values[k]));
+  return words.empty() ? "all" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// "+12.3 +- 0.4 %"
+std::string signedPercent(const support::Estimate& e) {
+  return fmt::format("{}{}", e.value < 0 ? "" : "+", studies::percent(e));
+}
+
+/// So many digits that the half width has two.
+std::string shown(const support::Estimate& e) {
+  const double scale = std::isfinite(e.halfWidth) && e.halfWidth > 0 ? e.halfWidth : 0.01 * std::fabs(e.value);
+  const int digits = scale > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9) : 3;
+  return studies::plusMinus(e, digits);
+}
+
+} // namespace
+
+SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) {
+  SeedIntervals all;
+  all.columns = figures.columns;
+  const auto seed = std::find(plan.keys.begin(), plan.keys.end(), kSeedKey);
+  if (seed == plan.keys.end()) return all;
+  const std::ptrdiff_t at = seed - plan.keys.begin();
+  all.keys = plan.keys;
+  all.keys.erase(all.keys.begin() + at);
+  std::vector<Members> members;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    std::vector<std::string> values = plan.runs[i].values;
+    const std::string seedOfRun = values[static_cast<std::size_t>(at)];
+    values.erase(values.begin() + at);
+    auto group = std::find_if(all.groups.begin(), all.groups.end(), [&](const auto& g) { return g.values == values; });
+    if (group == all.groups.end()) {
+      group = all.groups.insert(group, SeedGroup{values, 0, {}, {}});
+      members.emplace_back();
+    }
+    Members& m = members[static_cast<std::size_t>(group - all.groups.begin())];
+    m.rows.push_back(i), m.seeds.push_back(seedOfRun);
+  }
+  for (std::size_t g = 0; g < members.size(); ++g)
+    for (std::size_t c = 0; c < all.columns.size(); ++c) {
+      const std::vector<double> values = valuesOf(figures, members[g].rows, c);
+      SeedGroup& group = all.groups[g];
+      group.runs = std::max(group.runs, static_cast<int>(values.size()));
+      group.figures.push_back(values.empty() ? support::Estimate{kNone, kNone} : studies::interval95(values));
+      group.differences.push_back(difference(figures, members[0], members[g], c));
+    }
+  return all;
+}
+
+std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::filesystem::path& folder) {
+  std::string text;
+  for (const std::string& key : intervals.keys) text += support::csvCell(key) + ",";
+  text += "figure,seeds,mean,half width,difference to the first [-],half width of the difference [-]\n";
+  for (const SeedGroup& group : intervals.groups)
+    for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
+      for (const std::string& value : group.values) text += support::csvCell(value) + ",";
+      const support::Estimate &mean = group.figures[c], &difference = group.differences[c];
+      text += fmt::format("{},{},{},{},{},{}\n", support::csvCell(intervals.columns[c]), group.runs,
+                          support::csvCell(mean.value), support::csvCell(mean.halfWidth),
+                          support::csvCell(difference.value), support::csvCell(difference.halfWidth));
+    }
+  std::filesystem::path path = folder / "intervals.csv";
+  support::replaceTextFile(path, text);
+  return path;
+}
+
+std::string intervalsText(const SeedIntervals& intervals) {
+  std::size_t width = 8;
+  for (const SeedGroup& group : intervals.groups) width = std::max(width, named(intervals, group).size());
+  std::string text = fmt::format("\nmeans over the steady part, +- half of the 95 % interval over the seeds{}\n",
+                                 intervals.groups.size() > 1 ? "; difference to the first line, seed by seed" : "");
+  for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
+    if (!isShown(intervals.columns[c])) continue;
+    text += intervals.columns[c] + "\n";
+    for (const SeedGroup& group : intervals.groups) {
+      if (!std::isfinite(group.figures[c].value)) continue;
+      text += fmt::format("  {:<{}}  {:>22}  {} seed{}", named(intervals, group), width, shown(group.figures[c]),
+                          group.runs, group.runs == 1 ? " " : "s");
+      if (&group != &intervals.groups.front() && std::isfinite(group.differences[c].value))
+        text += fmt::format("  {:>18}", signedPercent(group.differences[c]));
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+} // namespace grouser::commands

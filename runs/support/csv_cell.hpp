@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace grouser::support {
+
+/// A cell that any reader of CSV takes whole: quoted where it holds a comma, a quote or a line's end, which becomes a
+/// space.
+std::string csvCell(const std::string& text);
+/// Nine digits; empty where it is no finite number.
+std::string csvCell(double value);
+
+} // namespace grouser::support
