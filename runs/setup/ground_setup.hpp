@@ -25,6 +25,7 @@ struct SettleSetup {
   double timeLimit{};               ///< [s]; 0: the bed is not settled
   double kineticEnergy{};           ///< [-] mean kinetic energy a grain over m g radius
   std::optional<double> forceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
+  bool spins = true;                ///< kinetic energy of spin counts, too: with next to no friction it never ends
 };
 
 /// A bed that is one settled tile, copied.

@@ -95,6 +95,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   }
   if (archive.present("/vehicle", s.vehicle)) {
     auto& v = *s.vehicle;
+    archive("/vehicle/lift", v.lift);
     archive("/vehicle/bodies", v.bodies);
     archive("/vehicle/observers", v.observers);
     archive("/vehicle/driver", v.driver);

@@ -25,6 +25,7 @@ public:
 class EnergyGuard {
 public:
   static constexpr std::int64_t kInterval = 512; ///< steps between two looks; whole batches of grains alone
+  static constexpr std::int64_t kOneContact = 20; ///< steps of one; nothing is judged over fewer
   // Shares of the energy exchanged [-].
   static constexpr double kMostMade = 0.1; ///< that bodies and springs have gained from nowhere
   /// Made by the steps, and dissipated at once: sliding contacts of grains that bounce well book up to an eighth so at

@@ -76,7 +76,7 @@ void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wante
     if (wanted.forceRatio)
       forceRatio = terrain::forceRatio(grains.system()); // before anything else is done with the step
     const terrain::GrainLedger ledger = grains.ledger();
-    report.agitation = (ledger.kinetic + ledger.rotational) / unit;
+    report.agitation = (ledger.kinetic + (wanted.spins ? ledger.rotational : 0)) / unit;
     progress(report.time, report.agitation);
     const bool rests =
         report.agitation < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
@@ -104,7 +104,7 @@ void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, dou
     if (law.friction > 0) law.friction = friction;
   grains.replaceLaws(prepared);
   setup::SettleSetup nearly = bed.settle;
-  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();
+  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset(), nearly.spins = false;
   settleUntilRest(bed, nearly, grains, bed.fall, progress, report);
   grains.replaceLaws(own);
   settleUntilRest(bed, bed.settle, grains, 0, progress, report);

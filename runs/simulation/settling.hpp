@@ -33,10 +33,10 @@ struct SettleReport {
   double highest{}, meanHeight{};
 };
 
-/// Lets the grains rest as `wanted`: until the mean kinetic energy a grain is below that share of m g radius, and the
-/// mean resultant force below that share of the weight where one is named, for a whole tenth of a second, but at least
-/// for the time that a grain takes to fall `fall` [m]. Adds to `report`. Throws SimulationError when the time limit
-/// passes first, or when the grains meet a fault.
+/// Lets the grains rest as `wanted`: until the mean kinetic energy a grain (of spin too, if wanted) is below that share
+/// of m g radius, and the mean resultant force below that share of the weight where one is named, for a whole tenth of
+/// a second, but at least for the time that a grain takes to fall `fall` [m]. Adds to `report`. Throws SimulationError
+/// when the time limit passes first, or when the grains meet a fault.
 void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall,
                      const SettleProgress& progress, SettleReport& report);
 

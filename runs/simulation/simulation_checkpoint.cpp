@@ -71,7 +71,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   }
   if (setup_.vehicle) {
     // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
-    vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_);
+    vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }
   if (setup_.mechanism) {

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/setup/time_scales.hpp"
+#include "runs/simulation/grains_under_shoes.hpp"
 
 #include <fmt/format.h>
 
@@ -13,13 +14,19 @@ using base::Vec3d;
 
 namespace {
 
-vehicle::Assembly assembled(const setup::VehicleSetup& setup,
-                            const std::function<double(double, double)>& surfaceHeight) {
+/// Fills in the lift where it is not given.
+vehicle::Assembly assembled(const setup::VehicleSetup& setup, const Ground& ground,
+                            const std::function<double(double, double)>& surfaceHeight, std::optional<double> given,
+                            double& lift) {
   const setup::Placement& place = setup.place;
   vehicle::AssemblyOptions options;
   options.fixChassis = setup.fixChassis;
   options.pose_W = setup.onTerrain ? setup::setDown(setup.spec, place, setup.clearance, surfaceHeight)
                                    : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
+  lift = 0;
+  if (!setup.onTerrain || !ground.grains) return vehicle::assemble(setup.spec, options);
+  lift = given ? *given : liftOffGrains(vehicle::assemble(setup.spec, options), *ground.grains);
+  options.pose_W.position.z += lift;
   return vehicle::assemble(setup.spec, options);
 }
 
@@ -42,10 +49,10 @@ std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehi
 } // namespace
 
 VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
-                       const std::function<double(double, double)>& surfaceHeight)
+                       const std::function<double(double, double)>& surfaceHeight, std::optional<double> lift)
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), gravity_(setup.gravity),
       area_(setup.ground.area), surfaceHeight_(surfaceHeight), replicated_(ground.grains.get()),
-      assembly_(assembled(*setup.vehicle, surfaceHeight)),
+      assembly_(assembled(*setup.vehicle, ground, surfaceHeight, lift, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_)) {
@@ -160,6 +167,7 @@ void VehicleRig::addTo(Ledger& ledger) const {
 
 VehicleState VehicleRig::save() const {
   VehicleState s;
+  s.lift = lift_;
   s.bodies = state_.save();
   s.observers = observer_->save();
   s.driver = driver_.save();

@@ -24,9 +24,10 @@ namespace grouser::simulation {
 /// The vehicle of a scene: its bodies and joints, its driver, what its parts touch, and what is observed of it.
 class VehicleRig {
 public:
-  /// Reads the meshes, cuts them into spheres, places the vehicle above the ground.
+  /// Reads the meshes, cuts them into spheres, places the vehicle above the ground: `lift` [m] higher than its surface
+  /// asks for; where not given, so high that no shoe stands in a grain.
   VehicleRig(const setup::SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
-             const std::function<double(double, double)>& surfaceHeight);
+             const std::function<double(double, double)>& surfaceHeight, std::optional<double> lift = {});
   VehicleRig(const VehicleRig&) = delete;
   VehicleRig& operator=(const VehicleRig&) = delete;
 
@@ -86,6 +87,7 @@ private:
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
   ReplicatedWork replicated_;
+  double lift_ = 0; ///< [m]
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
   multibody::State state_;

@@ -10,6 +10,7 @@ namespace grouser::simulation {
 
 /// All of a vehicle on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
 struct VehicleState {
+  double lift{};                  ///< with which it was set down; see VehicleRig
   std::vector<double> bodies;     ///< multibody::State::save()
   std::vector<double> observers;  ///< vehicle::Observer::save()
   std::vector<double> driver;     ///< vehicle::Driver::save()
