@@ -24,7 +24,7 @@ public:
 /// dampers, whose force then outlives the motion that it acts against, give energy instead of taking it.
 class EnergyGuard {
 public:
-  static constexpr std::int64_t kInterval = 512; ///< steps between two looks; whole batches of grains alone
+  static constexpr std::int64_t kInterval = 512;  ///< steps between two looks; whole batches of grains alone
   static constexpr std::int64_t kOneContact = 20; ///< steps of one; nothing is judged over fewer
   // Shares of the energy exchanged [-].
   static constexpr double kMostMade = 0.1; ///< that bodies and springs have gained from nowhere

@@ -42,7 +42,7 @@ double liftOffGrains(const vehicle::Assembly& assembly, const terrain::Grains& g
   const vehicle::ShoeSpec& spec = assembly.spec.shoe;
   const double r = grains.model().radius, spacing = r / kNodes;
   const double halfLength = spec.halfLength, halfWidth = spec.padHalfWidth;
-  const double reach = std::hypot(halfLength, halfWidth) + r;
+  const double reach = halfLength + halfWidth + r;
   Vec3d low{1e300, 1e300, 0}, high{-1e300, -1e300, 0};
   for (const Shoe& s : shoes) {
     low = {std::min(low.x, s.pose.position.x - reach), std::min(low.y, s.pose.position.y - reach), 0};
@@ -64,8 +64,9 @@ double liftOffGrains(const vehicle::Assembly& assembly, const terrain::Grains& g
                      grid.y(static_cast<int>(node / static_cast<std::size_t>(grid.columns))), tops[node]};
       const Vec3d local = s.pose.toBody(at);
       // Beside the pad a sphere is lower.
-      const double beside =
-          std::hypot(std::max(0.0, std::fabs(local.x) - halfLength), std::max(0.0, std::fabs(local.y) - halfWidth));
+      const double dx = std::max(0.0, std::fabs(local.x) - halfLength),
+                   dy = std::max(0.0, std::fabs(local.y) - halfWidth);
+      const double beside = std::max(0.0, std::sqrt(dx * dx + dy * dy) - kReach * spacing);
       if (beside >= r) return;
       const double lower = r - std::sqrt(r * r - beside * beside);
       lift = std::max(lift, (local.z - tread) / -s.down.z - lower);
