@@ -21,7 +21,7 @@ struct PlatesCommand {
   double fineThickness = 16;                 ///< [d] of their beds
   double fineDepth = 0.1;                    ///< [breadths] down to which the graded one is as the fine one
   double coarsening = 0.0265;                ///< [-] growth of its mean radius with depth below that
-  double young = 1e9;                        ///< [Pa] of their grains
+  double young = 5e8;                        ///< [Pa] of their grains
   double sinkage = 0.3, inertialNumber = 1.8e-3;
   double friction = 0.5, rollingFriction = 0, preparationFriction = 0.5;
   double angle = 0, angleError = 0; ///< [deg] of internal friction as measured, half width of its interval; 0: none

@@ -33,7 +33,7 @@ PlatesCommand smallOf(PlatesCommand c) {
   if (!c.place.quick) return c;
   c.breadth = 4, c.thickness = 5, c.stripBin = 3, c.stripDepth = 1.5, c.circularBin = 3, c.circularDepth = 1;
   c.sinkage = 0.2, c.inertialNumber = 2e-2, c.seeds = 2;
-  c.fineBreadth = 6, c.fineThickness = 7, c.coarsening = 0.12, c.young = 5e7;
+  c.fineBreadth = 5, c.fineThickness = 7, c.coarsening = 0.12, c.young = 5e7;
   if (c.cases.empty()) c.cases = {"base", "old", "circular"};
   return c;
 }
