@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all plots have in common: their style, the tables they read, and the frame of a script that draws one picture."""
 import csv
+import pathlib
+import re
 import sys
 
 import packages
@@ -35,6 +37,26 @@ def rows(path):
 def numbers(path):
     """The rows of a table that holds nothing but numbers: [{column: number}]."""
     return [{key: float(value) for key, value in row.items()} for row in rows(path)]
+
+
+def runs(folder, pattern):
+    """Tables of a study's runs, in the order of their names: [(groups of the name, rows)] where it is `pattern`."""
+    named = ((re.fullmatch(pattern, file.stem), file) for file in sorted(pathlib.Path(folder).glob("*.csv")))
+    return [(match.groups(), numbers(file)) for match, file in named if match]
+
+
+def panels(count):
+    """A figure with so many panels side by side, and these."""
+    figure = Figure(figsize=(4 * count, 3.4))
+    return figure, figure.subplots(1, count, squeeze=False)[0]
+
+
+def legend_once(axis, size):
+    """A legend that names each label once; none without labels."""
+    lines, labels = axis.get_legend_handles_labels()
+    if labels:
+        once = dict(zip(labels, lines))
+        axis.legend(once.values(), once.keys(), fontsize=size)
 
 
 def words(help_text, right):

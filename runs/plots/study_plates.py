@@ -1,36 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the study of plates: study_plates.py PLATES.csv RUNS_FOLDER FILE.png
 
-Force over sinkage, a thin line a run, a colour a case; strips to the left, circular plates to the right.
+Force over sinkage, a thin line a run, a colour a case; a panel each for the strips, the old bed, the circular plates,
+and the strips on a fine and a graded bed, where there are any.
 """
-import pathlib
-import re
-
 import drawing
 
-ORDER = ("base", "rough", "deep", "wide", "old", "circular")
+PANELS = (("base", "rough", "deep", "wide"), ("old",), ("circular",), ("fine", "graded"))
 
 
-def draw(table, runs):
-    files = sorted(pathlib.Path(runs).glob("*_seed*.csv"))
-    if not files:
+def draw(table, folder):
+    runs = drawing.runs(folder, "(.+)_seed.+")
+    drawn = [cases for cases in PANELS if any(name in cases for (name,), _ in runs)]
+    if not drawn:
         return None
-    figure = drawing.Figure(figsize=(8, 3.4))
-    left, right = figure.subplots(1, 2)
-    named = set()
-    for file in files:
-        name = re.match(r"(.+)_seed.+", file.stem).group(1)
-        rows = drawing.numbers(file)
-        axis = right if name == "circular" else left
-        axis.plot([1e3 * row["sinkage [m]"] for row in rows], [row["force [N]"] for row in rows], linewidth=0.5,
-                  color=f"C{ORDER.index(name)}" if name in ORDER else "black",
-                  label=None if name in named else name)
-        named.add(name)
-    for axis in (left, right):
+    figure, axes = drawing.panels(len(drawn))
+    for cases, axis in zip(drawn, axes):
+        for (name,), rows in runs:
+            if name in cases:
+                axis.plot([1e3 * row["sinkage [m]"] for row in rows], [row["force [N]"] for row in rows],
+                          linewidth=0.5, color=f"C{cases.index(name)}", label=name)
         axis.set_xlabel("sinkage [mm]")
         axis.set_ylabel("force [N]")
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(fontsize=7)
+        drawing.legend_once(axis, 7)
     return figure
 
 

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/options.hpp"
 
+#include "runs/studies/option_parts.hpp"
 #include "runs/support/option_checks.hpp"
 
 namespace grouser::studies {
 
 namespace {
-
-void addPlace(CLI::App& app, StudyPlace& place, const std::string& name, const std::string& quick) {
-  app.add_flag("--quick", place.quick, quick);
-  app.add_option("--out,--output", place.folder, "folder of the tables and the plot; default: out/study_" + name);
-  app.add_flag("--force", place.force, "overwrite what is in that folder");
-}
 
 void addImpact(CLI::App& study, ImpactCommand& c) {
   CLI::App* impact = study.add_subcommand(
@@ -101,12 +96,8 @@ void addPacking(CLI::App& study, PackingCommand& c) {
   packing->add_option("--grains", c.grains, "of a sample")
       ->check(support::wholeNumber(300, 1'000'000))
       ->capture_default_str();
-  packing->add_option("--seeds", c.seeds, "samples of each friction")
-      ->check(support::wholeNumber(2, 1000))
-      ->capture_default_str();
-  packing->add_option("--width", c.width, "between periodic boundaries, in diameters; not with --quick")
-      ->check(support::between(5.0, 1000.0))
-      ->capture_default_str();
+  addSeeds(*packing, c.seeds, "samples of each friction");
+  addNumber(*packing, "--width", c.width, 5.0, 1000.0, "between periodic boundaries, in diameters; not with --quick");
   addPlace(*packing, c.place, "packing", "two frictions, two seeds, 600 grains: in seconds");
   packing->callback([&c] { studyPackingCommand(c); });
 }
@@ -114,18 +105,12 @@ void addPacking(CLI::App& study, PackingCommand& c) {
 void addCollapse(CLI::App& study, CollapseCommand& c) {
   CLI::App* collapse = study.add_subcommand(
       "collapse", "How far a column of grains runs when its gate is gone, against channels (30 min, one core)");
-  collapse->add_option("--length", c.length, "of the column, in diameters; not with --quick")
-      ->check(support::between(5.0, 1000.0))
-      ->capture_default_str();
-  collapse->add_option("--width", c.width, "between periodic boundaries, in diameters; not with --quick")
-      ->check(support::between(5.0, 1000.0))
-      ->capture_default_str();
+  addNumber(*collapse, "--length", c.length, 5.0, 1000.0, "of the column, in diameters; not with --quick");
+  addNumber(*collapse, "--width", c.width, 5.0, 1000.0, "between periodic boundaries, in diameters; not with --quick");
   collapse->add_option("--aspects", c.aspects, "heights of the columns over their length")
       ->check(support::between(0.2, 20.0))
       ->capture_default_str();
-  collapse->add_option("--seeds", c.seeds, "columns of each aspect")
-      ->check(support::wholeNumber(2, 1000))
-      ->capture_default_str();
+  addSeeds(*collapse, c.seeds, "columns of each aspect");
   addPlace(*collapse, c.place, "collapse", "one aspect, two columns of 10 d: in seconds");
   collapse->callback([&c] { studyCollapseCommand(c); });
 }
@@ -133,18 +118,12 @@ void addCollapse(CLI::App& study, CollapseCommand& c) {
 void addShear(CLI::App& study, ShearCommand& c) {
   CLI::App* shear = study.add_subcommand(
       "shear", "A direct shear box under several loads: the friction angle of a bed (10 min, one core)");
-  shear->add_option("--friction", c.friction, "between grains, and between grains and box [-]")
-      ->check(support::between(0.0, 5.0))
-      ->capture_default_str();
-  shear->add_option("--rolling-friction", c.rollingFriction, "the same of rolling [-]")
-      ->check(support::between(0.0, 5.0))
-      ->capture_default_str();
+  addNumber(*shear, "--friction", c.friction, 0.0, 5.0, "between grains, and between grains and box [-]");
+  addNumber(*shear, "--rolling-friction", c.rollingFriction, 0.0, 5.0, "the same of rolling [-]");
   shear->add_option("--stresses", c.stresses, "of the lid on the sample [Pa]")
       ->check(support::between(10.0, 1e5))
       ->capture_default_str();
-  shear->add_option("--seeds", c.seeds, "samples of each load")
-      ->check(support::wholeNumber(2, 1000))
-      ->capture_default_str();
+  addSeeds(*shear, c.seeds, "samples of each load");
   addPlace(*shear, c.place, "shear", "one load, two samples of 10 d: in seconds");
   shear->callback([&c] { studyShearCommand(c); });
 }

@@ -30,6 +30,8 @@ std::pair<int, int> partOf(const std::string& text) {
   return {part, parts};
 }
 
+std::string kindOf(const std::string& run) { return run.substr(0, run.rfind('_')); }
+
 std::string contentsOf(const fs::path& file) {
   std::ifstream in(file);
   std::ostringstream text;
@@ -49,7 +51,8 @@ void addPieceOptions(CLI::App& app, PieceOptions& o) {
             return partOf(text).first > 0 ? std::string() : text + " is not a part such as 2/8";
           },
           "PART/PARTS"));
-  app.add_option("--seconds", o.seconds, "no further run is begun after so many; 0: no end")
+  app.add_option("--seconds", o.seconds,
+                 "no further run is begun that would end after so many, by how long the last one took; 0: no end")
       ->check(support::notNegative("a time in seconds"));
   app.add_option("--device", o.device, "auto, cpu or cuda")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
@@ -133,15 +136,31 @@ Table Pieces::read(const std::string& run) const {
   return table;
 }
 
-void Pieces::keep(const std::string& run, const Table& table) const {
+void Pieces::keep(const std::string& run, const Table& table) {
   support::replaceTextFile(file(run), table.csv());
+  took_[kindOf(run)] = spent() - began_;
+}
+
+fs::path Pieces::begin(const std::string& run) const {
+  const fs::path folder = folder_ / "runs" / run;
+  fs::create_directories(folder);
+  return folder;
+}
+
+double Pieces::spent() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
 bool Pieces::due(const std::string& run) {
   const int number = seen_++;
   if (has(run)) return false;
-  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  const bool mine = number % parts_ == part_ - 1 && (seconds_ == 0 || spent < seconds_);
+  double expected = 0; // the first run of a call is begun whatever it takes
+  if (const auto known = took_.find(kindOf(run)); known != took_.end())
+    expected = known->second;
+  else
+    for (const auto& [kind, took] : took_) expected = std::max(expected, took);
+  began_ = spent();
+  const bool mine = number % parts_ == part_ - 1 && (seconds_ == 0 || began_ + expected < seconds_);
   left_ += !mine;
   return mine;
 }

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,16 +46,23 @@ public:
   bool whole() const { return parts_ == 1; } ///< this call is to do all runs, not a part
   bool has(const std::string& run) const;
   Table read(const std::string& run) const;
-  void keep(const std::string& run, const Table& table) const;
-  /// Whether this call is to do the run: it is of its part, not there yet, and time is left. Counts the runs: called
-  /// once for each, in an order that is the same in all calls.
+  void keep(const std::string& run, const Table& table);
+  /// Whether this call is to do the run: it is of its part, not there yet, and time is left for as long as the last of
+  /// its kind took in this call (of a kind that is new: the longest of all). Counts the runs: called once for each, in
+  /// an order that is the same in all calls. The kind is the run's name up to its last underscore.
   bool due(const std::string& run);
+  /// A folder for what the run needs on its way, which a call that is stopped leaves to the next.
+  std::filesystem::path begin(const std::string& run) const;
   int left() const { return left_; } ///< runs seen that were not there and not due
 
 private:
   std::filesystem::path file(const std::string& run) const;
 
+  double spent() const; ///< [s] since this call began
+
   std::filesystem::path folder_;
+  std::map<std::string, double> took_; ///< [s] by kind, in this call
+  double began_ = 0;                   ///< [s] the run that is under way
   int part_ = 1, parts_ = 1, seen_ = 0, left_ = 0;
   double seconds_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace grouser::studies {
@@ -16,43 +17,10 @@ namespace {
 
 constexpr double kGravity = 9.81;
 constexpr double kExpectedAngle = 24 * base::kPi / 180, kExpectedSolid = 0.59; // for the speed only
-constexpr double kRoughFriction = 2;
-constexpr double kOffEnds = 2;    // [d] left out below and above where porosity is measured
-constexpr int kLatticeLayers = 5; // as the beds of before had
-constexpr double kLatticeSpacing = 2.02;
-constexpr double kRestAgain = 1e-5, kPatience = 3; // of m g r; [s]
-
-/// What bears the bed, as sections of a scene.
-std::string floorSections(const Soil& soil, const PlateTest& test, std::int64_t seed) {
-  if (test.floor == BedFloor::fixed) {
-    std::string text;
-    for (const BedGrain& g : roughFloor(soil, test.bed(soil), seed))
-      text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
-                          "fixed = true\n",
-                          g.position.x, g.position.y, g.position.z, g.radius);
-    return text;
-  }
-  SampleGrains floor = soil.grains;
-  if (test.floor == BedFloor::rough) floor.friction = kRoughFriction;
-  std::string text = floor.toml("floor") + "[[plane]]\nmaterial = \"floor\"\n";
-  if (test.floor == BedFloor::rough) text += fmt::format("[contact.\"grain|floor\"]\nfriction = {}\n", kRoughFriction);
-  return text;
-}
-
-/// Equal spheres in layers, at rest.
-BedGrains layLattice(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
-                     const std::filesystem::path& folder, const base::Exec& exec) {
-  const double r = soil.grains.radius, high = (kLatticeLayers - 1) * kLatticeSpacing * r + 2.02 * r;
-  const std::string text =
-      soil.scene(1, seed, soil.grains.friction, {0, 0, -kGravity}, size.run()) + below +
-      fmt::format("[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [{:.17g}, {:.17g}, {:.17g}]\nradius = "
-                  "{:.17g}\nspacing = {}\njitter = 0.5\nmaterial = \"grain\"\n",
-                  size.length, size.width, high, r, kLatticeSpacing);
-  simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "lattice.toml")), exec,
-                                    [](double, double) {});
-  comeToRest(simulation, kRestAgain, kPatience);
-  return grainsOf(simulation, size);
-}
+constexpr double kOffEnds = 2;        // [d] left out below and above where porosity is measured
+constexpr double kSlow = 0.1;         // [m/s] for the step of Hertz' contacts, unless a plate is faster
+constexpr double kCoarsest = 2.0 / 7; // of a strip's thickness: the largest grain's diameter
+constexpr double kBedShare = 0.3;     // of a run's time, about
 
 std::string plateSection(const Soil& soil, const PlateTest& test, double bottom, double speed) {
   const double d = soil.grains.diameter(), b = test.breadth * d, tall = 2 * (1 + test.sinkage) * b;
@@ -99,29 +67,35 @@ double PlateTest::speed(const Soil& soil) const {
   return inertialNumber * breadth * std::sqrt(expected / soil.grains.density);
 }
 
-Table pushPlate(const Soil& soil, const PlateTest& test, std::int64_t seed, const std::filesystem::path& folder,
-                const std::filesystem::path& keep, const base::Exec& exec) {
+BedPreparation PlateTest::preparation(const Soil& soil) const {
+  BedPreparation p;
+  p.size = bed(soil), p.floor = floor, p.lattice = lattice, p.lift = breadth * soil.grains.diameter();
+  p.grading = {fineDepth * breadth * soil.grains.diameter(), coarsening,
+               0.5 * kCoarsest * p.size.width / (1 + soil.spread)};
+  return p;
+}
+
+Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t seed, const std::filesystem::path& folder,
+                const base::Exec& exec, const PlateProgress& tell) {
+  Soil soil = given;
+  soil.grains.young = test.young;
   const double d = soil.grains.diameter(), b = test.breadth * d, speed = test.speed(soil);
-  const BedSize size = test.bed(soil);
-  const std::string below = floorSections(soil, test, seed);
-  BedGrains bed;
-  if (test.lattice) {
-    bed = layLattice(soil, size, below, seed, folder, exec);
-  } else {
-    bed = pourBed(soil, size, below, seed, folder, exec);
-  }
-  // Grains of the floor have the first ids, and stand in sections of their own.
-  if (test.floor == BedFloor::fixed)
-    bed.erase(bed.begin(), bed.begin() + static_cast<std::ptrdiff_t>(roughFloor(soil, size, seed).size()));
-  writeBed(folder / "bed.txt", bed);
-  if (!keep.empty()) writeBed(keep, bed);
-  const double surface = surfaceHeight(bed, size, d), bottom = topUnder(soil, test, bed) + 1e-3 * d;
-  const double solid = test.lattice ? solidFraction(bed, size, 0.5 * d, surface - d)
-                                    : solidFraction(bed, size, kOffEnds * d, surface - kOffEnds * d);
+  const BedPreparation preparation = test.preparation(soil);
+  const BedSize& size = preparation.size;
+  const PreparedBed bed =
+      keptBed(soil, preparation, seed, folder, exec, [&](const std::string& phase) { tell(0, phase); });
+  const auto begin = std::chrono::steady_clock::now();
+  const double surface = surfaceHeight(bed.grains, size, d), bottom = topUnder(soil, test, bed.grains) + 1e-3 * d;
+  // Of the breadth below the surface, where the plate works.
+  const double low = std::max(surface - b, kOffEnds * d * preparation.coarsest(soil));
+  const double solid = test.lattice ? solidFraction(bed.grains, size, 0.5 * d, surface - d)
+                                    : solidFraction(bed.grains, size, low, surface - kOffEnds * d);
   const double way = bottom - surface + test.sinkage * b;
-  const std::string text = soil.scene(way / speed, seed, soil.grains.friction, {0, 0, -kGravity}, size.run()) + below +
-                           plateSection(soil, test, bottom, speed) +
-                           "[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n";
+  const std::string text =
+      soil.scene(way / speed, seed, soil.grains.friction, {0, 0, -kGravity},
+                 size.run() + fmt::format("impact_speed = {:.17g}\n", std::max(kSlow, 2 * speed))) +
+      floorSections(soil, preparation, seed) + plateSection(soil, test, bottom, speed) +
+      "[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n";
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "push.toml")), exec,
                                     [](double, double) {});
   const auto all = static_cast<std::int64_t>(way / speed / simulation.timeStep());
@@ -134,14 +108,18 @@ Table pushPlate(const Soil& soil, const PlateTest& test, std::int64_t seed, cons
       stopStudyIfAsked();
       simulation.advance(std::min<std::int64_t>(until - simulation.steps(), 2000));
     }
+    tell(kBedShare + (1 - kBedShare) * row / test.rows, "pushing");
     const double middle = 0.5 * static_cast<double>(from + until) * simulation.timeStep();
     for (std::size_t i = 0; i < surfaces.count(); ++i)
       if (surfaces.surface(i).name == "plate")
         table.rows.push_back({surface - bottom + speed * middle, surfaces.observe(i, simulation.steps()).force.z,
-                              1 - solid, static_cast<double>(bed.size())});
+                              1 - solid, static_cast<double>(bed.grains.size()), static_cast<double>(bed.steps),
+                              bed.seconds});
     simulation.restartMeans();
   }
   simulation.checkEnergy();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (std::vector<double>& row : table.rows) row.push_back(static_cast<double>(all)), row.push_back(seconds);
   return table;
 }
 

@@ -4,6 +4,8 @@
 #include "runs/studies/estimate.hpp"
 #include "runs/studies/plate_test.hpp"
 
+#include <array>
+
 namespace grouser::studies {
 
 struct PlatesCommand {
@@ -14,8 +16,13 @@ struct PlatesCommand {
   double breadth = 12;                       ///< [d]
   double stripBin = 8, stripDepth = 2;       ///< [breadths]
   double circularBin = 5, circularDepth = 2; ///< [breadths]
-  double thickness = 12;                     ///< [d] of a strip's bed
-  double sinkage = 0.3, inertialNumber = 9e-4;
+  double thickness = 24;                     ///< [d] of a strip's bed
+  double fineBreadth = 32;                   ///< [d] of the strips on a fine and on a graded bed
+  double fineThickness = 16;                 ///< [d] of their beds
+  double fineDepth = 0.1;                    ///< [breadths] down to which the graded one is as the fine one
+  double coarsening = 0.0265;                ///< [-] growth of its mean radius with depth below that
+  double young = 5e8;                        ///< [Pa] of their grains
+  double sinkage = 0.3, inertialNumber = 1.8e-3;
   double friction = 0.5, rollingFriction = 0, preparationFriction = 0.5;
   double angle = 0, angleError = 0; ///< [deg] of internal friction as measured, half width of its interval; 0: none
   bool keepBeds = false;
@@ -26,12 +33,15 @@ void studyPlatesCommand(const PlatesCommand& command);
 struct PlateCase {
   std::string name, title;
   PlateTest test;
+  std::string comparedWith{}; ///< name of the case that it should equal; empty: none
+  bool bears = false;         ///< compared with theory
 };
+std::string nameOf(const PlateCase& plate, int seed); ///< of a run
 /// The first is the strip that others are compared with.
 std::vector<PlateCase> plateCases(const PlatesCommand& command);
 
-/// Slices of the sinkage that tables compare [breadths]: the last is all of them but the first, in which the plate
-/// meets single grains.
-std::vector<std::array<double, 2>> sinkageSlices(double sinkage);
+using Slice = std::array<double, 2>; ///< of the sinkage, from and to [breadths]
+/// Those that tables compare: the last is all of them but the first, in which the plate meets single grains.
+std::vector<Slice> sinkageSlices(double sinkage);
 
 } // namespace grouser::studies

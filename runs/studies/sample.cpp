@@ -15,10 +15,11 @@ namespace grouser::studies {
 double SampleGrains::mass() const { return base::sphereMass(density, radius); }
 
 std::string SampleGrains::toml(const std::string& name) const {
-  return fmt::format(
-      "[material.{}]\ndensity = {:.17g}\nstiffness = {:.17g}\nrestitution = {:.17g}\nfriction = {:.17g}\n"
-      "rolling_friction = {:.17g}\n",
-      name, density, stiffness, restitution, friction, rollingFriction);
+  const std::string spring = young > 0 ? fmt::format("law = \"hertz\"\nyoung = {:.17g}\n", young)
+                                       : fmt::format("stiffness = {:.17g}\n", stiffness);
+  return fmt::format("[material.{}]\ndensity = {:.17g}\n{}restitution = {:.17g}\nfriction = {:.17g}\n"
+                     "rolling_friction = {:.17g}\n",
+                     name, density, spring, restitution, friction, rollingFriction);
 }
 
 Sample buildSample(const std::string& toml, const base::Exec& exec) {

@@ -15,6 +15,7 @@ struct SampleGrains {
   double radius = 0.005;    ///< [m]
   double density = 2500;    ///< [kg/m3]
   double stiffness = 1e5;   ///< [N/m]
+  double young = 0;         ///< [Pa] above 0: Hertz' contacts with this modulus instead of linear ones
   double restitution = 0.5; ///< [-]
   double friction = 0.5;    ///< [-]
   double rollingFriction = 0;

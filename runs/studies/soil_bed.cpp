@@ -78,7 +78,10 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "pour.toml")), exec,
                                     [](double, double) {});
   const double limit = kPatience * std::max(1.0, std::sqrt(size.depth / 0.25));
-  if (!comeToRest(simulation, kAgitation, limit))
+  const terrain::Grains& grains = *simulation.ground().grains;
+  const terrain::GrainModel& model = grains.model();
+  const double unit = model.mass * norm(model.gravity) * model.radius * static_cast<double>(grains.count());
+  if (!comeToRest(simulation, kAgitation * unit, limit))
     throw base::InputError(fmt::format("the bed of seed {} did not come to rest within {:.1f} s; give it less rolling "
                                        "friction or more preparation friction",
                                        seed, limit));
@@ -104,11 +107,11 @@ BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed) {
   return floor;
 }
 
-void writeBed(const std::filesystem::path& file, const BedGrains& grains) {
-  std::string text = "# x, y, z, r [m]\n";
+void writeBed(const std::filesystem::path& file, const BedGrains& grains, const std::string& more) {
+  std::string text = "# x, y, z, r [m]" + more + "\n";
   for (const BedGrain& g : grains)
     text += fmt::format("{:.12g} {:.12g} {:.12g} {:.9g}\n", g.position.x, g.position.y, g.position.z, g.radius);
-  support::writeTextFile(file, text, "--out");
+  support::replaceTextFile(file, text);
 }
 
 BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size) {
@@ -123,18 +126,15 @@ BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size
   return all;
 }
 
-bool comeToRest(simulation::Simulation& simulation, double agitation, double limit) {
+bool comeToRest(simulation::Simulation& simulation, double energy, double limit) {
   terrain::Grains& grains = *simulation.ground().grains;
-  const terrain::GrainModel& model = grains.model();
-  const double unit =
-      model.mass * norm(model.gravity) * model.radius * static_cast<double>(std::max<std::size_t>(1, grains.count()));
   const auto every = std::max<std::int64_t>(1, std::llround(kLook / simulation.timeStep()));
   const double start = simulation.time();
   for (int calm = 0; simulation.time() - start < limit;) {
     stopStudyIfAsked();
     for (std::int64_t left = every; left > 0;) left -= simulation.advance(left);
     const terrain::GrainLedger ledger = grains.ledger();
-    calm = ledger.kinetic + ledger.rotational < agitation * unit ? calm + 1 : 0;
+    calm = ledger.kinetic + ledger.rotational < energy ? calm + 1 : 0;
     if (calm == kCalmLooks) return true;
   }
   return false;

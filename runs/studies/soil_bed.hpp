@@ -46,13 +46,14 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
 /// A rough floor: places of grains that never move, in a layer whose tops reach to about z = 0.
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed);
 
-/// Lines of x, y, z, r [m], as [[grains]] of form "file" reads them.
-void writeBed(const std::filesystem::path& file, const BedGrains& grains);
+/// Lines of x, y, z, r [m], as [[grains]] of form "file" reads them, behind a line of comment that ends with `more`.
+/// The file is there whole or not at all.
+void writeBed(const std::filesystem::path& file, const BedGrains& grains, const std::string& more = "");
 /// The grains of a run as they are now, back between their periodic boundaries of `size`.
 BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size);
 
-/// Steps until the mean kinetic energy a grain is below `agitation` of m g r for a while; false where `limit` [s] pass.
-bool comeToRest(simulation::Simulation& simulation, double agitation, double limit);
+/// Steps until the kinetic energy of all grains is below `energy` [J] for a while; false where `limit` [s] pass.
+bool comeToRest(simulation::Simulation& simulation, double energy, double limit);
 
 /// Volume of the grains between two heights over the volume there [-].
 double solidFraction(const BedGrains& grains, const BedSize& size, double low, double high);

@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/soil_options.hpp"
 
+#include "runs/studies/option_parts.hpp"
 #include "runs/support/option_checks.hpp"
 
 namespace grouser::studies {
 
 namespace {
-
-void addPlace(CLI::App& app, StudyPlace& place, const std::string& name, const std::string& quick) {
-  app.add_flag("--quick", place.quick, quick);
-  app.add_option("--out,--output", place.folder, "folder of the tables and the plot; default: out/study_" + name);
-  app.add_flag("--force", place.force, "overwrite what is in that folder");
-}
-
-CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
-                       const std::string& help) {
-  return app.add_option(name, value, help)->check(support::between(low, high))->capture_default_str();
-}
-
-void addSeeds(CLI::App& app, int& seeds, const std::string& help) {
-  app.add_option("--seeds", seeds, help)->check(support::wholeNumber(2, 1000))->capture_default_str();
-}
 
 void addShearAngle(CLI::App& study, ShearAngleCommand& c) {
   CLI::App* shear = study.add_subcommand(
@@ -46,8 +32,10 @@ void addPlates(CLI::App& study, PlatesCommand& c) {
   CLI::App* plates = study.add_subcommand(
       "plates",
       "Plates pushed into poured beds: pressure over sinkage, what floor, depth and width of the bed do to it, "
-      "and bearing capacity against theory (made for a GPU)");
-  plates->add_option("--cases", c.cases, "of base, rough, deep, wide, old, circular, separated by commas; default: all")
+      "bearing capacity against theory, and a graded bed against a fine one (made for a GPU)");
+  plates
+      ->add_option("--cases", c.cases,
+                   "of base, rough, deep, wide, old, circular, fine, graded, separated by commas; default: all")
       ->delimiter(',');
   addSeeds(*plates, c.seeds, "beds of each case");
   addNumber(*plates, "--breadth", c.breadth, 2, 1000, "of the strip, and diameter of the circular plate [d]");
@@ -56,6 +44,12 @@ void addPlates(CLI::App& study, PlatesCommand& c) {
   addNumber(*plates, "--strip-thickness", c.thickness, 4, 1000, "of the strip's bed along the strip [d]");
   addNumber(*plates, "--circular-bin", c.circularBin, 1.5, 100, "between the boundaries beside the circle [breadths]");
   addNumber(*plates, "--circular-depth", c.circularDepth, 0.5, 100, "of the circle's bed [breadths]");
+  addNumber(*plates, "--fine-breadth", c.fineBreadth, 4, 1000, "of the strips of cases fine and graded [d]");
+  addNumber(*plates, "--fine-thickness", c.fineThickness, 6, 1000,
+            "of their beds along the strip [d]; the coarsest grains are a third of it");
+  addNumber(*plates, "--fine-depth", c.fineDepth, 0, 100, "down to which the graded bed is fine [breadths]");
+  addNumber(*plates, "--coarsening", c.coarsening, 1e-4, 0.5, "growth of its mean radius with depth below that [-]");
+  addNumber(*plates, "--young", c.young, 1e5, 1e12, "of the grains of both, whose contacts are Hertz' [Pa]");
   addNumber(*plates, "--sinkage", c.sinkage, 0.01, 2, "to which the plates are pushed [breadths]");
   addNumber(*plates, "--inertial-number", c.inertialNumber, 1e-6, 0.1, "speed/breadth d sqrt(density/pressure) [-]");
   addNumber(*plates, "--friction", c.friction, 0, 5, "between grains, and between grains and plate [-]");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,12 @@ TEST_F(RandomStudy, GoesOnWithTheTableThatAStoppedCallHasLeft) {
 
 class PieceStudy : public ProgramTest {};
 
+std::string withoutLastColumn(const std::string& csv) {
+  std::string text, line;
+  for (std::istringstream lines(csv); std::getline(lines, line);) text += line.substr(0, line.rfind(',')) + "\n";
+  return text;
+}
+
 TEST_F(PieceStudy, PartsShareTheRunsAndALastCallMakesTheTables) {
   const std::string words = "study plates --quick --cases rough --seeds 2 --threads 1 --out results";
   const fs::path runs = folder_ / "results" / "runs";
@@ -83,6 +90,18 @@ TEST_F(PieceStudy, PartsShareTheRunsAndALastCallMakesTheTables) {
   ASSERT_TRUE(fs::exists(runs / "rough_seed2.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "results" / "plates.csv")) << "of all runs only";
   const std::string second = contents(runs / "rough_seed2.csv");
+
+  // A bed that a stopped call has left is not prepared again.
+  ASSERT_EQ(call(words + " --part 1/2 --resume --keep-beds").code, 0);
+  const std::string first = contents(runs / "rough_seed1.csv");
+  fs::remove(runs / "rough_seed1.csv");
+  fs::create_directories(runs / "rough_seed1");
+  fs::rename(folder_ / "results" / "bed_rough_seed1.txt", runs / "rough_seed1" / "bed.txt");
+  const Outcome goesOn = call(words + " --part 1/2 --resume");
+  ASSERT_EQ(goesOn.code, 0) << goesOn.errors;
+  EXPECT_EQ(goesOn.errors.find("lift"), std::string::npos) << goesOn.errors;
+  EXPECT_EQ(withoutLastColumn(contents(runs / "rough_seed1.csv")), withoutLastColumn(first)) << "but for wall time";
+  EXPECT_FALSE(fs::exists(runs / "rough_seed1"));
 
   // Kept runs are read, not done again.
   put(runs / "rough_seed1.csv", second);
@@ -115,36 +134,37 @@ TEST_F(PieceStudy, RefusesWhatIsNoPartNoCaseAndNoAngle) {
   EXPECT_EQ(call("study preparation --help").code, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Grains, StudyCommand,
-                         testing::Values(StudyCall{"impact",
-                                                   "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
-                                                   {"impact.csv", "orders.csv", "cheapest.csv", "convergence.csv",
-                                                    "speeds.csv", "impact.png"},
-                                                   {"order of the worst error", "cheapest step", "published",
-                                                    "linear clamped on a plane", "closed forms"}},
-                                         StudyCall{"stability",
-                                                   "--quick --grains 20 --column 3",
-                                                   {"stability.csv", "limits.csv", "stability.png"},
-                                                   {"predicted limit", "at 0.95 of the limit", "calm up to"}},
-                                         StudyCall{"precision",
-                                                   "--quick --grains 200 --configurations 2 --drift-grains 50 "
-                                                   "--gas-time 0.05 --bed-time 0.05 --runs 2 --threads 1",
-                                                   {"touch.csv", "drift.csv", "macroscopic.csv", "precision.png"},
-                                                   {"float from the origin", "growth", "std. error"}},
-                                         StudyCall{"shear-angle",
-                                                   "--quick --threads 1",
-                                                   {"shear_angle.csv", "angles.csv", "recipe.json", "shear_angle.png"},
-                                                   {"peak tau/sigma", "core angle", "not shown"}},
-                                         StudyCall{
-                                             "plates",
-                                             "--quick --threads 1 --angle 24 --angle-error 1",
-                                             {"plates.csv", "extent.csv", "bearing.csv", "recipe.json", "plates.png"},
-                                             {"pressure [kPa]", "difference to the base strip", "measured/theory"}}),
-                         [](const auto& study) {
-                           std::string name = study.param.name;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Grains, StudyCommand,
+    testing::Values(
+        StudyCall{
+            "impact",
+            "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
+            {"impact.csv", "orders.csv", "cheapest.csv", "convergence.csv", "speeds.csv", "impact.png"},
+            {"order of the worst error", "cheapest step", "published", "linear clamped on a plane", "closed forms"}},
+        StudyCall{"stability",
+                  "--quick --grains 20 --column 3",
+                  {"stability.csv", "limits.csv", "stability.png"},
+                  {"predicted limit", "at 0.95 of the limit", "calm up to"}},
+        StudyCall{"precision",
+                  "--quick --grains 200 --configurations 2 --drift-grains 50 "
+                  "--gas-time 0.05 --bed-time 0.05 --runs 2 --threads 1",
+                  {"touch.csv", "drift.csv", "macroscopic.csv", "precision.png"},
+                  {"float from the origin", "growth", "std. error"}},
+        StudyCall{"shear-angle",
+                  "--quick --threads 1",
+                  {"shear_angle.csv", "angles.csv", "recipe.json", "shear_angle.png"},
+                  {"peak tau/sigma", "core angle", "not shown"}},
+        StudyCall{
+            "plates",
+            "--quick --threads 1 --cases base,old,fine,graded --angle 24 --angle-error 1",
+            {"plates.csv", "differences.csv", "bearing.csv", "costs.csv", "recipe.json", "plates.png"},
+            {"pressure [kPa]", "old to base", "graded to fine", "measured/theory", "times fewer grains than fine"}}),
+    [](const auto& study) {
+      std::string name = study.param.name;
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
 
 } // namespace
 } // namespace grouser::studies
