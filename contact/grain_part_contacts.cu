@@ -281,10 +281,12 @@ void GrainPartContacts::computeOn(const base::Exec& exec, const GrainsView& grai
                                    static_cast<int>(partCount_), load_.data(), loads, sums_.data(), deepest_.data()});
   };
   // Most beds are linear with friction; all else takes the general functions.
-  if ((features_ & ~kFriction) == 0 && !model_.manyRadii && !crushes_)
-    run.template operator()<kFriction>();
-  else
+  if ((features_ & ~kFriction) != 0 || crushes_)
     run.template operator()<kGeneral>();
+  else if (model_.manyRadii)
+    run.template operator()<kFriction | kManyMasses>();
+  else
+    run.template operator()<kFriction>();
 }
 
 GrainLoadsView GrainPartContacts::grainLoads() {

@@ -62,30 +62,28 @@ template <unsigned kFeatures> struct GrainPartForces {
     TouchedPatch patches[kPatches];
     const int found = findPatches(grids[parts[p].surface], part.toPart(ball.x), ball.radius, group, patches);
     if (group.rank != 0) return; // the rest is for one thread
+    PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
+    int former[kPatches];
     PairLoad sum;
+    sum.onGrain.deepest = recallAll(held, patches, found, static_cast<float>(ball.radius), former);
     PatchMemory fresh[kPatches] = {};
     base::Vec3f freshAngle[kPatches] = {};
     float freshDent[kPatches] = {};
-    PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
-    base::Vec3f* heldAngle = angle ? angle + static_cast<std::int64_t>(e) * kPatches : nullptr;
-    float* heldDent = dent ? dent + static_cast<std::int64_t>(e) * kPatches : nullptr;
-    unsigned used = 0, begun = 0;
+    base::Vec3f* heldAngle = rolls() ? angle + static_cast<std::int64_t>(e) * kPatches : nullptr;
+    float* heldDent = crushes() ? dent + static_cast<std::int64_t>(e) * kPatches : nullptr;
     for (int k = 0; k < found; ++k) {
-      const int former = recall(held, patches[k].normal, used);
-      if (former < 0) begun |= 1u << k;
-      fresh[k] = {patches[k].normal, former < 0 ? base::Vec3f{} : held[former].shear};
-      if (angle && former >= 0) freshAngle[k] = heldAngle[former];
-      if (dent && former >= 0) freshDent[k] = heldDent[former];
+      fresh[k] = {patches[k].normal, former[k] < 0 ? base::Vec3f{} : held[former[k]].shear};
+      if (rolls() && former[k] >= 0) freshAngle[k] = heldAngle[former[k]];
+      if (crushes() && former[k] >= 0) freshDent[k] = heldDent[former[k]];
       apply(part, ball, patches[k], {fresh[k].shear, freshAngle[k], freshDent[k]}, sum);
     }
-    if (begun) noteTunnelling(ball, patches, found, begun, held, used, sum.onGrain);
     for (int k = 0; k < kPatches; ++k) {
       held[k] = fresh[k];
-      if (angle) heldAngle[k] = freshAngle[k];
-      if (dent) heldDent[k] = freshDent[k];
+      if (rolls()) heldAngle[k] = freshAngle[k];
+      if (crushes()) heldDent[k] = freshDent[k];
     }
     const float share = sum.onGrain.deepest / static_cast<float>(ball.radius);
-    if ((kFeatures & kGeneral) && crushing) {
+    if (crushes()) {
       energyHeld[e] = model.energy.quantise(sum.elastic);
       if (share >= 1 && mayCrush(ball)) {
         // Crushed to its middle: the host takes it out before the next step.
@@ -101,7 +99,7 @@ template <unsigned kFeatures> struct GrainPartForces {
     base::atomicAdd64(sums + kElasticNow, model.energy.quantise(sum.elastic));
     for (int cause = 0; cause < 3; ++cause)
       base::atomicAdd64(sums + kDampedByParts + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
-    if ((kFeatures & kGeneral) && crushing) {
+    if (crushes()) {
       base::atomicAdd64(sums + kCappedNow, sum.capped);
       base::atomicAdd64(sums + kCrushedByParts, model.energy.quantise(sum.crushed));
       base::atomicAdd64(sums + kCutByCrushing, model.force.quantise(sum.cut));
@@ -134,8 +132,10 @@ private:
     int capped = 0;              ///< patches
   };
 
+  GROUSER_HD bool rolls() const { return (kFeatures & kGeneral) && angle; }
+  GROUSER_HD bool crushes() const { return (kFeatures & kGeneral) && crushing; }
   GROUSER_HD bool mayCrush(const Ball& ball) const {
-    return (kFeatures & kGeneral) && crushing && !ball.fixed && crushing[ball.material].strength > 0;
+    return crushes() && !ball.fixed && crushing[ball.material].strength > 0;
   }
 
   GROUSER_HD Ball ballOf(int i) const {
@@ -204,17 +204,21 @@ private:
     return best;
   }
 
-  /// A grain that a step has carried through a thin part touches it deeply, at once, from the other side: it counts as
-  /// pressed beyond its middle.
-  GROUSER_HD static void noteTunnelling(const Ball& ball, const TouchedPatch* patches, int found, unsigned begun,
-                                        const PatchMemory* held, unsigned used, GrainLoad& onGrain) {
-    const float radius = static_cast<float>(ball.radius);
+  /// Finds which of the held patches each of the present ones was, -1 where none. Returns how deep the part has pressed
+  /// a grain that this step has carried through it: such a one touches a thin part deeply, at once, from the other
+  /// side, and counts as pressed beyond its middle. Else 0.
+  GROUSER_HD static float recallAll(const PatchMemory* held, const TouchedPatch* patches, int found, float radius,
+                                    int* former) {
+    unsigned used = 0;
+    for (int k = 0; k < found; ++k) former[k] = recall(held, patches[k].normal, used);
+    float through = 0;
     for (int k = 0; k < found; ++k) {
-      if (!(begun >> k & 1) || patches[k].overlap < 0.5f * radius) continue;
+      if (former[k] >= 0 || patches[k].overlap < 0.5f * radius) continue;
       for (int q = 0; q < kPatches; ++q)
         if (!(used >> q & 1) && dot(held[q].normal, patches[k].normal) < kOtherSide)
-          onGrain.deepest = radius + patches[k].overlap;
+          through = radius + patches[k].overlap;
     }
+    return through;
   }
 
   /// Makes of a contact what its spring sees of it where the grain crushes. False: the surfaces are apart in the dent;
@@ -264,7 +268,7 @@ private:
     sum.torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
     if ((kFeatures & kGeneral) && law->rollingFriction > 0) {
       const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
-      const RollingMotion<float> how{touch.normal, rolling, radius, 1.4f * mass * radius * radius};
+      const RollingMotion<float> how{touch.normal, rolling, radius, rollingInertia(mass, radius)};
       const base::Vec3f torque =
           rollingTorque(*law, how, reaction.pressing, reaction.normalStiffness, dt, springs.rolled, sum.lost[2]);
       const float k = rollingStiffness(*law, reaction.normalStiffness, radius);

@@ -162,7 +162,7 @@ private:
       Vec angle{};
       if (held) angle = loaded(history + 3, turned);
       const contact::RollingMotion<Real> motion{touch.normal, spin, grain.size.radius,
-                                                Real(1.4) * grain.size.mass * grain.size.radius * grain.size.radius};
+                                                contact::rollingInertia(grain.size.mass, grain.size.radius)};
       result.rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
                                               angle, lost.rolled);
       store(history + 3, turned, angle);

@@ -122,6 +122,58 @@ TEST(GrainInCorner, HasOnePatchOnEachFace) {
   EXPECT_NEAR(r.onGrain.z, kStiffness * b, 0.01);
 }
 
+/// What a grain of its own radius and material, which slides, turns and sinks into a corner, gets in some steps and
+/// leaves behind. Whoever may crush takes the kernel of all features.
+struct Trace {
+  std::vector<GrainLoad> loads;
+  std::vector<std::int64_t> sums;
+  std::vector<std::uint32_t> patches;
+};
+Trace traceOf(const base::SphereSet& set, bool manyRadii, double strength) {
+  GrainPartModel model = Bench(set, 0.1).model;
+  model.manyRadii = manyRadii;
+  model.law.rootDamping = manyRadii ? 60 : 0, model.law.tangentialRootDamping = manyRadii ? 30 : 0;
+  model.law.damping = manyRadii ? 0 : 40, model.law.tangentialDamping = manyRadii ? 0 : 20;
+  const base::Exec exec = testExec();
+  GrainPartContacts contacts(exec, model, {&set}, {{0, {}, {}}}, {}, {{model.law}, {1e4}, {strength}});
+  const double radius = manyRadii ? 0.7 * kRadius : kRadius;
+  const base::Array<PartMotion> motion(exec, std::vector{atRest({})});
+  base::Array<PartLoad> part(exec, 2);
+  const base::Array<std::uint32_t> id(exec, 1);
+  Trace trace;
+  for (int k = 0; k < 30; ++k) {
+    const Vec3d x{radius - 2e-5 * k, 1e-5 * k, radius - 3e-5 * k};
+    const base::Array<base::Position> position(exec, std::vector{model.scale.fromMetres(x)});
+    const base::Array<base::Vec4f> velocity(exec, std::vector{base::Vec4f{-0.2f, 0.1f, -0.3f, float(radius)}}),
+        spin(exec, std::vector{base::Vec4f{1, -2, 3, 0}});
+    const GrainsView grains{position.data(), velocity.data(), spin.data(), id.data(), 1};
+    contacts.refresh(grains, motion);
+    contacts.compute(grains, motion, part.data());
+    GrainLoad load{};
+    base::copyToHost(exec, &load, contacts.grainLoads().load, sizeof load);
+    trace.loads.push_back(load);
+  }
+  const SavedGrainPatches saved = contacts.save();
+  trace.sums = saved.sums, trace.patches = saved.memories;
+  return trace;
+}
+
+TEST(GrainInCorner, KernelsOfFewFeaturesGiveTheBitsOfTheGeneralOne) {
+  const base::SphereSet set = corner(0.1, 0.008, 0.008);
+  for (const bool manyRadii : {false, true}) {
+    const Trace special = traceOf(set, manyRadii, 0), general = traceOf(set, manyRadii, 1e12);
+    EXPECT_EQ(special.patches.size(), 16u) << "a floor and a wall";
+    EXPECT_EQ(special.patches, general.patches);
+    EXPECT_EQ(special.sums, general.sums);
+    for (std::size_t k = 0; k < special.loads.size(); ++k) {
+      EXPECT_EQ(special.loads[k].force, general.loads[k].force);
+      EXPECT_EQ(special.loads[k].torque, general.loads[k].torque);
+    }
+    EXPECT_NE(special.sums[kRubbedByParts], 0);
+    EXPECT_NE(special.sums[kDampedByParts], 0);
+  }
+}
+
 TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
   // Two parts face each other 2 R - 2 overlap apart: forces cancel, each part carries its own.
   base::SphereSet set = plate(0.1, 0.008, 0.008);
