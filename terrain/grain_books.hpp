@@ -70,6 +70,7 @@ template <int kBegin, int kEnd> struct BooksOf {
 };
 using GrainBooks = BooksOf<0, kGrainBooks>;
 using WallBooks = BooksOf<kFirstOfWalls, kBooks>;
+using HeldBooks = BooksOf<kWallForce, kBooks>; ///< forces by grains that never move
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
 /// rounding makes of it, whose square is beyond a double's digits.

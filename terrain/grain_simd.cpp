@@ -22,11 +22,15 @@ struct StepSome {
 
 } // namespace
 
-int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
+bool hasSimd(unsigned features) {
   constexpr unsigned kKnown = contact::kHertz | contact::kFriction | contact::kRollingFriction | kManyRadii |
                               kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic | kFixed;
   constexpr unsigned kRough = contact::kHertz | contact::kRollingFriction | kManyRadii; // compiled with friction only
-  if (features & ~kKnown || (features & kRough && !(features & contact::kFriction))) return 1;
+  return !(features & ~kKnown) && (!(features & kRough) || features & contact::kFriction);
+}
+
+int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
+  if (!hasSimd(features)) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
 #if defined(__x86_64__)
   // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
@@ -61,13 +65,14 @@ void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, Grain
   step.run(k, books);
 }
 
-void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
-                float& deepest) {
+void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  GrainStep<contact::kGeneral, float>::Sum sum;
-  sum.deepest = deepest;
-  step.addLoads(i, step.sizeOf(i), force, torque, sum);
-  deepest = sum.deepest;
+  step.addLoads(i, step.sizeOf(i), force, torque);
+}
+
+void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i) {
+  const GrainStep<contact::kGeneral, float> step{{d, f}};
+  step.raise(Fault::through, i);
 }
 
 void letStay(const GrainKernelData& d, const ForceData<float>& f, int i) {

@@ -5,8 +5,9 @@
 
 namespace grouser::terrain {
 
-/// How many contacts the CPU works on side by side for beds of these features: at most `most`, as many as the processor
-/// has lanes for; 1: only the scalar kernel will do.
+/// Whether a CPU can take several contacts of such beds side by side, given the lanes. But for kFloor.
+bool hasSimd(unsigned features);
+/// How many it takes: at most `most`, as many as the processor has lanes for; 1: only the scalar kernel will do.
 int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
 
 /// One step of `count` grains on the CPU, `width` > 1 contacts at a time; the bits are those of GrainStep.
@@ -22,8 +23,8 @@ LaneStep stepSse, stepAvx2, stepAvx512;
 /// GrainStep's own, of one grain, for what is rare.
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
                   const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books);
-void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque,
-                float& deepest);
+void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque);
+void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i);
 void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books);
 /// Adds what some grains of a launch, from `first` on, have done.
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);

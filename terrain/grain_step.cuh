@@ -71,7 +71,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
-    if (has(kLoads)) addLoads(i, size, force, torque, sum);
+    if (has(kLoads)) addLoads(i, size, force, torque);
     const Lost lost{static_cast<double>(sum.damped), static_cast<double>(sum.rubbed), static_cast<double>(sum.rolled)};
     advance(i, {p, v, w, kept, reference}, size, force, torque, sum.deepest, lost, books);
   }
@@ -217,12 +217,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     d.nextPosition[i] = p, d.nextVelocity[i] = v, d.nextSpin[i] = w;
     if (!has(kLoads) || d.loads.range[i] == 0) return;
     base::Vec3d force, torque;
-    Sum sum;
-    const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
-    addLoads(i, size, force, torque, sum);
+    addLoads(i, Kernel::sizeOf(v.w, w.w), force, torque);
     bookHeld(i, p, {(-force).template as<Real>(), (-torque).template as<Real>()});
-    if (sum.deepest >= kThrough)
-      base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(Fault::through) << 56 | d.id[i]);
   }
 
   /// Impulses of what never moves are booked as those of walls. Few grains have any.
@@ -230,7 +226,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (!has(kLedger)) return;
     const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
     const base::Vec3d force = held.force.template as<double>();
-    WallBooks books;
+    HeldBooks books;
     books.addForce(force, cross(x, force) + held.torque.template as<double>(), d.bookScale);
     addToBank(d.books, i / 32, books);
   }
@@ -241,7 +237,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const BoundaryLoad<Real>& load = f.boundaryLoads[place - 1];
     sum.force += load.force;
     sum.torque += load.torque;
-    if (static_cast<float>(load.deepest) > d.maxSurfaceShare * static_cast<float>(size.radius)) sum.deepest = kThrough;
+    if (static_cast<float>(load.deepest) > d.maxSurfaceShare * static_cast<float>(size.radius))
+      raise(Fault::through, i);
   }
 
   /// Moving surfaces receive exactly the opposite.
@@ -250,8 +247,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   }
 
   /// Forces from rigid parts come as integers and are added as such: the parts receive exactly their opposite.
-  GROUSER_HD void addLoads(int i, const GrainSize<Real>& size, base::Vec3d& force, base::Vec3d& torque,
-                           Sum& sum) const {
+  GROUSER_HD void addLoads(int i, const GrainSize<Real>& size, base::Vec3d& force, base::Vec3d& torque) const {
     const std::uint32_t range = d.loads.range[i];
     if (range == 0) return;
     base::Vec3l quanta{};
@@ -262,10 +258,15 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       torque += load.torque.template as<double>();
       // Stones do get caught between tooth and track: a part may press a grain deeper than grains may press each other,
       // but not to its middle.
-      if (load.deepest > static_cast<float>(size.radius)) sum.deepest = kThrough;
+      if (load.deepest > static_cast<float>(size.radius)) raise(Fault::through, i);
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
+  }
+
+  /// Of all faults of a step the smallest key is kept.
+  GROUSER_HD void raise(Fault fault, int i) const {
+    base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
   }
 
   /// `work` on a grain in this step. `massShare`: of the mass of the model.
@@ -355,10 +356,10 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     else if (!inside)
       fault = Fault::range;
     else if (deepest > maxOverlap)
-      fault = deepest < kThrough ? Fault::overlap : Fault::through;
+      fault = Fault::overlap;
     else if (speed2 > d.maxSpeed2)
       fault = Fault::speed;
-    if (fault != Fault::none) base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
+    if (fault != Fault::none) raise(fault, i);
   }
 };
 

@@ -326,13 +326,13 @@ private:
       if (kWithRolling) torque += apart_[c], rolled += apart_[c][3];
       most = turning_[c] > most ? turning_[c] : most;
     }
-    float deepest = samePlace_[g] ? data_.diameter : most[3];
+    const float deepest = samePlace_[g] ? data_.diameter : most[3];
     const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0;
     if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
       const float radius = kManySizes ? data_.velocity[i].w : forces_.radius;
-      if (load.deepest > data_.maxSurfaceShare * radius) deepest = kThrough;
+      if (load.deepest > data_.maxSurfaceShare * radius) raiseThrough(data_, forces_, i);
     }
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};
@@ -342,7 +342,7 @@ private:
     }
     if (data_.features & kLoads && data_.loads.range[i] != 0) {
       base::Vec3d f3{f4[0], f4[1], f4[2]}, t3{t4[0], t4[1], t4[2]};
-      addLoadsOf(data_, forces_, i, f3, t3, deepest);
+      addLoadsOf(data_, forces_, i, f3, t3);
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
     const Lost lost{static_cast<double>(force[3]), static_cast<double>(rubbed), static_cast<double>(rolled)};
