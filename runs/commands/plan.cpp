@@ -21,6 +21,7 @@
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/support/progress.hpp"
+#include "terrain/grain_simd.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -50,15 +51,15 @@ std::string memoryText(const scene::Scene& scene, double grains) {
   return text;
 }
 
-/// What the grains' steps cost where they have been measured; parts and vehicle come on top. A core works on several
-/// contacts at once where grains have one radius, linear springs and nothing rarer.
+/// What the grains' steps cost where they have been measured; parts and vehicle come on top.
 std::string costText(const scene::Scene& scene, double grainSteps) {
-  const bool plain = scene.run.precision == terrain::Precision::single &&
-                     !(setup::grainFeatures(scene, setup::grainKinds(scene)) &
-                       ~(contact::kFriction | terrain::kBoundaries | terrain::kLoads | terrain::kLedger));
+  constexpr unsigned kPlain = contact::kFriction | terrain::kBoundaries | terrain::kLoads | terrain::kLedger;
+  const unsigned features = setup::grainFeatures(scene, setup::grainKinds(scene)) & ~terrain::kFloor;
+  const bool common = scene.run.precision == terrain::Precision::single && terrain::hasSimd(features);
   std::string text;
   for (const RankSpeed& s : kRankSpeeds) {
-    const double speed = s.grainSteps * (plain ? 1.0 : s.shareOfOthers);
+    const double share = !common ? s.shareOfOthers : features & ~kPlain ? s.shareOfSoil : 1.0;
+    const double speed = s.grainSteps * share;
     text += fmt::format("  {:<24} {} on {}, at {:.2g} grain steps/s (grouser bench bed), without vehicle and output\n",
                         text.empty() ? "expected time" : "", support::Progress::duration(grainSteps / speed), s.name,
                         speed);

@@ -19,12 +19,13 @@ std::string pairsText(const scene::Scene& scene);
 struct RankSpeed {
   const char* name;
   double grainSteps;    ///< particle-steps a second of one rank alone, for grains of one radius and linear springs
-  double shareOfOthers; ///< of that speed, for other grains [-]
+  double shareOfSoil;   ///< of that speed, for grains of many radii, fixed ones, Hertz contacts, rolling resistance [-]
+  double shareOfOthers; ///< for grains of what is rarer still [-]
   double latency;       ///< of one step's messages and sums [s]
   double bytesPerSecond;
 };
-inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.3, 20e-6, 2e9},
-                                            {"an H200", 4.4e9, 1.0, 100e-6, 5e10}};
+inline constexpr RankSpeed kRankSpeeds[] = {{"a CPU core", 1.7e7, 0.8, 0.3, 20e-6, 2e9},
+                                            {"an H200", 4.4e9, 0.7, 0.7, 100e-6, 5e10}};
 
 /// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, and the efficiency to expect from the
 /// stated speeds. Empty for a scene without grains.

@@ -3,7 +3,6 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/error.hpp"
-#include "base/sphere.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"
