@@ -236,7 +236,7 @@ private:
                : sum / (static_cast<double>(a.direction.size()) * static_cast<double>(b.direction.size()));
   }
   bool isCrystalline(std::size_t g) {
-    const Bonds own = bondsOf(g);
+    const Bonds& own = bondsOf(g);
     int alike = 0;
     for (const std::size_t other : own.to) {
       const Bonds& theirs = bondsOf(other);
@@ -254,24 +254,29 @@ private:
   std::vector<std::size_t> inside_;
 };
 
-/// Mean, highest and lowest of the surface on a grid.
-void measureSurface(const BedExtent& e, BedStructure& s) {
-  constexpr int kNodes = 64;
-  s.highest = -1e300, s.lowest = 1e300;
-  for (int j = 0; j < kNodes; ++j)
-    for (int i = 0; i < kNodes; ++i) {
-      const double x = e.walls.xMin + (i + 0.5) / kNodes * e.walls.width(),
-                   y = e.walls.yMin + (j + 0.5) / kNodes * e.walls.length(), z = e.surface(x, y);
-      s.settledHeight += z / (kNodes * kNodes), s.thickness += (z - e.floor(x, y)) / (kNodes * kNodes);
-      s.highest = std::max(s.highest, z), s.lowest = std::min(s.lowest, z);
-    }
+void take(const BedHeights& heights, BedStructure& s) {
+  s.settledHeight = heights.mean, s.highest = heights.highest, s.lowest = heights.lowest;
+  s.thickness = heights.thickness;
 }
 
 } // namespace
 
+BedHeights heightsOf(const BedExtent& e) {
+  constexpr int kNodes = 64;
+  BedHeights h{0, -1e300, 1e300, 0};
+  for (int j = 0; j < kNodes; ++j)
+    for (int i = 0; i < kNodes; ++i) {
+      const double x = e.walls.xMin + (i + 0.5) / kNodes * e.walls.width(),
+                   y = e.walls.yMin + (j + 0.5) / kNodes * e.walls.length(), z = e.surface(x, y);
+      h.mean += z / (kNodes * kNodes), h.thickness += (z - e.floor(x, y)) / (kNodes * kNodes);
+      h.highest = std::max(h.highest, z), h.lowest = std::min(h.lowest, z);
+    }
+  return h;
+}
+
 BedStructure measureBed(const std::vector<LyingGrain>& grains, const BedExtent& extent) {
   BedStructure s;
-  measureSurface(extent, s);
+  take(heightsOf(extent), s);
   double largest = 0, loose = 0;
   for (const LyingGrain& g : grains) {
     largest = std::max(largest, g.radius);
@@ -310,10 +315,7 @@ BedStructure measureBed(const Grains& grains, const BedExtent& extent) {
   for (const std::vector<LyingGrain>& some : grains.system().comm.gatherAll(mine))
     all.insert(all.end(), some.begin(), some.end());
   BedStructure s = measureBed(all, part);
-  BedStructure whole;
-  measureSurface(extent, whole);
-  s.settledHeight = whole.settledHeight, s.highest = whole.highest, s.lowest = whole.lowest;
-  s.thickness = whole.thickness;
+  take(heightsOf(extent), s); // of all of it
   return s;
 }
 

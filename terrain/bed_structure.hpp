@@ -46,6 +46,13 @@ struct BedExtent {
   std::function<double(double x, double y)> surface; ///< [m]
 };
 
+/// How high a bed stands, of 64 x 64 places.
+struct BedHeights {
+  double mean{}, highest{}, lowest{}; ///< of the surface [m]
+  double thickness{};                 ///< mean of the surface above the floor [m]
+};
+BedHeights heightsOf(const BedExtent& extent);
+
 /// Order is judged as by ten Wolde, Ruiz-Montero and Frenkel (1996, J. Chem. Phys. 104, 9932) with bond-orientational
 /// order of degree 6 (Steinhardt, Nelson and Ronchetti 1983): two neighbours nearer than 1.4 times the sum of their
 /// radii are alike where the normalised product of their order vectors exceeds 0.7; a grain with at least seven alike

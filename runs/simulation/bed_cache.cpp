@@ -87,8 +87,9 @@ std::optional<SettleReport> BedCache::find(const std::string& origin) const {
   }
 }
 
-SettleReport BedCache::settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress,
+SettleReport BedCache::settle(const setup::BedSetup& bed, const Ground& ground, const SettleProgress& progress,
                               const base::Comm& comm) {
+  terrain::Grains& grains = *ground.grains;
   const Clock::time_point start = Clock::now();
   const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const std::string& made = bed.origin;
@@ -119,7 +120,7 @@ SettleReport BedCache::settle(const setup::BedSetup& bed, terrain::Grains& grain
     }
     if (taken()) return report;
   }
-  report = simulation::settle(bed, grains, progress);
+  report = simulation::settle(bed, ground, progress);
   const double settledIn = seconds();
   const bool kept = usable && fits && keep(file, made, grains, report, comm);
   summary_ = fmt::format("settled in {:.2f} s; {}", settledIn,

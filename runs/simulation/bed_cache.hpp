@@ -32,7 +32,7 @@ public:
   /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a
   /// file in it is a warning, never the end of the run. On several ranks all of them call it; the folder must be seen
   /// by all, or nothing is reused. Throws what `progress` throws, and SimulationError as settle() does.
-  SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress,
+  SettleReport settle(const setup::BedSetup& bed, const Ground& ground, const SettleProgress& progress,
                       const base::Comm& comm);
 
   /// How the bed of this origin (setup::BedSetup) settled, where it is kept; empty where it is not, or is damaged.

@@ -14,7 +14,7 @@ namespace {
 std::unique_ptr<terrain::Grains> settledTile(const setup::TileSetup& tile, const base::Exec& exec) {
   Ground ground = buildGround(*tile.ground, exec);
   const setup::BedSetup& bed = *tile.ground->grains->bed;
-  if (bed.settle.timeLimit > 0) settle(bed, *ground.grains, [](double, double) {});
+  if (bed.settle.timeLimit > 0) settle(bed, ground, [](double, double) {});
   return std::move(ground.grains);
 }
 

@@ -60,14 +60,17 @@ void keepSurface(Ground& ground, const std::vector<double>& heights, double radi
   ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * radius, heights);
 }
 
-terrain::BedStructure structureOf(const Ground& ground) {
-  const terrain::BedSurface& surface = *ground.undisturbed;
+terrain::BedExtent extentOf(const Ground& ground, const terrain::BedSurface& surface) {
   const terrain::HeightField& floor = *ground.rigid;
   const base::Period& period = ground.grains->system().constants.period;
-  return terrain::measureBed(*ground.grains, {*ground.walls,
-                                              {period.length[0] > 0, period.length[1] > 0},
-                                              [&](double x, double y) { return floor.height(x, y); },
-                                              [&](double x, double y) { return surface.height(x, y); }});
+  return {*ground.walls,
+          {period.along(0), period.along(1)},
+          [&](double x, double y) { return floor.height(x, y); },
+          [&](double x, double y) { return surface.height(x, y); }};
+}
+
+terrain::BedStructure structureOf(const Ground& ground) {
+  return terrain::measureBed(*ground.grains, extentOf(ground, *ground.undisturbed));
 }
 
 void checkStructure(const setup::BedSetup& bed, const terrain::BedStructure& structure) {

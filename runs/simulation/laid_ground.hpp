@@ -43,6 +43,8 @@ bool isTaken(const setup::GroundSetup& setup, const base::Vec3d& centre, double 
 void keepSurface(Ground& ground, const base::Exec& exec);
 void keepSurface(Ground& ground, const std::vector<double>& heights, double radius);
 
+/// The limits of its bed, whose surface as it lies is given. Refers to both.
+terrain::BedExtent extentOf(const Ground& ground, const terrain::BedSurface& surface);
 /// Measures the bed, whose surface has been kept.
 terrain::BedStructure structureOf(const Ground& ground);
 /// Throws SimulationError where the bed has crystallised.

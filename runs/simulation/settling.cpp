@@ -31,25 +31,15 @@ double porosityAt(const setup::PreparationSetup& preparation, double friction, c
 }
 
 /// Fills in how high the bed stands.
-void measureHeight(const setup::BedSetup& bed, const terrain::Grains& grains, SettleReport& report) {
-  const terrain::Rectangle& w = bed.walls;
-  const double diameter = 2 * grains.model().radius;
-  const auto nodes = [&](double length) { return std::max(2, static_cast<int>(std::ceil(length / diameter)) + 1); };
-  const terrain::NodeGrid fine{nodes(w.width()),
-                               nodes(w.length()),
-                               w.width() / (nodes(w.width()) - 1),
-                               w.length() / (nodes(w.length()) - 1),
-                               w.xMin,
-                               w.yMin};
-  double sum = 0, highest = -1e300;
-  std::int64_t covered = 0;
-  for (const double top : terrain::highestTops(grains.system().exec, grains, fine, diameter)) {
-    if (!std::isfinite(top)) continue;
-    sum += top, ++covered;
-    highest = std::max(highest, top);
-  }
-  if (covered == 0) return;
-  report.highest = highest, report.meanHeight = sum / static_cast<double>(covered);
+void measureHeight(const Ground& ground, SettleReport& report) {
+  const base::Exec& exec = ground.grains->system().exec;
+  const terrain::Rectangle& w = *ground.walls;
+  const terrain::BedSurface surface(exec, *ground.grains, ground.rigid->view(), w);
+  report.meanHeight = terrain::heightsOf(extentOf(ground, surface)).mean;
+  // From a corner all are near enough.
+  const terrain::NodeGrid corners{2, 2, w.width(), w.length(), w.xMin, w.yMin};
+  const double all = w.width() + w.length();
+  report.highest = terrain::highestTops(exec, *ground.grains, corners, all).front();
 }
 
 } // namespace
@@ -140,7 +130,8 @@ double frictionFor(const setup::PreparationSetup& preparation, const base::Exec&
   return friction;
 }
 
-SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress) {
+SettleReport settle(const setup::BedSetup& bed, const Ground& ground, const SettleProgress& progress) {
+  terrain::Grains& grains = *ground.grains;
   SettleReport report;
   try {
     if (bed.preparation) {
@@ -153,7 +144,7 @@ SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const S
     if (progress.failed) progress.failed(grains, error.what());
     throw;
   }
-  measureHeight(bed, grains, report);
+  measureHeight(ground, report);
   return report;
 }
 

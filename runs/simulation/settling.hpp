@@ -29,7 +29,7 @@ struct SettleReport {
   double agitation{}; ///< mean kinetic energy a grain over m g radius [-]
   std::int64_t steps{};
   double friction{}; ///< [-] with which the bed was prepared; 0: with its own
-  /// Of the bed then: the highest grain's top, and the mean over its area of the highest top within a diameter [m].
+  /// Of the bed then: the highest grain's top, and the mean of its surface, as BedStructure has it [m].
   double highest{}, meanHeight{};
 };
 
@@ -47,7 +47,7 @@ void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, dou
 /// Prepares the bed, where the scene asks for a porosity, and lets it come to rest under gravity. Throws
 /// SimulationError when the scene's time limit passes first, or when the grains meet a fault: the message says that it
 /// was while the bed settled.
-SettleReport settle(const setup::BedSetup& bed, terrain::Grains& grains, const SettleProgress& progress);
+SettleReport settle(const setup::BedSetup& bed, const Ground& ground, const SettleProgress& progress);
 
 /// The friction that has to act while a bed settles for it to have the porosity wanted: by bisection on small beds,
 /// until one is within 0.002 of it. The same on every device and rank, each of which does all of it. Throws InputError

@@ -28,7 +28,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   if (hasBed()) {
     const setup::BedSetup& bed = *bedGround().grains->bed;
     if (bed.settle.timeLimit > 0)
-      settled_ = beds ? beds->settle(bed, *ground_.grains, progress, comm) : settle(bed, *ground_.grains, progress);
+      settled_ = beds ? beds->settle(bed, ground_, progress, comm) : settle(bed, ground_, progress);
     keepSurface(ground_, exec);
     if (bed.settle.timeLimit > 0) {
       ground_.structure = structureOf(ground_);

@@ -35,7 +35,7 @@ std::vector<std::string> with(std::vector<std::string> list, const std::vector<s
 SettleReport settled(const scene::Scene& scene, Ground& ground) {
   const setup::GroundSetup setup = setup::groundSetup(scene, kStep);
   ground = buildGround(setup, base::cpuExec(1));
-  return settle(*setup.grains->bed, *ground.grains, [](double, double) {});
+  return settle(*setup.grains->bed, ground, [](double, double) {});
 }
 
 TEST(JoinedBed, IsAsDenseAtItsSidesAsInside) {

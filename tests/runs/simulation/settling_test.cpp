@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace grouser::simulation {
 namespace {
 
@@ -23,7 +25,7 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
   const auto settled = [](const scene::Scene& scene, double& ratio) {
     const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
     Ground ground = buildGround(setup, base::cpuExec(1));
-    const SettleReport report = settle(*setup.grains->bed, *ground.grains, [](double, double) {});
+    const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
     ground.grains->refreshNeighbours();
     ground.grains->step();
     ratio = terrain::forceRatio(ground.grains->system());
@@ -42,7 +44,7 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
   Ground ground = buildGround(setup, base::cpuExec(1));
   try {
-    settle(*setup.grains->bed, *ground.grains, [](double, double) {});
+    settle(*setup.grains->bed, ground, [](double, double) {});
     FAIL() << "nothing rests to 1e-9";
   } catch (const base::SimulationError& error) {
     for (const char* part : {"has not settled within 0.3 s", "of its weight, wanted is 1e-09", "settle_force_ratio"})
@@ -53,7 +55,7 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
 TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
   const setup::GroundSetup setup = setup::groundSetup(bed({"material.soil.friction=0.5"}), 2e-4);
   Ground ground = buildGround(setup, base::cpuExec(1));
-  const SettleReport report = settle(*setup.grains->bed, *ground.grains, [](double, double) {});
+  const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
   const terrain::GrainLedger now = ground.grains->ledger();
   const terrain::GrainModel& model = ground.grains->model();
   const double unit = model.mass * 9.81 * model.radius * static_cast<double>(ground.grains->count());
@@ -61,6 +63,18 @@ TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
   EXPECT_NEAR(report.agitation, (now.kinetic + now.rotational) / unit, 1e-12);
   EXPECT_LT(report.agitation, 1e-2);
   EXPECT_NEAR(report.time, static_cast<double>(report.steps) * 2e-4, 1e-12);
+}
+
+TEST(Settling, ReportsItsHighestGrainAndTheMeanOfTheSurfaceThatSinkageIsMeasuredFrom) {
+  const setup::GroundSetup setup = setup::groundSetup(bed({"terrain.floor_grains=true"}), 2e-4);
+  Ground ground = buildGround(setup, base::cpuExec(1));
+  const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
+  keepSurface(ground, base::cpuExec(1));
+  EXPECT_EQ(report.meanHeight, structureOf(ground).settledHeight);
+  double highest = -1;
+  for (const base::Vec3d& p : ground.grains->snapshot().position) highest = std::max(highest, p.z + 0.03);
+  EXPECT_EQ(report.highest, highest);
+  EXPECT_LT(report.meanHeight, highest);
 }
 
 } // namespace
