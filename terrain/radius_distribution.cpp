@@ -36,10 +36,12 @@ struct SieveFraction {
   double number() const { return mass * massMean(-3); } ///< in units of all mass over that of a sphere of 1 m
 };
 
+/// Those that hold any.
 std::vector<SieveFraction> fractionsOf(const RadiusDistribution& r) {
   std::vector<SieveFraction> all;
   for (std::size_t k = 1; k < r.sieveDiameter.size(); ++k)
-    all.push_back({r.sieveDiameter[k - 1], r.sieveDiameter[k], r.passing[k] - r.passing[k - 1]});
+    if (const double mass = r.passing[k] - r.passing[k - 1]; mass > 0)
+      all.push_back({r.sieveDiameter[k - 1], r.sieveDiameter[k], mass});
   return all;
 }
 
@@ -55,7 +57,6 @@ double RadiusDistribution::ofSieves(double which, double within) const {
   for (const SieveFraction& f : fractions) all += f.number();
   const SieveFraction* chosen = nullptr;
   for (const SieveFraction& f : fractions) {
-    if (f.mass <= 0) continue;
     chosen = &f;
     before += f.number();
     if (which * all < before) break;
@@ -72,7 +73,7 @@ double RadiusDistribution::smallest() const {
   case RadiusLaw::lognormal:
     return fromNormal(-kMostDeviations);
   case RadiusLaw::sieve:
-    return 0.5 * sieveDiameter.front();
+    return 0.5 * fractionsOf(*this).front().fine;
   default:
     return radius;
   }
@@ -85,7 +86,7 @@ double RadiusDistribution::largest() const {
   case RadiusLaw::lognormal:
     return fromNormal(kMostDeviations);
   case RadiusLaw::sieve:
-    return 0.5 * sieveDiameter.back();
+    return 0.5 * fractionsOf(*this).back().coarse;
   default:
     return radius;
   }

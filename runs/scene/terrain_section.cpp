@@ -211,12 +211,14 @@ void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
   requireMaterial(scene, section, "ground_material", t.groundMaterial);
   if (t.heightRange[1] < t.heightRange[0])
     section.fail("height_range", "[m] has white below black; give the lower height first");
-  if (t.granular())
+  if (t.granular()) {
     checkBed(section, t);
-  else
+  } else {
+    refuseSieves(section, t);
     for (const char* key : {"grain_radius", "layers", "depth", "tile", "radius_distribution", "radius_spread",
                             "porosity", "fine_depth", "coarsening", "coarsest_radius", "spacing", "jitter", "packing"})
       if (section.has(key)) section.fail(key, "has no meaning on rigid ground; remove it, or set kind = \"granular\"");
+  }
   resolveFile(scene, section, "heightmap", t.heightmap);
 }
 

@@ -42,7 +42,9 @@ TEST(RadiusDistribution, MomentsOfDrawnRadiiAreThoseComputed) {
 }
 
 TEST(RadiusDistribution, StaysBetweenSmallestAndLargest) {
-  for (const RadiusDistribution& d : {uniform(), lognormal(), sieves()}) {
+  // A sieve that all passes, and one that nothing passes, hold no grain.
+  const RadiusDistribution emptyEnds{RadiusLaw::sieve, 0, 0, {0.001, 0.004, 0.01, 0.02, 0.5}, {0, 0, 0.4, 1, 1}};
+  for (const RadiusDistribution& d : {uniform(), lognormal(), sieves(), emptyEnds}) {
     const std::vector<double> radii = drawn(d);
     const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
     EXPECT_GE(*least, d.smallest() * (1 - 1e-12));
