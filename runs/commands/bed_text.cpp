@@ -12,6 +12,14 @@ constexpr double kGrainsInPad = 20;
 
 } // namespace
 
+std::string grainsText(const terrain::Grains& grains) {
+  const terrain::GrainSystem& system = grains.system();
+  const double smallest = system.constants.smallestRadius, largest = grains.model().radius;
+  std::string text = fmt::format("{} of radius {:g}", grains.count(), smallest);
+  if (largest > smallest) text += fmt::format(" to {:g}", largest);
+  return text + (system.fixedCount > 0 ? fmt::format(" m, {} fixed", system.fixedCount) : " m");
+}
+
 std::string bedText(const simulation::Simulation& simulation) {
   const simulation::SettleReport& settled = simulation.settled();
   std::string text;

@@ -8,6 +8,9 @@
 
 namespace grouser::commands {
 
+/// How many grains there are, how large, and how many of them never move: "1000 of radius 0.02 to 0.03 m, 50 fixed".
+std::string grainsText(const terrain::Grains& grains);
+
 /// Lines on how the bed came to rest and what it is made of; empty without one.
 std::string bedText(const simulation::Simulation& simulation);
 

@@ -103,7 +103,7 @@ void describePlaced(const simulation::Simulation& simulation) {
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
-    fmt::print("grains    {} of radius {:g} m, {:.0f} bytes each\n", grains->count(), grains->model().radius,
+    fmt::print("grains    {}, {:.0f} bytes each\n", grainsText(*grains),
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says of a bed that is too small for its vehicle.
+// What a run says of its grains, and of a bed that is too small for its vehicle.
 #include "runs/commands/bed_text.hpp"
 
 #include <gtest/gtest.h>
 
 namespace grouser::commands {
+
+TEST(GrainsText, NamesAllRadiiAndTheGrainsThatNeverMove) {
+  terrain::GrainModel model;
+  model.radius = 0.03, model.mass = 0.2;
+  const std::vector<terrain::GrainSpec> alike{{{0, 0, 0}, {}, {}}, {{1, 0, 0}, {}, {}}};
+  EXPECT_EQ(grainsText(terrain::Grains(base::cpuExec(1), model, {}, alike)), "2 of radius 0.03 m");
+  std::vector<terrain::GrainSpec> mixed = alike;
+  mixed[0].radius = 0.02, mixed[1].fixed = true;
+  EXPECT_EQ(grainsText(terrain::Grains(base::cpuExec(1), model, {}, mixed)), "2 of radius 0.02 to 0.03 m, 1 fixed");
+}
 
 TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
   const TrackOnBed good{0.28, 1.9, 0.45, 4.6, 0.014, true, true};
