@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The rules of the house that tests/rooms checks. Each takes a House and yields faults as 'place: what is wrong'."""
 import re
+import tomllib
 from collections import deque
 from functools import cached_property
 from pathlib import Path
@@ -485,4 +486,13 @@ def headings(text):
     return {re.sub(r'[^\w\- ]', '', title).replace(' ', '-') for title in plain}
 
 
-RULES = [places, order, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links]
+def mutants(house):
+    """What tests/mutate changes stands in its file, just once: else no test is asked about that fault any more."""
+    for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
+        for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
+            count = house.text.get(fault['file'], '').count(fault['old'])
+            if count != 1:
+                yield f'{path}: fault {number} stands {count} times in {fault["file"]}: {fault["old"]}'
+
+
+RULES = [places, order, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links, mutants]

@@ -379,5 +379,15 @@ class Outline(unittest.TestCase):
         self.assertEqual(found, {'A': ['A', 'size', 'get', 'operator_'], 'Inner': ['inner']})
 
 
+class Mutants(unittest.TestCase):
+    def test_the_text_of_a_fault_stands_just_once_where_it_says(self):
+        table = '[[fault]]\nfile = "base/a.cpp"\nold = "x += 1;"\nnew = "x -= 1;"\nuser = "counts down"\n'
+        for code, count in (('x += 1;\n', 1), ('x += 2;\n', 0), ('x += 1; x += 1;\n', 2)):
+            told = faults(rules.mutants, {'base/a.cpp': code, 'tests/mutation/base.toml': table})
+            self.assertEqual(len(told), 0 if count == 1 else 1, code)
+        self.assertIn('stands 0 times in base/b.cpp', faults(rules.mutants, {
+            'base/a.cpp': 'x += 1;\n', 'tests/mutation/base.toml': table.replace('base/a', 'base/b')})[0])
+
+
 if __name__ == '__main__':
     unittest.main()
