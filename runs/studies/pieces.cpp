@@ -142,7 +142,7 @@ void Pieces::keep(const std::string& run, const Table& table) {
 }
 
 fs::path Pieces::begin(const std::string& run) const {
-  const fs::path folder = folder_ / "runs" / run;
+  fs::path folder = folder_ / "runs" / run;
   fs::create_directories(folder);
   return folder;
 }
