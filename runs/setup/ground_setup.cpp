@@ -195,7 +195,7 @@ BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terr
   bed.restEnergy = scene.material(t.material).density * bed.options.meanVolume() * norm(scene.run.gravity) *
                    bed.options.meanRadius();
   bed.material = kinds.indexOf(t.material);
-  bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio};
+  bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio, t.lattice()};
   bed.cache = t.cache;
   if (isPutOnBed(scene)) return bed; // whose ground alone says the rest
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);

@@ -25,7 +25,8 @@ struct SettleSetup {
   double timeLimit{};               ///< [s]; 0: the bed is not settled
   double kineticEnergy{};           ///< [-] mean kinetic energy a grain over m g radius
   std::optional<double> forceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
-  bool spins = true;                ///< kinetic energy of spin counts, too: with next to no friction it never ends
+  bool spins = true;                ///< kinetic energy of spin counts, too: not where grains may lie on one contact
+                                    ///< and spin about its normal for ever, or are prepared with next to no friction
 };
 
 /// A bed that is one settled tile, copied.

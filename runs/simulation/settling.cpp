@@ -94,7 +94,7 @@ void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, dou
     if (law.friction > 0) law.friction = friction;
   grains.replaceLaws(prepared);
   setup::SettleSetup nearly = bed.settle;
-  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset(), nearly.spins = false;
+  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();
   settleUntilRest(bed, nearly, grains, bed.fall, progress, report);
   grains.replaceLaws(own);
   settleUntilRest(bed, bed.settle, grains, 0, progress, report);
