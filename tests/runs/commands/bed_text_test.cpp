@@ -8,7 +8,8 @@ namespace grouser::commands {
 
 TEST(GrainsText, NamesAllRadiiAndTheGrainsThatNeverMove) {
   terrain::GrainModel model;
-  model.radius = 0.03, model.mass = 0.2;
+  model.radius = 0.03, model.mass = 0.2, model.timeStep = 1e-4;
+  model.gravity = {0, 0, -9.81}, model.law.stiffness = 1e5;
   const std::vector<terrain::GrainSpec> alike{{{0, 0, 0}, {}, {}}, {{1, 0, 0}, {}, {}}};
   EXPECT_EQ(grainsText(terrain::Grains(base::cpuExec(1), model, {}, alike)), "2 of radius 0.03 m");
   std::vector<terrain::GrainSpec> mixed = alike;
