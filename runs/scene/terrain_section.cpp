@@ -98,7 +98,8 @@ Table<Terrain> terrainTable() {
   t.add("settle_time_limit", &S::settleTimeLimit, "s", "the bed must be at rest by then; 0 leaves settling out")
       .atLeast(0)
       .atMost(1e4);
-  t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-", "at rest: mean kinetic energy a grain over m g radius")
+  t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-",
+        "at rest: mean kinetic energy a grain, in random beds of translation, over m g radius")
       .above(0)
       .atMost(1e3);
   t.add("settle_force_ratio", &S::settleForceRatio, "-",
