@@ -54,6 +54,15 @@ TEST(BedStructure, ClosePackingHasItsPorosityContactsAndOrder) {
   }
 }
 
+TEST(BedStructure, NearIsNoContact) {
+  const int cells = 6;
+  const double apart = 0.02 * kRadius, side = cells * (2 * kRadius + apart) * std::sqrt(2.0);
+  const BedStructure s = measured(closePacking(cells, -apart), side, side);
+  EXPECT_EQ(s.coordination, 0);
+  EXPECT_EQ(s.rattlers, 1);
+  EXPECT_EQ(s.order, 1) << "its places are those of a crystal";
+}
+
 TEST(BedStructure, RandomPointsHaveAFlatRadialDistributionAndNoOrder) {
   std::vector<LyingGrain> grains;
   constexpr double kSide = 0.5;
