@@ -14,20 +14,23 @@ using base::Vec3d;
 
 namespace {
 
-/// Fills in the lift where it is not given.
-vehicle::Assembly assembled(const setup::VehicleSetup& setup, const Ground& ground,
-                            const std::function<double(double, double)>& surfaceHeight, std::optional<double> given,
-                            double& lift) {
+/// Set down along the ground, `lift` [m] higher than its surface asks for.
+vehicle::Assembly assembled(const setup::VehicleSetup& setup,
+                            const std::function<double(double, double)>& surfaceHeight, double lift) {
   const setup::Placement& place = setup.place;
   vehicle::AssemblyOptions options;
   options.fixChassis = setup.fixChassis;
   options.pose_W = setup.onTerrain ? setup::setDown(setup.spec, place, setup.clearance, surfaceHeight)
                                    : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
-  lift = 0;
-  if (!setup.onTerrain || !ground.grains) return vehicle::assemble(setup.spec, options);
-  lift = given ? *given : liftOffGrains(vehicle::assemble(setup.spec, options), *ground.grains);
   options.pose_W.position.z += lift;
   return vehicle::assemble(setup.spec, options);
+}
+
+/// So much that no shoe stands in a grain.
+double liftFor(const setup::VehicleSetup& setup, const Ground& ground,
+               const std::function<double(double, double)>& surfaceHeight) {
+  if (!setup.onTerrain || !ground.grains) return 0;
+  return liftOffGrains(assembled(setup, surfaceHeight, 0), *ground.grains);
 }
 
 /// Which shoe has left the terrain, in words; empty while none has.
@@ -52,7 +55,8 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
                        const std::function<double(double, double)>& surfaceHeight, std::optional<double> lift)
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), gravity_(setup.gravity),
       area_(setup.ground.area), surfaceHeight_(surfaceHeight), replicated_(ground.grains.get()),
-      assembly_(assembled(*setup.vehicle, ground, surfaceHeight, lift, lift_)),
+      lift_(lift ? *lift : liftFor(*setup.vehicle, ground, surfaceHeight)),
+      assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_)) {

@@ -87,7 +87,7 @@ private:
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
   ReplicatedWork replicated_;
-  double lift_ = 0; ///< [m]
+  double lift_; ///< [m]
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
   multibody::State state_;
