@@ -56,6 +56,64 @@ void prune(std::vector<Candidate>& candidates, const std::vector<Disc>& discs, d
   candidates.swap(kept);
 }
 
+/// Which discs may touch a ball centred in which cell of a table.
+struct GridCells {
+  const std::vector<Disc>& discs;
+  Vec3d low;
+  double edge, ballRadius; ///< [m]
+  base::Vec3i cells;
+
+  /// Disc indices, ascending within a cell; cells by x, then y, then z.
+  std::vector<std::vector<std::uint32_t>> all() const {
+    std::vector<std::vector<std::uint32_t>> near(static_cast<std::size_t>(cells.x) * cells.y * cells.z);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (int x = 0; x < cells.x; ++x) {
+      gather(x, near);
+      pruneAll(x, near);
+    }
+    return near;
+  }
+
+private:
+  double reach() const { return 0.5 * std::sqrt(3.0) * edge * (1 + 1e-9); }
+  Vec3d centreOf(int x, int y, int z) const { return low + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge; }
+  std::size_t indexOf(int x, int y, int z) const { return (static_cast<std::size_t>(x) * cells.y + y) * cells.z + z; }
+  static int clamped(double v, int n) { return std::clamp(static_cast<int>(std::floor(v)), 0, n - 1); }
+
+  /// Into the cells of one x.
+  void gather(int x, std::vector<std::vector<std::uint32_t>>& near) const {
+    const double perEdge = 1 / edge;
+    for (std::uint32_t k = 0; k < discs.size(); ++k) {
+      const Disc& d = discs[k];
+      const double r = ballRadius + d.radius + d.flat;
+      const Vec3d from = (d.centre.as<double>() - Vec3d{r, r, r} - low) * perEdge;
+      const Vec3d to = (d.centre.as<double>() + Vec3d{r, r, r} - low) * perEdge;
+      if (x < clamped(from.x, cells.x) || x > clamped(to.x, cells.x)) continue;
+      for (int y = clamped(from.y, cells.y); y <= clamped(to.y, cells.y); ++y)
+        for (int z = clamped(from.z, cells.z); z <= clamped(to.z, cells.z); ++z)
+          if (distanceTo(d, centreOf(x, y, z)).distance - d.radius - reach() <= ballRadius)
+            near[indexOf(x, y, z)].push_back(k);
+    }
+  }
+
+  void pruneAll(int x, std::vector<std::vector<std::uint32_t>>& near) const {
+    std::vector<std::uint32_t> best;
+    std::vector<Candidate> candidates;
+    for (int y = 0; y < cells.y; ++y)
+      for (int z = 0; z < cells.z; ++z) {
+        std::vector<std::uint32_t>& here = near[indexOf(x, y, z)];
+        candidates.clear();
+        for (const std::uint32_t k : here) {
+          const DiscDistance at = distanceTo(discs[k], centreOf(x, y, z));
+          candidates.push_back({k, at, static_cast<double>(at.distance) - discs[k].radius});
+        }
+        prune(candidates, discs, reach(), best);
+        here.clear();
+        for (const Candidate& c : candidates) here.push_back(c.disc);
+      }
+  }
+};
+
 } // namespace
 
 std::vector<Disc> discsOf(const base::SphereSet& set) {
@@ -105,40 +163,13 @@ SurfaceGrid::SurfaceGrid(const base::Exec& exec, const base::SphereSet& set, dou
   low_ = low, perEdge_ = 1 / edge;
   cells_ = {static_cast<int>(std::ceil(extent.x / edge)), static_cast<int>(std::ceil(extent.y / edge)),
             static_cast<int>(std::ceil(extent.z / edge))};
-  const double reach = 0.5 * std::sqrt(3.0) * edge * (1 + 1e-9);
-
-  // Which discs may touch a ball centred in which cell.
-  std::vector<std::vector<std::uint32_t>> near(static_cast<std::size_t>(cells_.x) * cells_.y * cells_.z);
-  const auto centreOf = [&](int x, int y, int z) { return low + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge; };
-  const auto clamped = [](double v, int n) { return std::clamp(static_cast<int>(std::floor(v)), 0, n - 1); };
-  for (std::uint32_t k = 0; k < discs.size(); ++k) {
-    const Disc& d = discs[k];
-    const double r = ballRadius + d.radius + d.flat;
-    const Vec3d from = (d.centre.as<double>() - Vec3d{r, r, r} - low) * perEdge_;
-    const Vec3d to = (d.centre.as<double>() + Vec3d{r, r, r} - low) * perEdge_;
-    for (int x = clamped(from.x, cells_.x); x <= clamped(to.x, cells_.x); ++x)
-      for (int y = clamped(from.y, cells_.y); y <= clamped(to.y, cells_.y); ++y)
-        for (int z = clamped(from.z, cells_.z); z <= clamped(to.z, cells_.z); ++z)
-          if (distanceTo(d, centreOf(x, y, z)).distance - d.radius - reach <= ballRadius)
-            near[(static_cast<std::size_t>(x) * cells_.y + y) * cells_.z + z].push_back(k);
+  const std::vector<std::vector<std::uint32_t>> near = GridCells{discs, low, edge, ballRadius, cells_}.all();
+  std::vector<std::uint32_t> start(near.size() + 1), entry;
+  for (std::size_t cell = 0; cell < near.size(); ++cell) {
+    start[cell] = static_cast<std::uint32_t>(entry.size());
+    entry.insert(entry.end(), near[cell].begin(), near[cell].end());
   }
-
-  std::vector<std::uint32_t> start(near.size() + 1), entry, best;
-  std::vector<Candidate> candidates;
-  std::size_t cell = 0;
-  for (int x = 0; x < cells_.x; ++x)
-    for (int y = 0; y < cells_.y; ++y)
-      for (int z = 0; z < cells_.z; ++z, ++cell) {
-        start[cell] = static_cast<std::uint32_t>(entry.size());
-        candidates.clear();
-        for (const std::uint32_t k : near[cell]) {
-          const DiscDistance at = distanceTo(discs[k], centreOf(x, y, z));
-          candidates.push_back({k, at, static_cast<double>(at.distance) - discs[k].radius});
-        }
-        prune(candidates, discs, reach, best);
-        for (const Candidate& c : candidates) entry.push_back(c.disc);
-      }
-  start[cell] = static_cast<std::uint32_t>(entry.size());
+  start.back() = static_cast<std::uint32_t>(entry.size());
   disc_ = base::Array<Disc>(exec, discs);
   start_ = base::Array<std::uint32_t>(exec, start);
   entry_ = base::Array<std::uint32_t>(exec, entry);

@@ -138,6 +138,9 @@ std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int6
       text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
                           "fixed = true\n",
                           g.position.x, g.position.y, g.position.z, g.radius);
+    // Below them all: it catches a small grain that finds a hole.
+    text += fmt::format("[[plane]]\npoint = [0, 0, {:.12g}]\nmaterial = \"grain\"\n",
+                        -(1 + soil.spread + 0.15) * coarse(soil, bed.coarsest(soil)).grains.diameter());
     return text;
   }
   SampleGrains floor = soil.grains;

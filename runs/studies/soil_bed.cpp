@@ -91,7 +91,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed) {
   constexpr std::uint64_t kPurpose = base::purpose("study.rough_floor");
   const double d = soil.grains.diameter();
-  // So many that they stand 0.9 diameters apart: none falls through between them.
+  // So many that they stand 0.9 diameters apart: few leave a hole between them that a grain falls through.
   const auto nx = static_cast<std::int64_t>(std::ceil(size.length / (0.9 * d)));
   const auto ny = static_cast<std::int64_t>(std::ceil(size.width / (0.9 * d)));
   BedGrains floor;

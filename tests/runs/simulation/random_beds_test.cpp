@@ -52,7 +52,7 @@ TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
 /// the mean.
 TEST(BedPreparation, AThinBedIsPreparedThoughGrainsGoOnSpinning) {
   const auto thin =
-      simulated(bed({"terrain.depth=0.1", "terrain.porosity=0.42", "terrain.settle_kinetic_energy=1e-4"}));
+      simulated(bed({"terrain.depth=0.1", "terrain.porosity=0.37", "terrain.settle_kinetic_energy=1e-4"}));
   EXPECT_GT(thin->settled().friction, 1e-4);
   EXPECT_LT(thin->settled().agitation, 1e-4);
 }

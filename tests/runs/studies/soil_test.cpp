@@ -8,6 +8,7 @@
 #include "terrain/random_bed.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -227,6 +228,27 @@ TEST(Lifts, AreAsThickInADeeperBed) {
   EXPECT_EQ(liftTops(bed), (std::vector<double>{0.12, 0.24, 0.36, 0.48}));
   bed.lift = 0;
   EXPECT_EQ(liftTops(bed), (std::vector<double>{0.48}));
+}
+
+/// Grains so small that they trickle through the fixed ones; one that fell on would be waited for in vain.
+TEST(PlateBed, WhatFindsAHoleInTheFloorIsCaught) {
+  Soil soil;
+  BedPreparation bed;
+  bed.floor = BedFloor::fixed;
+  bed.size = {8 * soil.grains.diameter(), 8 * soil.grains.diameter(), 4 * soil.grains.diameter()};
+  const double small = 0.2 * soil.grains.radius;
+  std::string text = soil.scene(1, 1, 0, {0, 0, -9.81}, bed.size.run()) + floorSections(soil, bed, 1);
+  for (int k = 0; k < 16; ++k)
+    text += fmt::format("[[grain]]\nposition = [{}, {}, {}]\nradius = {}\nmaterial = \"grain\"\n",
+                        (k % 4 + 0.5) * bed.size.length / 4, (k / 4 + 0.5) * bed.size.width / 4,
+                        1.5 * soil.grains.diameter(), small);
+  simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, "holes.toml")), base::cpuExec(1),
+                                    [](double, double) {});
+  for (auto left = static_cast<std::int64_t>(0.15 / simulation.timeStep()); left > 0;) left -= simulation.advance(left);
+  double lowest = 0;
+  for (const BedGrain& g : grainsOf(simulation, bed.size)) lowest = std::min(lowest, g.position.z);
+  EXPECT_LT(lowest, -1.2 * soil.grains.diameter()) << "none has found a hole";
+  EXPECT_GT(lowest, -1.5 * soil.grains.diameter());
 }
 
 TEST(PlateCases, DoublingChangesOneThing) {
