@@ -92,7 +92,8 @@ double suspendedSag(const VehicleSpec& spec) {
   return load * span * span / (8 * 0.5 * std::max(spec.idler.preload, 1.0));
 }
 
-Observer::Observer(const Assembly& vehicle, const ObserverOptions& options) : vehicle_(&vehicle) {
+Observer::Observer(const Assembly& vehicle, const ObserverOptions& options)
+    : vehicle_(&vehicle), stone_(options.stone) {
   for (int i = 0; i < static_cast<int>(vehicle.tracks.size()); ++i)
     travel_.emplace_back(vehicle, i, options.averageTeeth);
 }
@@ -102,9 +103,9 @@ void Observer::update(const multibody::State& state, double dt) {
 }
 
 std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
-  // A track that hangs free, or whose load is not known, may sag off its wheels.
+  // A track that hangs free, or whose load is not known, may sag off its wheels; and wheels roll over stones.
   const double allowed =
-      vehicle_->spec.shoe.hornHeight + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
+      vehicle_->spec.shoe.hornHeight + stone_ + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
     if (std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
     if (!(std::fabs(travel_[i].skipped()) <= kSkip))

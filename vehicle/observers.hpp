@@ -60,6 +60,7 @@ struct Observation {
 
 struct ObserverOptions {
   int averageTeeth = 1; ///< tooth passages of one mean
+  double stone{};       ///< [m] thickest that may lie between a road wheel and its plates and is no thrown track
 };
 
 /// Watches a vehicle: update() after every step, observe() when there is something to be written.
@@ -83,6 +84,7 @@ private:
                                 const SurfaceHeight& surface) const;
 
   const Assembly* vehicle_;
+  double stone_; ///< [m]
   std::vector<Travel> travel_;
 };
 

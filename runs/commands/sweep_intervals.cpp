@@ -41,18 +41,19 @@ struct Members {
   std::vector<std::string> seeds;
 };
 
-/// (b - a) / mean a over the seeds that both have.
-support::Estimate difference(const SweepFigures& figures, const Members& a, const Members& b, std::size_t column) {
-  std::vector<double> first, second;
+/// Adds to `of` how far b lies from a, over the seeds that both have.
+void addDifference(const SweepFigures& figures, const Members& a, const Members& b, std::size_t column, SeedGroup& of) {
+  std::vector<double> first, second, changes;
   for (std::size_t i = 0; i < a.rows.size(); ++i) {
     const auto same = std::find(b.seeds.begin(), b.seeds.end(), a.seeds[i]);
     if (same == b.seeds.end()) continue;
     const double x = figures.values[a.rows[i]][column],
                  y = figures.values[b.rows[static_cast<std::size_t>(same - b.seeds.begin())]][column];
-    if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y);
+    if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y), changes.push_back(y - x);
   }
-  if (first.empty()) return {kNone, kNone};
-  return studies::pairedDifference(first, second);
+  const support::Estimate none{kNone, kNone};
+  of.differences.push_back(first.empty() ? none : studies::pairedDifference(first, second));
+  of.changes.push_back(first.empty() ? none : studies::interval95(changes));
 }
 
 std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
@@ -63,16 +64,19 @@ std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
   return words.empty() ? "all" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// "+12.3 +- 0.4 %"
-std::string signedPercent(const support::Estimate& e) {
-  return fmt::format("{}{}", e.value < 0 ? "" : "+", studies::percent(e));
-}
-
 /// So many digits that the half width has two.
 std::string shown(const support::Estimate& e) {
   const double scale = std::isfinite(e.halfWidth) && e.halfWidth > 0 ? e.halfWidth : 0.01 * std::fabs(e.value);
   const int digits = scale > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9) : 3;
   return studies::plusMinus(e, digits);
+}
+
+/// "+12.3 +- 0.4 %"; in the figure's unit where the first mean may as well be zero, of which shares say nothing.
+std::string differenceText(const support::Estimate& first, const SeedGroup& group, std::size_t column) {
+  const support::Estimate &share = group.differences[column], &change = group.changes[column];
+  const bool zero = !(std::fabs(first.value) > first.halfWidth) && std::isfinite(first.halfWidth);
+  const double value = zero ? change.value : share.value;
+  return fmt::format("{}{}", value < 0 ? "" : "+", zero ? shown(change) : studies::percent(share));
 }
 
 } // namespace
@@ -92,7 +96,7 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) 
     values.erase(values.begin() + at);
     auto group = std::find_if(all.groups.begin(), all.groups.end(), [&](const auto& g) { return g.values == values; });
     if (group == all.groups.end()) {
-      group = all.groups.insert(group, SeedGroup{values, 0, {}, {}});
+      group = all.groups.insert(group, SeedGroup{values, 0, {}, {}, {}});
       members.emplace_back();
     }
     Members& m = members[static_cast<std::size_t>(group - all.groups.begin())];
@@ -104,7 +108,7 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) 
       SeedGroup& group = all.groups[g];
       group.runs = std::max(group.runs, static_cast<int>(values.size()));
       group.figures.push_back(values.empty() ? support::Estimate{kNone, kNone} : studies::interval95(values));
-      group.differences.push_back(difference(figures, members[0], members[g], c));
+      addDifference(figures, members[0], members[g], c, group);
     }
   return all;
 }
@@ -112,14 +116,15 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) 
 std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::filesystem::path& folder) {
   std::string text;
   for (const std::string& key : intervals.keys) text += support::csvCell(key) + ",";
-  text += "figure,seeds,mean,half width,difference to the first [-],half width of the difference [-]\n";
+  text += "figure,seeds,mean,half width,difference to the first [-],half width of the difference [-],"
+          "difference to the first,half width of the difference\n";
   for (const SeedGroup& group : intervals.groups)
     for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
       for (const std::string& value : group.values) text += support::csvCell(value) + ",";
-      const support::Estimate &mean = group.figures[c], &difference = group.differences[c];
-      text += fmt::format("{},{},{},{},{},{}\n", support::csvCell(intervals.columns[c]), group.runs,
-                          support::csvCell(mean.value), support::csvCell(mean.halfWidth),
-                          support::csvCell(difference.value), support::csvCell(difference.halfWidth));
+      text += fmt::format("{},{}", support::csvCell(intervals.columns[c]), group.runs);
+      for (const support::Estimate& e : {group.figures[c], group.differences[c], group.changes[c]})
+        text += fmt::format(",{},{}", support::csvCell(e.value), support::csvCell(e.halfWidth));
+      text += "\n";
     }
   std::filesystem::path path = folder / "intervals.csv";
   support::replaceTextFile(path, text);
@@ -139,7 +144,7 @@ std::string intervalsText(const SeedIntervals& intervals) {
       text += fmt::format("  {:<{}}  {:>22}  {} seed{}", named(intervals, group), width, shown(group.figures[c]),
                           group.runs, group.runs == 1 ? " " : "s");
       if (&group != &intervals.groups.front() && std::isfinite(group.differences[c].value))
-        text += fmt::format("  {:>18}", signedPercent(group.differences[c]));
+        text += fmt::format("  {:>18}", differenceText(intervals.groups.front().figures[c], group, c));
       text += "\n";
     }
   }

@@ -18,6 +18,7 @@ struct SeedGroup {
   std::vector<support::Estimate> figures;     ///< of SweepFigures::columns; half width infinite for one seed
   std::vector<support::Estimate> differences; ///< to the first group, over its mean [-]: seed by seed, of the
                                               ///< seeds that both have; NaN where there are none
+  std::vector<support::Estimate> changes;     ///< the same in the figures' units
 };
 
 struct SeedIntervals {
@@ -29,7 +30,7 @@ struct SeedIntervals {
 SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures);
 
 /// Writes intervals.csv: a row for each combination and figure, with its number of seeds, mean, half width, and the
-/// difference to the first combination in shares of its mean. Returns its path.
+/// difference to the first combination, in its unit and in shares of its mean. Returns its path.
 std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::filesystem::path& folder);
 
 /// The figures one asks for first, as a table to read.

@@ -17,7 +17,7 @@ constexpr double kGravity = 9.81;
 
 double radians(double degrees) { return degrees * base::kPi / 180; }
 
-std::string sliceText(const Slice& s) { return fmt::format("{:.2f}-{:.2f}", s[0], s[1]); }
+std::string sliceText(const Slice& s) { return fmt::format("{:.3f}-{:.3f}", s[0], s[1]); }
 
 std::string sliceHeads(const std::vector<Slice>& slices) {
   std::string text;

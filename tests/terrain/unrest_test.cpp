@@ -38,6 +38,15 @@ TEST(ForceRatio, HalfOfTheGrainsAtRest_IsOneHalf) {
   EXPECT_NEAR(forceRatio(grains.system()), 0.5, 1e-3);
 }
 
+TEST(ForceRatio, IsTheMeanOverTheGrainsThatMayMove) {
+  const GrainModel m = dampedBall();
+  GrainSpec fixed{{1, 0, 1}, {}, {}};
+  fixed.fixed = true;
+  Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 1}, {}, {}}, fixed});
+  advance(grains, 2);
+  EXPECT_NEAR(forceRatio(grains.system()), 1.0, 1e-3);
+}
+
 TEST(ForceRatio, DecaysAsABallComesToRest) {
   const GrainModel m = dampedBall();
   Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius}, {}, {}}});

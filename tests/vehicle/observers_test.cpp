@@ -201,6 +201,17 @@ TEST_F(Observers, WheelLiftedMoreThanAHorn_IsAThrownTrackOnlyWhenStanding) {
   EXPECT_NE(observer.alarm(state, {}).find("left track thrown"), std::string::npos);
 }
 
+TEST_F(Observers, AWheelThatRollsOverAStone_IsNoThrownTrack) {
+  state.pose[left.wheels[2]].position.z += 0.067; // the largest grain of 27 mm +- 25 %
+  EXPECT_NE(Observer(v).alarm(state, standing()), "");
+  const Observer onStones(v, {.stone = 0.0675});
+  EXPECT_EQ(onStones.alarm(state, standing()), "");
+  state.pose[left.wheels[2]].position.z += 0.062;
+  EXPECT_NE(onStones.alarm(state, standing()).find("left road wheel 2 is 129 mm off its plates, more than 128 mm"),
+            std::string::npos)
+      << onStones.alarm(state, standing());
+}
+
 TEST_F(Observers, SuspendedSag_CoversTheKnownOne) {
   // The plane model found 77 mm; the parabola over the whole span is above it, and no more than twice.
   EXPECT_GT(vehicle::suspendedSag(v.spec), 0.077);

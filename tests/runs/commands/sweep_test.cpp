@@ -311,7 +311,12 @@ TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
   EXPECT_NEAR(all.groups[1].differences[0].halfWidth, t / 2, 1e-3);
   EXPECT_EQ(all.groups[0].differences[0].value, 0);
   EXPECT_TRUE(std::isnan(all.groups[1].figures[1].value)) << "no run has it";
-  EXPECT_NE(intervalsText(all).find("+100.0"), std::string::npos) << intervalsText(all);
+  EXPECT_NEAR(all.groups[1].changes[0].value, 2, 1e-12);
+  EXPECT_NEAR(all.groups[1].changes[0].halfWidth, t, 1e-3);
+  // 2 +- 2.48 may as well be zero: no shares of it.
+  EXPECT_NE(intervalsText(all).find("+2.0 +- 2.5\n"), std::string::npos) << intervalsText(all);
+  for (std::vector<double>& row : figures.values) row[0] += 10;
+  EXPECT_NE(intervalsText(seedIntervals(plan, figures)).find("+16.7 +- "), std::string::npos);
   plan.keys = {kCaseKey, "run.skin"};
   EXPECT_TRUE(seedIntervals(plan, figures).groups.empty()) << "no seeds, no intervals";
 }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene's bed lies on and between.
+#include "runs/setup/bed_options.hpp"
+#include "runs/setup/ground_setup.hpp"
+#include "runs/setup/load_scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::setup {
+namespace {
+
+scene::Scene bed(const std::string& more) {
+  return parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\nstiffness = 1e5\nfriction = 0.4\n"
+                    "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.8, 0.8]\nheight_range = [0, 0]\n"
+                    "material = \"soil\"\ngrain_radius = 0.025\ndepth = 0.3\n" +
+                        more,
+                    "bed.toml");
+}
+
+TEST(BedValues, SideWallsAreSmoothUnlessTheirFrictionIsGiven) {
+  for (const auto& [more, friction] : {std::pair{"", 0.0}, {"wall_friction = 0.3\n", 0.3}}) {
+    const GroundSetup ground = groundSetup(bed(more), 1e-5);
+    const terrain::Boundaries& around = ground.grains->boundaries;
+    ASSERT_EQ(around.walls.size(), 4u);
+    for (const terrain::Wall& wall : around.walls) EXPECT_EQ(wall.law.friction, friction);
+    EXPECT_EQ(ground.grains->model.law.friction, 0.4);
+  }
+}
+
+TEST(BedValues, TheFloorOfAGradedBedIsOfItsCoarsestGrains) {
+  EXPECT_EQ(bedOptions(bed("")).floorGrains->scale, 1);
+  // 0.2 m below the fine grains the radius is larger by 0.02 of that.
+  const terrain::BedOptions graded = bedOptions(bed("fine_depth = 0.1\ncoarsening = 0.02\ncoarsest_radius = 0.05\n"));
+  EXPECT_NEAR(graded.floorGrains->scale, 1 + 0.02 * 0.2 / 0.025, 1e-12);
+}
+
+} // namespace
+} // namespace grouser::setup
