@@ -304,6 +304,15 @@ CaseRuns madeUp(const PlateCase& plate, double force, double grains, double seco
   return runs;
 }
 
+TEST(PlatePressure, OfASliceIsTheMeanOfItsRows) {
+  Table run;
+  run.names = kPlateColumns;
+  for (int k = 1; k <= 10; ++k) run.rows.push_back({0.01 * k, 100.0 * k, 0.4, 1, 1, 1, 1, 1});
+  EXPECT_NEAR(meanPressure(run, 0.5, 0.025, 0.055), 2 * 400, 1e-9) << "3, 4, 5";
+  EXPECT_NEAR(meanPressure(run, 0.5, 0, 1), 2 * 550, 1e-9);
+  EXPECT_TRUE(std::isnan(meanPressure(run, 0.5, 0.2, 0.3)));
+}
+
 TEST(PlateReport, GradedAgainstFine) {
   const std::vector<PlateCase> cases = plateCases({});
   const std::vector<Slice> slices = sinkageSlices(0.3);
