@@ -34,5 +34,15 @@ TEST(BedValues, TheFloorOfAGradedBedIsOfItsCoarsestGrains) {
   EXPECT_NEAR(graded.floorGrains->scale, 1 + 0.02 * 0.2 / 0.025, 1e-12);
 }
 
+/// With next to no friction, one end of the bisection for a porosity, spins of grains at random never decay.
+TEST(BedValues, GrainsAtRandomRestThoughTheySpin) {
+  const auto restsBySpins = [](const std::string& more) {
+    return groundSetup(bed(more), 1e-5).grains->bed->settle.spins;
+  };
+  EXPECT_FALSE(restsBySpins(""));
+  EXPECT_FALSE(restsBySpins("porosity = 0.4\n"));
+  EXPECT_FALSE(groundSetup(bed("porosity = 0.4\n"), 1e-5).grains->bed->preparation->sample->grains->bed->settle.spins);
+}
+
 } // namespace
 } // namespace grouser::setup

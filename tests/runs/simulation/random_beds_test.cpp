@@ -48,15 +48,6 @@ TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
   }
 }
 
-/// With a friction of 1e-4, one end of the bisection, spins last; in so thin a bed those of a few grains are much of
-/// the mean.
-TEST(BedPreparation, AThinBedIsPreparedThoughGrainsGoOnSpinning) {
-  const auto thin =
-      simulated(bed({"terrain.depth=0.1", "terrain.porosity=0.37", "terrain.settle_kinetic_energy=1e-4"}));
-  EXPECT_GT(thin->settled().friction, 1e-4);
-  EXPECT_LT(thin->settled().agitation, 1e-4);
-}
-
 TEST(BedPreparation, PorosityOutOfReachIsRefusedWithWhatCanBeReached) {
   try {
     simulated(bed({"terrain.porosity=0.25"}));
