@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spheredecomp/decompose.hpp"
 
+#include "base/bits.hpp"
 #include "base/error.hpp"
+#include "base/hash.hpp"
 #include "base/math.hpp"
 #include "spheredecomp/detail/fit.hpp"
 #include "spheredecomp/detail/point_grid.hpp"
@@ -274,6 +276,18 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 }
 
 } // namespace
+
+std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options) {
+  const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, interior] = options; // all of them
+  base::StateHash hash;
+  for (const Vec3d& v : mesh.vertices)
+    for (int k = 0; k < 3; ++k) hash.add(base::bitsAs<std::uint64_t>(v[k]));
+  hash.add(mesh.indices);
+  return fmt::format("sphere set, version {}\nradius {}\ntargetCount {}\nspacingRatio {}\nmaxDip {}\nflatTolerance {}\n"
+                     "interior {}\nmesh of {} vertices, {} triangles, hash {}\n",
+                     kCutVersion, radius, targetCount, spacingRatio, maxDip, flatTolerance, interior,
+                     mesh.vertices.size(), mesh.indices.size() / 3, hash.hex());
+}
 
 double latticePoints(const TriangleMesh& mesh, double radius) {
   const auto [low, high] = bounds(mesh);

@@ -37,6 +37,14 @@ struct DecompositionOptions {
 /// (above half the longest side of the bounding box) or too fine for the part (more than 50 million lattice points).
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options);
 
+/// Counts the changes of what decompose() gives. Sets are kept from run to run under cutOrigin(), so whoever changes a
+/// single bit of any set raises it in the same commit: CutVersion in tests/spheredecomp/cut_version_test.cpp says when.
+inline constexpr int kCutVersion = 1;
+
+/// All that the spheres of decompose() depend on, as text: this version, every option, and a hash of the mesh. Equal
+/// text, equal bits; the set's name has no part in it.
+std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options);
+
 /// Lattice points about spheres of `radius` at the default spacing, at most kMostLatticePoints of which are possible.
 double latticePoints(const TriangleMesh& mesh, double radius);
 

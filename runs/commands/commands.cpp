@@ -12,6 +12,7 @@
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/checkpoint.hpp"
+#include "runs/simulation/sphere_cache.hpp"
 #include "runs/support/text_file.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
@@ -20,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace grouser::commands {
 
@@ -138,7 +140,10 @@ void spheresCommand(const SpheresCommand& command) {
     throw base::InputError(
         fmt::format("--csv {}: the file is there already; name another, or overwrite it with --force", command.csv));
   const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
-  const base::SphereSet set = spheredecomp::decompose(mesh, fs::path(command.mesh).filename().string(), options);
+  std::optional<simulation::SphereCache> kept = simulation::SphereCache::ofUser();
+  const base::SphereSet set =
+      simulation::cutParts({{&mesh, fs::path(command.mesh).filename().string(), options}}, kept ? &*kept : nullptr, {})
+          .front();
   fmt::print("{}", spheredecomp::report(set, spheredecomp::measure(mesh, set)));
   if (command.csv.empty()) return;
   std::string text = "x [m],y [m],z [m],radius [m]\n";

@@ -109,8 +109,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", support::versionText());
   app.footer(
       "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound or its results could not be written, "
-      "4 device, 130 and 143 stopped by SIGINT and SIGTERM, 1 anything else.\nSettled beds are kept in GROUSER_CACHE, "
-      "or else in "
+      "4 device, 130 and 143 stopped by SIGINT and SIGTERM, 1 anything else.\nSettled beds and the "
+      "spheres of parts are kept in GROUSER_CACHE, or else in "
       "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
   try {
     obey(app, argc, argv, ranks);

@@ -26,7 +26,7 @@ void addRun(CLI::App& app, const Invocation& invocation) {
                       "go on from this checkpoint as if the run had not been stopped; default: that of its folder")
           ->expected(0, 1)
           ->type_name("[FILE]");
-  run->add_flag("!--no-cache", c.cache, "settle the bed anew, and do not keep it; as terrain.cache = false");
+  run->add_flag("!--no-cache", c.cache, "settle the bed and cut the parts anew, and keep neither");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
   run->callback([command, resume] {
     command->resume = resume->count() > 0;

@@ -100,7 +100,23 @@ void describePlaced(const simulation::Simulation& simulation) {
   fmt::print("placed    {} grains on the settled bed\n", grains);
 }
 
-void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const simulation::BedCache* beds) {
+/// Where earlier runs may have left what this one needs; null: nothing is kept.
+struct Caches {
+  std::optional<simulation::BedCache> beds;
+  std::optional<simulation::SphereCache> spheres;
+};
+
+Caches cachesOf(const scene::Scene& scene, const RunRequest& options) {
+  Caches kept;
+  const std::optional<support::KeptFiles> files =
+      options.cache ? support::KeptFiles::ofUser(options.comm()) : std::nullopt;
+  if (!files) return kept;
+  if (scene.terrain && scene.terrain->cache) kept.beds.emplace(*files);
+  kept.spheres.emplace(*files);
+  return kept;
+}
+
+void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const Caches& kept) {
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {}, {:.0f} bytes each\n", grainsText(*grains),
@@ -109,7 +125,9 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
   describeRanks(simulation);
   fmt::print("{}", bedText(simulation));
   describePlaced(simulation);
-  if (beds && !beds->summary().empty()) fmt::print("bed       {}\n", beds->summary());
+  if (kept.beds && !kept.beds->summary().empty()) fmt::print("bed       {}\n", kept.beds->summary());
+  const std::string sets = kept.spheres ? kept.spheres->summary(simulation.comm()) : "";
+  if (!sets.empty()) fmt::print("spheres   {}\n", sets);
   if (const simulation::VehicleRig* rig = simulation.vehicle()) {
     fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
                rig->assembly().model.bodies().size(), rig->parts().totalSpheres(), rig->parts().setFigures().size());
@@ -199,9 +217,11 @@ std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& prove
 /// At the checkpoint, or at the start: then the bed is settled first.
 std::unique_ptr<simulation::Simulation> makeSimulation(setup::SimulationSetup setup, const base::Exec& exec,
                                                        const simulation::Checkpoint* former, const RunRequest& options,
-                                                       simulation::BedCache* beds) {
+                                                       Caches& kept) {
   const base::Comm comm = options.comm();
-  if (former) return std::make_unique<simulation::Simulation>(std::move(setup), exec, former->state, comm);
+  simulation::BedCache* beds = kept.beds ? &*kept.beds : nullptr;
+  simulation::SphereCache* spheres = kept.spheres ? &*kept.spheres : nullptr;
+  if (former) return std::make_unique<simulation::Simulation>(std::move(setup), exec, former->state, comm, spheres);
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
   const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;
   std::unique_ptr<support::Progress> settling;
@@ -215,7 +235,7 @@ std::unique_ptr<simulation::Simulation> makeSimulation(setup::SimulationSetup se
   };
   settle.failed = [&](const terrain::Grains& bed, const std::string& message) { failed.leave(&bed, message); };
   try {
-    auto simulation = std::make_unique<simulation::Simulation>(std::move(setup), exec, settle, comm, beds);
+    auto simulation = std::make_unique<simulation::Simulation>(std::move(setup), exec, settle, comm, beds, spheres);
     if (settling) settling->finish("at rest");
     return simulation;
   } catch (const base::SimulationError& error) {
@@ -383,10 +403,9 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
   if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<simulation::Checkpoint> former = formerRun(provenance, options);
-  std::optional<simulation::BedCache> beds;
-  if (options.cache && scene.terrain && scene.terrain->cache) beds = simulation::BedCache::ofUser(comm);
+  Caches kept = cachesOf(scene, options);
   const std::unique_ptr<simulation::Simulation> made =
-      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), options, beds ? &*beds : nullptr);
+      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), options, kept);
   simulation::Simulation& simulation = *made;
   const setup::SimulationSetup& setup = simulation.setup();
   const std::int64_t whole = std::llround(setup.run.duration / setup.timeStep), begin = simulation.steps(),
@@ -395,7 +414,7 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
   const double prepared = since(start);
-  describeBuild(simulation, exec, beds ? &*beds : nullptr);
+  describeBuild(simulation, exec, kept);
   if (!former && comm.first())
     for (const std::string& warning : setup::vehicleWarnings(scene))
       fmt::print(stderr, "grouser: warning: {}\n", warning);

@@ -3,6 +3,7 @@
 
 #include "base/comm.hpp"
 #include "runs/simulation/ground.hpp"
+#include "runs/support/kept_files.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,15 +18,12 @@ namespace grouser::simulation {
 /// A folder of settled beds, and where the last one came from.
 class BedCache {
 public:
-  static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30; ///< [bytes]
+  /// `limit` [bytes] of the folder.
+  explicit BedCache(const std::filesystem::path& folder, std::uint64_t limit = support::KeptFiles::kDefaultLimit)
+      : BedCache(support::KeptFiles(folder, limit)) {}
+  explicit BedCache(support::KeptFiles files) : files_(std::move(files)) {}
 
-  /// `limit` [bytes]: the newest beds are kept up to it.
-  explicit BedCache(std::filesystem::path folder, std::uint64_t limit = kDefaultLimit)
-      : folder_(std::move(folder)), limit_(limit) {}
-
-  /// As the user's surroundings say: GROUSER_CACHE names the folder, and where it is set but empty nothing is kept;
-  /// otherwise $XDG_CACHE_HOME/grouser, otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits its size. Throws
-  /// InputError where that is no number. On several ranks the surroundings of the first count.
+  /// Where the user keeps such files; see KeptFiles::ofUser().
   static std::optional<BedCache> ofUser(const base::Comm& comm = {});
 
   /// Puts the kept bed of this scene in the place of the loose one; where there is none, settles as runs/bed does and
@@ -42,15 +40,12 @@ public:
   const std::string& summary() const { return summary_; }
 
 private:
-  std::filesystem::path fileOf(const std::string& origin) const;
   bool reuse(const std::filesystem::path& file, const std::string& origin, terrain::Grains& grains,
              SettleReport& report, const base::Comm& comm) const;
   bool keep(const std::filesystem::path& file, const std::string& origin, const terrain::Grains& grains,
             const SettleReport& report, const base::Comm& comm) const;
-  void deleteOldest(const std::filesystem::path& except) const;
 
-  std::filesystem::path folder_;
-  std::uint64_t limit_;
+  support::KeptFiles files_;
   std::string summary_;
 };
 

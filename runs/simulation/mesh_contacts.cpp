@@ -3,7 +3,6 @@
 
 #include "runs/simulation/grain_part_model.hpp"
 #include "runs/simulation/ground.hpp"
-#include "spheredecomp/decompose.hpp"
 
 #include <algorithm>
 
@@ -11,19 +10,23 @@ namespace grouser::simulation {
 
 using base::Vec3d;
 
-MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains)
+MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains,
+                           SphereCache* kept)
     : exec_(exec), comm_(grains.system().comm), room_(0.5 * grains.system().constants.smallestRadius) {
   std::vector<contact::GrainPart> parts;
+  std::vector<PartCut> cuts;
   for (const setup::SurfaceSetup& surface : setup.surfaces) {
     if (!surface.mesh) continue;
-    spheredecomp::DecompositionOptions options;
-    options.radius = surface.sphereRadius, options.interior = false;
-    parts.push_back({static_cast<int>(sets_.size()), {}, {}});
-    sets_.push_back(spheredecomp::decompose(surface.mesh->mesh(), surface.name, options));
-    reach_.push_back(contact::enclosingRadius(sets_.back()));
+    parts.push_back({static_cast<int>(cuts.size()), {}, {}});
+    cuts.push_back({&surface.mesh->mesh(), surface.name, {}});
+    cuts.back().options.radius = surface.sphereRadius, cuts.back().options.interior = false;
   }
+  sets_ = cutParts(cuts, kept, comm_);
   std::vector<const base::SphereSet*> sets;
-  for (const base::SphereSet& set : sets_) sets.push_back(&set);
+  for (const base::SphereSet& set : sets_) {
+    sets.push_back(&set);
+    reach_.push_back(contact::enclosingRadius(set));
+  }
   const contact::GrainPartModel model = grainPartModel(*setup.grains, grains, room_);
   force_ = model.force, torque_ = model.torque;
   contacts_ = std::make_unique<contact::GrainPartContacts>(exec, model, sets, parts, comm_, setup.grains->partLaws);

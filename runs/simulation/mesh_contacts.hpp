@@ -4,6 +4,7 @@
 #include "base/array.hpp"
 #include "contact/grain_part_contacts.hpp"
 #include "runs/setup/ground_setup.hpp"
+#include "runs/simulation/sphere_cache.hpp"
 #include "terrain/grains.hpp"
 
 #include <memory>
@@ -16,7 +17,8 @@ namespace grouser::simulation {
 class MeshContacts {
 public:
   /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
-  MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains);
+  /// `kept`: where sphere sets are kept; null: all are cut.
+  MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereCache* kept);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;
 

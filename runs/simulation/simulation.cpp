@@ -23,7 +23,7 @@ const char* const kSlidingGives = "their springs take over the force of tangenti
 } // namespace
 
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
-                       const base::Comm& comm, BedCache* beds)
+                       const base::Comm& comm, BedCache* beds, SphereCache* spheres)
     : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)) {
   if (hasBed()) {
     const setup::BedSetup& bed = *bedGround().grains->bed;
@@ -42,12 +42,12 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
     }
   }
   surface_ = surfaceHeight(ground_);
-  if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_);
+  if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres);
   if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
   if (ground_.grains) ground_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (isPutOnBed()) putGrains(ground_, setup_.ground);
-  if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
+  if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains, spheres);
   start_ = wholeLedger();
   addGrains();
 }

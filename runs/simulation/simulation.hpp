@@ -26,13 +26,13 @@ namespace grouser::simulation {
 /// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
 class Simulation {
 public:
-  /// `beds`: where settled beds are kept; null: settles by itself.
+  /// `beds`, `spheres`: where settled beds and sphere sets are kept; null: settles, or cuts, by itself.
   Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
-             const base::Comm& comm = {}, BedCache* beds = nullptr);
+             const base::Comm& comm = {}, BedCache* beds = nullptr, SphereCache* spheres = nullptr);
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
   Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
-             const base::Comm& comm = {});
+             const base::Comm& comm = {}, SphereCache* spheres = nullptr);
   Simulation(const Simulation&) = delete; // its parts refer to setup_ and to each other
   Simulation& operator=(const Simulation&) = delete;
   SimulationState save() const;

@@ -52,7 +52,7 @@ Ground groundOf(setup::GroundSetup& setup, const SimulationState& state, const b
 } // namespace
 
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
-                       const base::Comm& comm)
+                       const base::Comm& comm, SphereCache* spheres)
     : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(groundOf(setup_.ground, state, exec, comm)),
       settled_(state.settled), lifts_(state.lifts), steps_(state.steps) {
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
@@ -67,11 +67,11 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   if (ground_.grains) {
     ground_.grains->restore(*state.grains, isPutOnBed() || !setup_.ground.grains->sources.empty());
     ground_.grains->setSteps(steps_);
-    if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains);
+    if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains, spheres);
   }
   if (setup_.vehicle) {
     // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
-    vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, state.vehicle->lift);
+    vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }
   if (setup_.mechanism) {

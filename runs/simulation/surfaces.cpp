@@ -33,9 +33,9 @@ base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {
   return {law.centre + freeAxis(i) * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
 }
 
-void Surfaces::makeMeshContacts(const base::Exec& exec, terrain::Grains& grains) {
+void Surfaces::makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereCache* kept) {
   if (shapes_ == surfaces_.size()) return;
-  meshes_ = std::make_unique<MeshContacts>(setup_, exec, grains);
+  meshes_ = std::make_unique<MeshContacts>(setup_, exec, grains, kept);
   if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
 }
 

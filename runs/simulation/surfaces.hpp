@@ -24,7 +24,7 @@ public:
   Surfaces& operator=(const Surfaces&) = delete;
 
   /// The meshes' contacts; after grains have been restored, before the first computeContacts().
-  void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains);
+  void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereCache* kept);
 
   /// Contacts of grains with meshes in step `step`.
   void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);

@@ -3,6 +3,7 @@
 
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
+#include "runs/simulation/sphere_cache.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <cstddef>
@@ -15,8 +16,9 @@ namespace grouser::simulation {
 /// parts but the hull touch something: the contact parts.
 class VehicleParts {
 public:
-  /// Reads the meshes and cuts them; the ranks share the cutting. Throws InputError where a mesh is of no use.
-  VehicleParts(const vehicle::Assembly& assembly, double sphereRadius, const base::Comm& comm);
+  /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets are kept; null: all are cut.
+  /// Throws InputError where a mesh is of no use.
+  VehicleParts(const vehicle::Assembly& assembly, double sphereRadius, const base::Comm& comm, SphereCache* kept);
 
   const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
   std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
@@ -41,7 +43,7 @@ public:
   std::vector<int> setOfContactPart() const;
 
 private:
-  void share(const base::Comm& comm);
+  void cut(const std::vector<std::size_t>& meshes, double sphereRadius, SphereCache* kept, const base::Comm& comm);
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;

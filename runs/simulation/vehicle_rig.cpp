@@ -57,7 +57,8 @@ std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehi
 } // namespace
 
 VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
-                       const std::function<double(double, double)>& surfaceHeight, std::optional<double> lift)
+                       const std::function<double(double, double)>& surfaceHeight, SphereCache* kept,
+                       std::optional<double> lift)
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), gravity_(setup.gravity),
       area_(setup.ground.area), surfaceHeight_(surfaceHeight), replicated_(ground.grains.get()),
       lift_(lift ? *lift : liftFor(*setup.vehicle, ground, surfaceHeight)),
@@ -67,7 +68,7 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
       observer_(std::make_unique<vehicle::Observer>(
           assembly_, vehicle::ObserverOptions{.stone = thickestStone(*setup.vehicle, ground)})) {
   const base::Comm comm = ground.grains ? ground.grains->system().comm : base::Comm{};
-  parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm);
+  parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm, kept);
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone);
 }

@@ -25,9 +25,10 @@ namespace grouser::simulation {
 class VehicleRig {
 public:
   /// Reads the meshes, cuts them into spheres, places the vehicle above the ground: `lift` [m] higher than its surface
-  /// asks for; where not given, so high that no shoe stands in a grain.
+  /// asks for; where not given, so high that no shoe stands in a grain. `kept` as in VehicleParts.
   VehicleRig(const setup::SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
-             const std::function<double(double, double)>& surfaceHeight, std::optional<double> lift = {});
+             const std::function<double(double, double)>& surfaceHeight, SphereCache* kept,
+             std::optional<double> lift = {});
   VehicleRig(const VehicleRig&) = delete;
   VehicleRig& operator=(const VehicleRig&) = delete;
 

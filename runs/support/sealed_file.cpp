@@ -53,8 +53,9 @@ struct Measure {
   std::string checksum;
 };
 
-/// Length and checksum of all behind the seal. Eight bytes a word; the last is filled up with zeros.
-Measure measure(const Descriptor& file) {
+/// Length and checksum of all behind the seal, which is added to `contents` where that is given. Eight bytes a word;
+/// the last is filled up with zeros.
+Measure measure(const Descriptor& file, std::string* contents = nullptr) {
   Measure m;
   base::StateHash hash;
   std::vector<char> chunk(1 << 20);
@@ -72,6 +73,7 @@ Measure measure(const Descriptor& file) {
       std::memcpy(&word, chunk.data() + i, std::min(sizeof word, filled - i));
       hash.add(word);
     }
+    if (contents) contents->append(chunk.data(), filled);
     at += filled, m.bytes = at;
     if (filled < chunk.size()) break;
   }
@@ -87,6 +89,32 @@ void seal(const fs::path& path, const char* kind, int version) {
   const std::string text = sealText(kind, version, m.bytes, m.checksum);
   file.require(::pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()), "be written");
   file.require(::fsync(file) == 0, "be brought to the disk");
+}
+
+/// See checkSeal(); `contents` as in measure().
+void check(const fs::path& path, const char* kind, int version, std::string* contents) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    throw base::InputError(
+        fmt::format("{}: there is no such file; name the {} of a run, or start anew without it", path.string(), kind));
+  const Descriptor file(path, O_RDONLY);
+  if (!file.good()) throw base::InputError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
+  std::string text(kSealBytes, '\0');
+  const bool isSealed = ::pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
+  const std::string head = fmt::format("grouser {}\nversion ", kind);
+  if (!isSealed || text.compare(0, head.size(), head) != 0)
+    throw base::InputError(fmt::format("{}: is no {} of this program, or is damaged", path.string(), kind));
+  const std::size_t end = text.find('\n', head.size());
+  const std::string found = text.substr(head.size(), end == std::string::npos ? 0 : end - head.size());
+  if (found != std::to_string(version))
+    throw base::InputError(fmt::format("{}: is a {} of version {}, this program reads version {}; use the program that "
+                                       "wrote it, or start anew",
+                                       path.string(), kind, found, version));
+  const Measure m = measure(file, contents);
+  if (text != sealText(kind, version, m.bytes, m.checksum))
+    throw base::InputError(fmt::format("{}: the {} is damaged: its length or checksum is not what was written; start "
+                                       "anew without it",
+                                       path.string(), kind));
 }
 
 } // namespace
@@ -117,29 +145,12 @@ void writeSealed(const fs::path& path, const char* kind, int version,
   comm.wait();
 }
 
-void checkSeal(const fs::path& path, const char* kind, int version) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    throw base::InputError(
-        fmt::format("{}: there is no such file; name the {} of a run, or start anew without it", path.string(), kind));
-  const Descriptor file(path, O_RDONLY);
-  if (!file.good()) throw base::InputError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
-  std::string text(kSealBytes, '\0');
-  const bool isSealed = ::pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
-  const std::string head = fmt::format("grouser {}\nversion ", kind);
-  if (!isSealed || text.compare(0, head.size(), head) != 0)
-    throw base::InputError(fmt::format("{}: is no {} of this program, or is damaged", path.string(), kind));
-  const std::size_t end = text.find('\n', head.size());
-  const std::string found = text.substr(head.size(), end == std::string::npos ? 0 : end - head.size());
-  if (found != std::to_string(version))
-    throw base::InputError(fmt::format("{}: is a {} of version {}, this program reads version {}; use the program that "
-                                       "wrote it, or start anew",
-                                       path.string(), kind, found, version));
-  const Measure m = measure(file);
-  if (text != sealText(kind, version, m.bytes, m.checksum))
-    throw base::InputError(fmt::format("{}: the {} is damaged: its length or checksum is not what was written; start "
-                                       "anew without it",
-                                       path.string(), kind));
+void checkSeal(const fs::path& path, const char* kind, int version) { check(path, kind, version, nullptr); }
+
+std::string readSealed(const fs::path& path, const char* kind, int version) {
+  std::string contents;
+  check(path, kind, version, &contents);
+  return contents;
 }
 
 } // namespace grouser::support

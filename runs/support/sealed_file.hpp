@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 /// Files that are either whole or not there: written under another name, sealed with length and checksum, put in place
 /// by renaming. A program killed at any time leaves the former file as it was.
@@ -23,6 +24,9 @@ void writeSealed(const std::filesystem::path& path, const char* kind, int versio
 /// Reads the whole file and throws base::InputError unless it is a `kind` of `version`, as long and with every bit as
 /// it was written.
 void checkSeal(const std::filesystem::path& path, const char* kind, int version);
+
+/// As checkSeal(); returns what stands behind the seal.
+std::string readSealed(const std::filesystem::path& path, const char* kind, int version);
 
 /// Waits until what was written to a file is on the disk.
 void syncFile(const std::filesystem::path& path);

@@ -42,7 +42,7 @@ inline std::filesystem::path programUnderTest() {
 }
 
 /// Commands of a shell in `folder`, with the program as $grouser. What they print lies beside the folder, in FOLDER.out
-/// and FOLDER.err: all that is in it the program or the test has put there. Settled beds are not kept.
+/// and FOLDER.err: all that is in it the program or the test has put there. Nothing is kept from run to run.
 inline Outcome shellIn(const std::filesystem::path& folder, const std::string& commands) {
   const std::string out = folder.string() + ".out", errors = folder.string() + ".err";
   const auto start = std::chrono::steady_clock::now();

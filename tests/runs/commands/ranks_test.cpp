@@ -56,11 +56,18 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
                  "--set run.checkpoint_interval=0 --steps 1000 --hash --threads 1 " +
                  words);
   };
-  const std::string expected = drive(1, "--out one").hash();
+  const Outcome one = drive(1, "--out one");
+  const std::string expected = one.hash();
   EXPECT_EQ(expected.substr(0, 11), "state-hash ");
-  EXPECT_EQ(drive(2, "--out two --set 'parallel.subdomains=[2,1,1]'").hash(), expected);
-  EXPECT_EQ(drive(3, "--out three --set 'parallel.subdomains=[1,3,1]' --set parallel.rebalance=false").hash(),
-            expected);
+  EXPECT_NE(one.out.find("spheres   5 sets cut in "), std::string::npos) << one.out;
+  // Two ranks find no sets, share the cutting, and leave them to three.
+  EXPECT_EQ(shell("rm beds/spheres-*.bin").code, 0);
+  const Outcome two = drive(2, "--out two --set 'parallel.subdomains=[2,1,1]'");
+  EXPECT_EQ(two.hash(), expected);
+  EXPECT_NE(two.out.find("spheres   5 sets cut in "), std::string::npos) << two.out;
+  const Outcome three = drive(3, "--out three --set 'parallel.subdomains=[1,3,1]' --set parallel.rebalance=false");
+  EXPECT_EQ(three.hash(), expected);
+  EXPECT_NE(three.out.find("spheres   5 sets taken from "), std::string::npos) << three.out;
   const std::string series = contents(folder_ / "one/timeseries.csv");
   EXPECT_EQ(series, contents(folder_ / "two/timeseries.csv"));
   EXPECT_NE(lastOf(series, "vehicle.drawbar_pull [N]"), 0) << "the vehicle does not touch the bed";

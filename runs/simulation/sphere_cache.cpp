@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/simulation/sphere_cache.hpp"
+
+#include "runs/support/file_lock.hpp"
+#include "runs/support/sealed_file.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+namespace grouser::simulation {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kKind = support::KeptFiles::Kind::spheres;
+constexpr const char* kSetFile = "kept sphere set";
+constexpr int kSetFileVersion = 1;
+constexpr auto kLook = std::chrono::milliseconds(20); // between two looks at another program's lock
+constexpr auto kPatience = std::chrono::minutes(2);   // after which one cuts beside the other
+
+/// What a set has beside its spheres and its name.
+struct Figures {
+  std::uint64_t spheres, surfaceCount;
+  double spacing, radius, meshVolume, meshArea;
+};
+
+Figures figuresOf(const base::SphereSet& set) {
+  return {set.spheres.size(), set.surfaceCount, set.spacing, set.radius, set.meshVolume, set.meshArea};
+}
+
+void setFigures(base::SphereSet& set, const Figures& f) {
+  set.surfaceCount = f.surfaceCount, set.spacing = f.spacing, set.radius = f.radius;
+  set.meshVolume = f.meshVolume, set.meshArea = f.meshArea;
+}
+
+// A file behind its seal: length of the origin, the origin, figures, spheres, all as they lie in memory.
+static_assert(std::is_trivially_copyable_v<base::SetSphere> && sizeof(base::SetSphere) == 10 * sizeof(double),
+              "a sphere has another shape: raise kSetFileVersion");
+
+void write(const fs::path& path, const std::string& origin, const base::SphereSet& set) {
+  std::ofstream out(path, std::ios::binary);
+  const std::string seal(support::kSealBytes, '\0');
+  const std::uint64_t length = origin.size();
+  const Figures figures = figuresOf(set);
+  out.write(seal.data(), static_cast<std::streamsize>(seal.size()));
+  out.write(reinterpret_cast<const char*>(&length), sizeof length);
+  out.write(origin.data(), static_cast<std::streamsize>(length));
+  out.write(reinterpret_cast<const char*>(&figures), sizeof figures);
+  out.write(reinterpret_cast<const char*>(set.spheres.data()),
+            static_cast<std::streamsize>(set.spheres.size() * sizeof(base::SetSphere)));
+  out.close();
+  if (!out) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+}
+
+/// Throws where the bytes are of another origin.
+base::SphereSet parsed(const std::string& bytes, const std::string& origin) {
+  const char *at = bytes.data(), *end = at + bytes.size();
+  const auto take = [&](void* to, std::size_t count) {
+    if (static_cast<std::size_t>(end - at) < count) throw std::runtime_error("is cut short");
+    std::memcpy(to, at, count);
+    at += count;
+  };
+  std::uint64_t length = 0;
+  take(&length, sizeof length);
+  if (length != origin.size() || static_cast<std::size_t>(end - at) < length ||
+      origin.compare(0, length, at, length) != 0)
+    throw std::runtime_error("holds another set than its name says");
+  at += length;
+  Figures figures{};
+  take(&figures, sizeof figures);
+  if (static_cast<std::size_t>(end - at) != figures.spheres * sizeof(base::SetSphere))
+    throw std::runtime_error("is cut short");
+  base::SphereSet set;
+  set.spheres.resize(figures.spheres);
+  take(set.spheres.data(), figures.spheres * sizeof(base::SetSphere));
+  setFigures(set, figures);
+  return set;
+}
+
+/// The set that rank `root` has, on all ranks.
+base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
+  if (comm.alone()) return set;
+  const base::Bytes mine = base::Comm::bytesOf(std::vector{figuresOf(set)});
+  setFigures(set, base::Comm::valuesOf<Figures>(comm.broadcast(mine, root)).front());
+  set.spheres = base::Comm::valuesOf<base::SetSphere>(comm.broadcast(base::Comm::bytesOf(set.spheres), root));
+  set.name = comm.broadcast(set.name, root);
+  return set;
+}
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+} // namespace
+
+std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
+  const std::optional<support::KeptFiles> files = support::KeptFiles::ofUser(comm);
+  return files ? std::optional(SphereCache(*files)) : std::nullopt;
+}
+
+base::SphereSet SphereCache::cut(const PartCut& part) {
+  Clock::time_point start = Clock::now();
+  const std::string origin = spheredecomp::cutOrigin(*part.mesh, part.options);
+  const fs::path file = files_.fileOf(kKind, origin);
+  std::optional<base::SphereSet> set = find(file, origin);
+  support::FileLock lock;
+  const bool usable = set || files_.writable();
+  if (!set && usable) {
+    // Of several programs that want one set the first cuts it.
+    while (!lock.take(support::KeptFiles::lockOf(file)) && Clock::now() - start < kPatience)
+      std::this_thread::sleep_for(kLook);
+    set = find(file, origin);
+  }
+  if (set) {
+    set->name = part.name;
+    ++taken_, taking_ += since(start);
+    return std::move(*set);
+  }
+  start = Clock::now();
+  base::SphereSet fresh = spheredecomp::decompose(*part.mesh, part.name, part.options);
+  ++cut_, cutting_ += since(start);
+  if (usable && keep(file, origin, fresh)) ++kept_;
+  return fresh;
+}
+
+std::optional<base::SphereSet> SphereCache::find(const fs::path& file, const std::string& origin) const {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  try {
+    base::SphereSet set = parsed(support::readSealed(file, kSetFile, kSetFileVersion), origin);
+    support::KeptFiles::noteUse(file);
+    return set;
+  } catch (const std::exception& e) {
+    if (!fs::is_regular_file(file, error)) return {}; // deleted just now, by a program that makes room
+    const std::string what = e.what();                // of a sealed file it begins with its name
+    fmt::print(stderr, "grouser: warning: {}{}; going on without it\n",
+               what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
+    fs::remove(file, error); // told once
+    return {};
+  }
+}
+
+bool SphereCache::keep(const fs::path& file, const std::string& origin, const base::SphereSet& set) const {
+  const double bytes = static_cast<double>(set.spheres.size() * sizeof(base::SetSphere)) + 4096;
+  if (!files_.fits(bytes)) return false;
+  const fs::path fresh = support::KeptFiles::freshName(file);
+  try {
+    support::writeSealed(fresh, kSetFile, kSetFileVersion, [&](const fs::path& part) { write(part, origin, set); });
+  } catch (const std::exception&) {
+    return false;
+  }
+  return files_.put(fresh, file);
+}
+
+std::string SphereCache::summary(const base::Comm& comm) const {
+  std::int64_t counts[] = {taken_, cut_, kept_};
+  double times[] = {taking_, cutting_};
+  comm.sum(counts, 3), comm.maximum(times, 2); // the ranks work side by side
+  const auto [taken, cut, kept] = counts;
+  const std::string folder = files_.folder().string();
+  std::string text = taken > 0 ? fmt::format("{} sets taken from {}, in {:.2f} s", taken, folder, times[0]) : "";
+  if (cut == 0) return text;
+  const std::string what = text.empty() ? fmt::format("{} sets", cut) : fmt::format("{}; {}", text, cut);
+  text = fmt::format("{} cut in {:.2f} s; ", what, times[1]);
+  if (kept == 0) return text + "not kept";
+  return text + (kept < cut ? fmt::format("{} ", kept) : "") + "kept in " + folder;
+}
+
+std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereCache* cache, const base::Comm& comm) {
+  const auto cutterOf = [&](std::size_t i) { return static_cast<int>(i % static_cast<std::size_t>(comm.size())); };
+  std::vector<base::SphereSet> sets(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const PartCut& p = parts[i];
+    if (cutterOf(i) == comm.rank())
+      sets[i] = cache ? cache->cut(p) : spheredecomp::decompose(*p.mesh, p.name, p.options);
+  }
+  for (std::size_t i = 0; i < sets.size(); ++i) sets[i] = shared(comm, std::move(sets[i]), cutterOf(i));
+  return sets;
+}
+
+} // namespace grouser::simulation

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/kept_files.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <vector>
+
+namespace grouser::support {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto kAbandoned = std::chrono::hours(24); // a part of a file that no run goes on writing, and locks
+
+struct KindName {
+  const char *prefix, *suffix;
+};
+constexpr std::array<KindName, 2> kKindNames{{{"bed-", ".h5"}, {"spheres-", ".bin"}}}; // by Kind
+
+/// Empty where nothing is to be kept.
+std::string folderOfUser() {
+  if (const char* set = std::getenv("GROUSER_CACHE")) return set;
+  if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return (fs::path(set) / "grouser").string();
+  if (const char* set = std::getenv("HOME"); set && *set) return (fs::path(set) / ".cache/grouser").string();
+  return "";
+}
+
+} // namespace
+
+std::optional<KeptFiles> KeptFiles::ofUser(const base::Comm& comm) {
+  std::uint64_t limit = kDefaultLimit;
+  if (const char* set = std::getenv("GROUSER_CACHE_GIB"); set && *set && comm.first()) {
+    double gib = 0;
+    const auto [end, error] = std::from_chars(set, set + std::strlen(set), gib);
+    if (error != std::errc() || *end || !(gib >= 0 && gib <= 1e6))
+      throw base::InputError(
+          fmt::format("GROUSER_CACHE_GIB = {} [GiB] is no number in [0, 1e6]; correct or unset it", set));
+    limit = static_cast<std::uint64_t>(gib * 1073741824.0);
+  }
+  const std::string folder = comm.broadcast(folderOfUser());
+  limit = comm.gatherValue(limit).front();
+  return folder.empty() ? std::nullopt : std::optional(KeptFiles(folder, limit));
+}
+
+fs::path KeptFiles::fileOf(Kind kind, const std::string& origin) const {
+  base::StateHash key;
+  for (const char c : origin) key.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  const KindName& name = kKindNames[static_cast<std::size_t>(kind)];
+  return folder_ / (name.prefix + key.hex() + name.suffix);
+}
+
+bool KeptFiles::writable() const {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  return !error && ::access(folder_.c_str(), W_OK) == 0;
+}
+
+fs::path KeptFiles::freshName(const fs::path& file) {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("{}.{}.{}", file.string(), host.data(), ::getpid());
+}
+
+bool KeptFiles::put(const fs::path& fresh, const fs::path& file) const {
+  std::error_code error;
+  fs::rename(fresh, file, error);
+  deleteOldest(file);
+  return !error;
+}
+
+void KeptFiles::noteUse(const fs::path& file) {
+  std::error_code error; // another run may delete it just now
+  fs::last_write_time(file, fs::file_time_type::clock::now(), error);
+}
+
+/// Of one's own files only; what other programs keep there stays.
+void KeptFiles::deleteOldest(const fs::path& except) const {
+  struct Entry {
+    fs::file_time_type time;
+    std::uint64_t bytes;
+    fs::path path;
+  };
+  std::vector<Entry> kept;
+  std::uint64_t total = 0;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error)) {
+    const std::string name = entry.path().filename().string();
+    const auto* kind = std::find_if(kKindNames.begin(), kKindNames.end(),
+                                    [&](const KindName& k) { return name.rfind(k.prefix, 0) == 0; });
+    if (kind == kKindNames.end() || !entry.is_regular_file(error)) continue;
+    const auto time = entry.last_write_time(error);
+    if (entry.path().extension() == kind->suffix) {
+      kept.push_back({time, entry.file_size(error), entry.path()});
+      total += kept.back().bytes;
+    } else if (fs::file_time_type::clock::now() - time > kAbandoned) {
+      fs::remove(entry.path(), error);
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const Entry& a, const Entry& b) { return a.time < b.time; });
+  for (const Entry& file : kept) {
+    if (total <= limit_) break;
+    if (file.path == except) continue;
+    fs::remove(file.path, error);
+    total -= file.bytes;
+  }
+}
+
+} // namespace grouser::support

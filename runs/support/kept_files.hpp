@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grouser::support {
+
+/// A folder of files that spare later runs their work: settled beds, parts cut into spheres. A file's name is a hash of
+/// its origin, the text of all that makes its contents; it holds the origin too, so that one of another is not taken.
+/// What is missing is simply made again; so any file may be deleted at any time. All kinds share one limit of size.
+class KeptFiles {
+public:
+  enum class Kind { bed, spheres };
+  static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30; ///< [bytes]
+
+  /// `limit` [bytes]: the files used last are kept up to it.
+  explicit KeptFiles(std::filesystem::path folder, std::uint64_t limit = kDefaultLimit)
+      : folder_(std::move(folder)), limit_(limit) {}
+
+  /// As the user's surroundings say: GROUSER_CACHE names the folder, and where it is set but empty nothing is kept;
+  /// otherwise $XDG_CACHE_HOME/grouser, otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits its size. Throws
+  /// InputError where that is no number. On several ranks the surroundings of the first count.
+  static std::optional<KeptFiles> ofUser(const base::Comm& comm = {});
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::filesystem::path fileOf(Kind kind, const std::string& origin) const;
+  /// Held by the program that makes this file.
+  static std::filesystem::path lockOf(const std::filesystem::path& file) { return file.string() + ".lock"; }
+
+  bool fits(double bytes) const { return bytes <= static_cast<double>(limit_); }
+  /// Makes the folder where it is missing; false where nothing can be written into it.
+  bool writable() const;
+  /// A name beside it that no other program writes at, on this or on another machine that shares the folder.
+  static std::filesystem::path freshName(const std::filesystem::path& file);
+  /// Gives what stands whole under a fresh name its own, then deletes the files used longest ago until all keep the
+  /// limit. False where it could not be renamed.
+  bool put(const std::filesystem::path& fresh, const std::filesystem::path& file) const;
+  /// From now on it is the one used last.
+  static void noteUse(const std::filesystem::path& file);
+
+private:
+  void deleteOldest(const std::filesystem::path& except) const;
+
+  std::filesystem::path folder_;
+  std::uint64_t limit_;
+};
+
+} // namespace grouser::support
