@@ -133,10 +133,14 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   for (std::size_t m = 0; crushes_ && m < materials.laws.size(); ++m)
     crushing.push_back(crushingOf(materials.crushing[m], materials.laws[m]));
   crushing_ = base::Array<Crushing>(exec, crushing);
+  std::vector<bool> isMet(sets.size()); // the table of another is never asked
+  for (const GrainPart& part : parts)
+    if (part.meets) isMet[static_cast<std::size_t>(part.surface)] = true;
   std::vector<SurfaceGridView> views;
-  for (const base::SphereSet* set : sets) {
-    const double edge = set->spacing > 0.006 ? 0.75 * set->spacing : 0.0045;
-    grids_.push_back(set->surfaceCount ? SurfaceGrid(exec, *set, model.radius, edge) : SurfaceGrid());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const double edge = sets[s]->spacing > 0.006 ? 0.75 * sets[s]->spacing : 0.0045;
+    grids_.push_back(isMet[s] && sets[s]->surfaceCount > 0 ? SurfaceGrid(exec, *sets[s], model.radius, edge)
+                                                           : SurfaceGrid());
     views.push_back(grids_.back().view());
   }
   for (GrainPart& part : parts) {

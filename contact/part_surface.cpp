@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace grouser::contact {
 
@@ -21,97 +23,124 @@ struct Candidate {
   double clear; ///< distance of the surface from the cell's centre [m]
 };
 
-/// Drops candidates that a disc of the same plane beats everywhere within `reach` of the cell's centre.
+/// Of the candidates of one cell those that no disc of the same plane beats everywhere within `reach` of its centre.
 ///
 /// Over the cell the difference of two distances changes by at most reach * |difference of their gradients|; the
 /// gradients are the unit directions, which turn by at most reach / distance each.
-void prune(std::vector<Candidate>& candidates, const std::vector<Disc>& discs, double reach,
-           std::vector<std::uint32_t>& best) {
-  best.clear();
-  for (std::uint32_t c = 0; c < candidates.size(); ++c) {
-    const Vec3f& normal = discs[candidates[c].disc].normal;
-    bool placed = false;
-    for (std::uint32_t& b : best) {
-      if (dot(discs[candidates[b].disc].normal, normal) < kSamePlane) continue;
-      placed = true;
-      if (candidates[c].clear < candidates[b].clear) b = c;
-      break;
-    }
-    if (!placed) best.push_back(c);
-  }
-  const auto beaten = [&](const Candidate& c) {
-    for (const std::uint32_t b : best) {
-      const Candidate& near = candidates[b];
-      if (near.disc == c.disc || dot(discs[near.disc].normal, discs[c.disc].normal) < kSamePlane) continue;
-      const double room = std::min(near.at.distance, c.at.distance) - reach;
-      if (room <= 0) continue;
-      const double turn = norm((c.at.normal - near.at.normal).as<double>()) + 2 * reach / room;
-      if (c.clear - near.clear > reach * turn) return true;
-    }
-    return false;
-  };
-  std::vector<Candidate> kept;
-  for (const Candidate& c : candidates)
-    if (!beaten(c)) kept.push_back(c);
-  candidates.swap(kept);
-}
+class Pruning {
+public:
+  Pruning(const std::vector<Disc>& discs, double reach) : discs_(discs), reach_(reach) {}
 
-/// Which discs may touch a ball centred in which cell of a table.
-struct GridCells {
-  const std::vector<Disc>& discs;
-  Vec3d low;
-  double edge, ballRadius; ///< [m]
-  base::Vec3i cells;
-
-  /// Disc indices, ascending within a cell; cells by x, then y, then z.
-  std::vector<std::vector<std::uint32_t>> all() const {
-    std::vector<std::vector<std::uint32_t>> near(static_cast<std::size_t>(cells.x) * cells.y * cells.z);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int x = 0; x < cells.x; ++x) {
-      gather(x, near);
-      pruneAll(x, near);
+  /// Appends their discs to `kept`.
+  void run(const std::vector<Candidate>& candidates, std::vector<std::uint32_t>& kept) {
+    best_.clear();
+    for (const Candidate& c : candidates) {
+      const Vec3f& normal = discs_[c.disc].normal;
+      const auto same =
+          std::find_if(best_.begin(), best_.end(), [&](const Best& b) { return dot(b.normal, normal) >= kSamePlane; });
+      if (same == best_.end())
+        best_.push_back({normal, c});
+      else if (c.clear < same->at.clear)
+        *same = {normal, c};
     }
-    return near;
+    for (const Candidate& c : candidates)
+      if (!beaten(c)) kept.push_back(c.disc);
   }
 
 private:
-  double reach() const { return 0.5 * std::sqrt(3.0) * edge * (1 + 1e-9); }
-  Vec3d centreOf(int x, int y, int z) const { return low + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge; }
-  std::size_t indexOf(int x, int y, int z) const { return (static_cast<std::size_t>(x) * cells.y + y) * cells.z + z; }
-  static int clamped(double v, int n) { return std::clamp(static_cast<int>(std::floor(v)), 0, n - 1); }
+  struct Best {
+    Vec3f normal;
+    Candidate at;
+  };
 
-  /// Into the cells of one x.
-  void gather(int x, std::vector<std::vector<std::uint32_t>>& near) const {
-    const double perEdge = 1 / edge;
-    for (std::uint32_t k = 0; k < discs.size(); ++k) {
-      const Disc& d = discs[k];
-      const double r = ballRadius + d.radius + d.flat;
-      const Vec3d from = (d.centre.as<double>() - Vec3d{r, r, r} - low) * perEdge;
-      const Vec3d to = (d.centre.as<double>() + Vec3d{r, r, r} - low) * perEdge;
-      if (x < clamped(from.x, cells.x) || x > clamped(to.x, cells.x)) continue;
-      for (int y = clamped(from.y, cells.y); y <= clamped(to.y, cells.y); ++y)
-        for (int z = clamped(from.z, cells.z); z <= clamped(to.z, cells.z); ++z)
-          if (distanceTo(d, centreOf(x, y, z)).distance - d.radius - reach() <= ballRadius)
-            near[indexOf(x, y, z)].push_back(k);
+  bool beaten(const Candidate& c) const {
+    const Vec3f& normal = discs_[c.disc].normal;
+    for (const Best& b : best_) {
+      const double behind = c.clear - b.at.clear;
+      if (behind <= 0 || dot(b.normal, normal) < kSamePlane) continue;
+      const double room = std::min(b.at.at.distance, c.at.distance) - reach_;
+      if (room <= 0) continue;
+      const double approach = 2 * reach_ / room;
+      if (behind <= reach_ * approach) continue; // however the directions lie
+      if (behind > reach_ * (norm((c.at.normal - b.at.at.normal).as<double>()) + approach)) return true;
+    }
+    return false;
+  }
+
+  const std::vector<Disc>& discs_;
+  double reach_;
+  std::vector<Best> best_; ///< nearest of each plane
+};
+
+/// Which discs may touch a ball centred in which cell of a table: the cells of one x at a time.
+class GridSlab {
+public:
+  GridSlab(const std::vector<Disc>& discs, const Vec3d& low, double edge, double ballRadius, const base::Vec3i& cells)
+      : discs_(discs), low_(low), edge_(edge), ballRadius_(ballRadius), cells_(cells),
+        reach_(0.5 * std::sqrt(3.0) * edge * (1 + 1e-9)), pruning_(discs, reach_),
+        row_(static_cast<std::size_t>(cells.y)), near_(static_cast<std::size_t>(cells.z)) {}
+
+  /// Disc indices, ascending within a cell, cells by y, then z; and how many each cell has, at `count`.
+  std::vector<std::uint32_t> of(int x, std::uint32_t* count) {
+    for (auto& row : row_) row.clear();
+    for (std::uint32_t k = 0; k < discs_.size(); ++k) {
+      const auto [from, to] = cellsOf(discs_[k]);
+      if (x < from.x || x > to.x) continue;
+      for (int y = from.y; y <= to.y; ++y) row_[static_cast<std::size_t>(y)].push_back({k, from.z, to.z});
+    }
+    std::vector<std::uint32_t> entry;
+    for (int y = 0; y < cells_.y; ++y) {
+      gather(x, y);
+      for (const auto& candidates : near_) {
+        const std::size_t before = entry.size();
+        pruning_.run(candidates, entry);
+        *count++ = static_cast<std::uint32_t>(entry.size() - before);
+      }
+    }
+    return entry;
+  }
+
+private:
+  /// A disc, and the cells along z that it may reach.
+  struct Reaching {
+    std::uint32_t disc;
+    int from, to;
+  };
+
+  static int clamped(double v, int n) { return std::clamp(static_cast<int>(std::floor(v)), 0, n - 1); }
+  std::pair<base::Vec3i, base::Vec3i> cellsOf(const Disc& d) const {
+    const double r = ballRadius_ + d.radius + d.flat, perEdge = 1 / edge_;
+    const Vec3d from = (d.centre.as<double>() - Vec3d{r, r, r} - low_) * perEdge;
+    const Vec3d to = (d.centre.as<double>() + Vec3d{r, r, r} - low_) * perEdge;
+    return {{clamped(from.x, cells_.x), clamped(from.y, cells_.y), clamped(from.z, cells_.z)},
+            {clamped(to.x, cells_.x), clamped(to.y, cells_.y), clamped(to.z, cells_.z)}};
+  }
+
+  /// The candidates of the cells of one x and y.
+  void gather(int x, int y) {
+    for (auto& candidates : near_) candidates.clear();
+    for (const Reaching& r : row_[static_cast<std::size_t>(y)]) {
+      const Disc& d = discs_[r.disc];
+      // Most cells of the box about a disc are out of reach: told without a square root, at the cost of a margin.
+      const double most = ballRadius_ + d.radius + d.flat + reach_ + 1e-6, most2 = most * most;
+      for (int z = r.from; z <= r.to; ++z) {
+        const Vec3d centre = low_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge_;
+        if (norm2(centre - d.centre.as<double>()) > most2) continue;
+        const DiscDistance at = distanceTo(d, centre);
+        if (at.distance - d.radius - reach_ <= ballRadius_)
+          near_[static_cast<std::size_t>(z)].push_back({r.disc, at, static_cast<double>(at.distance) - d.radius});
+      }
     }
   }
 
-  void pruneAll(int x, std::vector<std::vector<std::uint32_t>>& near) const {
-    std::vector<std::uint32_t> best;
-    std::vector<Candidate> candidates;
-    for (int y = 0; y < cells.y; ++y)
-      for (int z = 0; z < cells.z; ++z) {
-        std::vector<std::uint32_t>& here = near[indexOf(x, y, z)];
-        candidates.clear();
-        for (const std::uint32_t k : here) {
-          const DiscDistance at = distanceTo(discs[k], centreOf(x, y, z));
-          candidates.push_back({k, at, static_cast<double>(at.distance) - discs[k].radius});
-        }
-        prune(candidates, discs, reach(), best);
-        here.clear();
-        for (const Candidate& c : candidates) here.push_back(c.disc);
-      }
-  }
+  const std::vector<Disc>& discs_;
+  Vec3d low_;
+  double edge_, ballRadius_; ///< [m]
+  base::Vec3i cells_;
+  double reach_; ///< from a cell's centre to its corners [m]
+  Pruning pruning_;
+  std::vector<std::vector<Reaching>> row_;   ///< by y
+  std::vector<std::vector<Candidate>> near_; ///< by z
 };
 
 } // namespace
@@ -163,16 +192,25 @@ SurfaceGrid::SurfaceGrid(const base::Exec& exec, const base::SphereSet& set, dou
   low_ = low, perEdge_ = 1 / edge;
   cells_ = {static_cast<int>(std::ceil(extent.x / edge)), static_cast<int>(std::ceil(extent.y / edge)),
             static_cast<int>(std::ceil(extent.z / edge))};
-  const std::vector<std::vector<std::uint32_t>> near = GridCells{discs, low, edge, ballRadius, cells_}.all();
-  std::vector<std::uint32_t> start(near.size() + 1), entry;
-  for (std::size_t cell = 0; cell < near.size(); ++cell) {
-    start[cell] = static_cast<std::uint32_t>(entry.size());
-    entry.insert(entry.end(), near[cell].begin(), near[cell].end());
+  const std::size_t perSlab = static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
+  std::vector<std::uint32_t> start(static_cast<std::size_t>(cells_.x) * perSlab + 1);
+  std::vector<std::vector<std::uint32_t>> slabs(static_cast<std::size_t>(cells_.x));
+#pragma omp parallel
+  {
+    GridSlab slab(discs, low, edge, ballRadius, cells_);
+#pragma omp for schedule(dynamic, 1)
+    for (int x = 0; x < cells_.x; ++x)
+      slabs[static_cast<std::size_t>(x)] = slab.of(x, &start[static_cast<std::size_t>(x) * perSlab + 1]);
   }
-  start.back() = static_cast<std::uint32_t>(entry.size());
+  std::partial_sum(start.begin(), start.end(), start.begin());
   disc_ = base::Array<Disc>(exec, discs);
   start_ = base::Array<std::uint32_t>(exec, start);
-  entry_ = base::Array<std::uint32_t>(exec, entry);
+  entry_ = base::Array<std::uint32_t>::unset(exec, start.back());
+  std::uint32_t* to = entry_.data();
+  for (const std::vector<std::uint32_t>& slab : slabs) {
+    base::copyToDevice(exec, to, slab.data(), slab.size() * sizeof(std::uint32_t));
+    to += slab.size();
+  }
 }
 
 SurfaceGridView SurfaceGrid::view() const {
