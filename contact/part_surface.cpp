@@ -55,16 +55,15 @@ private:
 
   bool beaten(const Candidate& c) const {
     const Vec3f& normal = discs_[c.disc].normal;
-    for (const Best& b : best_) {
+    return std::any_of(best_.begin(), best_.end(), [&](const Best& b) {
       const double behind = c.clear - b.at.clear;
-      if (behind <= 0 || dot(b.normal, normal) < kSamePlane) continue;
+      if (behind <= 0 || dot(b.normal, normal) < kSamePlane) return false;
       const double room = std::min(b.at.at.distance, c.at.distance) - reach_;
-      if (room <= 0) continue;
+      if (room <= 0) return false;
       const double approach = 2 * reach_ / room;
-      if (behind <= reach_ * approach) continue; // however the directions lie
-      if (behind > reach_ * (norm((c.at.normal - b.at.at.normal).as<double>()) + approach)) return true;
-    }
-    return false;
+      if (behind <= reach_ * approach) return false; // however the directions lie
+      return behind > reach_ * (norm((c.at.normal - b.at.at.normal).as<double>()) + approach);
+    });
   }
 
   const std::vector<Disc>& discs_;

@@ -209,7 +209,7 @@ TEST_F(KeptSpheres, RunsHaveTheStatesOfRunsWithoutCache) {
     Simulation simulation(
         setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, kept);
     while (simulation.steps() < 50) simulation.step();
-    const std::string straight = simulation.stateHash();
+    std::string straight = simulation.stateHash();
     if (!kept) return straight;
     Simulation resumed(setup::simulationSetup(scene), base::cpuExec(1), simulation.save(), {}, kept);
     EXPECT_EQ(resumed.stateHash(), straight);
