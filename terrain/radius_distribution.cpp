@@ -154,4 +154,15 @@ double DepthGrading::scaleAt(double depth, double radius) const {
   return std::min(1 + coarsening * (depth - fineDepth) / radius, std::max(1.0, coarsestRadius / radius));
 }
 
+double DepthGrading::meanFourthPower(double depth, double radius) const {
+  if (!any()) return 1;
+  constexpr int kSlices = 1000;
+  double grains = 0, sum = 0; // as many in a slice as cubes of their radius fit
+  for (int i = 0; i < kSlices; ++i) {
+    const double scale = scaleAt((i + 0.5) / kSlices * depth, radius);
+    grains += 1 / (scale * scale * scale), sum += scale;
+  }
+  return sum / grains;
+}
+
 } // namespace grouser::terrain

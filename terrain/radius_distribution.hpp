@@ -58,6 +58,9 @@ struct DepthGrading {
   /// By how much the radii at `depth` [m] below the surface are larger than at the surface [-], where the middle of the
   /// distribution is `radius` [m].
   double scaleAt(double depth, double radius) const;
+  /// Mean over the grains of a bed of this depth [m], by number, of the fourth power of their scale [-]: by how much m
+  /// g radius of a mean grain is more than that of one at the surface.
+  double meanFourthPower(double depth, double radius) const;
 };
 
 template <class Uniform> double RadiusDistribution::draw(const Uniform& uniform) const {

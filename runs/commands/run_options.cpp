@@ -54,7 +54,9 @@ void addSweep(CLI::App& app, const Invocation&) {
                    "each combination with run.seed 1 to so many: means with 95 % intervals, and differences")
       ->check(support::wholeNumber(1, 1000));
   sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(support::wholeNumber(1, 1024));
-  sweep->add_option("--seconds", c.seconds, "no further run is begun after so many; the same call again goes on")
+  sweep
+      ->add_option("--seconds", c.seconds,
+                   "no further run is begun after so many, 0: no limit; the same call again goes on")
       ->check(support::notNegative("a time in seconds"));
   sweep->add_option("--out", c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");

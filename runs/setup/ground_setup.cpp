@@ -194,14 +194,15 @@ BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terr
   bed.fall = t.tile ? 0 : plan.fall;
   bed.restEnergy = scene.material(t.material).density * bed.options.meanVolume() * norm(scene.run.gravity) *
                    bed.options.meanRadius();
+  const auto* random = std::get_if<terrain::RandomBedOptions>(&bed.options.grains);
+  if (random) bed.restEnergy *= random->grading.meanFourthPower(random->depth, random->radii.medianRadius());
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio, t.lattice()};
   bed.cache = t.cache;
   if (isPutOnBed(scene)) return bed; // whose ground alone says the rest
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
   if (t.tile) bed.tile = tileSetup(scene, surface, plan, timeStep);
-  if (const auto* random = std::get_if<terrain::RandomBedOptions>(&bed.options.grains))
-    bed.densest = terrain::randomClosePacking(random->radii) + kCrystal;
+  if (random) bed.densest = terrain::randomClosePacking(random->radii) + kCrystal;
   if (t.porosity && !t.tile) bed.preparation = preparationSetup(scene, bed.options, timeStep);
   return bed;
 }

@@ -97,4 +97,14 @@ TEST(DepthGrading, GrowsBelowTheFineDepthUntilTheCoarsestRadius) {
   EXPECT_EQ(DepthGrading{}.scaleAt(3, 0.02), 1);
 }
 
+/// Grains per volume fall with the cube of the scale s = 1 + c z: the mean of s^4 over them is the integral of s over
+/// that of 1 / s^3.
+TEST(DepthGrading, AMeanGrainIsHeavierThanOneAtTheSurface) {
+  const double c = 5, depth = 0.6, end = 1 + c * depth;
+  EXPECT_NEAR((DepthGrading{0, c * 0.02, 1}.meanFourthPower(depth, 0.02)),
+              (depth + c * depth * depth / 2) * 2 * c / (1 - 1 / (end * end)), 1e-4);
+  EXPECT_NEAR((DepthGrading{0.3, 1e6, 0.04}.meanFourthPower(depth, 0.02)), (1 + 2) / (1 + 1 / 8.), 1e-3);
+  EXPECT_EQ((DepthGrading{0.3, 0, 0.04}.meanFourthPower(depth, 0.02)), 1);
+}
+
 } // namespace grouser::terrain

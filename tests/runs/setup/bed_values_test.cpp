@@ -45,6 +45,15 @@ TEST(BedValues, GrainsAtRandomRestThoughTheySpin) {
   EXPECT_FALSE(groundSetup(bed("porosity = 0.4\n"), 1e-5).grains->bed->preparation->sample->grains->bed->settle.spins);
 }
 
+/// Of m g radius of its own mean grain: one of the coarse ones that rolls weighs what hundreds of fine ones do.
+TEST(BedValues, AGradedBedRestsByItsOwnGrains) {
+  const auto unit = [](const std::string& more) { return groundSetup(bed(more), 1e-5).grains->bed->restEnergy; };
+  const terrain::DepthGrading grading{0.1, 0.2, 0.05};
+  const std::string graded = "fine_depth = 0.1\ncoarsening = 0.2\ncoarsest_radius = 0.05\n";
+  EXPECT_NEAR(unit(graded) / unit(""), grading.meanFourthPower(0.3, 0.025), 1e-9);
+  EXPECT_GT(unit(graded), 2 * unit(""));
+}
+
 /// Of 50 mm +- 25 %: what a road wheel may roll over.
 TEST(BedValues, StonesGetBetweenWheelsAndPlatesWhereSoilMeetsThem) {
   const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
