@@ -28,6 +28,13 @@ template <int kWidth> struct ThreadGroup {
   }
 };
 
+namespace detail {
+template <class Body> void runGroups(const void* self, std::int64_t first, std::int64_t last) {
+  const Body& body = *static_cast<const Body*>(self);
+  for (std::int64_t i = first; i < last; ++i) body(static_cast<int>(i), ThreadGroup<1>{0});
+}
+} // namespace detail
+
 #if defined(__CUDACC__)
 namespace detail {
 template <int kWidth, class Body> __global__ void __launch_bounds__(128)
@@ -45,11 +52,8 @@ template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
-    const int n = static_cast<int>(count);
-    [[maybe_unused]] const int threads = count < 64 ? 1 : exec.threads;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int i = 0; i < n; ++i) body(i, ThreadGroup<1>{0});
-    return;
+    const double each = nanosecondsOf(body);
+    return runShared({detail::runGroups<Body>, &body, count, each}, sharesOfLoop(count, each, exec.threads));
   }
 #if defined(__CUDACC__)
   constexpr int kBlock = 128;

@@ -29,6 +29,7 @@ GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& 
 
 /// Counts (where `key` is null) or lists the parts near one grain.
 struct ListParts {
+  static constexpr double kNanoseconds = 15;
   base::PositionScale scale;
   const Position* position;
   const std::uint32_t *id, *ghost;
@@ -63,6 +64,7 @@ struct ListParts {
 
 /// Finds each pair in the sorted keys of the former list and takes its history.
 struct RestorePatches {
+  static constexpr double kNanoseconds = 30;
   const std::uint64_t *key, *oldKey;
   const std::uint32_t* oldIndex;
   std::int64_t oldCount;

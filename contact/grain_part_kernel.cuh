@@ -34,6 +34,7 @@ struct TouchedPatch {
 
 /// Loads of one listed pair, by one thread or by the threads of a group that share its discs.
 template <unsigned kFeatures> struct GrainPartForces {
+  static constexpr double kNanoseconds = 170;
   GrainPartModel model;
   const BasicLaw<float>* laws;
   const double* massPerCube;

@@ -10,6 +10,7 @@ namespace {
 constexpr int kGrainsATime = 256; // that one thread takes at once
 
 struct StepSome {
+  static constexpr double kNanoseconds = 60.0 * kGrainsATime;
   detail::LaneStep* step;
   const GrainKernelData& d;
   const ForceData<float>& f;
