@@ -30,7 +30,9 @@ constexpr std::size_t kPage = 4096;                        // [bytes]
 constexpr double kNanosecondsPerPage = 400;
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kAwake = std::chrono::microseconds(200); // longer than the host's work between the loops of a step
+/// Looks for the next loop before a thread sleeps, a few milliseconds of its own: longer than the host's work between
+/// the loops of a step. Counted, not timed: one whose core is taken meanwhile shall find its way to another.
+constexpr int kLooks = 50000;
 constexpr auto kPatience = std::chrono::microseconds(20);
 
 void pause() {
@@ -105,13 +107,10 @@ private:
   }
 
   void awaitLoop(std::uint32_t seen) {
-    const auto until = Clock::now() + kAwake;
-    do {
-      for (int k = 0; k < 64; ++k) {
-        if (generation_.load(std::memory_order_acquire) != seen) return;
-        pause();
-      }
-    } while (Clock::now() < until);
+    for (int k = 0; k < kLooks; ++k) {
+      if (generation_.load(std::memory_order_acquire) != seen) return;
+      pause();
+    }
     sleepers_.fetch_add(1, std::memory_order_seq_cst);
     generation_.wait(seen, std::memory_order_seq_cst);
     sleepers_.fetch_sub(1, std::memory_order_relaxed);
