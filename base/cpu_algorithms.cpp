@@ -164,7 +164,7 @@ void sortByKey(const Exec& exec, std::uint64_t* keys, std::uint32_t* values, std
   std::uint64_t all = 0;
   for (const std::uint64_t some : bits) all |= some;
   if (all == 0) return;
-  const int passes = (std::bit_width(all) + kDigitBits - 1) / kDigitBits;
+  const int passes = (static_cast<int>(std::bit_width(all)) + kDigitBits - 1) / kDigitBits;
   auto otherKeys = Array<std::uint64_t>::unset(exec, count);
   auto otherValues = Array<std::uint32_t>::unset(exec, count);
   std::vector<Counts> counts(static_cast<std::size_t>(blocks));
