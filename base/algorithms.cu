@@ -69,8 +69,7 @@ std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t
   if (exec.onCpu()) return cpu::maximum(exec, values, count);
 #if defined(__CUDACC__)
   PoolAllocator pool{exec};
-  if (count)
-    return thrust::reduce(policyOf(exec, pool), values, values + count, 0u, thrust::maximum<std::uint32_t>());
+  if (count) return thrust::reduce(policyOf(exec, pool), values, values + count, 0u, thrust::maximum<std::uint32_t>());
 #endif
   return 0;
 }

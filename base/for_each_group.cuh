@@ -31,7 +31,10 @@ template <int kWidth> struct ThreadGroup {
 namespace detail {
 template <class Body> void runGroups(const void* self, std::int64_t first, std::int64_t last) {
   const Body& body = *static_cast<const Body*>(self);
-  for (std::int64_t i = first; i < last; ++i) body(static_cast<int>(i), ThreadGroup<1>{0});
+  if constexpr (requires { body.runOnCpu(first, last); })
+    body.runOnCpu(first, last);
+  else
+    for (std::int64_t i = first; i < last; ++i) body(static_cast<int>(i), ThreadGroup<1>{0});
 }
 } // namespace detail
 
@@ -47,7 +50,8 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(128)
 #endif
 
 /// Runs `body(i, group)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
-/// work on each item. For items that walk lists long enough to keep a thread waiting.
+/// work on each item. For items that walk lists long enough to keep a thread waiting. A body that has runOnCpu(first,
+/// last) is given all the items of a thread at once there.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;

@@ -18,7 +18,8 @@ namespace grouser::base {
 
 namespace {
 
-// Handing a loop to a thread that is awake, and hearing of its end, takes about a microsecond; waking one five to fifty.
+// Handing a loop to a thread that is awake, and hearing of its end, takes about a microsecond; waking one five to
+// fifty.
 constexpr double kLeastShare = 4e3;   // [ns] of work that a thread is called for
 constexpr double kWorthWaking = 50e3; // [ns] of a loop for which sleeping threads are woken
 constexpr double kLeastChunk = 2e3;   // [ns] beside which the taking of a chunk is nothing
@@ -181,7 +182,8 @@ void runPages(const CopyPages& pages, int threads) {
   const auto count = static_cast<std::int64_t>((pages.bytes + kPage - 1) / kPage);
   if (threads <= 1 || pages.bytes < kLeastShared) return CopyPages::run(&pages, 0, count);
   const bool firstTouch = pages.from == nullptr;
-  runShared({CopyPages::run, &pages, count, kNanosecondsPerPage, firstTouch}, {threads, (count + threads - 1) / threads});
+  runShared({CopyPages::run, &pages, count, kNanosecondsPerPage, firstTouch},
+            {threads, (count + threads - 1) / threads});
 }
 
 } // namespace

@@ -46,6 +46,7 @@ template <class Target> struct ListSamples {
   float* gap;           ///< [m], a lower bound
 
   GROUSER_HD void operator()(int item) const {
+    if (entry && count[item] == 0) return; // as counted
     const SampleChunk chunk = chunks[item];
     const int pair = static_cast<int>(chunk.pair);
     std::uint32_t found = 0;

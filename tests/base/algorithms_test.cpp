@@ -32,7 +32,8 @@ TEST(Algorithms, SortIsStableForAnyKeysAndThreads) {
         Array<std::uint64_t> sortedKeys(exec, keys);
         Array<std::uint32_t> sorted(exec, order);
         sortByKey(exec, sortedKeys.data(), sorted.data(), count);
-        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
         EXPECT_EQ(sorted.toHost(), order) << count << " keys below " << below << ", " << threads << " threads";
         std::sort(keys.begin(), keys.end());
         EXPECT_EQ(sortedKeys.toHost(), keys);
