@@ -38,7 +38,7 @@ int itemsOfOthers(int items, double cost, int threads, bool patient) {
   std::atomic<int> others{0};
   forEach(cpuExec(threads), "note threads", items,
           NoteThread{cost, patient, std::this_thread::get_id(), by.data(), &others,
-                     std::chrono::steady_clock::now() + std::chrono::seconds(30)});
+                     std::chrono::steady_clock::now() + std::chrono::seconds(10)});
   return others;
 }
 
@@ -121,7 +121,7 @@ TEST(ThreadTeam, AForkedChildWorksAlone) {
   forEach(cpuExec(4), "count", 1000, CountItem{times.data()});
   const pid_t child = fork();
   if (child == 0) {
-    alarm(30);
+    alarm(20);
     forEach(cpuExec(4), "count", 1000, CountItem{times.data()});
     const Array<char> large(cpuExec(4), std::size_t{4} << 20);
     _exit(times == std::vector<std::uint32_t>(1000, 2) ? 0 : 1);
