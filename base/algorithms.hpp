@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-/// Parallel building blocks (on a GPU with Thrust) on the memory of `exec`. Integer only, so every order gives the same
+/// Parallel building blocks (Thrust beneath) on the memory of `exec`. Integer only, so every order gives the same
 /// result.
 namespace grouser::base {
 

@@ -2,7 +2,7 @@
 #include "base/exec.hpp"
 
 #include "base/error.hpp"
-#include "base/thread_team.hpp"
+#include "base/loop_shares.hpp"
 
 #include <cstdint>
 #include <cstdlib>

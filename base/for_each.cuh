@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/exec.hpp"
 #include "base/host_device.hpp"
-#include "base/thread_team.hpp"
+#include "base/loop_shares.hpp"
 
 #include <cstdint>
 #include <string>
@@ -26,13 +26,6 @@ template <class Body> double nanosecondsOf(const Body& body) {
     return 5;
 }
 
-namespace detail {
-template <class Body> void runItems(const void* self, std::int64_t first, std::int64_t last) {
-  const Body& body = *static_cast<const Body*>(self);
-  for (std::int64_t i = first; i < last; ++i) body(static_cast<int>(i));
-}
-} // namespace detail
-
 #if defined(__CUDACC__)
 namespace detail {
 template <class Body> __global__ void __launch_bounds__(128) forEachKernel(Body body, std::int64_t count) {
@@ -42,14 +35,17 @@ template <class Body> __global__ void __launch_bounds__(128) forEachKernel(Body 
 } // namespace detail
 #endif
 
-/// Runs `body(i)` for i in [0, count), in any order: on the CPU by as many threads as its cost pays for
+/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, of as many threads as its cost pays for
 /// (nanosecondsOf()), one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears in
 /// errors. Asynchronous on the GPU.
 template <class Body> void forEach(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
-    const double each = nanosecondsOf(body);
-    return runShared({detail::runItems<Body>, &body, count, each}, sharesOfLoop(count, each, exec.threads));
+    const int n = static_cast<int>(count);
+    [[maybe_unused]] const int threads = threadsForLoop(count, nanosecondsOf(body), exec.threads);
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int i = 0; i < n; ++i) body(i);
+    return;
   }
 #if defined(__CUDACC__)
   constexpr int kBlock = 128;

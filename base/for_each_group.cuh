@@ -29,8 +29,8 @@ template <int kWidth> struct ThreadGroup {
 };
 
 namespace detail {
-template <class Body> void runGroups(const void* self, std::int64_t first, std::int64_t last) {
-  const Body& body = *static_cast<const Body*>(self);
+/// The items of one thread on a CPU.
+template <class Body> void runGroups(const Body& body, std::int64_t first, std::int64_t last) {
   if constexpr (requires { body.runOnCpu(first, last); })
     body.runOnCpu(first, last);
   else
@@ -56,8 +56,10 @@ template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
-    const double each = nanosecondsOf(body);
-    return runShared({detail::runGroups<Body>, &body, count, each}, sharesOfLoop(count, each, exec.threads));
+    const std::int64_t threads = threadsForLoop(count, nanosecondsOf(body), exec.threads);
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads)) if (threads > 1)
+    for (std::int64_t t = 0; t < threads; ++t) detail::runGroups(body, count * t / threads, count * (t + 1) / threads);
+    return;
   }
 #if defined(__CUDACC__)
   constexpr int kBlock = 128;
