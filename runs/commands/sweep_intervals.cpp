@@ -43,17 +43,17 @@ struct Members {
 
 /// Adds to `of` how far b lies from a, over the seeds that both have.
 void addDifference(const SweepFigures& figures, const Members& a, const Members& b, std::size_t column, SeedGroup& of) {
-  std::vector<double> first, second, changes;
+  std::vector<double> first, second;
   for (std::size_t i = 0; i < a.rows.size(); ++i) {
     const auto same = std::find(b.seeds.begin(), b.seeds.end(), a.seeds[i]);
     if (same == b.seeds.end()) continue;
     const double x = figures.values[a.rows[i]][column],
                  y = figures.values[b.rows[static_cast<std::size_t>(same - b.seeds.begin())]][column];
-    if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y), changes.push_back(y - x);
+    if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y);
   }
   const support::Estimate none{kNone, kNone};
   of.differences.push_back(first.empty() ? none : studies::pairedDifference(first, second));
-  of.changes.push_back(first.empty() ? none : studies::interval95(changes));
+  of.changes.push_back(first.empty() ? none : studies::pairedChange(first, second));
 }
 
 std::string named(const SeedIntervals& intervals, const SeedGroup& group) {

@@ -19,6 +19,8 @@ SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
   if (scene.vehicle) {
     setup.vehicle = vehicleSetup(scene);
     setup.vehicle->largestTurn = largestTurn(scene.run);
+    if (setup.ground.grains && !setup.vehicle->soilMeetsShoesAlone)
+      setup.vehicle->thickestStone = 2 * setup.ground.grains->model.radius;
   }
   if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);
   setup.run = {scene.run.duration, scene.run.outputInterval, scene.run.frameInterval, scene.run.checkpointInterval};

@@ -33,11 +33,6 @@ double liftFor(const setup::VehicleSetup& setup, const Ground& ground,
   return liftOffGrains(assembled(setup, surfaceHeight, 0), *ground.grains);
 }
 
-/// The largest grain, where grains get among wheels and plates [m].
-double thickestStone(const setup::VehicleSetup& setup, const Ground& ground) {
-  return ground.grains && !setup.soilMeetsShoesAlone ? 2 * ground.grains->model().radius : 0;
-}
-
 /// Which shoe has left the terrain, in words; empty while none has.
 std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                        const multibody::State& state) {
@@ -65,8 +60,8 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
-      observer_(std::make_unique<vehicle::Observer>(
-          assembly_, vehicle::ObserverOptions{.stone = thickestStone(*setup.vehicle, ground)})) {
+      observer_(std::make_unique<vehicle::Observer>(assembly_,
+                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})) {
   const base::Comm comm = ground.grains ? ground.grains->system().comm : base::Comm{};
   parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm, kept);
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,

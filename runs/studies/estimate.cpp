@@ -48,11 +48,15 @@ support::Estimate relativeDifference(std::span<const double> a, std::span<const 
           support::student95(std::max(1, static_cast<int>(freedom + 1e-9))) * std::sqrt(variance) / std::fabs(ma.mean)};
 }
 
+support::Estimate pairedChange(std::span<const double> a, std::span<const double> b) {
+  if (a.size() != b.size()) throw std::invalid_argument("pairedChange: not as many of both");
+  std::vector<double> changes;
+  for (std::size_t i = 0; i < a.size(); ++i) changes.push_back(b[i] - a[i]);
+  return interval95(changes);
+}
+
 support::Estimate pairedDifference(std::span<const double> a, std::span<const double> b) {
-  if (a.size() != b.size()) throw std::invalid_argument("pairedDifference: not as many of both");
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(b[i] - a[i]);
-  const support::Estimate d = interval95(differences);
+  const support::Estimate d = pairedChange(a, b);
   const double mean = momentsOf(a).mean;
   return {d.value / mean, d.halfWidth / std::fabs(mean)};
 }

@@ -16,8 +16,10 @@ support::Estimate interval95(std::span<const double> values);
 /// of freedom of Satterthwaite rounded down. The scatter of the divisor is left out.
 support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b);
 
-/// (mean b - mean a) / mean a with its 95 % half width, of pairs: a[i] and b[i] have the same seed. The scatter of the
-/// divisor is left out. Throws std::invalid_argument where they are not as many.
+/// mean b - mean a with its 95 % half width, of pairs: a[i] and b[i] have the same seed. Throws std::invalid_argument
+/// where they are not as many.
+support::Estimate pairedChange(std::span<const double> a, std::span<const double> b);
+/// The same over mean a, whose scatter is left out.
 support::Estimate pairedDifference(std::span<const double> a, std::span<const double> b);
 
 enum class Verdict {

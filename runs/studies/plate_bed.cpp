@@ -134,13 +134,13 @@ double BedPreparation::coarsest(const Soil& soil) const { return grading.scaleAt
 std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int64_t seed) {
   if (bed.floor == BedFloor::fixed) {
     std::string text;
-    for (const BedGrain& g : roughFloor(coarse(soil, bed.coarsest(soil)), bed.size, seed))
+    const Soil below = coarse(soil, bed.coarsest(soil));
+    for (const BedGrain& g : roughFloor(below, bed.size, seed))
       text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
                           "fixed = true\n",
                           g.position.x, g.position.y, g.position.z, g.radius);
     // Below them all: it catches a small grain that finds a hole.
-    text += fmt::format("[[plane]]\npoint = [0, 0, {:.12g}]\nmaterial = \"grain\"\n",
-                        -(1 + soil.spread + 0.15) * coarse(soil, bed.coarsest(soil)).grains.diameter());
+    text += fmt::format("[[plane]]\npoint = [0, 0, {:.12g}]\nmaterial = \"grain\"\n", -roughFloorDepth(below));
     return text;
   }
   SampleGrains floor = soil.grains;

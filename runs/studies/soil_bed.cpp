@@ -19,11 +19,12 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kCloud = 0.22;     // solid fraction of the cloud that a bed is poured from
-constexpr double kPoured = 0.59;    // expected of the bed, for the number of grains only
-constexpr double kAgitation = 1e-5; // of m g r: a bed at rest
-constexpr double kPatience = 6;     // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
-constexpr double kLook = 0.02;      // [s] between looks at the agitation
+constexpr double kFloorScatter = 0.15; // of the heights of a rough floor's grains [mean diameters]
+constexpr double kCloud = 0.22;        // solid fraction of the cloud that a bed is poured from
+constexpr double kPoured = 0.59;       // expected of the bed, for the number of grains only
+constexpr double kAgitation = 1e-5;    // of m g r: a bed at rest
+constexpr double kPatience = 6;        // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
+constexpr double kLook = 0.02;         // [s] between looks at the agitation
 constexpr int kCalmLooks = 3;
 
 /// Volume of a sphere of radius r about height z that lies below height h.
@@ -88,6 +89,8 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
   return grainsOf(simulation, size);
 }
 
+double roughFloorDepth(const Soil& soil) { return (1 + soil.spread + kFloorScatter) * soil.grains.diameter(); }
+
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed) {
   constexpr std::uint64_t kPurpose = base::purpose("study.rough_floor");
   const double d = soil.grains.diameter();
@@ -102,7 +105,7 @@ BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed) {
     const double radius = soil.grains.radius * (1 + soil.spread * random(0));
     const double x = (static_cast<double>(k % nx) + 0.5 + 0.3 * random(1)) * size.length / static_cast<double>(nx);
     const double y = (static_cast<double>(k / nx) + 0.5 + 0.3 * random(2)) * size.width / static_cast<double>(ny);
-    floor.push_back({{x, y, -radius + 0.15 * d * random(3)}, radius});
+    floor.push_back({{x, y, -radius + kFloorScatter * d * random(3)}, radius});
   }
   return floor;
 }

@@ -45,6 +45,8 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
 
 /// A rough floor: places of grains that never move, in a layer whose tops reach to about z = 0.
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed);
+/// No grain of a rough floor reaches deeper below z = 0 [m].
+double roughFloorDepth(const Soil& soil);
 
 /// Lines of x, y, z, r [m], as [[grains]] of form "file" reads them, behind a line of comment that ends with `more`.
 /// The file is there whole or not at all.

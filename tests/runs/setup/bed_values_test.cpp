@@ -3,17 +3,18 @@
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 
 #include <gtest/gtest.h>
 
 namespace grouser::setup {
 namespace {
 
-scene::Scene bed(const std::string& more) {
+scene::Scene bed(const std::string& more, const char* size = "0.8, 0.8") {
   return parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\nstiffness = 1e5\nfriction = 0.4\n"
-                    "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.8, 0.8]\nheight_range = [0, 0]\n"
-                    "material = \"soil\"\ngrain_radius = 0.025\ndepth = 0.3\n" +
-                        more,
+                    "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\n"
+                    "material = \"soil\"\ngrain_radius = 0.025\ndepth = 0.3\nsize = [" +
+                        std::string(size) + "]\n" + more,
                     "bed.toml");
 }
 
@@ -42,6 +43,17 @@ TEST(BedValues, GrainsAtRandomRestThoughTheySpin) {
   EXPECT_FALSE(restsBySpins(""));
   EXPECT_FALSE(restsBySpins("porosity = 0.4\n"));
   EXPECT_FALSE(groundSetup(bed("porosity = 0.4\n"), 1e-5).grains->bed->preparation->sample->grains->bed->settle.spins);
+}
+
+/// Of 50 mm +- 25 %: what a road wheel may roll over.
+TEST(BedValues, StonesGetBetweenWheelsAndPlatesWhereSoilMeetsThem) {
+  const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
+  const auto stone = [&](const std::string& more) {
+    const scene::Scene scene = bed(vehicle + more, "4.9, 2.5");
+    return simulationSetup(scene).vehicle->thickestStone;
+  };
+  EXPECT_NEAR(stone(""), 0.0625, 1e-6);
+  EXPECT_EQ(stone("soil_meets = \"shoes\"\n"), 0);
 }
 
 } // namespace
