@@ -8,7 +8,8 @@ namespace grouser::base {
 
 namespace {
 
-constexpr double kLeastShare = 4e3;                        // [ns] of work that a thread is called for
+// Work that a team of threads is called for [ns]: what it takes to hand them a loop and to hear of its end.
+constexpr double kLeastOfTeam = 4e3, kLeastOfThread = 250;
 constexpr std::size_t kLeastShared = std::size_t{1} << 19; // [bytes] that are worth several threads
 constexpr std::size_t kPage = 4096;                        // [bytes]
 
@@ -26,9 +27,8 @@ template <class Work> void share(std::size_t bytes, int threads, const Work& wor
 } // namespace
 
 int threadsForLoop(std::int64_t count, double nanoseconds, int most) {
-  const double paidFor = static_cast<double>(count) * nanoseconds / kLeastShare;
-  const double threads = std::min({static_cast<double>(most), static_cast<double>(count), paidFor});
-  return std::max(1, static_cast<int>(threads));
+  if (most < 2 || count < 2) return 1;
+  return static_cast<double>(count) * nanoseconds < kLeastOfTeam + kLeastOfThread * most ? 1 : most;
 }
 
 void zeroShared(void* memory, std::size_t bytes, int threads) {

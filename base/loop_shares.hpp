@@ -6,8 +6,9 @@
 
 namespace grouser::base {
 
-/// As many of `most` threads as a loop on a CPU pays for whose items cost one core about `nanoseconds` each: a few
-/// microseconds of work for each of them, for so long takes it to hand them a loop and to hear of its end.
+/// All of `most` threads, or one where a loop on a CPU whose items cost one core about `nanoseconds` each does not pay
+/// for them: to hand them a loop, and to hear of its end, takes some microseconds. Never some of them: libgomp ends the
+/// threads that a smaller team has no use for, and starts others for the next loop.
 int threadsForLoop(std::int64_t count, double nanoseconds, int most);
 
 /// memset and memcpy by threads: each of them is the first to touch the pages of its share, which on a host with

@@ -40,13 +40,14 @@ TEST(LoopShares, FortyBlocksOfGrainsAreSharedAndAHundredCheapItemsAreNot) {
   }
 }
 
-TEST(LoopShares, ThreadsFollowFromTheCostOfAllItems) {
+TEST(LoopShares, AllThreadsOrOne) {
   EXPECT_EQ(threadsForLoop(40, 60.0 * 256, 16), 16);
-  EXPECT_EQ(threadsForLoop(3, 1e6, 16), 3) << "no more threads than items";
+  EXPECT_EQ(threadsForLoop(3, 1e6, 16), 16) << "a team that shrinks loses its threads";
   EXPECT_EQ(threadsForLoop(1, 1e9, 16), 1);
   EXPECT_EQ(threadsForLoop(0, 5, 16), 1);
-  EXPECT_EQ(threadsForLoop(5000, 5, 16), 6) << "each for 4 us";
-  EXPECT_EQ(threadsForLoop(std::int64_t{1} << 40, 5, 16), 16);
+  EXPECT_EQ(threadsForLoop(1000, 5, 2), 2) << "5 us";
+  EXPECT_EQ(threadsForLoop(1000, 5, 16), 1) << "5 us, and 16 threads to call";
+  EXPECT_EQ(threadsForLoop(2000, 5, 16), 16);
 }
 
 struct CountItem {
