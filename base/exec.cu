@@ -2,6 +2,7 @@
 #include "base/exec.hpp"
 
 #include "base/error.hpp"
+#include "base/loop_shares.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -264,7 +265,7 @@ void copyToHostLater(const Exec& exec, void* host, const void* device, std::size
 void copyOnDevice(const Exec& exec, void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) return;
   if (exec.onCpu()) {
-    std::memcpy(to, from, bytes);
+    copyShared(to, from, bytes, exec.threads);
     return;
   }
 #if defined(__CUDACC__)
@@ -276,7 +277,7 @@ void copyOnDevice(const Exec& exec, void* to, const void* from, std::size_t byte
 void setZero(const Exec& exec, void* device, std::size_t bytes) {
   if (bytes == 0) return;
   if (exec.onCpu()) {
-    std::memset(device, 0, bytes);
+    zeroShared(device, bytes, exec.threads);
     return;
   }
 #if defined(__CUDACC__)

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/exec.hpp"
 #include "base/host_device.hpp"
+#include "base/loop_shares.hpp"
 
 #include <cstdint>
 #include <string>
@@ -14,6 +15,17 @@
 
 namespace grouser::base {
 
+/// About what an item of a loop costs one core [ns]: what its body says, `static constexpr double kNanoseconds` or
+/// `double nanoseconds() const`, else that of a few reads and writes. Only decides whether threads share a loop.
+template <class Body> double nanosecondsOf(const Body& body) {
+  if constexpr (requires { body.nanoseconds(); })
+    return body.nanoseconds();
+  else if constexpr (requires { Body::kNanoseconds; })
+    return Body::kNanoseconds;
+  else
+    return 5;
+}
+
 #if defined(__CUDACC__)
 namespace detail {
 template <class Body> __global__ void __launch_bounds__(128) forEachKernel(Body body, std::int64_t count) {
@@ -23,14 +35,14 @@ template <class Body> __global__ void __launch_bounds__(128) forEachKernel(Body 
 } // namespace detail
 #endif
 
-/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, one kernel on the GPU.
-/// `body` is a named functor of pointers and scalars; `name` appears in errors. Asynchronous on the GPU.
+/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, of all threads where its cost pays for
+/// them (nanosecondsOf()), one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears in
+/// errors. Asynchronous on the GPU.
 template <class Body> void forEach(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
     const int n = static_cast<int>(count);
-    // A thread costs more than a handful of items.
-    [[maybe_unused]] const int threads = count < 64 ? 1 : exec.threads;
+    [[maybe_unused]] const int threads = threadsForLoop(count, nanosecondsOf(body), exec.threads);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int i = 0; i < n; ++i) body(i);
     return;

@@ -28,6 +28,16 @@ template <int kWidth> struct ThreadGroup {
   }
 };
 
+namespace detail {
+/// The items of one thread on a CPU.
+template <class Body> void runGroups(const Body& body, std::int64_t first, std::int64_t last) {
+  if constexpr (requires { body.runOnCpu(first, last); })
+    body.runOnCpu(first, last);
+  else
+    for (std::int64_t i = first; i < last; ++i) body(static_cast<int>(i), ThreadGroup<1>{0});
+}
+} // namespace detail
+
 #if defined(__CUDACC__)
 namespace detail {
 template <int kWidth, class Body> __global__ void __launch_bounds__(128)
@@ -40,15 +50,15 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(128)
 #endif
 
 /// Runs `body(i, group)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
-/// work on each item. For items that walk lists long enough to keep a thread waiting.
+/// work on each item. For items that walk lists long enough to keep a thread waiting. A body that has runOnCpu(first,
+/// last) is given all the items of a thread at once there.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
-    const int n = static_cast<int>(count);
-    [[maybe_unused]] const int threads = count < 64 ? 1 : exec.threads;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int i = 0; i < n; ++i) body(i, ThreadGroup<1>{0});
+    const std::int64_t threads = threadsForLoop(count, nanosecondsOf(body), exec.threads);
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads)) if (threads > 1)
+    for (std::int64_t t = 0; t < threads; ++t) detail::runGroups(body, count * t / threads, count * (t + 1) / threads);
     return;
   }
 #if defined(__CUDACC__)

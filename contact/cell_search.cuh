@@ -32,6 +32,7 @@ template <class Visit> GROUSER_HD void overShare(std::int64_t thread, std::int64
 /// Lowest and highest cell in use, by sharesOf(count) threads. bounds[0..2] hold the complement of the minimum, so that
 /// all six grow.
 template <class Grid> struct FindBounds {
+  static constexpr double kNanoseconds = 3.0 * kShare;
   Grid grid;
   const base::Position* position;
   std::int64_t count;
@@ -61,6 +62,7 @@ template <class Grid> struct FindBounds {
 
 /// Keys of the spheres, or of those that a list names.
 template <class Grid> struct AssignKeys {
+  static constexpr double kNanoseconds = 8;
   Grid grid;
   const base::Position* position;
   std::uint64_t* key;

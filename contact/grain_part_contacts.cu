@@ -29,6 +29,7 @@ GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& 
 
 /// Counts (where `key` is null) or lists the parts near one grain.
 struct ListParts {
+  static constexpr double kNanoseconds = 60;
   base::PositionScale scale;
   const Position* position;
   const std::uint32_t *id, *ghost;
@@ -44,7 +45,8 @@ struct ListParts {
   GROUSER_HD void operator()(int i) const {
     const Vec3d x = scale.toMetres(position[i]);
     std::uint32_t found = 0;
-    if (!(ghost && ghost[i]) && distance2ToBox(x, low, high) == 0) {
+    const bool knownToHaveNone = key && count[i] == 0;
+    if (!knownToHaveNone && !(ghost && ghost[i]) && distance2ToBox(x, low, high) == 0) {
       for (int p = 0; p < partCount; ++p) {
         if (distance2ToBox(motion[p].toPart(x), parts[p].boxLow, parts[p].boxHigh) > reach * reach) continue;
         if (key) {
@@ -63,6 +65,7 @@ struct ListParts {
 
 /// Finds each pair in the sorted keys of the former list and takes its history.
 struct RestorePatches {
+  static constexpr double kNanoseconds = 30;
   const std::uint64_t *key, *oldKey;
   const std::uint32_t* oldIndex;
   std::int64_t oldCount;

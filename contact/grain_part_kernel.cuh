@@ -32,8 +32,20 @@ struct TouchedPatch {
   float overlap;
 };
 
+/// Adds to the sums that all threads share.
+struct AddAtOnce {
+  std::int64_t* sums;
+  GROUSER_HD void add(int which, std::int64_t value) const { base::atomicAdd64(sums + which, value); }
+};
+/// Keeps them for many pairs: threads that add to one place often wait for each other.
+struct AddLater {
+  std::int64_t of[kPartSums] = {};
+  GROUSER_HD void add(int which, std::int64_t value) { of[which] += value; }
+};
+
 /// Loads of one listed pair, by one thread or by the threads of a group that share its discs.
 template <unsigned kFeatures> struct GrainPartForces {
+  static constexpr double kNanoseconds = 170;
   GrainPartModel model;
   const BasicLaw<float>* laws;
   const double* massPerCube;
@@ -55,6 +67,19 @@ template <unsigned kFeatures> struct GrainPartForces {
   std::uint64_t* pressed; ///< by part, of the grain that it presses most: see pressKey()
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
+    const AddAtOnce shared{sums};
+    run(e, group, shared);
+  }
+  /// A thread's pairs on a CPU.
+  void runOnCpu(std::int64_t firstPair, std::int64_t endPair) const {
+    AddLater kept;
+    for (std::int64_t e = firstPair; e < endPair; ++e) run(static_cast<int>(e), base::ThreadGroup<1>{0}, kept);
+    for (int k = 0; k < kPartSums; ++k)
+      if (kept.of[k] != 0) base::atomicAdd64(sums + k, kept.of[k]);
+  }
+
+private:
+  template <class Group, class Sums> GROUSER_HD void run(int e, const Group& group, Sums& total) const {
     const int i = static_cast<int>(slot[e]);
     const int p = static_cast<int>(key[e] & 0xFFFFu);
     const PartMotion part = motion[p];
@@ -95,20 +120,19 @@ template <unsigned kFeatures> struct GrainPartForces {
     if (found == 0) return;
     addTo(partLoad[p].force, -sum.onGrain.force);
     addTo(partLoad[p].torque, sum.torqueOnPart);
-    base::atomicAdd64(sums + kPatchesNow, found);
-    base::atomicAdd64(sums + kElasticNow, model.energy.quantise(sum.elastic));
+    total.add(kPatchesNow, found);
+    total.add(kElasticNow, model.energy.quantise(sum.elastic));
     for (int cause = 0; cause < 3; ++cause)
-      base::atomicAdd64(sums + kDampedByParts + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
+      total.add(kDampedByParts + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
     if (crushes()) {
-      base::atomicAdd64(sums + kCappedNow, sum.capped);
-      base::atomicAdd64(sums + kCrushedByParts, model.energy.quantise(sum.crushed));
-      base::atomicAdd64(sums + kCutByCrushing, model.force.quantise(sum.cut));
+      total.add(kCappedNow, sum.capped);
+      total.add(kCrushedByParts, model.energy.quantise(sum.crushed));
+      total.add(kCutByCrushing, model.force.quantise(sum.cut));
     }
-    if (share > static_cast<float>(kSqueezed)) base::atomicAdd64(sums + kSqueezedNow, 1);
+    if (share > static_cast<float>(kSqueezed)) total.add(kSqueezedNow, 1);
     base::atomicMin64(pressed + p, pressKey(share, static_cast<std::uint32_t>(key[e] >> 16)));
   }
 
-private:
   /// The grain of a pair.
   struct Ball {
     base::Vec3d x, v, w;

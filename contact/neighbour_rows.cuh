@@ -88,6 +88,7 @@ struct ContactCache {
 };
 
 struct KeepRow {
+  static constexpr double kNanoseconds = 20;
   TouchingRows from;
   ContactCache to;
   GROUSER_HD void operator()(int i) const {
@@ -98,6 +99,7 @@ struct KeepRow {
 
 /// Takes the history of pairs that touched in the former list.
 struct RestoreHistory {
+  static constexpr double kNanoseconds = 60;
   const std::uint32_t* origin; ///< former row of each new slot, or as in RowOrigins
   const std::uint32_t *id, *count, *slot;
   NeighbourRows rows;

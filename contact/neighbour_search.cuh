@@ -49,6 +49,7 @@ private:
 };
 
 struct CountNear {
+  static constexpr double kNanoseconds = 150;
   NearSpheres near;
   std::uint32_t* count;
   GROUSER_HD void operator()(int i) const {
@@ -60,6 +61,7 @@ struct CountNear {
 
 /// Writes a row: the slots near one, in the order of their ids.
 struct ListNear {
+  static constexpr double kNanoseconds = 200;
   NearSpheres near;
   const std::uint32_t* id;
   NeighbourRows rows;
@@ -77,6 +79,7 @@ struct ListNear {
 
 /// Beside each neighbour the sum of both radii: a step would fetch them from all over the bed.
 struct ListReach {
+  static constexpr double kNanoseconds = 25;
   RadiiInW radii;
   NeighbourRows rows;
   const std::uint32_t *count, *slot;

@@ -9,6 +9,7 @@ namespace grouser::terrain {
 /// Walls, floor and surfaces on the grains near them. A kernel of its own: the search on the floor needs many
 /// registers, and only one layer of grains needs the search.
 template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<kFeatures, Real> {
+  static constexpr double kNanoseconds = 100;
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;

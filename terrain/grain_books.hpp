@@ -98,6 +98,7 @@ template <class Body> struct Booked {
   Body body;
   std::int64_t count;
 
+  double nanoseconds() const { return kOnCpu * Body::kNanoseconds; }
   GROUSER_HD void operator()(int item) const {
     typename Body::Books books;
 #if defined(__CUDA_ARCH__)

@@ -17,6 +17,7 @@ namespace {
 /// Marks the grains that may touch a wall, the floor or a surface before any grain has moved half the skin and any
 /// surface has left its room.
 struct MarkNearBoundary {
+  static constexpr double kNanoseconds = 20;
   GrainKernelData d;
   double reach; ///< what grains may move, and the radius where all have one [m]
   bool manyRadii;

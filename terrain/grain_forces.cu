@@ -23,6 +23,7 @@ struct AddVelocityChange {
 };
 
 struct MeasureContactForce {
+  static constexpr double kNanoseconds = 200;
   const Vec4f *now, *before, *spin;
   const Remainders* remainders; ///< of `now`
   base::Vec3d gravityStep;      ///< g dt [m/s]

@@ -19,6 +19,7 @@ namespace {
 
 /// One grain's share of the ledger, in quanta.
 template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real> {
+  static constexpr double kNanoseconds = 300;
   using Kernel = GrainKernel<contact::kGeneral, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Law = contact::BasicLaw<Real>;

@@ -3,20 +3,32 @@
 
 #include "terrain/grain_step.cuh"
 
+#include <algorithm>
+
 namespace grouser::terrain {
 
 namespace {
 
-constexpr int kGrainsATime = 256; // that one thread takes at once
+// Grains that one thread takes at once: so many that what they begin and end with is little, and so few that all
+// threads have some.
+constexpr int kMostAtATime = 256, kLeastAtATime = 64;
+constexpr int kTurnsEach = 4; // of a thread in a step
+constexpr double kNanosecondsOfGrain = 60;
+
+int grainsAtATime(std::int64_t count, int threads) {
+  return static_cast<int>(std::clamp<std::int64_t>(count / (kTurnsEach * threads), kLeastAtATime, kMostAtATime));
+}
 
 struct StepSome {
   detail::LaneStep* step;
   const GrainKernelData& d;
   const ForceData<float>& f;
   std::int64_t count;
+  int atATime;
+  double nanoseconds() const { return kNanosecondsOfGrain * atATime; }
   void operator()(int k) const {
-    const int first = k * kGrainsATime;
-    step(d, f, first, static_cast<int>(std::min<std::int64_t>(first + kGrainsATime, count)));
+    const std::int64_t first = std::int64_t{k} * atATime;
+    step(d, f, static_cast<int>(first), static_cast<int>(std::min<std::int64_t>(first + atATime, count)));
   }
 };
 
@@ -47,7 +59,8 @@ int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) 
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width) {
   detail::LaneStep* const step = width == 16 ? detail::stepAvx512 : width == 8 ? detail::stepAvx2 : detail::stepSse;
-  base::forEach(exec, "grain step in lanes", (count + kGrainsATime - 1) / kGrainsATime, StepSome{step, d, f, count});
+  const int some = grainsAtATime(count, exec.threads);
+  base::forEach(exec, "grain step in lanes", (count + some - 1) / some, StepSome{step, d, f, count, some});
 }
 
 namespace detail {
@@ -87,7 +100,7 @@ void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const 
 }
 
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
-  addToBank(d.books, first / kGrainsATime, books);
+  addToBank(d.books, first / kLeastAtATime, books);
 }
 
 } // namespace detail

@@ -10,6 +10,7 @@ namespace grouser::terrain {
 /// One grain, one step: gather its contacts in the order of the neighbours' ids, then advance it by symplectic Euler.
 /// The scene's features are template parameters, so that what is absent costs nothing.
 template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatures, Real> {
+  static constexpr double kNanoseconds = 200;
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;

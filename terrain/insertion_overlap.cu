@@ -24,6 +24,7 @@ struct Entering {
 
 /// Looks for the grain that the entering ones would overlap most.
 struct FindInsertionOverlap {
+  static constexpr double kNanoseconds = 50;
   const base::Position* position;
   const Vec4f* velocity; ///< with the radius [m] in w, where they differ
   const std::uint32_t *id, *ghost;

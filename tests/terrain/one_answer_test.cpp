@@ -24,6 +24,19 @@ TEST(Heap, SameBitsForThreadsAndRebuildIntervals) {
   EXPECT_EQ(reference, runHeap(2, 0.1));
 }
 
+TEST(Heap, SameBitsForAnyNumberOfThreads) {
+  // Four blocks of grains, so that threads take from each other what is left of a share.
+  const auto run = [](int threads) {
+    const GrainModel m = gravel(0.3);
+    Grains grains(testExec(threads), m, {{{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}}, {}},
+                  gravelBlock(12, 12, 7, {0.3, 0.1, -1}, {}, {}));
+    advance(grains, 1000);
+    return std::make_pair(grains.state().words(), grains.ledger().elastic);
+  };
+  const auto reference = run(1);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(run(threads), reference) << threads << " threads";
+}
+
 TEST(Heap, MovesAlikeWhereverItStands) {
   // Shifts by whole units of position, hundreds of metres: all but the places themselves is the same to the bit.
   const double unit = base::positionScale(0.054).unit;
