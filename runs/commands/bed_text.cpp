@@ -40,10 +40,12 @@ std::string bedText(const simulation::Simulation& simulation) {
 std::vector<std::string> bedNotes(const TrackOnBed& t) {
   std::vector<std::string> notes;
   const double deep = kDeep * t.padWidth, wide = t.gauge + kWide * t.padWidth, fine = t.padWidth / kGrainsInPad;
-  if (t.thickness < deep)
-    notes.push_back(fmt::format("the bed is {:.2f} m deep, and tracks {:.2f} m wide work on it {:.2f} m deep: sinkage "
-                                "and traction depend on the floor; terrain.depth = {:.2g} frees them of it",
-                                t.thickness, t.padWidth, deep, deep));
+  if (t.thickness + 0.5 * t.meanDiameter < deep) // which beds come to lie lower than asked for, at most
+    notes.push_back(
+        fmt::format("the bed is {:.2f} m deep, and tracks {:.2f} m wide work on it {:.2f} m deep: sinkage "
+                    "and traction depend on the floor; terrain.depth = {:.2g}, and as much more as the tracks "
+                    "sink, frees them of it",
+                    t.thickness, t.padWidth, deep, deep));
   if (t.walls && t.width < wide)
     notes.push_back(
         fmt::format("the bed is {:.2f} m wide, and both tracks work on it {:.2f} m wide: its walls hold the "

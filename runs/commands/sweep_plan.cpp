@@ -64,6 +64,27 @@ Axis axisOf(const std::string& set) {
   return axis;
 }
 
+/// What every file system and shell takes as it is.
+std::string plainText(const std::string& text) {
+  std::string plain;
+  for (const char c : text) {
+    const bool isPlain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' || c == '_';
+    if (isPlain)
+      plain += c;
+    else if (!plain.empty() && plain.back() != '_')
+      plain += '_';
+  }
+  while (!plain.empty() && plain.back() == '_') plain.pop_back();
+  return plain;
+}
+
+/// Whether a folder may have this name: the sweep's own files and folders above it may not.
+bool namesAFolder(const std::string& label) {
+  const std::string plain = plainText(label);
+  return plain.find_first_not_of('.') != std::string::npos && plain != "summary.csv" && plain != "summary.png" &&
+         plain != "intervals.csv";
+}
+
 /// "NAME: key=value, key=value"
 Point caseOf(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -72,6 +93,10 @@ Point caseOf(const std::string& text) {
     throw InputError(fmt::format("--case {}: a case begins with its name; write NAME: key=value, key=value..., e.g. "
                                  "--case 'deep: terrain.depth=0.6'",
                                  text));
+  if (!namesAFolder(point.label))
+    throw InputError(fmt::format("--case {}: '{}' can name no folder beside summary.csv; give a name with letters "
+                                 "(a to z) or digits",
+                                 text, point.label));
   if (colon == std::string::npos || trimmed(std::string_view(text).substr(colon + 1)).empty()) return point;
   for (const std::string& set : splitValues(std::string_view(text).substr(colon + 1))) {
     const std::size_t equals = equalsSign(set);
@@ -127,20 +152,6 @@ std::string shortName(const std::string& key, const std::vector<Axis>& axes) {
   const auto alike = std::count_if(axes.begin(), axes.end(), [&](const Axis& a) { return lastWord(a.key) == last; });
   const bool isEntry = std::all_of(last.begin(), last.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   return alike > 1 || isEntry ? key : last;
-}
-
-/// What every file system and shell takes as it is.
-std::string plainText(const std::string& text) {
-  std::string plain;
-  for (const char c : text) {
-    const bool isPlain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' || c == '_';
-    if (isPlain)
-      plain += c;
-    else if (!plain.empty() && plain.back() != '_')
-      plain += '_';
-  }
-  while (!plain.empty() && plain.back() == '_') plain.pop_back();
-  return plain;
 }
 
 std::string folderName(const std::vector<Axis>& swept, const std::vector<std::string>& values,

@@ -18,7 +18,8 @@ namespace {
 using base::Section;
 using base::Table;
 
-constexpr double kLeastPeriod = 12; // of a tile, in radii [-]
+constexpr double kLeastPeriod = 12;     // of a tile, in radii [-]
+constexpr double kLeastForPorosity = 3; // depth, in diameters [-]
 
 /// How the grains of a bed are laid.
 void addArrangement(Table<Terrain>& t) {
@@ -189,6 +190,18 @@ void checkGrading(const Section& section, const Terrain& t) {
     section.fail("fine_depth", fmt::format("[m] is not above the floor, which is {:g} m deep; lower it", *t.depth));
 }
 
+void checkRandomDepth(const Section& section, const Terrain& t) {
+  const double spread = t.radiusSpread.value_or(0), least = kLeastForPorosity * 2 * *t.grainRadius;
+  const terrain::RadiusDistribution radii{*t.radiusDistribution, *t.grainRadius, spread, t.sieveSize, t.sievePassing};
+  if (*t.depth < 2 * radii.largest())
+    section.fail("depth", fmt::format("[m] is less than the largest grain, of radius {:.4g} m; give at least {:.4g}",
+                                      radii.largest(), 2 * radii.largest()));
+  if (t.porosity && *t.depth < (1 - 1e-9) * least)
+    section.fail("porosity", fmt::format("[-] is measured in beds at least {:g} diameters of {:g} m deep, and this one "
+                                         "is {:g} m deep; give depth = {:.3g}, or remove porosity",
+                                         kLeastForPorosity, 2 * *t.grainRadius, *t.depth, least));
+}
+
 void checkBed(const Section& section, Terrain& t) {
   completeArrangement(section, t);
   if (!t.grainRadius)
@@ -198,6 +211,7 @@ void checkBed(const Section& section, Terrain& t) {
   if (t.depth && *t.depth < 2 * radius)
     section.fail("depth",
                  fmt::format("[m] is less than one grain of radius {} m; give at least {}", radius, 2 * radius));
+  if (!t.lattice()) checkRandomDepth(section, t);
   if (t.tile && std::min((*t.tile)[0], (*t.tile)[1]) < kLeastPeriod * radius)
     section.fail("tile", fmt::format("[m] is less than {} grain radii: grains would touch their own images; give at "
                                      "least {:g}",

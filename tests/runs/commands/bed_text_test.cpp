@@ -27,6 +27,9 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
     return notes.size() == 1 && notes.front().find(word) != std::string::npos;
   };
   EXPECT_TRUE(only([](TrackOnBed& t) { t.thickness = 0.44; }, "terrain.depth = 0.45"));
+  TrackOnBed coarse = good; // asked for 0.45 m
+  coarse.meanDiameter = 0.08, coarse.thickness = 0.43;
+  EXPECT_EQ(bedNotes(coarse).size(), 1u) << "of its grains alone";
   EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size of 4.6 m"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.meanDiameter = 0.015; }, "terrain.grain_radius = 0.007"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.roughFloor = false; }, "terrain.floor_grains"));

@@ -146,6 +146,7 @@ TEST_F(Sweep, WrongCasesAreFoundBeforeAnythingRuns) {
   wrong({"a: run.seed=1"}, {"run.seed=1,2"}, 0);
   wrong({"a: run.seed=1"}, {}, 2);
   wrong({"a: run.sead=1"}, {}, 0);
+  for (const char* name : {".", "..", "/", "\u00fc", "summary.csv", "intervals.csv"}) wrong({name}, {}, 0);
 }
 
 TEST_F(Sweep, LeavesAFolderARunAndASummary) {

@@ -5,16 +5,18 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 
+#include "base/error.hpp"
+
 #include <gtest/gtest.h>
 
 namespace grouser::setup {
 namespace {
 
-scene::Scene bed(const std::string& more, const char* size = "0.8, 0.8") {
+scene::Scene bed(const std::string& more, const char* size = "0.8, 0.8", const char* depth = "0.3") {
   return parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\nstiffness = 1e5\nfriction = 0.4\n"
                     "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\n"
-                    "material = \"soil\"\ngrain_radius = 0.025\ndepth = 0.3\nsize = [" +
-                        std::string(size) + "]\n" + more,
+                    "material = \"soil\"\ngrain_radius = 0.025\ndepth = " +
+                        std::string(depth) + "\nsize = [" + size + "]\n" + more,
                     "bed.toml");
 }
 
@@ -43,6 +45,23 @@ TEST(BedValues, GrainsAtRandomRestThoughTheySpin) {
   EXPECT_FALSE(restsBySpins(""));
   EXPECT_FALSE(restsBySpins("porosity = 0.4\n"));
   EXPECT_FALSE(groundSetup(bed("porosity = 0.4\n"), 1e-5).grains->bed->preparation->sample->grains->bed->settle.spins);
+}
+
+TEST(BedValues, HoldTheLargestGrainAndWhereAPorosityIsAskedForAnInterior) {
+  const auto refused = [](const std::string& more, const char* depth, const std::string& why) {
+    try {
+      bed(more, "0.8, 0.8", depth);
+    } catch (const base::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+      return true;
+    }
+    return false;
+  };
+  const std::string wide = "radius_distribution = \"lognormal\"\nradius_spread = 0.9\n"; // up to 25 mm e^1.8
+  EXPECT_TRUE(refused(wide, "0.3", "the largest grain, of radius 0.1512 m; give at least 0.3025"));
+  EXPECT_FALSE(refused(wide, "0.303", ""));
+  EXPECT_TRUE(refused("porosity = 0.4\n", "0.149", "terrain.porosity"));
+  EXPECT_FALSE(refused("porosity = 0.4\n", "0.15", ""));
 }
 
 /// Of m g radius of its own mean grain: one of the coarse ones that rolls weighs what hundreds of fine ones do.
