@@ -2,8 +2,8 @@
 // Keys and checks of [terrain].
 #include "runs/scene/detail/section_lists.hpp"
 
+#include "runs/scene/bed_radii.hpp"
 #include "runs/scene/detail/section_checks.hpp"
-#include "terrain/radius_distribution.hpp"
 
 #include <fmt/format.h>
 
@@ -191,11 +191,10 @@ void checkGrading(const Section& section, const Terrain& t) {
 }
 
 void checkRandomDepth(const Section& section, const Terrain& t) {
-  const double spread = t.radiusSpread.value_or(0), least = kLeastForPorosity * 2 * *t.grainRadius;
-  const terrain::RadiusDistribution radii{*t.radiusDistribution, *t.grainRadius, spread, t.sieveSize, t.sievePassing};
-  if (*t.depth < 2 * radii.largest())
+  const double largest = bedRadii(t).largest(), least = kLeastForPorosity * 2 * *t.grainRadius;
+  if (*t.depth < 2 * largest)
     section.fail("depth", fmt::format("[m] is less than the largest grain, of radius {:.4g} m; give at least {:.4g}",
-                                      radii.largest(), 2 * radii.largest()));
+                                      largest, 2 * largest));
   if (t.porosity && *t.depth < (1 - 1e-9) * least)
     section.fail("porosity", fmt::format("[-] is measured in beds at least {:g} diameters of {:g} m deep, and this one "
                                          "is {:g} m deep; give depth = {:.3g}, or remove porosity",

@@ -2,6 +2,7 @@
 #include "runs/setup/bed_options.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/bed_radii.hpp"
 #include "terrain/heightmap.hpp"
 
 #include <cstdint>
@@ -37,7 +38,7 @@ terrain::LayerOptions layerOptions(const scene::Scene& scene) {
 terrain::RandomBedOptions randomOptions(const scene::Scene& scene) {
   const scene::Terrain& t = *scene.terrain;
   terrain::RandomBedOptions options;
-  options.radii = {*t.radiusDistribution, *t.grainRadius, t.radiusSpread.value_or(0), t.sieveSize, t.sievePassing};
+  options.radii = scene::bedRadii(t);
   options.grading = {t.fineDepth.value_or(0), t.coarsening.value_or(0), t.coarsestRadius.value_or(0)};
   options.depth = *t.depth, options.porosity = t.porosity.value_or(scene::Terrain::kPoured);
   options.floor = t.floor, options.roughFloor = t.floorGrains;
