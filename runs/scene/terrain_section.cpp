@@ -192,9 +192,9 @@ void checkGrading(const Section& section, const Terrain& t) {
 
 void checkRandomDepth(const Section& section, const Terrain& t) {
   const double largest = bedRadii(t).largest(), least = kLeastForPorosity * 2 * *t.grainRadius;
-  if (*t.depth < 2 * largest)
-    section.fail("depth", fmt::format("[m] is less than the largest grain, of radius {:.4g} m; give at least {:.4g}",
-                                      largest, 2 * largest));
+  if (*t.depth < largest)
+    section.fail("depth",
+                 fmt::format("[m] is less than the radius of the largest grain; give at least {:.4g}", largest));
   if (t.porosity && *t.depth < (1 - 1e-9) * least)
     section.fail("porosity", fmt::format("[-] is measured in beds at least {:g} diameters of {:g} m deep, and this one "
                                          "is {:g} m deep; give depth = {:.3g}, or remove porosity",

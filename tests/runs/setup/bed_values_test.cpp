@@ -58,8 +58,8 @@ TEST(BedValues, HoldTheLargestGrainAndWhereAPorosityIsAskedForAnInterior) {
     return false;
   };
   const std::string wide = "radius_distribution = \"lognormal\"\nradius_spread = 0.9\n"; // up to 25 mm e^1.8
-  EXPECT_TRUE(refused(wide, "0.3", "the largest grain, of radius 0.1512 m; give at least 0.3025"));
-  EXPECT_FALSE(refused(wide, "0.303", ""));
+  EXPECT_TRUE(refused(wide, "0.15", "the radius of the largest grain; give at least 0.1512"));
+  EXPECT_FALSE(refused(wide, "0.152", ""));
   EXPECT_TRUE(refused("porosity = 0.4\n", "0.149", "terrain.porosity"));
   EXPECT_FALSE(refused("porosity = 0.4\n", "0.15", ""));
 }
