@@ -121,6 +121,7 @@ public:
   const Array<T>& device() const { return device_; }
   T* host() { return host_; }
   const T* host() const { return host_; }
+  std::size_t bytes() const { return size() * sizeof(T); }
   /// Without waiting: the host's side must stay as it is until the next synchronize().
   void upload() { copyToDeviceLater(exec_, device_.data(), host_, size() * sizeof(T)); }
   /// Valid after the next synchronize().

@@ -109,7 +109,7 @@ private:
 class SideStream {
 public:
   SideStream() = default;
-  /// `first`: the side stream has the higher priority.
+  /// `first`: blocks of the side stream start before those of the main stream that wait; else after them.
   explicit SideStream(const Exec& main, bool first = false);
   SideStream(SideStream&& other) noexcept { swap(other); }
   SideStream& operator=(SideStream&& other) noexcept {

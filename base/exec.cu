@@ -57,8 +57,11 @@ Exec cudaExec(int index) {
   checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
   std::uint64_t all = ~std::uint64_t{0};
   checkCuda(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all), "cudaMemPoolSetAttribute");
+  // Between those of side streams: see SideStream.
+  int last = 0, greatest = 0;
+  checkCuda(cudaDeviceGetStreamPriorityRange(&last, &greatest), "cudaDeviceGetStreamPriorityRange");
   cudaStream_t stream = nullptr;
-  checkCuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "cudaStreamCreate");
+  checkCuda(cudaStreamCreateWithPriority(&stream, cudaStreamNonBlocking, (last + greatest) / 2), "cudaStreamCreate");
   Exec exec;
   exec.device = Device::Cuda;
   exec.stream = stream;
@@ -82,6 +85,18 @@ std::string describe(const Exec& exec) {
   checkCuda(cudaGetDevice(&index), "cudaGetDevice");
   checkCuda(cudaGetDeviceProperties(&properties, index), "cudaGetDeviceProperties");
   return std::string(properties.name) + ", " + std::to_string(properties.totalGlobalMem >> 30) + " GiB";
+#else
+  noCuda();
+#endif
+}
+
+int multiprocessors(const Exec& exec) {
+  if (exec.onCpu()) return 0;
+#if defined(__CUDACC__)
+  int index = 0, count = 0;
+  checkCuda(cudaGetDevice(&index), "cudaGetDevice");
+  checkCuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, index), "cudaDeviceGetAttribute");
+  return count;
 #else
   noCuda();
 #endif
@@ -122,6 +137,16 @@ void synchronize(const Exec& exec) {
 #if defined(__CUDACC__)
   checkCuda(cudaStreamSynchronize(static_cast<cudaStream_t>(exec.stream)), "cudaStreamSynchronize");
 #endif
+}
+
+bool isBusy(const Exec& exec) {
+  if (exec.onCpu()) return false;
+#if defined(__CUDACC__)
+  const cudaError_t state = cudaStreamQuery(static_cast<cudaStream_t>(exec.stream));
+  if (state == cudaErrorNotReady) return true;
+  checkCuda(state, "cudaStreamQuery");
+#endif
+  return false;
 }
 
 #if defined(__CUDACC__)

@@ -13,8 +13,9 @@ enum class Device { Cpu, Cuda };
 /// cudaExec() makes lives as long as the program.
 struct Exec {
   Device device{Device::Cpu};
-  int threads{1};        ///< CPU threads, >= 1
-  void* stream{nullptr}; ///< cudaStream_t where device is Cuda
+  int threads{1};         ///< CPU threads, >= 1
+  void* stream{nullptr};  ///< cudaStream_t where device is Cuda
+  bool leavesRoom{false}; ///< kernels that loop (forEachLooped) leave room on the device to others that run beside them
 
   bool onCpu() const { return device == Device::Cpu; }
 };
@@ -25,6 +26,8 @@ Exec cpuExec(int threads = 0);
 Exec cudaExec(int index = 0);
 /// True where this build has CUDA and a usable device is present.
 bool cudaAvailable();
+/// Multiprocessors of its device; 0 on a CPU.
+int multiprocessors(const Exec& exec);
 /// Usable CUDA devices of this machine; 0 where there are none.
 int cudaDevices();
 /// Which GPU of the machine this is, whatever number this process knows it by; 0 on the CPU.
@@ -36,6 +39,8 @@ std::size_t memoryTaken(const Exec& exec);
 
 /// Waits until all work given to `exec` has ended. Throws DeviceError with the code received.
 void synchronize(const Exec& exec);
+/// Whether work given to `exec` has not ended yet, without waiting. Throws DeviceError with the code received.
+bool isBusy(const Exec& exec);
 
 /// Untyped memory on `exec`'s device, zeroed. Throws DeviceError (out of memory names the bytes asked for).
 void* allocate(const Exec& exec, std::size_t bytes);

@@ -12,7 +12,8 @@ namespace grouser::contact {
 
 using Cell = base::Vec3<std::uint32_t>;
 
-constexpr std::int64_t kShare = 512; ///< items of a thread that goes over many
+constexpr std::int64_t kShare =
+    32; ///< items of a thread that goes over many: a GPU of many threads reads them one after the other
 
 /// Threads of kShare items each.
 GROUSER_HD constexpr std::int64_t sharesOf(std::int64_t count) { return (count + kShare - 1) / kShare; }

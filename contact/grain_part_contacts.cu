@@ -277,15 +277,38 @@ std::vector<std::int64_t> GrainPartContacts::allSums() const {
 
 void GrainPartContacts::computeOn(const base::Exec& exec, const GrainsView& grains,
                                   const base::Array<PartMotion>& motion, PartLoad* loads) {
-  base::setZero(exec, sums_.data(), kSumsOfStep * sizeof(std::int64_t));
+  const base::Parcel cleared = clearedSums();
+  base::setZero(exec, cleared.to, cleared.bytes);
+  computeOnCleared(exec, grains, motion, loads, nullptr);
+}
+
+base::Parcel GrainPartContacts::clearedSums() { return {sums_.data(), nullptr, kSumsOfStep * sizeof(std::int64_t)}; }
+
+void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsView& grains,
+                                         const base::Array<PartMotion>& motion, PartLoad* loads,
+                                         const std::uint32_t* off) {
   const auto run = [&]<unsigned kFeatures>() {
-    base::forEachGroup<16>(
-        exec, "grain-part contacts", static_cast<std::int64_t>(pairs_),
-        GrainPartForces<kFeatures>{model_, laws_.data(), massPerCube_.data(), grains, motion.data(), parts_.data(),
-                                   gridViews_.data(), key_.data(), slot_.data(), memory_.data(),
-                                   rolling_ ? angle_.data() : nullptr, crushes_ ? crushing_.data() : nullptr,
-                                   crushes_ ? dent_.data() : nullptr, crushes_ ? energyHeld_.data() : nullptr,
-                                   static_cast<int>(partCount_), load_.data(), loads, sums_.data(), deepest_.data()});
+    base::forEachGroup<16>(exec, "grain-part contacts", static_cast<std::int64_t>(pairs_),
+                           GrainPartForces<kFeatures>{model_,
+                                                      laws_.data(),
+                                                      massPerCube_.data(),
+                                                      grains,
+                                                      motion.data(),
+                                                      parts_.data(),
+                                                      gridViews_.data(),
+                                                      key_.data(),
+                                                      slot_.data(),
+                                                      memory_.data(),
+                                                      rolling_ ? angle_.data() : nullptr,
+                                                      crushes_ ? crushing_.data() : nullptr,
+                                                      crushes_ ? dent_.data() : nullptr,
+                                                      crushes_ ? energyHeld_.data() : nullptr,
+                                                      static_cast<int>(partCount_),
+                                                      load_.data(),
+                                                      loads,
+                                                      sums_.data(),
+                                                      deepest_.data(),
+                                                      off});
   };
   // Most beds are linear with friction; all else takes the general functions.
   if ((features_ & ~kFriction) != 0 || crushes_)

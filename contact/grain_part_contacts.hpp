@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/carry.hpp"
 #include "base/comm.hpp"
 #include "base/position.hpp"
 #include "contact/contact_law.hpp"
@@ -47,6 +48,11 @@ public:
   /// The same on a side stream.
   void computeOn(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                  PartLoad* loads);
+  /// The same in work that is launched ahead, where clearedSums() have been cleared. `off`: as base::Gate has it.
+  void computeOnCleared(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
+                        PartLoad* loads, const std::uint32_t* off);
+  /// On the device, of the last compute: to be cleared before the next one.
+  base::Parcel clearedSums();
 
   /// What the grains' step needs: valid until the next refresh.
   GrainLoadsView grainLoads();

@@ -63,10 +63,12 @@ template <unsigned kFeatures> struct GrainPartForces {
   int endedAt;              ///< place behind the loads of the parts, whose force.x counts grains that have ended
   GrainLoad* load;
   PartLoad* partLoad;
-  std::int64_t* sums;     ///< [kPartSums]
-  std::uint64_t* pressed; ///< by part, of the grain that it presses most: see pressKey()
+  std::int64_t* sums;       ///< [kPartSums]
+  std::uint64_t* pressed;   ///< by part, of the grain that it presses most: see pressKey()
+  const std::uint32_t* off; ///< not 0: called off, see base::Gate; null: never
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
+    if (off && *off) return;
     const AddAtOnce shared{sums};
     run(e, group, shared);
   }

@@ -51,7 +51,13 @@ void PartPartContacts::refresh(const base::Array<PartMotion>& motion) {
 }
 
 void PartPartContacts::compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads) {
-  computePatches(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
+  buffers_.sums.zero();
+  computeOnCleared(buffers_.exec, motion, travelled, loads, nullptr);
+}
+
+void PartPartContacts::computeOnCleared(const base::Exec& exec, const base::Array<PartMotion>& motion,
+                                        const double* travelled, PartLoad* loads, const std::uint32_t* off) {
+  computePatches(exec, buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads, off);
 }
 
 } // namespace grouser::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/carry.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/patch_buffers.hpp"
@@ -33,6 +34,11 @@ public:
   /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
   /// relative to each other since the refresh [m]; at most the margin.
   void compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads);
+  /// The same in work that is launched ahead, where clearedSums() have been cleared. `off`: as base::Gate has it.
+  void computeOnCleared(const base::Exec& exec, const base::Array<PartMotion>& motion, const double* travelled,
+                        PartLoad* loads, const std::uint32_t* off);
+  /// On the device, of the last compute: to be cleared before the next one.
+  base::Parcel clearedSums() { return {buffers_.sums.data(), nullptr, buffers_.sums.size() * sizeof(PatchSums)}; }
 
   std::size_t samplesListed() const { return buffers_.entries; }
   PatchBuffers::Ledger ledger() const { return buffers_.ledger(model_.quanta); }

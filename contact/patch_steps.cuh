@@ -25,19 +25,20 @@ void listSamples(PatchBuffers& buffers, const Target& target, const base::Array<
   if (buffers.entries) base::forEach(buffers.exec, "list samples", chunks, list);
 }
 
-/// Pressure on every listed sample, then friction on every patch. `travelled`: bound of the relative motion of any pair
-/// since the samples were listed [m], on the device.
-template <class Target> void computePatches(PatchBuffers& buffers, const Target& target, const PatchQuanta& quanta,
-                                            double timeStep, const double* travelled,
-                                            const base::Array<PartMotion>& motion, PartLoad* loads) {
-  buffers.sums.zero();
-  base::forEachGroup<8>(buffers.exec, "pressure of samples", static_cast<std::int64_t>(buffers.entries),
+/// Pressure on every listed sample, then friction on every patch, whose sums are zero before. `travelled`: bound of the
+/// relative motion of any pair since the samples were listed [m], on the device. `off`: not 0 on the device where
+/// nothing is to be done after all; may be null.
+template <class Target> void computePatches(const base::Exec& exec, PatchBuffers& buffers, const Target& target,
+                                            const PatchQuanta& quanta, double timeStep, const double* travelled,
+                                            const base::Array<PartMotion>& motion, PartLoad* loads,
+                                            const std::uint32_t* off) {
+  base::forEachGroup<8>(exec, "pressure of samples", static_cast<std::int64_t>(buffers.entries),
                         SamplePressure<Target>{target, buffers.sample.data(), quanta, motion.data(),
                                                buffers.entry.data(), buffers.gap.data(), travelled, buffers.sums.data(),
-                                               loads, timeStep});
-  base::forEach(buffers.exec, "friction of patches", static_cast<std::int64_t>(buffers.sums.size()),
+                                               loads, timeStep, off});
+  base::forEach(exec, "friction of patches", static_cast<std::int64_t>(buffers.sums.size()),
                 PatchFriction<Target>{target, quanta, motion.data(), buffers.sums.data(), buffers.states.data(), loads,
-                                      timeStep});
+                                      timeStep, off});
 }
 
 } // namespace grouser::contact

@@ -101,8 +101,10 @@ template <class Target> struct SamplePressure {
   PatchSums* patches;      ///< [pair * kClusters + cluster]
   PartLoad* loads;
   double timeStep;
+  const std::uint32_t* off; ///< not 0: called off, see base::Gate; null: never
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
+    if (off && *off) return;
     if (static_cast<double>(gap[e]) > *travelled) return;
     const int pair = static_cast<int>(entry[e] >> 32);
     const SurfaceSample sample = samples[entry[e] & 0xFFFFFFFFu];
@@ -143,8 +145,10 @@ template <class Target> struct PatchFriction {
   PatchState* states;
   PartLoad* loads;
   double timeStep;
+  const std::uint32_t* off; ///< as in SamplePressure
 
   GROUSER_HD void operator()(int index) const {
+    if (off && *off) return;
     PatchSums& sums = patches[index];
     PatchState& state = states[index];
     if (sums.weight <= 0) {

@@ -76,7 +76,7 @@ bool runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
   if constexpr (withBooks<kSet>(kOfStep))
     if (d.books) {
       const std::int64_t items = exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
-      return base::forEach(exec, name, items, Booked<Body>{body, count}), true;
+      return base::forEachLooped(exec, name, items, Booked<Body>{body, count}), true;
     }
   return false;
 }
@@ -106,6 +106,8 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                                      std::int64_t near, const GrainModel& model) {
   const unsigned features = model.specialised ? d.features & kAtBoundaries : kGeneral;
+  if (const int width = exec.onCpu() && !d.former ? wallSimdWidth(features, model.mostSimdLanes) : 1; width > 1)
+    return runWallSimd(exec, d, f, near, width);
   if (!ranOneOf<BoundaryContacts>(BoundaryKernels{}, features, exec, "boundary contacts", d, f, near))
     runBody<BoundaryContacts, kGeneral>(exec, "boundary contacts", d, f, near);
 }

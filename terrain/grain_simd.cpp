@@ -13,7 +13,7 @@ namespace {
 // threads have some.
 constexpr int kMostAtATime = 256, kLeastAtATime = 64;
 constexpr int kTurnsEach = 4; // of a thread in a step
-constexpr double kNanosecondsOfGrain = 60;
+constexpr double kNanosecondsOfGrain = 50, kNanosecondsAtWall = 20;
 
 int grainsAtATime(std::int64_t count, int threads) {
   return static_cast<int>(std::clamp<std::int64_t>(count / (kTurnsEach * threads), kLeastAtATime, kMostAtATime));
@@ -25,12 +25,27 @@ struct StepSome {
   const ForceData<float>& f;
   std::int64_t count;
   int atATime;
-  double nanoseconds() const { return kNanosecondsOfGrain * atATime; }
+  double each; ///< of a grain [ns]
+  double nanoseconds() const { return each * atATime; }
   void operator()(int k) const {
     const std::int64_t first = std::int64_t{k} * atATime;
     step(d, f, static_cast<int>(first), static_cast<int>(std::min<std::int64_t>(first + atATime, count)));
   }
 };
+
+/// Lanes that the processor has.
+int widthOf([[maybe_unused]] int most) {
+#if defined(__x86_64__)
+  // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  if (most >= 16 && avx2 && avx512) return 16;
+  if (most >= 8 && avx2) return 8;
+  if (most >= 4) return 4;
+#endif
+  return 1;
+}
 
 } // namespace
 
@@ -44,23 +59,27 @@ bool hasSimd(unsigned features) {
 int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
   if (!hasSimd(features)) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
-#if defined(__x86_64__)
-  // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-  if (most >= 16 && avx2 && avx512) return 16;
-  if (most >= 8 && avx2) return 8;
-  if (most >= 4) return 4;
-#endif
-  return 1;
+  return widthOf(most);
+}
+
+int wallSimdWidth(unsigned featuresAtBoundaries, int most) {
+  return featuresAtBoundaries & ~contact::kFriction ? 1 : widthOf(most);
 }
 
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width) {
   detail::LaneStep* const step = width == 16 ? detail::stepAvx512 : width == 8 ? detail::stepAvx2 : detail::stepSse;
   const int some = grainsAtATime(count, exec.threads);
-  base::forEach(exec, "grain step in lanes", (count + some - 1) / some, StepSome{step, d, f, count, some});
+  base::forEach(exec, "grain step in lanes", (count + some - 1) / some,
+                StepSome{step, d, f, count, some, kNanosecondsOfGrain});
+}
+
+void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t near,
+                 int width) {
+  detail::LaneStep* const walls = width == 16 ? detail::wallsAvx512 : width == 8 ? detail::wallsAvx2 : detail::wallsSse;
+  const int some = grainsAtATime(near, exec.threads);
+  base::forEach(exec, "walls in lanes", (near + some - 1) / some,
+                StepSome{walls, d, f, near, some, kNanosecondsAtWall});
 }
 
 namespace detail {
@@ -100,6 +119,10 @@ void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const 
 }
 
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
+  addToBank(d.books, first / kLeastAtATime, books);
+}
+
+void addToBooks(const GrainKernelData& d, int first, const WallBooks& books) {
   addToBank(d.books, first / kLeastAtATime, books);
 }
 

@@ -14,11 +14,19 @@ int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width);
 
+/// The same of planes: those of the features that their kernel depends on decide.
+int wallSimdWidth(unsigned featuresAtBoundaries, int most);
+/// Forces of planes on the `near` grains that are listed near boundaries; the bits are those of BoundaryContacts.
+void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t near,
+                 int width);
+
 namespace detail {
 
 using LaneStep = void(const GrainKernelData& d, const ForceData<float>& f, int first, int last);
 /// Grains [first, last) of a launch. One file each, compiled for what its name says.
 LaneStep stepSse, stepAvx2, stepAvx512;
+/// Places [first, last) of the list of grains near boundaries.
+LaneStep wallsSse, wallsAvx2, wallsAvx512;
 
 /// GrainStep's own, of one grain, for what is rare.
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
@@ -28,6 +36,7 @@ void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i);
 void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books);
 /// Adds what some grains of a launch, from `first` on, have done.
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
+void addToBooks(const GrainKernelData& d, int first, const WallBooks& books);
 /// GrainStep's own, of a grain that never moves and of forces by such grains.
 void letStay(const GrainKernelData& d, const ForceData<float>& f, int i);
 void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/grain_stepper.hpp"
 
+#include "base/gate.hpp"
 #include "terrain/grain_kernels.cuh"
 
 #include <algorithm>
+#include <cstring>
+#include <functional>
 #include <utility>
 
 namespace grouser::terrain {
 
 GrainStepper::GrainStepper(const base::Exec& exec)
-    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true) {
+    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), aside_(exec) {
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
 }
@@ -18,7 +21,7 @@ GrainKernelData GrainStepper::kernelData(const Launch& step) {
   GrainKernelData d = step.system.kernelData();
   if (step.loads) d.features |= kLoads, d.loads = *step.loads;
   d.flags = flags_.device().data() + step.place;
-  d.former = step.place > 0 ? d.flags - 1 : nullptr;
+  d.former = step.former >= 0 ? flags_.device().data() + step.former : nullptr;
   return d;
 }
 
@@ -54,15 +57,69 @@ void GrainStepper::computeBoundaryContacts(const base::Exec& exec, const Launch&
 
 void GrainStepper::beginBoundaries(GrainSystem& system) {
   if (system.boundaries.hasSurfaces()) return;
-  side_.fork();
-  computeBoundaryContacts(side_.exec(), {system, nullptr, 0});
+  aside_.fork();
+  computeBoundaryContacts(aside_.exec(), {system, nullptr});
   boundariesBegun_ = true;
+}
+
+bool GrainStepper::canLaunchAhead(const GrainSystem& system) const {
+  return base::Gate::canWait(exec_) && !system.distribution && !system.boundaries.hasSurfaces();
+}
+
+/// Of the flags of a step that is launched ahead: by the buffer that holds the state.
+int GrainStepper::placeAhead(const GrainSystem& system) {
+  const auto& position = system.arrays.fields().position;
+  return std::less<>()(position.next.data(), position.now.data()) ? 1 : 0;
+}
+
+base::Watch GrainStepper::flagsBefore(const GrainSystem& system) const {
+  base::Watch watch{flags_.device().data() + 1 - placeAhead(system)};
+  static_assert(sizeof watch.idle == sizeof kNoFlags);
+  std::memcpy(watch.idle, &kNoFlags, sizeof kNoFlags);
+  return watch;
+}
+
+GrainStepper::Launch GrainStepper::ahead(GrainSystem& system, const contact::GrainLoadsView* loads) {
+  const int place = placeAhead(system);
+  return {system, loads, place, 1 - place};
+}
+
+void GrainStepper::launchBoundaries(GrainSystem& system) {
+  aside_.fork();
+  computeBoundaryContacts(aside_.exec(), ahead(system, nullptr));
+}
+
+void GrainStepper::launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads) {
+  aside_.fork();
+  base::Exec exec = aside_.exec();
+  exec.leavesRoom = true;
+  const Launch step = ahead(system, &loads);
+  if (system.constants.model.precision == Precision::single)
+    advanceGrains<float>(exec, step, nullptr);
+  else
+    advanceGrains<double>(exec, step, nullptr);
+}
+
+base::Parcel GrainStepper::flagsAfter(const GrainSystem& system) {
+  const int place = placeAhead(system);
+  return {flags_.host() + place, flags_.device().data() + place, sizeof(StepFlags)};
+}
+
+StepOutcome GrainStepper::endAhead(GrainSystem& system, int further) {
+  // The buffers have been exchanged once for this step and once for each further one.
+  const StepFlags flags = flags_.host()[(placeAhead(system) + 1 + further) % 2];
+  if (flags.raised()) {
+    base::synchronize(exec_);
+    clearFlags();
+    if (further % 2 != 0) system.arrays.swapBuffers();
+  }
+  return {1, flags.stale != 0, flags.fault};
 }
 
 template <class Real> void GrainStepper::launchIn(const Launch& step) {
   GrainSystem& s = step.system;
   if (std::exchange(boundariesBegun_, false))
-    side_.join();
+    aside_.join();
   else
     computeBoundaryContacts(exec_, step);
   if (!s.distribution) return advanceGrains<Real>(exec_, step, nullptr);
@@ -86,7 +143,7 @@ void GrainStepper::launch(const Launch& step) {
 }
 
 void GrainStepper::begin(GrainSystem& system, const contact::GrainLoadsView* loads) {
-  launch({system, loads, 0});
+  launch({system, loads});
   flags_.download();
   system.boundaries.downloadSurfaceLoads();
 }
@@ -118,7 +175,7 @@ StepOutcome GrainStepper::runBatch(GrainSystem& system) {
   const unsigned halo = subdomain ? subdomain->haloExchange().bufferIndex() : 0;
   stepGraph_.from(system.arrays.fields().position.now.data(), halo).run([&] {
     for (int place = 0; place < kStepsPerGraph; ++place) {
-      launch({system, nullptr, place});
+      launch({system, nullptr, place, place - 1});
       if (!subdomain) continue;
       subdomain->agreement().run(exec_, reinterpret_cast<std::uint64_t*>(flags_.device().data() + place));
       subdomain->haloExchange().publish();
@@ -136,6 +193,11 @@ StepOutcome GrainStepper::runBatch(GrainSystem& system) {
   return outcome;
 }
 
+void GrainStepper::clearFlags() {
+  std::fill_n(flags_.host(), flags_.size(), kNoFlags);
+  flags_.upload();
+}
+
 /// Waits for the steps launched and counts those taken: up to the first that has raised a flag (its list has ended, or
 /// a fault). Raised flags are cleared on the device for the next launch.
 StepOutcome GrainStepper::readFlags(int steps) {
@@ -144,10 +206,7 @@ StepOutcome GrainStepper::readFlags(int steps) {
   int taken = 1;
   while (taken < steps && !flag[taken - 1].raised()) ++taken;
   const StepFlags last = flag[taken - 1];
-  if (last.raised()) {
-    std::fill_n(flags_.host(), flags_.size(), kNoFlags);
-    flags_.upload();
-  }
+  if (last.raised()) clearFlags();
   return {taken, last.stale != 0, last.fault};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/carry.hpp"
 #include "base/device_graph.hpp"
 #include "contact/grain_loads.hpp"
 #include "terrain/grain_system.hpp"
@@ -32,6 +33,18 @@ public:
   /// Waits for it, and reduces its flags over the ranks.
   StepOutcome end(GrainSystem& system);
 
+  // A step that is launched ahead of its loads; see GrainsAhead. Each has flags of its own, by the buffer that holds
+  // the state it begins with, and does nothing where the step before it has raised one.
+  bool canLaunchAhead(const GrainSystem& system) const;
+  base::Watch flagsBefore(const GrainSystem& system) const;
+  void launchBoundaries(GrainSystem& system);
+  void launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads);
+  void joinGrains() { aside_.join(); }
+  base::Parcel flagsAfter(const GrainSystem& system);
+  /// What has been carried there. `further`: steps launched since. Where a flag is raised it waits for the device,
+  /// which has called them off, and their exchange of buffers is taken back.
+  StepOutcome endAhead(GrainSystem& system, int further);
+
   /// Whether kStepsPerGraph steps can be launched as one graph, without the host in between.
   bool canBatchSteps(const GrainSystem& system) const;
   /// Launches so many steps as one graph; fewer are taken where a list ends or a fault is raised.
@@ -40,11 +53,12 @@ public:
   void forgetGraph() { stepGraph_.forget(); }
 
 private:
-  /// One step of a batch. Kernels of `place` > 0 do nothing where an earlier step of the batch has raised a flag.
+  /// One step of several that are launched together: kernels do nothing where the step before it has raised a flag.
   struct Launch {
     GrainSystem& system;
     const contact::GrainLoadsView* loads;
-    int place;
+    int place = 0;   ///< of its flags
+    int former = -1; ///< of those of the step before it; -1: none
   };
 
   GrainKernelData kernelData(const Launch& step);
@@ -54,6 +68,9 @@ private:
   template <class Real>
   void advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active);
   template <class Real> void advanceUniques(const Launch& step);
+  Launch ahead(GrainSystem& system, const contact::GrainLoadsView* loads);
+  static int placeAhead(const GrainSystem& system);
+  void clearFlags();
   StepOutcome readFlags(int steps);
 
   static_assert(kStepsPerGraph % 2 == 0, "so that the buffers of the state and of the ghosts' exchange end where they "
@@ -62,7 +79,8 @@ private:
   base::Exec exec_;
   base::Mirrored<StepFlags> flags_; ///< of each step of a batch
   base::DoubleBufferedGraph stepGraph_;
-  base::SideStream side_;
+  base::SideStream side_;  ///< before all else: ghosts, and who reads them
+  base::SideStream aside_; ///< after all else: walls and floor, and grains launched ahead
   bool boundariesBegun_{false};
 };
 

@@ -83,6 +83,7 @@ public:
   GrainLedger ledger();
 
 private:
+  friend class GrainsAhead;
   void rebuild();
   void listNearBoundaries();
   void take(const StepOutcome& outcome);

@@ -27,7 +27,9 @@ void GroundContacts::refresh(const base::Array<contact::PartMotion>& motion) {
 
 void GroundContacts::compute(const base::Array<contact::PartMotion>& motion, const double* travelled,
                              contact::PartLoad* loads) {
-  contact::computePatches(buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads);
+  buffers_.sums.zero();
+  contact::computePatches(buffers_.exec, buffers_, target(), model_.quanta, model_.timeStep, travelled, motion, loads,
+                          nullptr);
 }
 
 } // namespace grouser::terrain

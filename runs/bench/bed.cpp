@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/sphere.hpp"
+#include "runs/bench/bed_file.hpp"
 #include "runs/bench/bench.hpp"
 
 #include "base/error.hpp"
@@ -166,9 +167,13 @@ double BatchTimes::least() const { return *std::min_element(microseconds.begin()
 double BatchTimes::most() const { return *std::max_element(microseconds.begin(), microseconds.end()); }
 
 BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm& comm) {
+  if (!b.save.empty() && comm.size() > 1)
+    throw base::InputError("bench bed: --save is for one rank; leave it out, or start one rank");
   const terrain::GrainModel model = modelOf(b);
-  terrain::Grains grains(exec, model, box(b, model), lattice(b), {comm, {0, 0, 0}, {}, true, b.peerMemory});
+  terrain::Grains grains(exec, model, box(b, model), b.start.empty() ? lattice(b) : readBed(b),
+                         {comm, {0, 0, 0}, {}, true, b.peerMemory});
   BedFigures f;
+  f.law = model.law, f.edge = edgeOf(b);
   const Clock::time_point settling = Clock::now();
   advance(grains, std::llround(b.settleTime / b.timeStep));
   base::synchronize(exec);
@@ -201,6 +206,7 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
     comm.maximum(extremes, 2);
     f.mostWait = extremes[0], f.leastWait = -extremes[1];
   }
+  if (!b.save.empty()) saveBed(grains, b.save);
   if (b.hash) f.stateHash = terrain::hashOf(grains.state(), comm).hex();
 
   std::vector<double> rebuild;

@@ -58,7 +58,7 @@ double advance(simulation::Simulation& simulation, const StepBenchOptions& o, do
     const std::optional<double> from = timedFrom(o, simulation, ramp);
     const std::int64_t end = from ? std::llround(*from / simulation.timeStep()) : simulation.steps() + 1;
     if (simulation.steps() >= end) return simulation.time();
-    simulation.step();
+    simulation.advance(std::min(end - simulation.steps(), simulation::VehicleRig::kAlarmInterval));
     if (progress.due())
       progress.update(from ? simulation.time() / *from : 0,
                       fmt::format("t {:.3f} s{}", simulation.time(), from ? "" : ", before the vehicle rests"));
@@ -155,6 +155,11 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["friction"] = b.friction;
   json["restitution"] = b.restitution;
   json["stiffness_N_m"] = b.stiffness;
+  json["tangential_stiffness"] = f.law.tangentialStiffness;
+  json["damping"] = b.hertz ? f.law.rootDamping : f.law.damping;
+  json["tangential_damping"] = b.hertz ? f.law.tangentialRootDamping : f.law.tangentialDamping;
+  json["density_kg_m3"] = b.density;
+  json["box_edge_m"] = f.edge;
   json["time_step_s"] = b.timeStep;
   json["settle_time_s"] = b.settleTime;
   json["ledger"] = b.ledger;
@@ -216,7 +221,7 @@ BatchTimes timeBatches(simulation::Simulation& simulation, const StepBenchOption
   for (int k = 0; k < o.batches; ++k) {
     base::synchronize(exec);
     const Clock::time_point begin = Clock::now();
-    for (std::int64_t i = 0; i < o.steps; ++i) simulation.step();
+    for (std::int64_t i = 0; i < o.steps;) i += simulation.advance(o.steps - i);
     base::synchronize(exec);
     times.microseconds.push_back(1e6 * std::chrono::duration<double>(Clock::now() - begin).count() /
                                  static_cast<double>(o.steps));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/exec.hpp"
+#include "contact/contact_law.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/simulation/simulation.hpp"
 
@@ -45,11 +46,15 @@ struct BedBench {
   int batches = 5;
   bool ledger = false; ///< keep the books of energies, as a run does
   bool hash = false;   ///< take the state hash at the end
+  std::string start{}; ///< file of the grains that there are in place of the lattice; empty: that
+  std::string save{};  ///< file that the grains are written to after the last batch; empty: none
   base::PeerUse peerMemory = base::PeerUse::automatic;
 };
 
 struct BedFigures {
   BatchTimes times;
+  contact::ContactLaw law;         ///< of grains on each other, for whoever gives the same to another program
+  double edge = 0;                 ///< of the box [m]
   double contactsPerGrain = 0;     ///< pairs in touch, each counted once, and contacts with walls, over grains [-]
   double listLength = 0;           ///< neighbours listed a grain, mean, each pair from both sides [-]
   std::string features;            ///< in words

@@ -53,7 +53,7 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
                     t.width, wide, wide));
   if (t.meanDiameter > fine)
     notes.push_back(fmt::format("a pad is {:.1f} mean grains wide, and {:g} are wanted: so coarse a soil carries more; "
-                                "terrain.grain_radius = {:.2g} has them",
+                                "terrain.grain_radius = {:.2g}, or a terrain.sieve_size of such grains, has them",
                                 t.padWidth / t.meanDiameter, kGrainsInPad, 0.5 * fine));
   if (!t.roughFloor)
     notes.emplace_back(

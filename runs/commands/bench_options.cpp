@@ -4,6 +4,7 @@
 #include "runs/bench/bench.hpp"
 #include "runs/bench/contacts.hpp"
 #include "runs/bench/multibody.hpp"
+#include "runs/commands/overrides.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/option_checks.hpp"
 
@@ -37,16 +38,24 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
   bed.add_option("--stiffness", b.stiffness, "[N/m]")
       ->check(support::positive("a stiffness in N/m"))
       ->capture_default_str();
-  bed.add_option("--radii-spread", b.radiiSpread,
-                 "radii uniform within this share of their mean, of the same mean volume as --radius [-]")
-      ->check(CLI::Range(0.0, 0.8))
-      ->capture_default_str();
+  CLI::Option* const spread =
+      bed.add_option("--radii-spread", b.radiiSpread,
+                     "radii uniform within this share of their mean, of the same mean volume as --radius [-]")
+          ->check(CLI::Range(0.0, 0.8))
+          ->capture_default_str();
   bed.add_flag("--hertz", b.hertz, "Hertz' law, as stiff as --stiffness at an overlap of 1e-3 radii");
   bed.add_option("--rolling", b.rolling, "rolling friction [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
-  bed.add_flag("--fixed-floor", b.fixedFloor, "a layer of fixed grains in place of the plane below");
+  CLI::Option* const floor =
+      bed.add_flag("--fixed-floor", b.fixedFloor, "a layer of fixed grains in place of the plane below");
   bed.add_flag("--periodic", b.periodic, "along x and y, in place of walls");
+  bed.add_option(
+         "--start", b.start,
+         "grains from this file in place of the lattice, all of --radius and as many as --grains: lines of x, y, "
+         "z, r [m], vx, vy, vz [m/s], wx, wy, wz [rad/s], as --save writes them")
+      ->excludes(floor, spread);
+  bed.add_option("--save", b.save, "write the grains to this file after the last batch");
 }
 
 void addBed(CLI::App& benches, const Invocation& invocation) {
@@ -119,6 +128,7 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
   addCommon(*step, c);
   step->callback([command, words = invocation.words] {
     requireSameWords("bench step", words, command->ranks->comm());
+    checkGivenOnce(command->overrides);
     bench::benchStepCommand(*command);
   });
 }

@@ -2,9 +2,11 @@
 #include "runs/commands/commands.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/overrides.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/commands/run_scene.hpp"
 #include "runs/commands/sweep.hpp"
+#include "runs/commands/sweep_files.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
@@ -67,6 +69,7 @@ void runCommand(const RunCommand& command) {
   std::vector<std::string> overrides = command.overrides;
   if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
   if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
+  checkGivenOnce(overrides);
   const scene::Scene scene = setup::loadScene(command.scene, overrides);
   if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
@@ -110,7 +113,7 @@ void sweepCommand(const SweepCommand& command) {
   options.jobs = command.jobs, options.seconds = command.seconds, options.force = command.force;
   if (const int failed = runSweep(plan, options))
     throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
-                                            plan.runs.size(), (options.folder / "summary.csv").string()));
+                                            plan.runs.size(), (options.folder / kSummaryFile).string()));
 }
 
 void hashCommand(const HashCommand& command) {
@@ -126,6 +129,7 @@ void sinkageCommand(const SinkageCommand& command) {
 }
 
 void planCommand(const PlanCommand& command) {
+  checkGivenOnce(command.overrides);
   const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
   scene::printNotes(scene);
   fmt::print("{}", planText(scene));

@@ -88,6 +88,7 @@ void obey(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
   const std::vector<std::string> words(argv, argv + argc);
   const std::vector<commands::CommandEntry> all = commands::allCommands();
   addCommands(app, all, {ranks, fmt::format("{}", fmt::join(words, " "))});
+  support::refuseOptionsAsValues(app);
   commands::requireSameCommand(commandOf(words), ranks.comm());
   if (!ranks.comm().first() && argc > 1 && isForFirstRank(words[1], all)) return; // the first ends all where it fails
   if (const std::string unknown = support::unknownCommand(app, argc, argv); !unknown.empty())

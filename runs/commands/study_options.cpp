@@ -3,6 +3,7 @@
 
 #include "runs/studies/cases.hpp"
 #include "runs/studies/multibody_command.hpp"
+#include "runs/studies/option_parts.hpp"
 #include "runs/studies/options.hpp"
 #include "runs/studies/soil_options.hpp"
 #include "runs/support/option_checks.hpp"
@@ -24,12 +25,17 @@ void addStudy(CLI::App& app, const Invocation&) {
       ->delimiter(',');
   multibody->add_flag("--stability", c.stability, "instead: which steps are stable, against what theory says");
   multibody->add_flag("--quick", c.quick, "three long steps only, and none of the cases that take minutes");
-  multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")
-      ->check(support::positive("a time in seconds"))
-      ->capture_default_str();
+  studies::QuickValues quick;
+  quick.instead(multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")
+                    ->check(support::positive("a time in seconds"))
+                    ->capture_default_str(),
+                c.budget, 0.5);
   multibody->add_option("--out", c.folder, "folder of the tables and the plot; default: out/study_multibody");
   multibody->add_flag("--force", c.force, "overwrite what is in that folder");
-  multibody->callback([command] { studies::studyMultibodyCommand(*command); });
+  multibody->callback([command, quick] {
+    if (command->quick) quick.take();
+    studies::studyMultibodyCommand(*command);
+  });
   const auto grains = std::make_shared<studies::GrainStudies>();
   studies::addGrainStudies(*study, *grains);
   const auto soils = std::make_shared<studies::SoilStudies>();

@@ -3,6 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/exec.hpp"
+#include "runs/commands/overrides.hpp"
+#include "runs/commands/sweep_files.hpp"
 #include "runs/commands/sweep_intervals.hpp"
 #include "runs/commands/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
@@ -171,9 +173,10 @@ private:
     // What an earlier run left must not be taken for what this one does.
     for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
     std::vector<std::string> words = {options_.program.string(), "run", plan_.scene.string()};
-    for (const std::string& o : plan_.runs[i].overrides) words.insert(words.end(), {"--set", o});
+    std::vector<std::string> overrides = plan_.runs[i].overrides;
     if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
-      words.insert(words.end(), {"--threads", fmt::format("{}", std::max(1, base::cpuExec().threads / options_.jobs))});
+      putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
+    for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
     words.insert(words.end(), {"--out", folder(i).string(), "--force", "--hash"});
     running_[start(std::move(words), folder(i) / kLog)] = {i, Clock::now()};
     outcomes_[i].status = RunStatus::running;
@@ -231,6 +234,7 @@ private:
 } // namespace
 
 int runSweep(const SweepPlan& plan, const SweepOptions& options) {
+  if (!options.force) checkSweepFiles(options.folder);
   for (const SweepRun& run : plan.runs) {
     if (!options.force) checkRunFolder(options.folder / run.name);
     if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())
@@ -243,7 +247,7 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
         fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
   Runner runner(plan, options);
   const int failed = runner.run();
-  std::vector<fs::path> tables = {options.folder / "summary.csv"};
+  std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SeedIntervals intervals = seedIntervals(plan, sweepFigures(plan, runner.outcomes(), options.folder));
   if (!intervals.groups.empty()) {
     fmt::print("{}", intervalsText(intervals));
@@ -251,7 +255,7 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
     fmt::print("intervals {}\n", tables.back().string());
   }
   fmt::print("summary   {}\n", tables.front().string());
-  if (options.plot) output::drawPicture("sweep.py", {tables.back()}, options.folder / "summary.png");
+  if (options.plot) output::drawPicture("sweep.py", {tables.back()}, options.folder / kSummaryPlot);
   return failed;
 }
 

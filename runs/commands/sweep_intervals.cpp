@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/sweep_intervals.hpp"
 
+#include "runs/commands/sweep_files.hpp"
+
 #include "runs/studies/estimate.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/text_file.hpp"
@@ -126,7 +128,7 @@ std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::
         text += fmt::format(",{},{}", support::csvCell(e.value), support::csvCell(e.halfWidth));
       text += "\n";
     }
-  std::filesystem::path path = folder / "intervals.csv";
+  std::filesystem::path path = folder / kIntervalsFile;
   support::replaceTextFile(path, text);
   return path;
 }

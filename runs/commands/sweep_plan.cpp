@@ -2,7 +2,9 @@
 #include "runs/commands/sweep_plan.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/overrides.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/commands/sweep_files.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>
@@ -35,16 +37,6 @@ std::string trimmed(std::string_view text) {
   while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
   while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
   return std::string(text);
-}
-
-/// Position of the = between key and value: a key in quotes may hold one.
-std::size_t equalsSign(const std::string& set) {
-  bool inQuotes = false;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    if (set[i] == '"') inQuotes = !inQuotes;
-    if (set[i] == '=' && !inQuotes) return i;
-  }
-  return std::string::npos;
 }
 
 Axis axisOf(const std::string& set) {
@@ -81,8 +73,8 @@ std::string plainText(const std::string& text) {
 /// Whether a folder may have this name: the sweep's own files and folders above it may not.
 bool namesAFolder(const std::string& label) {
   const std::string plain = plainText(label);
-  return plain.find_first_not_of('.') != std::string::npos && plain != "summary.csv" && plain != "summary.png" &&
-         plain != "intervals.csv";
+  return plain.find_first_not_of('.') != std::string::npos &&
+         std::find(kSweepFiles.begin(), kSweepFiles.end(), plain) == kSweepFiles.end();
 }
 
 /// "NAME: key=value, key=value"
@@ -94,9 +86,9 @@ Point caseOf(const std::string& text) {
                                  "--case 'deep: terrain.depth=0.6'",
                                  text));
   if (!namesAFolder(point.label))
-    throw InputError(fmt::format("--case {}: '{}' can name no folder beside summary.csv; give a name with letters "
-                                 "(a to z) or digits",
-                                 text, point.label));
+    throw InputError(fmt::format("--case {}: '{}' can name no folder beside {}; give a name with letters (a to z) or "
+                                 "digits",
+                                 text, point.label, kSummaryFile));
   if (colon == std::string::npos || trimmed(std::string_view(text).substr(colon + 1)).empty()) return point;
   for (const std::string& set : splitValues(std::string_view(text).substr(colon + 1))) {
     const std::size_t equals = equalsSign(set);
@@ -125,22 +117,28 @@ Axis seedAxis(int seeds) {
   return axis;
 }
 
-/// Throws where two of the axes, or a case twice, set the same key.
+/// Throws where two of the axes, or a case twice, set the same key. A case may set one that a --set gives one value:
+/// that is then for the other cases.
 void checkKeysApart(const std::vector<Axis>& axes) {
-  std::set<std::string> before;
+  std::set<std::string> ofCases, before;
   for (const Axis& axis : axes) {
-    std::set<std::string> own;
-    for (const Point& p : axis.points) {
+    const bool isCase = axis.key == kCaseKey;
+    for (const Point& p : isCase ? axis.points : std::vector<Point>{}) {
       std::set<std::string> here;
-      for (const std::string& set : p.overrides) {
-        const std::string key = set.substr(0, equalsSign(set));
-        if (before.contains(key) || !here.insert(key).second)
-          throw InputError(fmt::format("sweep: {} is given twice{}; give it once, with its values joined by commas",
-                                       key, axis.key == kCaseKey ? fmt::format(", by --case {} too", p.label) : ""));
-        own.insert(key);
-      }
+      for (const std::string& set : p.overrides)
+        if (!here.insert(keyOf(set)).second)
+          throw InputError(fmt::format("--case {}: {} is given twice; give it once", p.label, keyOf(set)));
+      ofCases.merge(here);
     }
-    before.merge(own);
+    if (isCase) continue;
+    const std::string key = keyOf(axis.key);
+    if (!before.insert(key).second)
+      throw InputError(
+          fmt::format("sweep: {} is given twice; give it once, with its values joined by commas", axis.key));
+    if (axis.points.size() > 1 && ofCases.contains(key))
+      throw InputError(fmt::format("sweep: {} has {} values, and a --case sets it, too; give it one value, or leave it "
+                                   "out of the case",
+                                   axis.key, axis.points.size()));
   }
 }
 
@@ -165,6 +163,38 @@ std::string folderName(const std::vector<Axis>& swept, const std::vector<std::st
   std::string unique = name;
   for (int n = 2; !taken.insert(unique).second; ++n) unique = fmt::format("{}~{}", name, n);
   return unique;
+}
+
+/// Why a run of these overrides would be refused; empty where it would not. Reads spec and height-map, lays out the bed
+/// and chooses the step.
+std::string faultOf(const std::filesystem::path& file, const std::vector<std::string>& overrides, scene::Scene& scene) {
+  try {
+    scene = setup::loadScene(file, overrides);
+    planText(scene);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+/// The fault with the name of the case that brings it about: a case's keys become overrides, which faults call --set.
+std::string namedFault(const std::string& fault, const std::string& name) {
+  const std::string set = "--set";
+  if (fault.rfind(set + " ", 0) == 0) return fmt::format("--case {}:{}", name, fault.substr(set.size()));
+  return fmt::format("--case {}{}", name, fault.rfind(set + ":", 0) == 0 ? fault.substr(set.size()) : ": " + fault);
+}
+
+/// The scene of one run. Throws where a run would.
+scene::Scene checkedScene(const std::filesystem::path& file, const SweepRun& run, const Point* ofCase) {
+  scene::Scene scene;
+  const std::string fault = faultOf(file, run.overrides, scene);
+  if (fault.empty()) return scene;
+  if (!ofCase) throw InputError(fault);
+  std::vector<std::string> others = run.overrides;
+  std::erase_if(others, [&](const std::string& o) {
+    return std::find(ofCase->overrides.begin(), ofCase->overrides.end(), o) != ofCase->overrides.end();
+  });
+  throw InputError(faultOf(file, others, scene) == fault ? fault : namedFault(fault, ofCase->label));
 }
 
 /// All lists, in the order of the keys of a sweep.
@@ -218,7 +248,7 @@ SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
     if (varies(axis) || !any)
       swept.push_back(axis);
     else
-      same.insert(same.end(), axis.points[0].overrides.begin(), axis.points[0].overrides.end());
+      for (const std::string& set : axis.points[0].overrides) putOverride(same, set);
 
   SweepPlan plan;
   plan.scene = scene;
@@ -227,15 +257,16 @@ SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
   std::vector<std::size_t> at(swept.size(), 0);
   for (bool more = true; more;) {
     SweepRun run;
+    const Point* ofCase = nullptr;
     run.overrides = same;
     for (std::size_t k = 0; k < swept.size(); ++k) {
       const Point& point = swept[k].points[at[k]];
+      if (swept[k].key == kCaseKey) ofCase = &point;
       run.values.push_back(point.label);
-      run.overrides.insert(run.overrides.end(), point.overrides.begin(), point.overrides.end());
+      for (const std::string& set : point.overrides) putOverride(run.overrides, set);
     }
     run.name = folderName(swept, run.values, taken);
-    run.scene = setup::loadScene(scene, run.overrides);
-    planText(run.scene); // reads spec and height-map, lays out the bed, chooses the step: throws where a run would
+    run.scene = checkedScene(scene, run, ofCase);
     plan.runs.push_back(std::move(run));
     // Count up, the last key fastest.
     more = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/sweep_summary.hpp"
 
+#include "base/error.hpp"
+#include "runs/commands/sweep_files.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/csv_cell.hpp"
@@ -240,6 +242,19 @@ SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>
   return all;
 }
 
+void checkSweepFiles(const fs::path& folder) {
+  std::ifstream file(folder / kSummaryFile);
+  std::string header;
+  std::getline(file, header);
+  if (header.starts_with("run,") && header.find(",status,message,") != std::string::npos) return;
+  std::error_code error;
+  for (const char* name : kSweepFiles)
+    if (fs::exists(folder / name, error))
+      throw base::InputError(fmt::format("{}: is a file that no sweep has written, and this one would write over it; "
+                                         "name another folder with --out, or overwrite it with --force",
+                                         (folder / name).string()));
+}
+
 fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
   const SweepFigures figures = sweepFigures(plan, outcomes, folder);
   std::vector<std::string> header = {"run"};
@@ -252,7 +267,7 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, figures.values[i]), ","));
 
-  fs::path path = folder / "summary.csv";
+  fs::path path = folder / kSummaryFile;
   support::replaceTextFile(path, text);
   return path;
 }

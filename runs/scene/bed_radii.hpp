@@ -4,11 +4,24 @@
 #include "runs/scene/scene.hpp"
 #include "terrain/radius_distribution.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
+
 namespace grouser::scene {
 
 /// The radii of a random bed, whose section has been read.
 inline terrain::RadiusDistribution bedRadii(const Terrain& t) {
   return {*t.radiusDistribution, *t.grainRadius, t.radiusSpread.value_or(0), t.sieveSize, t.sievePassing};
+}
+
+/// The key that gives the radii of a bed, which messages name.
+inline const char* radiiKey(const Terrain& t) { return t.sieveSize.empty() ? "grain_radius" : "sieve_size"; }
+
+/// What that key says, as text: "terrain.grain_radius = 0.025 m", or "the sieves of terrain.sieve_size, to 0.05 m".
+inline std::string radiiText(const Terrain& t) {
+  return t.sieveSize.empty() ? fmt::format("terrain.grain_radius = {:g} m", *t.grainRadius)
+                             : fmt::format("the sieves of terrain.sieve_size, to {:g} m", t.sieveSize.back());
 }
 
 } // namespace grouser::scene

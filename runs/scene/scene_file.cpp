@@ -55,9 +55,22 @@ Scene readSceneText(std::string_view text, const std::filesystem::path& file,
   return sceneOf(base::Document::parse(text, file.string(), overrides), file, overrides);
 }
 
+std::string unsettledWarning(const Scene& scene) {
+  if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit > 0) return "";
+  const Terrain& t = *scene.terrain;
+  if (t.lattice() || !(t.porosity || scene.vehicle)) return "";
+  return fmt::format(
+      "terrain.settle_time_limit = 0 leaves the bed as it is laid, a loose column of grains that falls as "
+      "the run begins{}{}: give it a time in which to settle, e.g. {:g}",
+      t.porosity ? fmt::format(", and not of terrain.porosity = {:g}", *t.porosity) : "",
+      scene.vehicle ? ", under the vehicle" : "", Terrain{}.settleTimeLimit);
+}
+
 void printNotes(const Scene& scene) {
   if (!scene.document) return;
   for (const std::string& note : scene.document->notes()) fmt::print(stderr, "grouser: note: {}\n", note);
+  if (const std::string warning = unsettledWarning(scene); !warning.empty())
+    fmt::print(stderr, "grouser: warning: {}\n", warning);
 }
 
 std::string resolvedToml(const Scene& scene) {

@@ -18,7 +18,10 @@ Scene readScene(const std::filesystem::path& file, const std::vector<std::string
 Scene readSceneText(std::string_view text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
-/// Says on stderr, a line each, which keys of the scene's file have a new name.
+/// What becomes of a bed that is rained and not settled; empty where there is none, or nothing depends on it.
+std::string unsettledWarning(const Scene& scene);
+
+/// Says on stderr, a line each, which keys of the scene's file have a new name, and what is wrong only perhaps.
 void printNotes(const Scene& scene);
 
 /// The scene with every default filled in, as TOML that loads to the same scene.

@@ -2,6 +2,7 @@
 // Keys and checks of [terrain].
 #include "runs/scene/detail/section_lists.hpp"
 
+#include "base/rounded.hpp"
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 
@@ -96,7 +97,9 @@ Table<Terrain> terrainTable() {
   t.add("wall_friction", &S::wallFriction, "-", "Coulomb coefficient of those walls; at 0 they carry no weight")
       .atLeast(0)
       .atMost(10);
-  t.add("settle_time_limit", &S::settleTimeLimit, "s", "the bed must be at rest by then; 0 leaves settling out")
+  t.add("settle_time_limit", &S::settleTimeLimit, "s",
+        "the bed must be at rest by then; 0 leaves settling out: a random bed then begins as the loose column that is "
+        "laid, whatever its porosity is to be")
       .atLeast(0)
       .atMost(1e4);
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-",
@@ -209,7 +212,8 @@ void checkBed(const Section& section, Terrain& t) {
   const double radius = t.coarsestRadius.value_or(*t.grainRadius);
   if (t.depth && *t.depth < 2 * radius)
     section.fail("depth",
-                 fmt::format("[m] is less than one grain of radius {} m; give at least {}", radius, 2 * radius));
+                 fmt::format("[m] is less than one grain of radius {:.4g} m{}; give at least {}", radius,
+                             t.sieveSize.empty() ? "" : ", the median of sieve_size", base::roundedUp(2 * radius, 4)));
   if (!t.lattice()) checkRandomDepth(section, t);
   if (t.tile && std::min((*t.tile)[0], (*t.tile)[1]) < kLeastPeriod * radius)
     section.fail("tile", fmt::format("[m] is less than {} grain radii: grains would touch their own images; give at "

@@ -3,6 +3,7 @@
 
 #include "base/position.hpp"
 #include "base/rounded.hpp"
+#include "runs/scene/bed_radii.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "terrain/grains.hpp"
@@ -45,8 +46,8 @@ public:
     if (!(x < limit_ && 0.5 * y < limit_))
       scene_.fail("terrain", "size",
                   fmt::format("[m] reaches farther than {:.6g} m from the origin, the range of places of grains of "
-                              "terrain.grain_radius = {:g} m; use larger grains or a smaller terrain",
-                              limit_, kinds_.largest));
+                              "{}; use larger grains or a smaller terrain",
+                              limit_, scene::radiiText(*scene_.terrain)));
   }
 
   /// A grain must not touch two images of another: three cells of the search fit in between.

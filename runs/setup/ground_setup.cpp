@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/sphere.hpp"
+#include "runs/scene/bed_radii.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -60,7 +61,7 @@ void checkBedSize(const scene::Scene& scene, const terrain::BedOptions& options)
   const double grains = t.coarsening ? 0 : solid / volume; // of a graded bed its plan knows, which costs nothing
   const double memory = memoryOfMachine();
   if (grains * bytes > memory || grains > 4e9)
-    scene.fail("terrain", "grain_radius",
+    scene.fail("terrain", scene::radiiKey(t),
                fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use larger grains, "
                            "a thinner bed or a smaller terrain.size",
                            grains, grains * bytes / kGiB, memory / kGiB));

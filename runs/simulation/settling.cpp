@@ -18,6 +18,8 @@ constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another
 constexpr double kClose = 0.002;                           // of porosities [-]
 constexpr double kOff = 0.01;                              // of the ends, that are as far as bisection goes [-]
 constexpr int kTrials = 10;
+constexpr double kSteep = 1;          // floor's slope [-] above which every bed slides, whatever its friction
+constexpr double kStep = 4;           // radii: a lower one is none to a bed
 constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains rock for long
 
 /// Porosity of the small bed settled with this friction.
@@ -28,6 +30,17 @@ double porosityAt(const setup::PreparationSetup& preparation, double friction, c
   settleWithFriction(*preparation.sample->grains->bed, *ground.grains, friction, progress, report);
   keepSurface(ground, exec);
   return structureOf(ground).porosity;
+}
+
+/// What helps a bed on a floor too steep to lie on; empty where it is not.
+std::string steepnessText(const Ground& ground) {
+  const terrain::HeightFieldBounds& floor = ground.rigid->bounds();
+  if (!(floor.slope > kSteep) || floor.highest - floor.lowest < kStep * ground.grains->model().radius) return "";
+  return fmt::format(
+      "; but first of all: the floor follows terrain.heightmap, which rises by up to {:.3g} m a metre, and "
+      "grains slide off it: set terrain.floor = \"flat\", lower terrain.height_range or enlarge "
+      "terrain.size",
+      floor.slope);
 }
 
 /// Fills in how high the bed stands.
@@ -141,8 +154,9 @@ SettleReport settle(const setup::BedSetup& bed, const Ground& ground, const Sett
       settleUntilRest(bed, bed.settle, grains, bed.fall, progress, report);
     }
   } catch (const base::SimulationError& error) {
-    if (progress.failed) progress.failed(grains, error.what());
-    throw;
+    const std::string message = error.what() + steepnessText(ground);
+    if (progress.failed) progress.failed(grains, message);
+    throw base::SimulationError(message);
   }
   measureHeight(ground, report);
   return report;

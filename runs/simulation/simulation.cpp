@@ -77,7 +77,7 @@ void Simulation::step(StepObserver* observer) {
   if (vehicle_ && grains) grains->beginBoundaries();
   done(Stage::boundaries);
   if (vehicle_) vehicle_->computeContacts(grains, observer);
-  if (vehicle_) vehicle_->collectLoads();
+  if (vehicle_) base::synchronize(exec_), vehicle_->collectLoads();
   done(Stage::partLoads);
   if (surfaces_) surfaces_->computeContacts(*grains, steps_, slotsChanged);
   if (grains) grains->beginStep(partLoads());
@@ -97,14 +97,57 @@ void Simulation::step(StepObserver* observer) {
   done(Stage::checks);
 }
 
+/// `last`: the next step is not to be launched ahead of this one's end.
+void Simulation::stepAhead(bool last) {
+  terrain::Grains& grains = *ground_.grains;
+  vehicle_->setSurfacePoses();
+  if (!ahead_->nextIsLaunched()) {
+    const bool slotsChanged = grains.refreshNeighbours();
+    vehicle_->refreshLists(&grains, slotsChanged);
+  } else if (!vehicle_->contacts().listsHold()) {
+    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: within one step "
+                                            "it has moved more than four times as "
+                                            "far as in the step before; use a smaller time_step or gentler driving",
+                                            steps_, time()));
+  }
+  ahead_->begin();
+  // An alarm leaves the state as this step has made it, to be looked at.
+  const bool mayAlarm = (steps_ + 1) % VehicleRig::kAlarmInterval == 0;
+  if (!last && !mayAlarm) ahead_->launchNext();
+  ahead_->awaitLoads();
+  vehicle_->collectLoads();
+  vehicle_->advance();
+  namingCause([&] { ahead_->end(); });
+  ++steps_;
+  if (steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
+  afterStep();
+}
+
+/// Whether nothing but grains and vehicle takes part in a step, so that the device can be given work ahead.
+bool Simulation::canStepAhead() const {
+  return vehicle_ && ground_.grains && !surfaces_ && !mechanism_ && setup_.ground.grains->sources.empty() &&
+         !setup_.crushes() && terrain::GrainsAhead::canLaunch(*ground_.grains);
+}
+
 std::int64_t Simulation::advance(std::int64_t most) {
   const bool grainsAlone =
       ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && setup_.ground.grains->sources.empty();
+  const std::int64_t toLook = EnergyGuard::kInterval - steps_ % EnergyGuard::kInterval;
+  if (!grainsAlone && steps_ > 0 && canStepAhead()) {
+    if (!ahead_) ahead_ = std::make_unique<StepsAhead>(exec_, *ground_.grains, *vehicle_);
+    const std::int64_t count = std::min(most, toLook);
+    try {
+      for (std::int64_t k = 1; k <= count; ++k) stepAhead(k == count);
+    } catch (...) {
+      ahead_->callOff();
+      throw;
+    }
+    return count;
+  }
   if (!grainsAlone) {
     step();
     return 1;
   }
-  const std::int64_t toLook = EnergyGuard::kInterval - steps_ % EnergyGuard::kInterval;
   std::int64_t taken = 0;
   namingCause([&] { taken = ground_.grains->advance(std::min(most, toLook)); });
   steps_ += taken;

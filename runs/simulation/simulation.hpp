@@ -10,6 +10,7 @@
 #include "runs/simulation/pressed_grain.hpp"
 #include "runs/simulation/simulation_state.hpp"
 #include "runs/simulation/step_observer.hpp"
+#include "runs/simulation/steps_ahead.hpp"
 #include "runs/simulation/surfaces.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
 
@@ -39,7 +40,8 @@ public:
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
   void step(StepObserver* observer = nullptr);
-  /// At least one step, at most `most`: as many as can be launched as one graph. Returns how many were taken.
+  /// At least one step, at most `most`: as many as can be launched as one graph, or ahead of each other. Returns how
+  /// many were taken. Where it throws some may have been.
   std::int64_t advance(std::int64_t most);
 
   const setup::SimulationSetup& setup() const { return setup_; }
@@ -75,6 +77,8 @@ public:
   std::string stateHash() const;
 
 private:
+  bool canStepAhead() const;
+  void stepAhead(bool last);
   void checkAlarm();
   void addGrains();
   void takeOutCrushed();
@@ -109,6 +113,7 @@ private:
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
+  std::unique_ptr<StepsAhead> ahead_; ///< of steps that can be launched ahead; made by the first
   EnergyGuard guard_;
   std::int64_t steps_{0};
   TakenOut taken_;

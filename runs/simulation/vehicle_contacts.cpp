@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/vehicle_contacts.hpp"
 
+#include "base/carry.hpp"
 #include "base/error.hpp"
 #include "runs/simulation/grain_part_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace grouser::simulation {
@@ -15,14 +17,15 @@ namespace {
 
 constexpr double kTrackMargin = 0.004; // [m] how far before touching a sample is listed
 constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their own skin
+constexpr double kAhead = 0.0005;      // [m] that parts may move in a step launched ahead, however slow they were
 
 } // namespace
 
 VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                  const setup::GroundSetup& setup, const base::Exec& exec, double timeStep,
                                  const Ground& ground, bool shoesAlone)
-    : assembly_(assembly), parts_(parts), exec_(exec), side_(exec), graph_(exec), replicated_(ground.grains.get()),
-      timeStep_(timeStep) {
+    : assembly_(assembly), parts_(parts), exec_(exec), side_(exec, true), graph_(exec),
+      replicated_(ground.grains.get()), timeStep_(timeStep) {
   if (ground.grains) comm_ = ground.grains->system().comm;
   const std::size_t n = parts.contactParts();
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
@@ -86,11 +89,14 @@ void VehicleContacts::setPoses(const multibody::State& state) {
   for (std::size_t c = 0; c < parts_.contactParts(); ++c) motion_.host()[c] = motionOf(c, state);
 }
 
+/// Two parts approach each other at most as fast as both move relative to the hull.
+bool VehicleContacts::trackHasLeft() const { return 2 * relativeTravel_ > kTrackMargin; }
+bool VehicleContacts::groundHasLeft() const { return onGround() && absoluteTravel_ > kBedMargin; }
+
 void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
-  // Two parts approach each other at most as fast as both move relative to the hull.
-  const bool trackIsDue = 2 * relativeTravel_ > kTrackMargin;
-  const bool groundIsDue = onGround() && (absoluteTravel_ > kBedMargin || slotsChanged);
+  const bool trackIsDue = trackHasLeft(), groundIsDue = onGround() && (groundHasLeft() || slotsChanged);
   if (!trackIsDue && !groundIsDue) return;
+  ++listings_;
   motion_.upload();
   graph_.forget();
   if (trackIsDue) {
@@ -138,9 +144,13 @@ void VehicleContacts::noteTravel() {
 }
 
 void VehicleContacts::uploadPoses() {
-  motion_.upload();
-  travelled_.upload();
-  loadSums_.device().zero();
+  base::carry(exec_, std::array{base::Parcel{motion_.device().data(), motion_.host(), motion_.bytes()},
+                                base::Parcel{travelled_.device().data(), travelled_.host(), travelled_.bytes()},
+                                base::Parcel{loadSums_.device().data(), nullptr, loadSums_.bytes()}});
+}
+
+void VehicleContacts::downloadLoads() {
+  base::carry(exec_, std::array{base::Parcel{loadSums_.host(), loadSums_.device().data(), loadSums_.bytes()}});
 }
 
 /// Shoes against sprocket, wheels, rollers, idler.
@@ -156,7 +166,6 @@ void VehicleContacts::computeGround(const terrain::Grains* grains, const base::E
 }
 
 void VehicleContacts::collect(multibody::Loads& loads) {
-  base::synchronize(exec_);
   const std::size_t n = parts_.contactParts();
   const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
   // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
@@ -198,8 +207,40 @@ void VehicleContacts::trackTravel(const multibody::State& state) {
     relative = std::max(relative, norm(twist.v - carried) + norm(twist.w - hullTwist.w) * parts_.reach(c));
     absolute = std::max(absolute, norm(twist.v) + norm(twist.w) * parts_.reach(c));
   }
-  relativeTravel_ += relative * timeStep_;
-  absoluteTravel_ += absolute * timeStep_;
+  lastRelative_ = relative * timeStep_, lastAbsolute_ = absolute * timeStep_;
+  relativeTravel_ += lastRelative_;
+  absoluteTravel_ += lastAbsolute_;
+}
+
+bool VehicleContacts::listsHold() const { return !trackHasLeft() && !groundHasLeft(); }
+
+/// A part may go four times as far as in the step before.
+bool VehicleContacts::listsWillHold() const {
+  return 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin &&
+         absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kBedMargin;
+}
+
+void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains) {
+  const base::Watch watch = grains.flagsBefore();
+  contact::PartLoad *const track = loadSums_.device().data(), *const ground = track + parts_.contactParts();
+  grains.launchBoundaries();
+  side_.fork();
+  gate.carryBefore(
+      side_.exec(), watch,
+      std::array{base::Parcel{track, nullptr, loadSums_.bytes()}, track_->clearedSums(), bed_->clearedSums()});
+  gate.pass(exec_, watch,
+            std::array{base::Parcel{motion_.device().data(), motion_.host(), motion_.bytes()},
+                       base::Parcel{travelled_.device().data(), travelled_.host(), travelled_.bytes()}});
+  side_.join();
+  side_.fork();
+  track_->computeOnCleared(side_.exec(), motion_.device(), travelled_.device().data(), track, gate.calledOff());
+  bed_->computeOnCleared(exec_, grains.view(), motion_.device(), ground, gate.calledOff());
+  grains.launchGrains(grainLoads_);
+  side_.fork(); // the loads are told when both are known, while the grains step
+  gate.tell(side_.exec(), base::Gate::kFirst, std::array{base::Parcel{loadSums_.host(), track, loadSums_.bytes()}});
+  side_.join();
+  grains.joinGrains();
+  gate.tell(exec_, base::Gate::kSecond, std::array{grains.flagsAfter()});
 }
 
 VehicleContacts::Ledger VehicleContacts::ledger() const {

@@ -3,6 +3,7 @@
 
 #include "base/array.hpp"
 #include "base/device_graph.hpp"
+#include "base/gate.hpp"
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "multibody/state.hpp"
@@ -12,6 +13,7 @@
 #include "runs/simulation/step_observer.hpp"
 #include "runs/simulation/vehicle_parts.hpp"
 #include "runs/simulation/vehicle_state.hpp"
+#include "terrain/grains_ahead.hpp"
 #include "terrain/ground_contacts.hpp"
 #include "vehicle/assembly.hpp"
 
@@ -38,10 +40,20 @@ public:
   void refreshLists(const terrain::Grains* grains, bool slotsChanged);
   /// Queues the contacts on the device, without waiting. `observer`: called after each kind of contacts.
   void compute(const terrain::Grains* grains, StepObserver* observer);
-  /// Waits for the sums of loads of all ranks and puts them on the bodies.
+  /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them.
   void collect(multibody::Loads& loads);
   /// How far the parts may have moved in the step that has brought them to `state`.
   void trackTravel(const multibody::State& state);
+
+  // A step on grains that is launched ahead of its poses; see StepsAhead.
+  /// Queues walls and floor, behind the gate the contacts, behind those with grains their step; tells of the loads and
+  /// then of the flags of the grains.
+  void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains);
+  /// Before the gate opens: what the device reads beside the poses.
+  void noteTravel();
+  bool listsHold() const;     ///< for the poses last set
+  bool listsWillHold() const; ///< for those of the next step too, unless a part is thrown
+  std::int64_t listings() const { return listings_; }
 
   /// For the grains' step; null on rigid ground.
   const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
@@ -89,13 +101,15 @@ private:
   void makeGround(const setup::GroundSetup& setup, const Ground& ground, bool shoesAlone);
   contact::PartMotion motionOf(std::size_t contactPart, const multibody::State& state) const;
 
+  // Whether parts have moved beyond what the lists hold.
+  bool trackHasLeft() const;
+  bool groundHasLeft() const;
   // What compute() is made of.
   void computeInParts(const terrain::Grains* grains, StepObserver& observer);
-  void noteTravel();
   void uploadPoses();
   void computeTrack();
   void computeGround(const terrain::Grains* grains, const base::Exec& exec);
-  void downloadLoads() { loadSums_.download(); }
+  void downloadLoads();
 
   const vehicle::Assembly& assembly_;
   const VehicleParts& parts_;
@@ -117,6 +131,8 @@ private:
   contact::GrainLoadsView grainLoads_;
   static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
   double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};
+  double lastRelative_{0}, lastAbsolute_{0}; ///< [m] of the last step
+  std::int64_t listings_{0};
   base::Vec3l impulseOnParts_{};
   base::Vec3d angularOnParts_; ///< from grains and rigid ground [N m s]
 };

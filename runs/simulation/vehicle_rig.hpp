@@ -36,8 +36,9 @@ public:
   void setSurfacePoses() { contacts_->setPoses(state_); }
   void refreshLists(const terrain::Grains* grains, bool slotsChanged) { contacts_->refreshLists(grains, slotsChanged); }
   void computeContacts(const terrain::Grains* grains, StepObserver* observer) { contacts_->compute(grains, observer); }
-  void collectLoads(); ///< waits for the sums of loads
-  void advance();      ///< multibody step
+  void collectLoads();                                   ///< once the device has them
+  void advance();                                        ///< multibody step
+  VehicleContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
 
   const vehicle::Assembly& assembly() const { return assembly_; }
   const multibody::State& state() const { return state_; }

@@ -120,10 +120,9 @@ void studyCollapseCommand(const CollapseCommand& command) {
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("collapse", command.place);
   const support::StopSignals signals;
-  const bool quick = command.place.quick;
-  const int seeds = quick ? 2 : command.seeds;
-  const double length = quick ? 10 : command.length;
-  const std::vector<double> aspects = quick ? std::vector<double>{1} : command.aspects;
+  const int seeds = command.seeds;
+  const double length = command.length;
+  const std::vector<double>& aspects = command.aspects;
   SampleGrains material;
   material.stiffness = 3e4, material.rollingFriction = 0.1;
   fmt::print(

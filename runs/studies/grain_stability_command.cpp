@@ -115,7 +115,7 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
              "disturbance within {} steps, or a guard stops the run\n",
              kGrowth, kStabilitySteps);
   const StabilityAxes axes = stabilityAxes(quick);
-  const int bed = quick ? std::min(command.bedGrains, 60) : command.bedGrains;
+  const int bed = command.bedGrains;
   const std::vector<std::function<RestingGrains()>> makers = {
       [] { return oneContact(); }, [&] { return column(command.columnGrains); }, [&] { return randomBed(bed, 0); },
       [&] { return randomBed(bed, 0.5); }};

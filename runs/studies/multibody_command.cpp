@@ -24,9 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kQuickSteps = 3;       ///< step sizes of --quick
-constexpr int kFullSteps = 7;        ///< a quarter each: a factor of 4096
-constexpr double kQuickBudget = 0.5; ///< [s] of CPU for one run of --quick
+constexpr int kQuickSteps = 3; ///< step sizes of --quick
+constexpr int kFullSteps = 7;  ///< a quarter each: a factor of 4096
 
 } // namespace
 
@@ -49,7 +48,6 @@ void studyMultibodyCommand(const StudyCommand& command) {
 
   const support::StopSignals signals;
   const int count = command.quick ? kQuickSteps : kFullSteps;
-  const double budget = command.quick ? kQuickBudget : command.budget;
   const std::vector<IntegratorChoice> integrators = studyIntegrators();
   fmt::print("study     multibody: commit {}, {}, one thread; CPU time of the steps, without set-up and output\n",
              support::buildInfo().commit, support::machineText());
@@ -67,7 +65,7 @@ void studyMultibodyCommand(const StudyCommand& command) {
     StudyResult result{c, {}};
     for (const IntegratorChoice& integrator : integrators) {
       progress.update(done / static_cast<double>(cases.size() * integrators.size()), c.name + ", " + integrator.name);
-      for (const StudyPoint& p : studyOne(c, integrator, count, budget)) result.points.push_back(p);
+      for (const StudyPoint& p : studyOne(c, integrator, count, command.budget)) result.points.push_back(p);
       done += 1;
     }
     progress.note(caseTable(result));

@@ -16,8 +16,8 @@ CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, do
   return app.add_option(name, value, help)->check(support::between(low, high))->capture_default_str();
 }
 
-void addSeeds(CLI::App& app, int& seeds, const std::string& help) {
-  app.add_option("--seeds", seeds, help)->check(support::wholeNumber(2, 1000))->capture_default_str();
+CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help) {
+  return app.add_option("--seeds", seeds, help)->check(support::wholeNumber(2, 1000))->capture_default_str();
 }
 
 } // namespace grouser::studies

@@ -31,9 +31,11 @@ void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& ra
   CLI::App* stability = study.add_subcommand(
       "stability", "Maps of stable steps of grains over stiffness and damping: one contact, a column, random beds, "
                    "beside predicted limits (half a minute, one core); of mechanisms: multibody --stability");
-  stability->add_option("--grains", c.bedGrains, "of the random beds; with --quick at most 60")
-      ->check(support::wholeNumber(8, 100'000))
-      ->capture_default_str();
+  QuickValues quick;
+  quick.instead(stability->add_option("--grains", c.bedGrains, "of the random beds")
+                    ->check(support::wholeNumber(8, 100'000))
+                    ->capture_default_str(),
+                c.bedGrains, 60);
   stability->add_option("--column", c.columnGrains, "grains of the column")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
@@ -50,7 +52,8 @@ void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& ra
       ->capture_default_str()
       ->needs(scenes);
   stability->add_flag("--resume", random.resume, "goes on with the table that a stopped call has left")->needs(scenes);
-  stability->callback([&c, &random] {
+  stability->callback([&c, &random, quick] {
+    if (c.place.quick) quick.take();
     if (random.scenes > 0)
       studyRandomStability(random, c.place);
     else
@@ -62,57 +65,68 @@ void addPrecision(CLI::App& study, PrecisionCommand& c) {
   CLI::App* precision = study.add_subcommand(
       "precision", "Single against double precision: who touches whom, how far runs drift apart, and what is measured "
                    "after (8 min, one core)");
-  precision
-      ->add_option("--grains", c.touch.grains, "of the bed whose touch decisions are judged; with --quick at most 2000")
-      ->check(support::wholeNumber(10, 100'000'000))
-      ->capture_default_str();
-  precision->add_option("--configurations", c.touch.configurations, "of that bed along its run; with --quick at most 5")
-      ->check(support::wholeNumber(1, 1'000'000))
-      ->capture_default_str();
+  QuickValues quick;
+  quick.instead(precision->add_option("--grains", c.touch.grains, "of the bed whose touch decisions are judged")
+                    ->check(support::wholeNumber(10, 100'000'000))
+                    ->capture_default_str(),
+                c.touch.grains, 2000);
+  quick.instead(precision->add_option("--configurations", c.touch.configurations, "of that bed along its run")
+                    ->check(support::wholeNumber(1, 1'000'000))
+                    ->capture_default_str(),
+                c.touch.configurations, 5);
   precision->add_option("--every", c.touch.every, "steps from one configuration to the next")
       ->check(support::wholeNumber(1, 1'000'000'000))
       ->capture_default_str();
-  precision->add_option("--drift-grains", c.drift.grains, "of the runs that drift apart; with --quick at most 200")
-      ->check(support::wholeNumber(10, 100'000'000))
-      ->capture_default_str();
-  precision->add_option("--gas-time", c.drift.gasTime, "of the gas [s]")
-      ->check(support::positive("a time in seconds"))
-      ->capture_default_str();
-  precision->add_option("--bed-time", c.drift.bedTime, "of the dropped bed [s]")
-      ->check(support::positive("a time in seconds"))
-      ->capture_default_str();
-  precision->add_option("--runs", c.drift.runs, "of the dropped bed in each precision; with --quick at most 3")
-      ->check(support::wholeNumber(2, 10'000))
-      ->capture_default_str();
+  quick.instead(precision->add_option("--drift-grains", c.drift.grains, "of the runs that drift apart")
+                    ->check(support::wholeNumber(10, 100'000'000))
+                    ->capture_default_str(),
+                c.drift.grains, 200);
+  quick.instead(precision->add_option("--gas-time", c.drift.gasTime, "of the gas [s]")
+                    ->check(support::positive("a time in seconds"))
+                    ->capture_default_str(),
+                c.drift.gasTime, 0.1);
+  quick.instead(precision->add_option("--bed-time", c.drift.bedTime, "of the dropped bed [s]")
+                    ->check(support::positive("a time in seconds"))
+                    ->capture_default_str(),
+                c.drift.bedTime, 0.1);
+  quick.instead(precision->add_option("--runs", c.drift.runs, "of the dropped bed in each precision")
+                    ->check(support::wholeNumber(2, 10'000))
+                    ->capture_default_str(),
+                c.drift.runs, 3);
   precision->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
       ->check(support::wholeNumber(0, 1024));
   addPlace(*precision, c.place, "precision", "few grains, configurations and runs, in seconds");
-  precision->callback([&c] { studyPrecisionCommand(c); });
+  doStudy(*precision, c, studyPrecisionCommand, quick);
 }
 
 void addPacking(CLI::App& study, PackingCommand& c) {
   CLI::App* packing = study.add_subcommand(
       "packing", "How densely poured spheres lie over their friction, against random packings (10 min, one core)");
-  packing->add_option("--grains", c.grains, "of a sample")
-      ->check(support::wholeNumber(300, 1'000'000))
-      ->capture_default_str();
-  addSeeds(*packing, c.seeds, "samples of each friction");
-  addNumber(*packing, "--width", c.width, 5.0, 1000.0, "between periodic boundaries, in diameters; not with --quick");
+  QuickValues quick;
+  quick.instead(packing->add_option("--grains", c.grains, "of a sample")
+                    ->check(support::wholeNumber(300, 1'000'000))
+                    ->capture_default_str(),
+                c.grains, 600);
+  quick.instead(addSeeds(*packing, c.seeds, "samples of each friction"), c.seeds, 2);
+  quick.instead(addNumber(*packing, "--width", c.width, 5.0, 1000.0, "between periodic boundaries, in diameters"),
+                c.width, 7);
   addPlace(*packing, c.place, "packing", "two frictions, two seeds, 600 grains: in seconds");
-  packing->callback([&c] { studyPackingCommand(c); });
+  doStudy(*packing, c, studyPackingCommand, quick);
 }
 
 void addCollapse(CLI::App& study, CollapseCommand& c) {
   CLI::App* collapse = study.add_subcommand(
       "collapse", "How far a column of grains runs when its gate is gone, against channels (30 min, one core)");
-  addNumber(*collapse, "--length", c.length, 5.0, 1000.0, "of the column, in diameters; not with --quick");
-  addNumber(*collapse, "--width", c.width, 5.0, 1000.0, "between periodic boundaries, in diameters; not with --quick");
-  collapse->add_option("--aspects", c.aspects, "heights of the columns over their length")
-      ->check(support::between(0.2, 20.0))
-      ->capture_default_str();
-  addSeeds(*collapse, c.seeds, "columns of each aspect");
+  QuickValues quick;
+  quick.instead(addNumber(*collapse, "--length", c.length, 5.0, 1000.0, "of the column, in diameters"), c.length, 10);
+  addNumber(*collapse, "--width", c.width, 5.0, 1000.0, "between periodic boundaries, in diameters");
+  quick.instead(collapse->add_option("--aspects", c.aspects, "heights of the columns over their length")
+                    ->check(support::between(0.2, 20.0))
+                    ->capture_default_str(),
+                c.aspects, {1});
+  quick.instead(addSeeds(*collapse, c.seeds, "columns of each aspect"), c.seeds, 2);
   addPlace(*collapse, c.place, "collapse", "one aspect, two columns of 10 d: in seconds");
-  collapse->callback([&c] { studyCollapseCommand(c); });
+  doStudy(*collapse, c, studyCollapseCommand, quick);
 }
 
 void addShear(CLI::App& study, ShearCommand& c) {
@@ -120,12 +134,14 @@ void addShear(CLI::App& study, ShearCommand& c) {
       "shear", "A direct shear box under several loads: the friction angle of a bed (10 min, one core)");
   addNumber(*shear, "--friction", c.friction, 0.0, 5.0, "between grains, and between grains and box [-]");
   addNumber(*shear, "--rolling-friction", c.rollingFriction, 0.0, 5.0, "the same of rolling [-]");
-  shear->add_option("--stresses", c.stresses, "of the lid on the sample [Pa]")
-      ->check(support::between(10.0, 1e5))
-      ->capture_default_str();
-  addSeeds(*shear, c.seeds, "samples of each load");
+  QuickValues quick;
+  quick.instead(shear->add_option("--stresses", c.stresses, "of the lid on the sample [Pa]")
+                    ->check(support::between(10.0, 1e5))
+                    ->capture_default_str(),
+                c.stresses, {2000});
+  quick.instead(addSeeds(*shear, c.seeds, "samples of each load"), c.seeds, 2);
   addPlace(*shear, c.place, "shear", "one load, two samples of 10 d: in seconds");
-  shear->callback([&c] { studyShearCommand(c); });
+  doStudy(*shear, c, studyShearCommand, quick);
 }
 
 } // namespace

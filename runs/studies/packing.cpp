@@ -107,8 +107,8 @@ void studyPackingCommand(const PackingCommand& command) {
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("packing", command.place);
   const support::StopSignals signals;
-  const int grains = command.place.quick ? 600 : command.grains, seeds = command.place.quick ? 2 : command.seeds;
-  const double width = command.place.quick ? 7 : command.width;
+  const int grains = command.grains, seeds = command.seeds;
+  const double width = command.width;
   const std::vector<double> frictions =
       command.place.quick ? std::vector<double>{0, 0.5} : std::vector<double>{0, 0.05, 0.1, 0.2, 0.5, 1.0};
   fmt::print(

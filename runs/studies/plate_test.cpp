@@ -17,9 +17,8 @@ namespace {
 
 constexpr double kGravity = 9.81;
 constexpr double kExpectedAngle = 24 * base::kPi / 180, kExpectedSolid = 0.59; // for the speed only
-constexpr double kOffEnds = 2;        // [d] left out below and above where porosity is measured
 constexpr double kSlow = 0.1;         // [m/s] for the step of Hertz' contacts, unless a plate is faster
-constexpr double kCoarsest = 2.0 / 7; // of a strip's thickness: the largest grain's diameter
+constexpr double kCoarsest = 2.0 / 7; // of the way between boundaries: the largest grain's diameter
 constexpr double kBedShare = 0.3;     // of a run's time, about
 
 std::string plateSection(const Soil& soil, const PlateTest& test, double bottom, double speed) {
@@ -71,7 +70,7 @@ BedPreparation PlateTest::preparation(const Soil& soil) const {
   BedPreparation p;
   p.size = bed(soil), p.floor = floor, p.lattice = lattice, p.lift = breadth * soil.grains.diameter();
   p.grading = {fineDepth * breadth * soil.grains.diameter(), coarsening,
-               0.5 * kCoarsest * p.size.width / (1 + soil.spread)};
+               0.5 * kCoarsest * std::min(p.size.width, p.size.length) / (1 + soil.spread)};
   return p;
 }
 
@@ -87,9 +86,9 @@ Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t seed, con
   const auto begin = std::chrono::steady_clock::now();
   const double surface = surfaceHeight(bed.grains, size, d), bottom = topUnder(soil, test, bed.grains) + 1e-3 * d;
   // Of the breadth below the surface, where the plate works.
-  const double low = std::max(surface - b, kOffEnds * d * preparation.coarsest(soil));
+  const double low = std::max(surface - b, PlateTest::kOffEnds * d * preparation.coarsest(soil));
   const double solid = test.lattice ? solidFraction(bed.grains, size, 0.5 * d, surface - d)
-                                    : solidFraction(bed.grains, size, low, surface - kOffEnds * d);
+                                    : solidFraction(bed.grains, size, low, surface - PlateTest::kOffEnds * d);
   const double way = bottom - surface + test.sinkage * b;
   const std::string text =
       soil.scene(way / speed, seed, soil.grains.friction, {0, 0, -kGravity},

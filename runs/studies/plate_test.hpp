@@ -9,6 +9,7 @@
 namespace grouser::studies {
 
 struct PlateTest {
+  static constexpr double kOffEnds = 2; ///< grains left out below and above where porosity is measured
   PlateShape shape = PlateShape::strip; ///< a strip reaches through both boundaries along y
   BedFloor floor = BedFloor::fixed;
   bool lattice = false;           ///< instead of a poured bed: equal spheres laid in a lattice

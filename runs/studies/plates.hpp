@@ -33,12 +33,15 @@ void studyPlatesCommand(const PlatesCommand& command);
 struct PlateCase {
   std::string name, title;
   PlateTest test;
-  std::string comparedWith{}; ///< name of the case that it should equal; empty: none
-  bool bears = false;         ///< compared with theory
+  std::string comparedWith{};             ///< name of the case that it should equal; empty: none
+  bool bears = false;                     ///< compared with theory
+  double timesDeeper = 1, timesWider = 1; ///< than the options say [-]
 };
 std::string nameOf(const PlateCase& plate, int seed); ///< of a run
 /// The first is the strip that others are compared with.
 std::vector<PlateCase> plateCases(const PlatesCommand& command);
+/// Throws InputError, with option and range, for the first case whose bed or plate cannot be.
+void checkPlates(const std::vector<PlateCase>& cases, const Soil& soil);
 
 using Slice = std::array<double, 2>; ///< of the sinkage, from and to [breadths]
 /// Those that tables compare: the last is all of them but the first, in which the plate meets single grains.

@@ -28,16 +28,6 @@ Soil soilOf(const PlatesCommand& c) {
   return soil;
 }
 
-/// A quick pass: small plates on small beds.
-PlatesCommand smallOf(PlatesCommand c) {
-  if (!c.place.quick) return c;
-  c.breadth = 4, c.thickness = 5, c.stripBin = 3, c.stripDepth = 1.5, c.circularBin = 3, c.circularDepth = 1;
-  c.sinkage = 0.2, c.inertialNumber = 2e-2, c.seeds = 2;
-  c.fineBreadth = 5, c.fineThickness = 7, c.coarsening = 0.12, c.young = 5e7;
-  if (c.cases.empty()) c.cases = {"base", "old", "circular"};
-  return c;
-}
-
 nlohmann::ordered_json recipeOf(const PlatesCommand& c, const Soil& soil) {
   return {{"study", "plates"},
           {"friction", soil.grains.friction},
@@ -101,8 +91,8 @@ std::vector<PlateCase> plateCases(const PlatesCommand& c) {
   graded.fineDepth = c.fineDepth, graded.coarsening = c.coarsening;
   std::vector<PlateCase> all = {{"base", "strip, floor of fixed grains", strip, "", true},
                                 {"rough", "plane floor with friction 2", rough, "base"},
-                                {"deep", "depth doubled", deep, "base"},
-                                {"wide", "width doubled", wide, "base"},
+                                {"deep", "depth doubled", deep, "base", false, 2},
+                                {"wide", "width doubled", wide, "base", false, 1, 2},
                                 {"old", "five layers in a lattice on a plane floor", old, "base"},
                                 {"circular", "circular plate", circular, "", true},
                                 {"fine", "strip of many grains, all as fine", fine},
@@ -129,10 +119,10 @@ std::vector<Slice> sinkageSlices(double sinkage) {
   return slices;
 }
 
-void studyPlatesCommand(const PlatesCommand& given) {
-  const PlatesCommand command = smallOf(given);
+void studyPlatesCommand(const PlatesCommand& command) {
   const std::vector<PlateCase> cases = plateCases(command);
   const Soil soil = soilOf(command);
+  checkPlates(cases, soil);
   const nlohmann::ordered_json recipe = recipeOf(command, soil);
   Pieces pieces("plates", command.place, command.pieces, recipe);
   const support::StopSignals signals;

@@ -14,15 +14,6 @@
 
 namespace grouser::studies {
 
-namespace {
-
-/// Sizes that --quick does not exceed.
-constexpr std::int64_t kQuickGrains = 2000, kQuickDriftGrains = 200;
-constexpr int kQuickConfigurations = 5, kQuickRuns = 3;
-constexpr double kQuickTime = 0.1; // [s]
-
-} // namespace
-
 void studyPrecisionCommand(const PrecisionCommand& command) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
@@ -31,12 +22,6 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
   TouchStudy touch = command.touch;
   DriftStudy drift = command.drift;
   touch.threads = drift.threads = command.threads;
-  if (command.place.quick) {
-    touch.grains = std::min(touch.grains, kQuickGrains);
-    touch.configurations = std::min(touch.configurations, kQuickConfigurations);
-    drift.grains = std::min(drift.grains, kQuickDriftGrains), drift.runs = std::min(drift.runs, kQuickRuns);
-    drift.gasTime = std::min(drift.gasTime, kQuickTime), drift.bedTime = std::min(drift.bedTime, kQuickTime);
-  }
   fmt::print(
       "          radius 27 mm, 2500 kg/m3, 1e6 N/m, step 5e-5 s, 20 steps a contact; a bed that falls into a box, "
       "friction 0.5, restitution 0.5; a gas of elastic grains\n");

@@ -61,9 +61,7 @@ nlohmann::ordered_json recipeOf(const PreparationCommand& c) {
 
 } // namespace
 
-void studyPreparationCommand(const PreparationCommand& given) {
-  PreparationCommand c = given;
-  if (c.place.quick) c.porosities = {0.41}, c.seeds = 2, c.width = 9, c.depth = 7;
+void studyPreparationCommand(const PreparationCommand& c) {
   Pieces pieces("preparation", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();

@@ -124,11 +124,10 @@ void studyShearCommand(const ShearCommand& command) {
   const Clock::time_point begin = Clock::now();
   const auto folder = beginStudy("shear", command.place);
   const support::StopSignals signals;
-  const bool quick = command.place.quick;
   ShearBox box;
-  if (quick) box.length = 10, box.depth = 8, box.speed = 0.05;
-  const int seeds = quick ? 2 : command.seeds;
-  const std::vector<double> stresses = quick ? std::vector<double>{2000} : command.stresses;
+  if (command.place.quick) box.length = 10, box.depth = 8, box.speed = 0.05;
+  const int seeds = command.seeds;
+  const std::vector<double>& stresses = command.stresses;
   SampleGrains material;
   material.friction = command.friction, material.rollingFriction = command.rollingFriction;
   fmt::print(

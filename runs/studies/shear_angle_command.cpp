@@ -38,7 +38,6 @@ Samples samplesOf(const ShearAngleCommand& command) {
     s.soil.grains.stiffness = 1e4;
     s.cell.length = 8, s.cell.width = 6, s.cell.depth = 6, s.cell.inertialNumber = 2e-2, s.cell.strain = 0.15;
     s.cell.rows = 30;
-    s.stresses = {2000}, s.rollingFrictions = {0}, s.seeds = 2;
   }
   return s;
 }

@@ -66,6 +66,18 @@ CLI::Validator between(double low, double high) {
   });
 }
 
+void refuseOptionsAsValues(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_items_expected_min() > 0)
+      option->transform(CLI::Validator(
+          [&app](const std::string& text) {
+            const bool isOption = text.starts_with('-') && app.get_option_no_throw(text.substr(0, text.find('=')));
+            return isOption ? fmt::format("has no value, but the option {} behind it; give one", text) : std::string();
+          },
+          ""));
+  for (CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) refuseOptionsAsValues(*sub);
+}
+
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv) {
   const CLI::App* level = &app;
   std::string path;

@@ -37,4 +37,8 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const 
 /// where there is none such.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
 
+/// Has every option of the commands below `app` refuse the name of another option as its value: that value was
+/// forgotten.
+void refuseOptionsAsValues(CLI::App& app);
+
 } // namespace grouser::support

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/sphere_pair.hpp"
-#include "terrain/detail/grain_simd_books.hpp"
+#include "terrain/detail/grain_simd_advance.hpp"
 #include "terrain/grain_simd.hpp"
 
 #include <utility>
@@ -10,13 +10,13 @@
 namespace grouser::terrain::detail {
 
 /// The step of grains k in [first, last) of a launch, kWidth contacts side by side. It takes the grains in blocks whose
-/// contacts fit into the processor's first cache, and each block in four sweeps:
+/// contacts fit into the processor's first cache, and each block in five sweeps:
 ///
 ///   find     which candidates touch, several of one grain at a time;
 ///   collect  what the law needs of each contact, as rows of four numbers;
 ///   contact  geometry and law, kWidth contacts at a time;
-///   advance  grain by grain: the sum of its contacts in the order of the neighbours' ids, and the step, with the three
-///            axes side by side.
+///   sum      grain by grain: its contacts in the order of the neighbours' ids;
+///   advance  the step, several grains at a time (AdvanceLanes).
 ///
 /// The law is contact::contactForce() itself. GrainStep and addCompensated() say what else is computed and why; here
 /// the same operations act on the same numbers in the same order, and where those functions branch, both sides are
@@ -27,12 +27,12 @@ namespace grouser::terrain::detail {
 template <int kWidth, unsigned kFeatures> class GrainSimd {
 public:
   GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces)
-      : data_(data), forces_(forces), block_(data) {}
+      : data_(data), forces_(forces), advance_(data, forces) {}
 
   /// Of the grains that have been advanced.
   GROUSER_SIMD GrainBooks books() const {
     GrainBooks books = books_;
-    block_.addTo(books);
+    advance_.books().addTo(books);
     return books;
   }
 
@@ -42,26 +42,22 @@ public:
     for (int k = first; k < last;) {
       const int from = k;
       grains_ = contacts_ = 0;
-      block_.begin();
       while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts) find(k++);
       if (k == from) { // among many small ones it has more neighbours than a block
         stepAlone(data_, f, k++, books_);
         continue;
       }
       begin_[grains_] = contacts_;
-      for (int c = 0; c < contacts_; ++c) collect(c);
+      collect();
       if (periodic())
         for (int g = 0; g < grains_; ++g)
           if (atSide_[g]) collectAcross(g);
       for (int c = contacts_; c % kWidth != 0; ++c) // lanes of the last group that no contact takes
         apart_[c] = moving_[c] = turning_[c] = theirs_[c] = spring_[c] = angle_[c] = Float4{};
       for (int c = 0; c < contacts_; c += kWidth) computeContacts(c, f);
-      if (kWithFriction)
-        for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]), spring_[c]);
-      if (kWithRolling)
-        for (int c = 0; c < contacts_; ++c) base::store3(springOf(entry_[c]) + 3, angle_[c]);
-      for (int g = 0; g < grains_; ++g) advance(g, slotOf(from + g));
-      if (kWithLedger) block_.bookAll();
+      if (kWithFriction) storeSprings();
+      for (int g = 0; g < grains_; ++g) sum(g, slotOf(from + g));
+      advance_.run(grains_, books_);
     }
   }
 
@@ -70,12 +66,15 @@ private:
   using Int = Simd<std::int32_t, kWidth>;
   using Long = Simd<std::int64_t, kWidth>;
   using Vec = base::Vec3<Float>;
+  using Advance = AdvanceLanes < kWidth<16 ? 4 : 8, kFeatures>;
   static constexpr unsigned kLaw =
       kFeatures & (contact::kHertz | contact::kFriction | contact::kRollingFriction | contact::kManyMasses);
   static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
                         kWithRolling = kFeatures & contact::kRollingFriction, kManySizes = kFeatures & kManyRadii;
-  static constexpr bool kBothSpins = kWithRolling || kManySizes;                  ///< are needed, not their sum alone
-  static constexpr int kGrains = BlockBooks<kFeatures>::kGrains, kContacts = 192; ///< of a block
+  static constexpr bool kBothSpins = kWithRolling || kManySizes;    ///< are needed, not their sum alone
+  static constexpr int kGrains = Advance::kGrains, kContacts = 192; ///< of a block
+  static constexpr std::size_t kHistory = contact::historyWidth(kFeatures);
+  static constexpr int kUsual = 6;                  ///< contacts of a grain
   static constexpr int kFound = kWidth < 8 ? 4 : 8; ///< candidates that are tried side by side
   using Found = Simd<std::int32_t, kFound>;
   using FoundFloat = Simd<float, kFound>;
@@ -88,7 +87,7 @@ private:
 
   /// History of a place of the neighbour list.
   GROUSER_SIMD float* springOf(std::uint32_t entry) const {
-    return data_.neighbours.history + contact::historyWidth(kFeatures) * std::size_t{entry};
+    return data_.neighbours.history + kHistory * std::size_t{entry};
   }
 
   /// Appends the contacts of the k-th grain to the block.
@@ -188,25 +187,42 @@ private:
     return x * x + y * y + z * z;
   }
 
-  /// The rows of contact c: what tells the two grains apart.
-  GROUSER_SIMD void collect(int c) {
-    const std::uint32_t i = grain_[c], j = other_[c];
-    store(apart_ + c, load<Int4>(data_.position + j) - load<Int4>(data_.position + i));
-    const auto v = load<Float4>(data_.velocity + i), u = load<Float4>(data_.velocity + j);
-    // The fourth number: of grains of one radius 1 where j never moves, else 0; of others what velocities have there.
-    Float4 relative = v - u;
-    if (kManySizes) relative[3] = u[3];
-    moving_[c] = relative;
-    auto spin = load<Float4>(data_.spin + i);
-    if (kBothSpins) {
-      theirs_[c] = load<Float4>(data_.spin + j);
-      if (kManySizes) spin[3] = v[3];
-    } else {
-      spin += load<Float4>(data_.spin + j);
+  /// The rows of each contact: what tells the two grains apart. Where things lie is taken once: for all the compiler
+  /// knows, rows that are stored could change it.
+  GROUSER_SIMD void collect() {
+    const base::Position* const position = data_.position;
+    const Vec4f *const velocity = data_.velocity, *const spins = data_.spin;
+    const float* const history = data_.neighbours.history;
+    const int contacts = contacts_;
+    for (int c = 0; c < contacts; ++c) {
+      const std::size_t i = grain_[c], j = other_[c];
+      store(apart_ + c, load<Int4>(position + j) - load<Int4>(position + i));
+      const auto v = load<Float4>(velocity + i), u = load<Float4>(velocity + j);
+      // The fourth number: of grains of one radius 1 where j never moves, else 0; of others what velocities have there.
+      Float4 relative = v - u;
+      if (kManySizes) relative[3] = u[3];
+      moving_[c] = relative;
+      auto spin = load<Float4>(spins + i);
+      if (kBothSpins) {
+        theirs_[c] = load<Float4>(spins + j);
+        if (kManySizes) spin[3] = v[3];
+      } else {
+        spin += load<Float4>(spins + j);
+      }
+      turning_[c] = spin;
+      const float* const spring = history + kHistory * std::size_t{entry_[c]};
+      if (kWithFriction) spring_[c] = base::load3(spring);
+      if (kWithRolling) angle_[c] = base::load3(spring + 3);
     }
-    turning_[c] = spin;
-    if (kWithFriction) spring_[c] = base::load3(springOf(entry_[c]));
-    if (kWithRolling) angle_[c] = base::load3(springOf(entry_[c]) + 3);
+  }
+  GROUSER_SIMD void storeSprings() const {
+    float* const history = data_.neighbours.history;
+    const int contacts = contacts_;
+    for (int c = 0; c < contacts; ++c) {
+      float* const spring = history + kHistory * std::size_t{entry_[c]};
+      base::store3(spring, spring_[c]);
+      if (kWithRolling) base::store3(spring + 3, angle_[c]);
+    }
   }
   /// Of a grain at a periodic boundary.
   GROUSER_SIMD void collectAcross(int g) {
@@ -312,21 +328,38 @@ private:
     base::storeRows(apart_ + c, torques);
   }
 
-  GROUSER_SIMD void advance(int g, int i) {
+  /// Of the contacts of a grain; fourth numbers as in rows.
+  struct Sum {
+    Float4 force{}, torque{}, most{}, rubbed{}, rolled{};
+  };
+  /// Contact c, where `there`.
+  GROUSER_SIMD void add(int c, const Int4& there, Sum& sum) const {
+    const auto row = [&](const Float4* rows) { return base::bitsAs<Float4>(base::bitsAs<Int4>(rows[c]) & there); };
+    const Float4 turning = row(turning_);
+    if (kWithFriction && kWithLedger) sum.rubbed += row(spring_);
+    sum.force += row(moving_);
+    sum.torque += turning;
+    if (kWithRolling) {
+      const Float4 rolling = row(apart_);
+      sum.torque += rolling, sum.rolled += rolling;
+    }
+    sum.most = turning > sum.most ? turning : sum.most;
+  }
+  /// What acts on one grain.
+  GROUSER_SIMD void sum(int g, int i) {
     if (hasFixed()) {
-      if (data_.velocity[i].w < 0) return letStay(data_, forces_, i);
+      if (data_.velocity[i].w < 0) return advance_.addDone(g, i), letStay(data_, forces_, i);
       if (kWithLedger) bookHeldContacts(g, i);
     }
-    Float4 force{}, torque{}, most{};
-    float rubbed = 0, rolled = 0;
-    for (int c = begin_[g]; c < begin_[g + 1]; ++c) {
-      if (kWithFriction && kWithLedger) rubbed += spring_[c][3];
-      force += moving_[c];
-      torque += turning_[c];
-      if (kWithRolling) torque += apart_[c], rolled += apart_[c][3];
-      most = turning_[c] > most ? turning_[c] : most;
-    }
-    const float deepest = samePlace_[g] ? data_.diameter : most[3];
+    Sum all;
+    const int first = begin_[g], n = begin_[g + 1] - first;
+    // Without a branch for the most frequent numbers, which the processor would often foretell wrongly: to add zero
+    // changes no sum that began with one.
+#pragma GCC unroll 6
+    for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + n > k, all);
+    for (int k = kUsual; k < n; ++k) add(first + k, ~Int4{}, all);
+    Float4 force = all.force, torque = all.torque;
+    const float damped = force[3];
     const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0;
     if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
@@ -334,20 +367,29 @@ private:
       const float radius = kManySizes ? data_.velocity[i].w : forces_.radius;
       if (load.deepest > data_.maxSurfaceShare * radius) raiseThrough(data_, forces_, i);
     }
+    force[3] = damped, torque[3] = samePlace_[g] ? data_.diameter : all.most[3];
+    advance_.add(g, i, force, torque, all.rubbed[3], all.rolled[3]);
+    const bool pressed = data_.features & kSurfaces && place != 0,
+               loaded = data_.features & kLoads && data_.loads.range[i] != 0;
+    if (atSide_[g] || pressed || loaded) [[unlikely]]
+      addOthers(g, i, pressed ? place : 0, loaded, force, torque);
+  }
+  /// What acts in double: surfaces that move and parts.
+  GROUSER_SIMD void addOthers(int g, int i, std::uint32_t place, bool loaded, const Float4& force,
+                              const Float4& torque) {
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
     if (!kWithFriction) t4 = Double4{};
-    if (data_.features & kSurfaces && place != 0) {
+    if (place != 0) {
       const base::Vec3d& pressed = data_.fromSurfaces[place - 1];
+      if (!atSide_[g] && !loaded && pressed == base::Vec3d{}) return;
       f4 += Double4{pressed.x, pressed.y, pressed.z, 0};
     }
-    if (data_.features & kLoads && data_.loads.range[i] != 0) {
+    if (loaded) {
       base::Vec3d f3{f4[0], f4[1], f4[2]}, t3{t4[0], t4[1], t4[2]};
       addLoadsOf(data_, forces_, i, f3, t3);
       f4 = Double4{f3.x, f3.y, f3.z, 0}, t4 = Double4{t3.x, t3.y, t3.z, 0};
     }
-    const Lost lost{static_cast<double>(force[3]), static_cast<double>(rubbed), static_cast<double>(rolled)};
-    if (atSide_[g] || !advanceSimd(i, f4, t4, deepest, lost))
-      advanceGrain(data_, forces_, i, {f4[0], f4[1], f4[2]}, {t4[0], t4[1], t4[2]}, deepest, lost, books_);
+    advance_.setAlone(g, f4, t4);
   }
 
   /// Forces by grains that never move.
@@ -364,100 +406,15 @@ private:
     bookHeld(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]});
   }
 
-  /// addCompensated() of the axes. Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing
-  /// by one is multiplying by its inverse, to the last bit.
-  struct CompensatedAxes {
-    Double4 sum, rounding;
-  };
-  GROUSER_SIMD static CompensatedAxes addCompensatedAxes(Float4& value, Int4& remainder, const Double4& increment) {
-    const Double4 sum =
-        base::toDouble(value) +
-        base::toDouble(remainder) * (base::toDouble(base::bitsAs<Float4>(binadeOf(value))) * kRemainderOfBinade) +
-        increment;
-    value = base::toFloat(sum);
-    const Int4 binade = binadeOf(value);
-    const Float4 perBinade = base::bitsAs<Float4>((254 << 23) - binade);
-    const Double4 rest = (sum - base::toDouble(value)) * (base::toDouble(perBinade) * (1 / kRemainderOfBinade));
-    remainder = base::clamped(base::toInt(base::roundedDown(rest + 0.5)), kLeastRemainder, kMostRemainder);
-    return {sum,
-            (base::toDouble(remainder) - rest) * (base::toDouble(base::bitsAs<Float4>(binade)) * kRemainderOfBinade)};
-  }
-  GROUSER_SIMD static Int4 binadeOf(const Float4& v) {
-    const Int4 bits = base::bitsAs<Int4>(v) & 0x7F800000, least = base::broadcast<Int4>(kLeastBinade);
-    return bits < least ? least : bits;
-  }
-
-  /// GrainStep::advance() where nothing is out of the ordinary; else false, and nothing is done.
-  GROUSER_SIMD bool advanceSimd(int i, const Double4& force, const Double4& torque, float deepest, const Lost& lost) {
-    Float4 v = load<Float4>(data_.velocity + i), w = load<Float4>(data_.spin + i);
-    const Int4 kept = load<Int4>(data_.remainders + i);
-    Int4 rv = kept << 16 >> 16, rw = kept >> 16;
-    const Double4 gravity{data_.gravityStep.x, data_.gravityStep.y, data_.gravityStep.z, 0};
-    const float radius = v[3];
-    double stepPerMass = data_.stepPerMass, stepPerInertia = data_.stepPerInertia, mass = data_.mass, massShare = 1,
-           inertia = data_.inertia;
-    float maxOverlap = data_.maxOverlap;
-    if (kManySizes) {
-      const auto own = static_cast<double>(forces_.massPerCube * radius * radius * radius), r = double{radius};
-      inertia = 0.4 * own * r * r;
-      const Double4 shares = Double4{data_.timeStep, data_.timeStep, own, 1} / Double4{own, inertia, data_.mass, 1};
-      stepPerMass = shares[0], stepPerInertia = shares[1], massShare = shares[2], mass = data_.mass * massShare;
-      maxOverlap = data_.maxOverlapShare * radius;
-    }
-    const Double4 faster = force * stepPerMass + gravity, turning = torque * stepPerInertia;
-    const CompensatedAxes speed = addCompensatedAxes(v, rv, faster);
-    CompensatedAxes turn{};
-    if (kWithFriction || data_.features & kLoads) turn = addCompensatedAxes(w, rw, turning);
-    Double4 displacement = speed.sum * data_.unitsPerSpeed;
-    const auto near = (displacement > -kMostUnitsPerStep) & (displacement < kMostUnitsPerStep);
-    displacement = near ? displacement : Double4{}; // a speed that is no number must not reach the integer conversion
-
-    const float speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    // advanceKeeping()
-    const Int4 places = Int4{kept[3], kept[3], kept[3], 0} << Int4{22, 12, 2, 0} >> 22; // ten bits each
-    const Double4 wanted = displacement + base::toDouble(places) * (1.0 / kPlacesPerUnit);
-    const Double4 whole = base::roundedDown(wanted + 0.5);
-    const Int4 r = base::clamped(base::toInt(base::roundedDown((wanted - whole) * double{kPlacesPerUnit} + 0.5)),
-                                 kLeastPlace, kMostPlace) &
-                   0x3FF;
-    const Int4 p = load<Int4>(data_.position + i);
-    const Int4 units = base::toInt(whole) & Int4{-1, -1, -1, 0};
-    const Int4 q = p + units;
-    // The high words change where a low word passes its end.
-    const Int4 passes =
-        (base::bitsAs<Simd<std::uint32_t, 4>>(q) < base::bitsAs<Simd<std::uint32_t, 4>>(p)) ^ (units < 0);
-    const bool ordinary = speed2 <= data_.maxSpeed2 && speed2 < 1e30f && !(deepest > maxOverlap) &&
-                          base::laneBits(passes) == 0 && (base::laneBits(near) & 7) == 7;
-    if (!ordinary) return false;
-
-    if (kWithLedger) {
-      const Double4 work = halfSquaresGained(faster, speed) * mass + halfSquaresGained(turning, turn) * inertia;
-      block_.add(work, lost, p, massShare);
-    }
-    Int4 keep = (rv & 0xFFFF) | rw << 16;
-    keep[3] = (kept[3] & ~0x3FFFFFFF) | r[0] | r[1] << 10 | r[2] << 20;
-    v[3] = kManySizes ? radius : 0, w[3] = 0;
-    store(data_.nextPosition + i, q), store(data_.nextVelocity + i, v), store(data_.nextSpin + i, w);
-    store(data_.remainders + i, keep);
-    if (squareOf(q - base::bitsAs<Int4>(base::load3(data_.reference + i))) > data_.halfSkinUnits2)
-      __atomic_store_n(&data_.flags->stale, 1u, __ATOMIC_RELAXED);
-    return true;
-  }
-
-  /// halfSquareGained() of the axes.
-  GROUSER_SIMD static Double4 halfSquaresGained(const Double4& faster, const CompensatedAxes& now) {
-    return faster * (now.sum - faster * 0.5) + now.rounding * now.sum;
-  }
-
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
   GrainBooks books_; ///< of what is rare
-  BlockBooks<kFeatures> block_;
+  Advance advance_;
   int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];
   bool samePlace_[kGrains], atSide_[kGrains];
   // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
-  static constexpr int kRows = kContacts + kWidth;
+  static constexpr int kRows = kContacts + (kWidth < 8 ? 8 : kWidth);
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows];
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/detail/boundary_simd.hpp"
 #include "terrain/detail/grain_simd.hpp"
 
 namespace grouser::terrain::detail {
 
 __attribute__((flatten)) void stepAvx512(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   runSimd<16>(d, f, first, last);
+}
+
+__attribute__((flatten)) void wallsAvx512(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
+  runWalls<16>(d, f, first, last);
 }
 
 } // namespace grouser::terrain::detail

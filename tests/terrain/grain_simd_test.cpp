@@ -2,9 +2,12 @@
 // The CPU's step in lanes against the scalar kernels: the same bits for every width that this processor has.
 #include "surface_fixture.hpp"
 
+#include "base/carry.hpp"
 #include "base/random.hpp"
 #include "terrain/grain_simd.hpp"
+#include "terrain/grains_ahead.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
 
 namespace grouser::terrain::testing {
@@ -87,8 +90,20 @@ struct Pushes {
   }
 };
 
+/// As a step that is launched ahead.
+void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
+  GrainsAhead ahead(grains);
+  ahead.launchBoundaries();
+  ahead.launchGrains(loads);
+  ahead.joinGrains();
+  base::carry(base::cpuExec(1), std::array{ahead.flagsAfter()});
+  ahead.exchangeBuffers();
+  ahead.end(0);
+}
+
 /// State and books.
-std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, int steps, double skin = 0.5) {
+std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, int steps, double skin = 0.5,
+                                      bool apart = false) {
   GrainModel m = modelOf(kind);
   m.mostSimdLanes = lanes, m.skin = skin;
   contact::ContactLaw wall = m.law;
@@ -105,7 +120,10 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
   for (int s = 0; s < steps; ++s) {
     grains.refreshNeighbours();
     const contact::GrainLoadsView loads = kind.loads ? pushes.view(grains, s) : contact::GrainLoadsView{};
-    grains.step(kind.loads ? &loads : nullptr);
+    if (apart)
+      stepApart(grains, loads);
+    else
+      grains.step(kind.loads ? &loads : nullptr);
   }
   EXPECT_TRUE(skin > 0.2 || grains.system().rebuilds > 5) << "the list is rebuilt on the way";
   const GrainState state = grains.state();
@@ -113,6 +131,11 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
   for (const std::int64_t sum : state.books)
     words.push_back(static_cast<std::uint32_t>(sum)), words.push_back(static_cast<std::uint32_t>(sum >> 32));
   return words;
+}
+
+TEST(GrainsLaunchedAhead, StepToTheSameBits) {
+  for (const Kind& kind : {Kind{.loads = true}, Kind{.loads = true, .fixed = true}})
+    EXPECT_EQ(wordsAfter(kind, 1, 2, 150, 0.5, true), wordsAfter(kind, 1, 2, 150));
 }
 
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {

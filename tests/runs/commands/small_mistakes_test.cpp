@@ -2,6 +2,8 @@
 // Slips of the keyboard and of the shell: each is named for what it is.
 #include "tests/runs/commands/mistake_fixture.hpp"
 
+#include <fmt/format.h>
+
 namespace grouser::commands {
 
 using namespace test; // fixtures
@@ -29,6 +31,86 @@ TEST_F(SmallMistakes, MaterialOfAnOverrideMustBeInTheScene) {
                   {"--set", "material.glas is no material of grains.toml; did you mean glass?"});
   EXPECT_EQ(call("plan grains.toml --set material.glass.stiffness=1e5").code, 0);
   EXPECT_EQ(call("plan grains.toml --set 'contact.\"glass|glass\".friction=0.1'").code, 0);
+}
+
+TEST_F(SmallMistakes, FaultsOfACaseNameTheCase) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"run.duratio=1", "error: --case b: unknown key run.duratio; did you mean duration?"},
+      {"run.duration=-1", "error: --case b: run.duration = -1 [s] is outside"},
+      {"material.glas.friction=0.1", "error: --case b: material.glas is no material of grains.toml"},
+      {"grain.7.radius=1", "error: --case b: grain.7.radius=1: there is no entry 7"},
+      {"grain.0.radius=7", "error: --case b: grains.toml:5: material.glass.stiffness [N/m] is so soft"}};
+  for (const auto& [set, message] : mistakes)
+    expectRefused(fmt::format("sweep grains.toml --out o --case a --case 'b: {}' --set run.skin=0.3,0.4", set),
+                  {message});
+  // What is wrong without the case, too, is no fault of it.
+  expectRefused("sweep grains.toml --out o --case 'a: run.duration=1' --set run.skin=0.3,-4",
+                {"error: --set: run.skin"});
+}
+
+TEST_F(SmallMistakes, AKeyIsSetOnce) {
+  for (const char* command : {"run grains.toml --out o", "plan grains.toml", "bench step grains.toml --steps 1"})
+    expectRefused(command + std::string(" --set run.duration=1 --set run.skin=0.3 --set run.duration=2"),
+                  {"--set: run.duration is given twice, as 1 and as 2; give it once\n"});
+  expectRefused("run grains.toml --out o --set 'contact.\"glass|glass\".friction=0.1' --set "
+                "contact.'glass|glass'.friction=0.2",
+                {"given twice, as 0.1 and as 0.2"});
+  expectRefused("run grains.toml --out o --device cpu --set run.device=cuda", {"as cuda and as cpu", "--device sets"});
+}
+
+TEST_F(SmallMistakes, AnOptionIsNoValueOfTheOneBefore) {
+  for (const char* words : {"study preparation --porosities --quick --out o",
+                            "study shear-angle --stresses --quick --out o", "run grains.toml --steps --force --out o",
+                            "sweep grains.toml --seeds 2 --out --force", "run grains.toml --out --steps=3"})
+    expectRefused(words, {"has no value, but the option --"});
+  EXPECT_FALSE(fs::exists(folder_ / "--force"));
+  expectRefused("study preparation --porosities --quick --out o",
+                {"--porosities: has no value, but the option --quick behind it; give one"});
+  EXPECT_EQ(call("plan grains.toml --set run.gravity=[0,0,-1]").code, 0);
+}
+
+const char* const kSieved = R"(version = 1
+[run]
+duration = 0.01
+[material.soil]
+stiffness = 1e5
+[terrain]
+heightmap = "map.png"
+size = [1, 1]
+height_range = [0, 0]
+material = "soil"
+depth = 0.2
+radius_distribution = "sieve"
+sieve_size = [0.02, 0.03, 0.05]
+sieve_passing = [0, 0.4, 1]
+)";
+
+TEST_F(SmallMistakes, FaultsOfRadiiNameTheKeyThatGivesThem) {
+  put(folder_ / "sieved.toml", kSieved);
+  put(folder_ / "map.png", picture());
+  expectRefused("plan sieved.toml --set terrain.sieve_size=[2e-6,3e-6,5e-6]",
+                {"of grains of the sieves of terrain.sieve_size, to 5e-06 m; use larger"});
+  expectRefused("run sieved.toml --out o --set terrain.size=[0.9,0.9] --set terrain.sieve_size=[2e-5,3e-5,5e-5]",
+                {"--set: terrain.sieve_size = [2e-05, 3e-05, 5e-05] [m] makes about"});
+  expectRefused("plan sieved.toml --set terrain.sieve_size=[0.1,0.2,0.5]",
+                {"radius 0.1165 m, the median of sieve_size; give at least 0.233\n"});
+  const std::string bed = replaced(replaced(kSieved, "radius_distribution = \"sieve\"\n", "grain_radius = 1e-6\n"),
+                                   "sieve_size = [0.02, 0.03, 0.05]\nsieve_passing = [0, 0.4, 1]\n", "");
+  put(folder_ / "fine.toml", bed);
+  expectRefused("plan fine.toml", {"of grains of terrain.grain_radius = 1e-06 m"}); // the mean, as it was given
+}
+
+TEST_F(SmallMistakes, ABedThatDoesNotSettleIsSaidToFall) {
+  put(folder_ / "loose.toml", replaced(kSieved, "depth = 0.2", "depth = 0.3\nporosity = 0.42\nsettle_time_limit = 0"));
+  put(folder_ / "map.png", picture());
+  const Outcome o = call("plan loose.toml");
+  EXPECT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(
+      o.errors.find("grouser: warning: terrain.settle_time_limit = 0 leaves the bed as it is laid, a loose column"),
+      std::string::npos)
+      << o.errors;
+  EXPECT_NE(o.errors.find("not of terrain.porosity = 0.42"), std::string::npos) << o.errors;
+  EXPECT_EQ(call("plan loose.toml --set terrain.settle_time_limit=3").errors, "");
 }
 
 TEST_F(SmallMistakes, OutputThatCannotBePrintedIsAnError) {

@@ -130,6 +130,20 @@ TEST_F(Sweep, ACaseIsKeysThatChangeTogether) {
   EXPECT_EQ(plan.runs[7].scene.run.skin, 0.5);
 }
 
+TEST_F(Sweep, ACaseMaySetWhatOneValueSetsForTheOthers) {
+  SweepLists lists;
+  lists.cases = {"base", "long: run.duration=2e-3"};
+  lists.sets = {"run.duration=1e-4"};
+  SweepOptions o = options();
+  o.jobs = 2; // the threads are shared among them, whatever --threads says
+  const SweepPlan plan = planSweep(scene(), lists, {"run.threads=0", "run.device=cpu"});
+  EXPECT_EQ(plan.runs[0].scene.run.duration, 1e-4);
+  EXPECT_EQ(plan.runs[1].scene.run.duration, 2e-3);
+  EXPECT_EQ(runSweep(plan, o), 0);
+  lists.sets = {"run.duration=1e-4,2e-4"};
+  EXPECT_THROW(planSweep(scene(), lists), base::InputError);
+}
+
 TEST_F(Sweep, WrongCasesAreFoundBeforeAnythingRuns) {
   const auto wrong = [&](const Words& cases, const Words& sets, int seeds) {
     SweepLists lists;
@@ -146,7 +160,8 @@ TEST_F(Sweep, WrongCasesAreFoundBeforeAnythingRuns) {
   wrong({"a: run.seed=1"}, {"run.seed=1,2"}, 0);
   wrong({"a: run.seed=1"}, {}, 2);
   wrong({"a: run.sead=1"}, {}, 0);
-  for (const char* name : {".", "..", "/", "\u00fc", "summary.csv", "intervals.csv"}) wrong({name}, {}, 0);
+  for (const char* name : {".", "..", "/", "\u00fc", "summary.csv", "summary.png", "intervals.csv"})
+    wrong({name}, {}, 0);
 }
 
 TEST_F(Sweep, LeavesAFolderARunAndASummary) {
@@ -274,6 +289,23 @@ TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
   EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
   EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
   EXPECT_EQ(contents(out() / "seed=2/thesis.txt"), "precious");
+}
+
+TEST_F(Sweep, TablesOfOtherOriginAreKept) {
+  fs::create_directories(out());
+  for (const char* name : {"summary.csv", "summary.png", "intervals.csv"}) {
+    put(out() / name, "run,marks,status\nthesis,1,good\n");
+    const Outcome o = call("sweep fall.toml --set run.seed=1,2 --out out");
+    EXPECT_EQ(o.code, 2) << name;
+    EXPECT_NE(o.error().find(std::string("out/") + name + ": is a file that no sweep has written"), std::string::npos)
+        << o.errors;
+    EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
+    EXPECT_EQ(contents(out() / name), "run,marks,status\nthesis,1,good\n");
+    fs::remove(out() / name);
+  }
+  put(out() / "summary.csv", "");
+  EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
+  EXPECT_EQ(sweep({"run.seed=1,2"}), 0) << "its own";
 }
 
 TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -19,9 +20,16 @@ constexpr const char* kCoupledHash = "d75994030d18cc66";
 
 void quiet(double, double) {}
 
-std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {}) {
+/// `together`: steps that are asked for at once, which a GPU is given ahead; 0: each by itself.
+std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {},
+                        std::int64_t together = 0) {
   Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"), overrides)), exec, quiet);
-  while (simulation.steps() < 2000) simulation.step();
+  while (simulation.steps() < 2000) {
+    if (together == 0)
+      simulation.step();
+    else
+      simulation.advance(std::min(together, 2000 - simulation.steps()));
+  }
   EXPECT_EQ(simulation.ledger().impulseResidual, base::Vec3d{}) << "vehicle and bed exchange exact opposites";
   return simulation.stateHash();
 }
@@ -36,6 +44,17 @@ TEST(OneAnswer, CoupledSceneOnCuda) {
   if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
   EXPECT_EQ(coupledHash(base::cudaExec()), kCoupledHash);
 }
+
+/// In one batch; in batches of an odd number, which begin with either buffer, with lists that end within them; in
+/// pairs.
+TEST(OneAnswer, CoupledSceneOnCudaLaunchedAhead) {
+  if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
+  EXPECT_EQ(coupledHash(base::cudaExec(), {}, 2000), kCoupledHash);
+  EXPECT_EQ(coupledHash(base::cudaExec(), {"run.skin=0.02"}, 13), kCoupledHash) << "lists that end within a batch";
+  EXPECT_EQ(coupledHash(base::cudaExec(), {"run.skin=0.8"}, 2), kCoupledHash);
+}
+
+TEST(OneAnswer, CoupledSceneInBatchesOfSteps) { EXPECT_EQ(coupledHash(base::cpuExec(2), {}, 100), kCoupledHash); }
 
 TEST(OneAnswer, AnotherSeedIsAnotherState) {
   EXPECT_NE(coupledHash(base::cpuExec(1), {"run.seed=8"}), kCoupledHash) << "the hash must see the state";

@@ -77,5 +77,25 @@ TEST(Settling, ReportsItsHighestGrainAndTheMeanOfTheSurfaceThatSinkageIsMeasured
   EXPECT_LT(report.meanHeight, highest);
 }
 
+TEST(Settling, ASteepFloorIsNamedWhereItIsTheCause) {
+  const auto fault = [](double height) {
+    const scene::Scene scene = bed({"terrain.height_range=[0," + std::to_string(height) + "]",
+                                    "terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.1"});
+    const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
+    const Ground ground = buildGround(setup, base::cpuExec(1));
+    try {
+      settle(*setup.grains->bed, ground, [](double, double) {});
+    } catch (const base::SimulationError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(fault(1.5).find("m a metre, and grains slide off it: set terrain.floor = \"flat\""), std::string::npos)
+      << fault(1.5);
+  const std::string gentle = fault(0.03);
+  EXPECT_NE(gentle.find("has not settled within 0.1 s"), std::string::npos) << gentle;
+  EXPECT_EQ(gentle.find("terrain.floor"), std::string::npos) << gentle;
+}
+
 } // namespace
 } // namespace grouser::simulation

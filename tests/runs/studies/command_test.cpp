@@ -134,6 +134,43 @@ TEST_F(PieceStudy, RefusesWhatIsNoPartNoCaseAndNoAngle) {
   EXPECT_EQ(call("study preparation --help").code, 0);
 }
 
+TEST_F(PieceStudy, GivenOptionsWinOverThoseOfAQuickPass) {
+  const Outcome o = call(
+      "study plates --quick --cases rough --seeds 3 --strip-depth 2 --sinkage 0.1 --threads 1 --seconds 1e-9 --out "
+      "results");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  const auto recipe = nlohmann::json::parse(contents(folder_ / "results" / "recipe.json"));
+  EXPECT_EQ(recipe.at("strip_depth"), 2);
+  EXPECT_EQ(recipe.at("sinkage"), 0.1);
+  EXPECT_EQ(recipe.at("breadth_d"), 4) << "not given";
+  EXPECT_NE(o.out.find("3 seeds"), std::string::npos) << o.out;
+  EXPECT_NE(call("study plates --help").out.find("with --quick 1.5"), std::string::npos);
+
+  const Outcome angle = call("study shear-angle --quick --stresses 1000 --rolling-frictions 0.1 --seeds 3 --threads 1 "
+                             "--seconds 1e-9 --out angle");
+  EXPECT_NE(angle.errors.find("0 of 3 samples"), std::string::npos) << angle.errors;
+}
+
+TEST_F(PieceStudy, RefusesPlatesAndBedsThatCannotBe) {
+  const std::pair<const char*, std::vector<const char*>> mistakes[] = {
+      {"--strip-thickness 4", {"--strip-thickness 4 [d], case base", "4.38 d", "give at least that"}},
+      {"--sinkage 2 --strip-depth 0.5", {"--sinkage 2 [breadths], case base", "at most 0.396", "--strip-depth = 0.5"}},
+      {"--cases deep --sinkage 2 --strip-depth 0.5", {"case deep", "at most 0.896", "--strip-depth = 0.5"}},
+      {"--cases old --breadth 100", {"--sinkage 0.2 [breadths], case old", "a smaller --breadth than 100 d"}},
+      {"--cases graded --fine-depth 5", {"--fine-depth 5 [breadths], case graded", "less than", "--strip-depth = 2"}},
+      {"--cases circular --breadth 2", {"--circular-depth 2 [breadths], case circular", "at least 2.5", "--breadth"}},
+      {"--cases wide --breadth 2 --strip-bin 1.6 --strip-depth 9", {}},
+      {"--cases base --breadth 2 --strip-bin 1.6", {"--strip-bin 1.6 [breadths], case base", "at least 2.19"}}};
+  for (const auto& [words, says] : mistakes) {
+    const Outcome o = call(std::string("study plates --out results --threads 1 --seconds 1 ") + words,
+                           says.empty() ? "timeout 1 " : "timeout 20 ");
+    EXPECT_EQ(o.code, says.empty() ? 124 : 2) << words << "\n" << o.errors;
+    for (const char* part : says) EXPECT_NE(o.error().find(part), std::string::npos) << part << "\n" << o.errors;
+    EXPECT_EQ(fs::exists(folder_ / "results"), says.empty()) << words;
+    fs::remove_all(folder_ / "results");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Grains, StudyCommand,
     testing::Values(
