@@ -4,9 +4,9 @@
 #include "runs/bench/bench.hpp"
 #include "runs/bench/contacts.hpp"
 #include "runs/bench/multibody.hpp"
-#include "runs/commands/overrides.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/option_checks.hpp"
+#include "runs/sweeps/overrides.hpp"
 
 #include <memory>
 #include <string>
@@ -128,7 +128,7 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
   addCommon(*step, c);
   step->callback([command, words = invocation.words] {
     requireSameWords("bench step", words, command->ranks->comm());
-    checkGivenOnce(command->overrides);
+    sweeps::checkGivenOnce(command->overrides);
     bench::benchStepCommand(*command);
   });
 }

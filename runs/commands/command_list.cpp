@@ -6,6 +6,7 @@ namespace grouser::commands {
 std::vector<CommandEntry> allCommands() {
   return {{"run", addRun, RankUse::shared},
           {"sweep", addSweep, RankUse::refused, "; --jobs lets several runs go at the same time"},
+          {"check", addCheck, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"bench", addBench, RankUse::shared},
           {"hash", addHash},
           {"study", addStudy, RankUse::refused},

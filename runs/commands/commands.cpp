@@ -2,11 +2,8 @@
 #include "runs/commands/commands.hpp"
 
 #include "base/error.hpp"
-#include "runs/commands/overrides.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/commands/run_scene.hpp"
-#include "runs/commands/sweep.hpp"
-#include "runs/commands/sweep_files.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
@@ -16,6 +13,10 @@
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/sphere_cache.hpp"
 #include "runs/support/text_file.hpp"
+#include "runs/sweeps/kept_checks.hpp"
+#include "runs/sweeps/overrides.hpp"
+#include "runs/sweeps/sweep.hpp"
+#include "runs/sweeps/sweep_files.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "spheredecomp/quality.hpp"
@@ -69,7 +70,7 @@ void runCommand(const RunCommand& command) {
   std::vector<std::string> overrides = command.overrides;
   if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
   if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
-  checkGivenOnce(overrides);
+  sweeps::checkGivenOnce(overrides);
   const scene::Scene scene = setup::loadScene(command.scene, overrides);
   if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
@@ -97,6 +98,7 @@ void runCommand(const RunCommand& command) {
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
   output::listFiles(options.folder);
+  if (!command.steps) fmt::print("{}", sweeps::checkNote(scene, summary.wallTime));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 
@@ -104,16 +106,16 @@ void sweepCommand(const SweepCommand& command) {
   std::vector<std::string> fixed;
   if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
   if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
-  const SweepPlan plan = planSweep(command.scene, command.lists, fixed);
+  const sweeps::SweepPlan plan = sweeps::planSweep(command.scene, command.lists, fixed);
   if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
-  SweepOptions options;
+  sweeps::SweepOptions options;
   options.program = fs::read_symlink("/proc/self/exe");
   options.folder =
       command.folder.empty() ? fs::path("out") / (plan.scene.stem().string() + "_sweep") : fs::path(command.folder);
   options.jobs = command.jobs, options.seconds = command.seconds, options.force = command.force;
-  if (const int failed = runSweep(plan, options))
+  if (const int failed = sweeps::runSweep(plan, options))
     throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
-                                            plan.runs.size(), (options.folder / kSummaryFile).string()));
+                                            plan.runs.size(), (options.folder / sweeps::kSummaryFile).string()));
 }
 
 void hashCommand(const HashCommand& command) {
@@ -129,7 +131,7 @@ void sinkageCommand(const SinkageCommand& command) {
 }
 
 void planCommand(const PlanCommand& command) {
-  checkGivenOnce(command.overrides);
+  sweeps::checkGivenOnce(command.overrides);
   const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
   scene::printNotes(scene);
   fmt::print("{}", planText(scene));

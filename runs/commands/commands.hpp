@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "runs/commands/sweep_plan.hpp"
+#include "runs/sweeps/sweep_plan.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ void runCommand(const RunCommand& command);
 
 struct SweepCommand {
   std::string scene;
-  SweepLists lists;
+  sweeps::SweepLists lists;
   std::string device;         ///< empty: as the scene says
   std::optional<int> threads; ///< empty: as the scene says
   std::string folder;         ///< empty: out/NAME_sweep

@@ -25,7 +25,7 @@ constexpr auto kAbandoned = std::chrono::hours(24); // a part of a file that no 
 struct KindName {
   const char *prefix, *suffix;
 };
-constexpr std::array<KindName, 2> kKindNames{{{"bed-", ".h5"}, {"spheres-", ".bin"}}}; // by Kind
+constexpr std::array<KindName, 3> kKindNames{{{"bed-", ".h5"}, {"spheres-", ".bin"}, {"check-", ".json"}}}; // by Kind
 
 /// Empty where nothing is to be kept.
 std::string folderOfUser() {

@@ -5,6 +5,7 @@
 #include "terrain/detail/grain_simd_advance.hpp"
 #include "terrain/grain_simd.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace grouser::terrain::detail {
@@ -414,7 +415,7 @@ private:
   int begin_[kGrains + 1];
   bool samePlace_[kGrains], atSide_[kGrains];
   // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
-  static constexpr int kRows = kContacts + (kWidth < 8 ? 8 : kWidth);
+  static constexpr int kRows = kContacts + std::max(8, kWidth);
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows];
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // summary.csv of runs whose quantities all change over the steady part, each in its own way.
-#include "runs/commands/sweep_summary.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
 
 #include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"

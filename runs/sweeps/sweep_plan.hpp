@@ -9,7 +9,7 @@
 #include <vector>
 
 /// What a sweep is to run: all combinations of the values given.
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 /// What is asked of a sweep, as words of the command line.
 struct SweepLists {
@@ -45,4 +45,4 @@ std::vector<std::string> splitValues(std::string_view list);
 SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed = {});
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

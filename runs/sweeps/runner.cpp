@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/sweep.hpp"
+#include "runs/sweeps/runner.hpp"
 
 #include "base/error.hpp"
 #include "base/exec.hpp"
-#include "runs/commands/overrides.hpp"
-#include "runs/commands/sweep_files.hpp"
-#include "runs/commands/sweep_intervals.hpp"
-#include "runs/commands/sweep_summary.hpp"
-#include "runs/output/plots.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/support/progress.hpp"
+#include "runs/sweeps/overrides.hpp"
+#include "runs/sweeps/run_manifest.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,7 +24,7 @@
 #include <optional>
 #include <thread>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 namespace fs = std::filesystem;
 
@@ -38,21 +34,8 @@ using output::RunStatus;
 
 constexpr const char* kLog = "log.txt"; // what a run printed
 
-/// What decides the result of a run, as text.
-std::string identity(scene::Scene scene) {
-  scene.run.device = support::DeviceChoice::automatic, scene.run.threads = 0;
-  scene.output.folder.clear();
-  return scene::resolvedToml(scene);
-}
-
-std::optional<RunStatus> manifestStatus(const fs::path& folder) {
-  std::ifstream file(folder / "manifest.json");
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  return json.is_object() ? base::valueOf<RunStatus>(json.value("status", "")) : std::nullopt;
-}
-
 bool isFinished(const fs::path& folder, const scene::Scene& scene) {
-  if (manifestStatus(folder) != RunStatus::finished) return false;
+  if (RunManifest(folder).text("status") != base::wordOf(RunStatus::finished)) return false;
   try {
     return identity(setup::loadScene(folder / "scene.toml")) == identity(scene);
   } catch (const base::InputError&) {
@@ -118,8 +101,8 @@ double shareDone(const fs::path& folder, double duration) {
 /// The runs of a sweep as processes, at most `jobs` at a time.
 class Runner {
 public:
-  Runner(const SweepPlan& plan, const SweepOptions& options)
-      : plan_(plan), options_(options), outcomes_(plan.runs.size()), progress_("sweep") {
+  Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
+      : plan_(plan), options_(options), changed_(changed), outcomes_(plan.runs.size()), progress_(what) {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       if (!options.force && isFinished(folder(i), plan.runs[i].scene)) {
         outcomes_[i].status = RunStatus::finished;
@@ -133,8 +116,8 @@ public:
 
   const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
 
-  int run() {
-    summarise();
+  void run() {
+    changed_(outcomes_);
     std::size_t next = 0;
     const auto more = [&] { return next < waiting_.size() && !isLate(); };
     while (more() || !running_.empty()) {
@@ -142,14 +125,11 @@ public:
       reap();
       if (progress_.due()) report();
     }
-    const auto failed = std::count_if(outcomes_.begin(), outcomes_.end(),
-                                      [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
     const auto finished = std::count_if(outcomes_.begin(), outcomes_.end(),
                                         [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
     if (todo_ > 0)
       progress_.finish(fmt::format("{} of {} runs finished{}", finished, outcomes_.size(),
                                    next < waiting_.size() ? "; call again for the others" : ""));
-    return static_cast<int>(failed);
   }
 
 private:
@@ -166,7 +146,6 @@ private:
   bool isLate() const {
     return options_.seconds > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > options_.seconds;
   }
-  void summarise() const { writeSummary(plan_, outcomes_, options_.folder); }
 
   void launch(std::size_t i) {
     fs::create_directories(folder(i));
@@ -180,7 +159,7 @@ private:
     words.insert(words.end(), {"--out", folder(i).string(), "--force", "--hash"});
     running_[start(std::move(words), folder(i) / kLog)] = {i, Clock::now()};
     outcomes_[i].status = RunStatus::running;
-    summarise();
+    changed_(outcomes_);
   }
 
   /// Waits a moment, and takes the results of the runs that have ended.
@@ -207,7 +186,7 @@ private:
       outcomes_[i] = {RunStatus::failed, reason(status, folder(i) / kLog)};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
     }
-    summarise();
+    changed_(outcomes_);
   }
 
   void report() {
@@ -223,6 +202,7 @@ private:
 
   const SweepPlan& plan_;
   const SweepOptions& options_;
+  const OutcomesChanged& changed_;
   std::vector<SweepOutcome> outcomes_;
   std::vector<std::size_t> waiting_;
   std::map<pid_t, Running> running_;
@@ -233,8 +213,14 @@ private:
 
 } // namespace
 
-int runSweep(const SweepPlan& plan, const SweepOptions& options) {
-  if (!options.force) checkSweepFiles(options.folder);
+std::string identity(scene::Scene scene) {
+  scene.run.device = support::DeviceChoice::automatic, scene.run.threads = 0;
+  scene.output.folder.clear();
+  return scene::resolvedToml(scene);
+}
+
+std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
+                                     const OutcomesChanged& changed) {
   for (const SweepRun& run : plan.runs) {
     if (!options.force) checkRunFolder(options.folder / run.name);
     if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())
@@ -245,18 +231,9 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
         fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
-  Runner runner(plan, options);
-  const int failed = runner.run();
-  std::vector<fs::path> tables = {options.folder / kSummaryFile};
-  const SeedIntervals intervals = seedIntervals(plan, sweepFigures(plan, runner.outcomes(), options.folder));
-  if (!intervals.groups.empty()) {
-    fmt::print("{}", intervalsText(intervals));
-    tables.push_back(writeIntervals(intervals, options.folder));
-    fmt::print("intervals {}\n", tables.back().string());
-  }
-  fmt::print("summary   {}\n", tables.front().string());
-  if (options.plot) output::drawPicture("sweep.py", {tables.back()}, options.folder / kSummaryPlot);
-  return failed;
+  Runner runner(plan, options, what, changed);
+  runner.run();
+  return runner.outcomes();
 }
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

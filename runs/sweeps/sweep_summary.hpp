@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/commands/sweep_plan.hpp"
 #include "runs/output/run_status.hpp"
+#include "runs/sweeps/sweep_plan.hpp"
 
 #include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 /// How one run of a sweep stands.
 struct SweepOutcome {
@@ -35,4 +35,4 @@ SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>
 std::filesystem::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                                    const std::filesystem::path& folder);
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/sweep_summary.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
 
 #include "base/error.hpp"
-#include "runs/commands/sweep_files.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/text_file.hpp"
+#include "runs/sweeps/run_manifest.hpp"
+#include "runs/sweeps/sweep_files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@
 #include <limits>
 #include <optional>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 namespace fs = std::filesystem;
 
@@ -180,18 +180,6 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   return figures;
 }
 
-/// A number of the manifest, or NaN.
-double numberOf(const nlohmann::json& json, const char* key) {
-  const auto at = json.find(key);
-  return at != json.end() && at->is_number() ? at->get<double>() : kNone;
-}
-
-nlohmann::json readManifest(const fs::path& folder) {
-  std::ifstream file(folder / "manifest.json");
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  return json.is_object() ? json : nlohmann::json::object();
-}
-
 /// Of one run: all NaN where it has not finished.
 std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
                               const Columns& columns) {
@@ -199,8 +187,7 @@ std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, 
   std::optional<support::Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
     file.emplace(support::Hdf5File::open(results));
-  const double driveStart =
-      numberOf(readManifest(folder / run.name).value("figures", nlohmann::json::object()), "drive_start_s");
+  const double driveStart = RunManifest(folder / run.name).figure("drive_start_s");
   return figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, driveStart), columns);
 }
 
@@ -212,12 +199,12 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
   cells.emplace_back(base::wordOf(outcome.status));
   cells.push_back(support::csvCell(outcome.message));
   const bool isFinished = outcome.status == output::RunStatus::finished;
-  const nlohmann::json manifest = isFinished ? readManifest(folder / run.name) : nlohmann::json::object();
+  const RunManifest manifest(isFinished ? folder / run.name : fs::path());
   for (const char* key : {"wall_time_s", "steps", "simulated_time_s"})
-    cells.push_back(support::csvCell(numberOf(manifest, key)));
+    cells.push_back(support::csvCell(manifest.number(key)));
   for (const double value : figures) cells.push_back(support::csvCell(value));
-  cells.push_back(manifest.value("state_hash", ""));
-  cells.push_back(manifest.value("program", nlohmann::json::object()).value("commit", ""));
+  cells.push_back(manifest.text("state_hash"));
+  cells.push_back(manifest.commit());
   return cells;
 }
 
@@ -272,4 +259,4 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   return path;
 }
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/overrides.hpp"
+#include "runs/sweeps/overrides.hpp"
 
 #include "base/error.hpp"
 
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 std::size_t equalsSign(const std::string& set) {
   bool inQuotes = false;
@@ -43,4 +43,4 @@ void putOverride(std::vector<std::string>& overrides, const std::string& set) {
   overrides.push_back(set);
 }
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

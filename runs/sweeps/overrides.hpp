@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Overrides of a scene's keys as a command line gives them: "key=value".
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 /// Position of the = between key and value: a key in quotes may hold one. npos where there is none.
 std::size_t equalsSign(const std::string& set);
@@ -20,4 +20,4 @@ void checkGivenOnce(const std::vector<std::string>& overrides);
 /// Adds `set`, which takes the place of those that set the same key.
 void putOverride(std::vector<std::string>& overrides, const std::string& set);
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 /// What a sweep writes beside the folders of its runs.
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 inline constexpr const char *kSummaryFile = "summary.csv", *kSummaryPlot = "summary.png",
                             *kIntervalsFile = "intervals.csv";
@@ -14,4 +14,4 @@ inline constexpr std::array kSweepFiles = {kSummaryFile, kSummaryPlot, kInterval
 /// Throws InputError where the folder holds one of these that no sweep has written. Touches nothing.
 void checkSweepFiles(const std::filesystem::path& folder);
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/sweep_intervals.hpp"
+#include "runs/sweeps/sweep_intervals.hpp"
 
-#include "runs/commands/sweep_files.hpp"
+#include "runs/sweeps/sweep_files.hpp"
 
 #include "runs/studies/estimate.hpp"
 #include "runs/support/csv_cell.hpp"
@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 namespace {
 
@@ -153,4 +153,4 @@ std::string intervalsText(const SeedIntervals& intervals) {
   return text;
 }
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/sweep_plan.hpp"
+#include "runs/sweeps/sweep_plan.hpp"
 
 #include "base/error.hpp"
-#include "runs/commands/overrides.hpp"
-#include "runs/commands/plan.hpp"
-#include "runs/commands/sweep_files.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/sweeps/overrides.hpp"
+#include "runs/sweeps/scene_check.hpp"
+#include "runs/sweeps/sweep_files.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include <cctype>
 #include <set>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 using base::InputError;
 
@@ -170,7 +170,7 @@ std::string folderName(const std::vector<Axis>& swept, const std::vector<std::st
 std::string faultOf(const std::filesystem::path& file, const std::vector<std::string>& overrides, scene::Scene& scene) {
   try {
     scene = setup::loadScene(file, overrides);
-    planText(scene);
+    checkScene(scene);
     return "";
   } catch (const InputError& error) {
     return error.what();
@@ -278,4 +278,4 @@ SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
   return plan;
 }
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/commands/sweep_summary.hpp"
 #include "runs/support/line_fit.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 /// What the seeds of a sweep tell: means with 95 % intervals, and differences to the first combination.
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 /// One combination of a sweep's values, over its seeds.
 struct SeedGroup {
@@ -36,4 +36,4 @@ std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::
 /// The figures one asks for first, as a table to read.
 std::string intervalsText(const SeedIntervals& intervals);
 
-} // namespace grouser::commands
+} // namespace grouser::sweeps

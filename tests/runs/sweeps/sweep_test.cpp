@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps: the product of values, names, what is left out when called again, and a failed run that stops no other.
-#include "runs/commands/sweep.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/sweeps/sweep.hpp"
 
 #include "base/error.hpp"
-#include "runs/commands/sweep_intervals.hpp"
-#include "runs/commands/sweep_summary.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
+#include "runs/sweeps/sweep_intervals.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
@@ -19,7 +19,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 using namespace test; // fixtures
 
@@ -435,4 +435,4 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
 }
 
 } // namespace
-} // namespace grouser::commands
+} // namespace grouser::sweeps

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.hpp"
+#include "runs/commands/command_entry.hpp"
+#include "runs/support/option_checks.hpp"
+#include "runs/sweeps/check.hpp"
+#include "runs/sweeps/overrides.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::commands {
+
+namespace {
+
+struct CheckCommand {
+  std::string scene, device, folder;
+  std::vector<std::string> axes;
+  std::optional<int> threads;
+  sweeps::CheckOptions options;
+};
+
+void checkCommand(CheckCommand command) {
+  sweeps::CheckOptions& options = command.options;
+  if (!command.device.empty()) options.fixed.push_back("run.device=" + command.device);
+  if (command.threads) options.fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  sweeps::checkGivenOnce(options.fixed);
+  for (const std::string& set : options.fixed)
+    if (sweeps::keyOf(set) == "run.seed")
+      throw base::InputError("--set run.seed: a check runs the seeds from the scene's own on; change it in the file");
+  for (const std::string& word : command.axes) options.axes.push_back(sweeps::checkAxisOf(word));
+  const std::filesystem::path file = command.scene;
+  options.sweep.program = std::filesystem::read_symlink("/proc/self/exe");
+  options.sweep.folder = command.folder.empty() ? std::filesystem::path("out") / (file.stem().string() + "_check")
+                                                : std::filesystem::path(command.folder);
+  sweeps::runCheck(file, options);
+}
+
+} // namespace
+
+void addCheck(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<CheckCommand>();
+  CheckCommand& c = *command;
+  CLI::App* check = app.add_subcommand("check", "Error bars of a scene's figures by step, seed, extent and grain size");
+  check->add_option("scene", c.scene, "scene file")->required();
+  check->add_option("--set", c.options.fixed, kSetHelp)->allow_extra_args(false);
+  check
+      ->add_option("--seeds", c.options.seeds,
+                   "seeds of every case, from run.seed on, where they make a difference; with --budget at most so "
+                   "many; default: 8")
+      ->check(support::wholeNumber(2, 1000));
+  check
+      ->add_option("--bar", c.options.percent,
+                   "of a figure's value, within which verdicts call it equal [%]; default: 5")
+      ->check(support::positive("a share in percent"));
+  check
+      ->add_option("--axes", c.axes,
+                   "what to vary: step, skin, depth, width, floor, grain_size, spheres, precision; default: all")
+      ->delimiter(',');
+  check->add_option("--budget", c.options.budget,
+                    "time for all of it, e.g. 90s, 20min or 1.5h: the first run decides what fits, the rest is named");
+  check->add_option("--jobs", c.options.sweep.jobs, "runs at the same time; default: 1")
+      ->check(support::wholeNumber(1, 1024));
+  check
+      ->add_option("--seconds", c.options.sweep.seconds,
+                   "this call begins no further run after so many, 0: no limit; the same call again goes on")
+      ->check(support::notNegative("a time in seconds"));
+  check->add_option("--out", c.folder, "folder for the runs' folders and the results; default: out/NAME_check");
+  check->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
+  check->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
+      ->check(support::wholeNumber(0, 1024));
+  check->add_flag("--force", c.options.sweep.force, "run again what has already been run");
+  check->callback([command] { checkCommand(*command); });
+}
+
+} // namespace grouser::commands

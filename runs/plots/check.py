@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plot of a check: check.py CHECK.json COSTS.json FILE.png
+
+Error over the wall time of a run, of up to six figures: the steps that were run with their error bars as a line, the
+other axes as the change that they bring, with its 95 % interval. What failed or was refused stands at the upper edge as
+a cross, at the run time that was to be expected. Lines at 10, 5 and 1 %.
+"""
+import json
+import math
+
+import drawing
+
+AXES = {"depth": ("s", "C1"), "width": ("D", "C2"), "floor": ("v", "C3"), "grain_size": ("^", "C4"),
+        "spheres": ("P", "C5"), "precision": ("*", "C6")}
+MOST = 6
+
+
+def share(number, value):
+    return None if number is None or not value else abs(number) / abs(value)
+
+
+def panel(axis, figure, check, costs):
+    value = figure["value"]
+    cost = {case["name"]: case for case in costs["cases"]}
+    base = cost["base"]["wall_s"]
+    steps = [(cost[name]["wall_s"], share(bar, value), name)
+             for name, bar in zip(check["step_cases"], figure["bar_of_step"]) if share(bar, value)]
+    steps.sort()
+    if steps:
+        axis.plot([s[0] for s in steps], [s[1] for s in steps], "o-", color="C0", label="step, its error bar")
+        for wall, error, name in steps:
+            axis.annotate(name.replace("step_", "").replace("_", " "), (wall, error), fontsize=7,
+                          textcoords="offset points", xytext=(4, 4))
+    of_axis = {case["axis"]: case["name"] for case in check["cases"]}
+    for error in figure["errors"]:
+        if error["axis"] not in AXES or error["change"] is None:
+            continue
+        marker, colour = AXES[error["axis"]]
+        size, half = share(error["change"], value), share(error["half_width"], value)
+        wall = cost[of_axis[error["axis"]]]["wall_s"]
+        if wall is None or size is None:
+            continue
+        low = max(size - (half or 0), 1e-5)
+        axis.errorbar([wall], [max(size, 1e-5)], yerr=[[max(size, 1e-5) - low], [half or 0]], marker=marker,
+                      color=colour, capsize=3, linestyle="none", label=error["axis"].replace("_", " "))
+    for case in check["cases"]:
+        if case["status"] in ("failed", "refused"):
+            axis.plot([base * cost[case["name"]]["expected_over_base"]], [0.97], "x", color="red", markersize=9,
+                      transform=axis.get_xaxis_transform(), clip_on=False)
+            axis.annotate(f"{case['name']}\n{case['status']}",
+                          (base * cost[case["name"]]["expected_over_base"], 0.93), color="red", fontsize=7, ha="center",
+                          va="top", xycoords=axis.get_xaxis_transform())
+    half = figure["seeds_half_width"]
+    if check["seeds_matter"] and half is not None and share(half, value):
+        axis.axhline(share(half, value), color="0.4", linestyle="--", linewidth=0.8,
+                     label=f"seeds, {figure['seeds']} of them")
+    for percent in (0.1, 0.05, 0.01):
+        axis.axhline(percent, color="0.8", linewidth=0.8, zorder=0)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.set_title(figure["name"], fontsize=9)
+    axis.grid(True, which="major", color="0.93")
+
+
+def draw(check_path, costs_path):
+    with open(check_path) as file:
+        check = json.load(file)
+    with open(costs_path) as file:
+        costs = json.load(file)
+    if costs["cases"][0]["wall_s"] is None:
+        return None
+    figures = [f for f in check["figures"] if f.get("headline") and f["value"] and (
+        any(f["bar_of_step"]) or any(e["axis"] in AXES and e["change"] for e in f["errors"]))][:MOST]
+    if not figures:
+        return None
+    columns = min(3, len(figures))
+    rows = math.ceil(len(figures) / columns)
+    figure = drawing.Figure(figsize=(4.3 * columns, 3.6 * rows))
+    panels = figure.subplots(rows, columns, squeeze=False).flatten()
+    for axis, one in zip(panels, figures):
+        panel(axis, one, check, costs)
+    for axis in panels[len(figures):]:
+        axis.set_visible(False)
+    for row in range(rows):
+        panels[row * columns].set_ylabel("error over value [-]")
+    for axis in panels[:len(figures)][-columns:]:
+        axis.set_xlabel("wall time of a run [s]")
+    entries = {}
+    for axis in panels[:len(figures)]:
+        entries.update(zip(*reversed(axis.get_legend_handles_labels())))
+    figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=5, fontsize=8, frameon=False)
+    figure.suptitle(f"{check['scene']}: error against run time", fontsize=10)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    return figure
+
+
+if __name__ == "__main__":
+    drawing.main(__doc__, draw, dpi=110)

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/check.hpp"
+
+#include "base/error.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/text_file.hpp"
+#include "runs/sweeps/check_choice.hpp"
+#include "runs/sweeps/check_report.hpp"
+#include "runs/sweeps/check_series.hpp"
+#include "runs/sweeps/kept_checks.hpp"
+#include "runs/sweeps/overrides.hpp"
+#include "runs/sweeps/run_manifest.hpp"
+#include "runs/sweeps/scene_check.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace grouser::sweeps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using output::RunStatus;
+
+/// One check, from its options to its files.
+class Check {
+public:
+  Check(const fs::path& file, const CheckOptions& options)
+      : options_(options), scene_(setup::loadScene(file, options.fixed)) {
+    checkScene(scene_);
+    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = checkOrigin(scene_);
+    record_.cases = checkCases(file, options.fixed, scene_);
+    keepAxes();
+    record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};
+  }
+
+  void run() {
+    const CheckChoice choice = choose();
+    for (std::size_t c = 0; c < record_.cases.cases.size(); ++c)
+      for (int s = 0; s < choice.seeds[c]; ++s) addRun(c, s);
+    record_.beyondBudget = choice.beyondBudget;
+    make("check");
+    report();
+  }
+
+private:
+  void keepAxes() {
+    if (options_.axes.empty()) return;
+    const auto unwanted = [this](CheckAxis axis) {
+      return axis != CheckAxis::base &&
+             std::find(options_.axes.begin(), options_.axes.end(), axis) == options_.axes.end();
+    };
+    std::erase_if(record_.cases.cases, [&](const CheckCase& c) { return unwanted(c.axis); });
+    std::erase_if(record_.cases.omitted, [&](const CheckOmission& o) { return unwanted(o.axis); });
+    for (const CheckAxis axis : kCheckAxes)
+      if (unwanted(axis)) record_.cases.omitted.push_back({axis, "not among --axes"});
+  }
+
+  /// Which runs are to be made: as this very check chose before, or by what the first run takes.
+  CheckChoice choose() {
+    if (options_.budget.empty()) return chooseRuns(record_.cases, options_.seeds, std::nullopt, 1, 1);
+    const nlohmann::json asked = {{"origin", record_.origin},
+                                  {"budget", options_.budget},
+                                  {"seeds", options_.seeds},
+                                  {"cases", record_.cases.cases.size()},
+                                  {"jobs", options_.sweep.jobs}};
+    const fs::path file = record_.folder / kCheckChoice;
+    std::ifstream former(file);
+    const nlohmann::json kept = nlohmann::json::parse(former, nullptr, false);
+    double seconds = 0;
+    if (kept.is_object() && kept.value("asked", nlohmann::json()) == asked && !options_.sweep.force) {
+      seconds = kept.value("base_run_s", 0.0);
+    } else {
+      seconds = pilot();
+      support::replaceTextFile(file, nlohmann::json{{"asked", asked}, {"base_run_s", seconds}}.dump(1) + "\n");
+    }
+    const CheckChoice choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget),
+                                          std::max(seconds, 1e-3), options_.sweep.jobs);
+    fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget,
+               support::Progress::duration(choice.seconds), leftOutText(choice));
+    return choice;
+  }
+
+  std::string leftOutText(const CheckChoice& choice) const {
+    std::string names;
+    for (const std::size_t c : choice.beyondBudget)
+      names += (names.empty() ? "; left out: " : ", ") + record_.cases.cases[c].name;
+    return names;
+  }
+
+  /// Makes the first run of the base, and returns its wall time [s].
+  double pilot() {
+    addRun(0, 0);
+    make("check, first run");
+    const double seconds = RunManifest(record_.folder / record_.runs.plan.runs[0].name).number("wall_time_s");
+    if (record_.outcomes[0].status != RunStatus::finished || !std::isfinite(seconds)) throwBaseFailed();
+    record_.runs.plan.runs.clear(), record_.runs.caseOf.clear(), record_.runs.seedOf.clear();
+    return seconds;
+  }
+
+  void addRun(std::size_t c, int seedIndex) {
+    SweepRun run;
+    const std::int64_t seed = scene_.run.seed + seedIndex;
+    const CheckCase& one = record_.cases.cases[c];
+    run.name = record_.cases.seeded ? fmt::format("{},seed={}", one.name, seed) : one.name;
+    run.values = {one.name, fmt::format("{}", seed)};
+    run.overrides = options_.fixed;
+    for (const std::string& o : one.overrides) putOverride(run.overrides, o);
+    putOverride(run.overrides, fmt::format("run.seed={}", seed));
+    run.scene = setup::loadScene(record_.runs.plan.scene, run.overrides);
+    record_.runs.plan.runs.push_back(std::move(run));
+    record_.runs.caseOf.push_back(c), record_.runs.seedOf.push_back(seed);
+  }
+
+  void make(const std::string& what) {
+    record_.outcomes = runMissing(record_.runs.plan, options_.sweep, what, [](const std::vector<SweepOutcome>&) {});
+  }
+
+  /// True where the base has a run that ended.
+  bool hasBase() const {
+    for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
+      if (record_.runs.caseOf[r] == 0 && record_.outcomes[r].status == RunStatus::finished) return true;
+    return false;
+  }
+
+  [[noreturn]] void throwBaseFailed() const {
+    for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
+      if (record_.runs.caseOf[r] == 0 && record_.outcomes[r].status == RunStatus::failed)
+        throw base::SimulationError(
+            fmt::format("no run of the scene as it is has ended: {}", record_.outcomes[r].message));
+    throw base::SimulationError("no run of the scene as it is has ended yet; the same call again goes on");
+  }
+
+  void report() {
+    if (!hasBase()) throwBaseFailed();
+    const CheckResults results =
+        checkResults(record_.cases, record_.runs, record_.outcomes, record_.folder, options_.percent);
+    const auto write = [&](const char* name, const std::string& text) {
+      support::replaceTextFile(record_.folder / name, text);
+    };
+    const std::string json = checkJson(record_, results);
+    write(kCheckFile, json), write(kCheckCosts, costsJson(record_, results));
+    write(kCheckSeries, seriesCsv(checkSeries(record_.cases, record_.runs, record_.outcomes, record_.folder)));
+    fmt::print("{}\n", checkText(record_, results));
+    if (options_.sweep.plot)
+      output::drawPicture("check.py", {record_.folder / kCheckFile, record_.folder / kCheckCosts},
+                          record_.folder / kCheckPlot);
+    write(kCheckPage, checkPage(record_, results));
+    for (const char* name : {kCheckFile, kCheckSeries, kCheckCosts, kCheckPage})
+      fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
+    keepCheck(scene_, json, record_.folder);
+    if (results.skin == SameBits::no)
+      throw base::SimulationError(
+          "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
+  }
+
+  const CheckOptions& options_;
+  scene::Scene scene_;
+  CheckRecord record_;
+};
+
+} // namespace
+
+void runCheck(const fs::path& scene, const CheckOptions& options) {
+  if (!options.budget.empty()) budgetSeconds(options.budget);
+  if (!options.sweep.force) checkFolderOfCheck(options.sweep.folder);
+  Check(scene, options).run();
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/check_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::sweeps {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kSafety = 1.25;                    // Roache's factor for three grids or more
+constexpr double kLeastOrder = 0.5, kMostOrder = 8; // rattle has orders up to 8
+constexpr double kAgree = 0.5;                      // orders of one convergence
+
+/// log2(a / b) where both have one sign and the order is one that a scheme can have.
+std::optional<double> orderOf(double a, double b) {
+  if (!(a * b > 0)) return std::nullopt;
+  const double order = std::log2(a / b);
+  return order >= kLeastOrder && order <= kMostOrder ? std::optional(order) : std::nullopt;
+}
+
+/// Seen in the last three differences, or in the last two where there are no more.
+std::optional<double> orderSeen(std::span<const double> values) {
+  const std::size_t n = values.size();
+  if (n < 4) return std::nullopt;
+  const auto difference = [&](std::size_t i) { return values[i + 1] - values[i]; };
+  const std::optional<double> last = orderOf(difference(n - 3), difference(n - 2)),
+                              before = orderOf(difference(n - 4), difference(n - 3));
+  return last && before && std::fabs(*last - *before) <= kAgree ? last : std::nullopt;
+}
+
+} // namespace
+
+StepError stepError(std::span<const double> values) {
+  if (values.size() < 2) return {0, kInfinite, std::nullopt};
+  const double finest = values.back();
+  StepError error{finest - values.front(), 0, orderSeen(values)};
+  if (error.order) {
+    const double rest = (finest - values[values.size() - 2]) / (std::exp2(*error.order) - 1);
+    error.change += rest;
+    error.bar = kSafety * std::fabs(error.change);
+    return error;
+  }
+  // Largest error over its step, in units of the first step.
+  double most = 0;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i)
+    most = std::max(most, std::ldexp(std::fabs(finest - values[i]), static_cast<int>(i)));
+  error.bar = std::fabs(error.change) + (values.size() == 2 ? 1.0 : 0.25) * most;
+  return error;
+}
+
+ScatteredStepError scatteredStepError(const support::Estimate& fine, const std::optional<support::Estimate>& coarse) {
+  ScatteredStepError error{fine, std::nullopt};
+  if (!coarse || std::fabs(fine.value) <= fine.halfWidth || std::fabs(coarse->value) <= coarse->halfWidth) return error;
+  error.order = orderOf(coarse->value, fine.value);
+  if (!error.order) return error;
+  const double growth = 1 / (1 - std::exp2(-*error.order)); // of h to nothing over that of h to h/2
+  error.change = {growth * fine.value, growth * fine.halfWidth};
+  return error;
+}
+
+studies::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds) {
+  constexpr int kEnough = 8;
+  if (seeds < kEnough && difference.halfWidth > 0.5 * bar) return studies::Verdict::notShown;
+  return studies::judge(difference, bar);
+}
+
+double totalBar(double seedsHalfWidth, std::span<const support::Estimate> errors) {
+  double squares = seedsHalfWidth * seedsHalfWidth;
+  for (const support::Estimate& e : errors) {
+    const double part = std::fabs(e.value) + e.halfWidth;
+    squares += part * part;
+  }
+  return std::sqrt(squares);
+}
+
+int seedsFor(double bar, double halfWidth, int seeds) {
+  if (seeds < 2 || !std::isfinite(halfWidth)) return 0;
+  const double deviation = halfWidth * std::sqrt(static_cast<double>(seeds)) / support::student95(seeds - 1);
+  constexpr int kMost = 1000;
+  for (int n = 2; n <= kMost; ++n)
+    if (support::student95(n - 1) * deviation <= bar * std::sqrt(static_cast<double>(n))) return n;
+  return 0;
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/studies/estimate.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+/// Errors of a figure from runs that differ in one setting.
+namespace grouser::sweeps {
+
+/// Error of the step where runs repeat to the bit: from the same figure at steps h, h/2, h/4...
+struct StepError {
+  double change = 0;           ///< of the figure where the step goes to nothing: finest known value less that at h
+  double bar = 0;              ///< the true change lies within +- this of zero; infinite where there is one value
+  std::optional<double> order; ///< of convergence, where it is seen; it is never assumed
+};
+
+/// `values` at h, h/2, h/4... An order is seen where the last three differences of successive values have one sign,
+/// shrink, and tell orders that agree within 0.5; the figure at h = 0 then follows by Richardson's extrapolation, and
+/// the bar is 1.25 times the change (P. J. Roache, J. Fluids Eng. 116 (1994) 405, grid convergence index of three or
+/// more grids). Where no order is seen, errors are taken to stay below C h, with C the largest |value - finest| / h
+/// that is seen: the bar is the change to the finest value and a quarter of C h; twice that for two values alone.
+StepError stepError(std::span<const double> values);
+
+/// The same where runs scatter with the seed: paired changes of the figure, fine less base and base less coarse.
+/// `coarse`: step 2 h, without a value where it was not run. An order is seen where both intervals leave out zero, the
+/// signs are the same and the change shrinks by 2^0.5 to 2^8; then the change is extrapolated to h = 0.
+struct ScatteredStepError {
+  support::Estimate change; ///< from the base to the finest, extrapolated where an order is seen
+  std::optional<double> order;
+};
+ScatteredStepError scatteredStepError(const support::Estimate& fine, const std::optional<support::Estimate>& coarse);
+
+/// How a difference stands to a bar. With fewer than 8 seeds its half width must lie below half of the bar to count.
+studies::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds);
+
+/// Root of the sum of the squares of the seeds' half width, and of |change| + half width of each error.
+double totalBar(double seedsHalfWidth, std::span<const support::Estimate> errors);
+
+/// How many seeds bring the half width of the 95 % interval below `bar`, where `seeds` of them gave `halfWidth`, all
+/// in one unit; 0: more than a thousand, or fewer than two were run.
+int seedsFor(double bar, double halfWidth, int seeds);
+
+} // namespace grouser::sweeps

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/check_report.hpp"
+
+#include "runs/support/build_info.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/sweeps/run_manifest.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::sweeps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using output::RunStatus;
+
+constexpr double kPercents[] = {10, 5, 1};
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double medianOf(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return kNone;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string bitsText(SameBits bits) {
+  return bits == SameBits::yes ? "the same bits" : bits == SameBits::no ? "OTHER BITS" : "not run";
+}
+
+Json errorJson(const AxisError& e, double value) {
+  Json json{{"axis", wordOf(e.axis)},
+            {"change", numberOf(e.change.value)},
+            {"half_width", numberOf(e.change.halfWidth)},
+            {"share_of_value", numberOf(value != 0 ? e.change.value / std::fabs(value) : kNone)},
+            {"seeds", e.seeds},
+            {"verdict", studies::verdictText(e.verdict)}};
+  if (e.axis == CheckAxis::step) json["order"] = e.order ? numberOf(*e.order) : Json(nullptr);
+  return json;
+}
+
+Json figureJson(const CheckFigure& f, const CheckResults& results) {
+  Json json{{"name", f.name},
+            {"value", numberOf(f.value.value)},
+            {"bar", numberOf(f.bar)},
+            {"seeds", f.seeds},
+            {"seeds_half_width", numberOf(f.value.halfWidth)}};
+  if (results.seeded) {
+    const double wanted = 0.01 * results.percent * std::fabs(f.value.value);
+    json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds);
+  }
+  json["errors"] = Json::array();
+  for (const AxisError& e : f.errors) json["errors"].push_back(errorJson(e, f.value.value));
+  json["bar_of_step"] = Json::array();
+  for (const double bar : f.barOfStep) json["bar_of_step"].push_back(numberOf(bar));
+  return json;
+}
+
+Json caseJson(const CheckRecord& record, std::size_t c) {
+  const CheckCase& one = record.cases.cases[c];
+  const CaseStatus status = statusOf(record, c);
+  Json json{{"name", one.name},
+            {"axis", wordOf(one.axis)},
+            {"what", one.what},
+            {"overrides", one.overrides},
+            {"status", status.word}};
+  if (!status.message.empty()) json["message"] = status.message;
+  json["runs"] = Json::array();
+  for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
+    if (record.runs.caseOf[r] != c) continue;
+    Json run{{"seed", record.runs.seedOf[r]}, {"status", std::string(base::wordOf(record.outcomes[r].status))}};
+    if (!record.outcomes[r].message.empty()) run["message"] = record.outcomes[r].message;
+    json["runs"].push_back(run);
+  }
+  return json;
+}
+
+/// "-0.0004 +- 0.0031", with a sign.
+std::string changeText(const support::Estimate& change) { return (change.value < 0 ? "" : "+") + valueText(change); }
+
+/// "-0.5 +- 4.2 %"; empty where the value may as well be zero.
+std::string shareText(const CheckFigure& f, const support::Estimate& change) {
+  const double value = std::fabs(f.value.value);
+  if (value == 0 || value <= f.value.halfWidth) return "";
+  const support::Estimate percents{100 * change.value / value, 100 * change.halfWidth / value};
+  return changeText(percents) + " %";
+}
+
+std::string orderText(const AxisError& e) {
+  if (e.axis != CheckAxis::step) return "";
+  return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
+}
+
+std::string cheapestText(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
+  std::vector<std::string> parts;
+  for (const double percent : kPercents) {
+    const Cheapest c = cheapest(record, results, f, percent);
+    const std::string seeds = results.seeded ? fmt::format(", {} seeds", c.seeds) : "";
+    parts.push_back(fmt::format("{:g} %: {}", percent,
+                                c.name.empty()
+                                    ? "no setting run"
+                                    : fmt::format("{}{}, {}", c.name, seeds, support::Progress::duration(c.wall))));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string cellsOf(const std::vector<std::string>& cells, const char* tag = "td") {
+  std::string row = "<tr>";
+  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  return row + "</tr>\n";
+}
+
+std::string figureRows(const CheckRecord& record, const CheckResults& results) {
+  std::string rows;
+  for (const CheckFigure& f : results.figures) {
+    rows += cellsOf({f.name, valueText({f.value.value, f.bar}),
+                     results.seeded ? fmt::format("seeds ({})", f.seeds) : "value", valueText(f.value),
+                     shareText(f, {0, f.value.halfWidth}), "",
+                     isHeadline(results, f) ? cheapestText(record, results, f) : ""});
+    for (const AxisError& e : f.errors)
+      rows += cellsOf({"", "", wordOf(e.axis), changeText(e.change), shareText(f, e.change),
+                       studies::verdictText(e.verdict), orderText(e)});
+  }
+  return rows;
+}
+
+} // namespace
+
+std::string valueText(const support::Estimate& e) {
+  if (!std::isfinite(e.value)) return "-";
+  const bool hasWidth = std::isfinite(e.halfWidth) && e.halfWidth > 0;
+  const double scale = hasWidth ? e.halfWidth : 0.001 * std::fabs(e.value);
+  const double size = std::max(std::fabs(e.value), scale);
+  const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // of the digits shown
+  if (size >= 1e6 || (size > 0 && size < 1e-3)) {                                        // one power of ten for both
+    const int power = static_cast<int>(std::floor(std::log10(size)));
+    const double unit = std::pow(10.0, power);
+    const int digits = std::clamp(power - last, 0, 9);
+    const std::string text = fmt::format("{:.{}f}", e.value / unit, digits);
+    return e.halfWidth == 0
+               ? fmt::format("{}e{}", text, power)
+               : fmt::format("({} +- {})e{}", text,
+                             std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
+                             power);
+  }
+  const int digits = std::clamp(-last, 0, 9);
+  if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
+  return studies::plusMinus(e, digits);
+}
+
+CaseCost costOf(const CheckRecord& record, std::size_t aCase) {
+  std::vector<double> wall, cpu, steps;
+  for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
+    if (record.runs.caseOf[r] != aCase || record.outcomes[r].status != RunStatus::finished) continue;
+    const RunManifest manifest(record.folder / record.runs.plan.runs[r].name);
+    wall.push_back(manifest.number("wall_time_s")), cpu.push_back(manifest.figure("cpu_steps_s"));
+    steps.push_back(manifest.number("steps"));
+  }
+  return {medianOf(wall), medianOf(cpu), medianOf(steps)};
+}
+
+CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
+  if (!record.cases.cases[aCase].refused.empty()) return {"refused", record.cases.cases[aCase].refused};
+  if (std::find(record.beyondBudget.begin(), record.beyondBudget.end(), aCase) != record.beyondBudget.end())
+    return {"left out", "beyond the budget"};
+  CaseStatus status{"not begun", ""};
+  for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
+    if (record.runs.caseOf[r] != aCase) continue;
+    const SweepOutcome& outcome = record.outcomes[r];
+    if (outcome.status == RunStatus::failed) return {"failed", outcome.message};
+    if (outcome.status == RunStatus::finished) status.word = "finished";
+  }
+  return status;
+}
+
+Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const CheckFigure& figure, double percent) {
+  Cheapest best;
+  const double value = std::fabs(figure.value.value), most = 0.01 * percent * value;
+  best.wall = HUGE_VAL;
+  if (value == 0 || value <= figure.value.halfWidth) return best;
+  for (std::size_t i = 0; i < results.stepCases.size(); ++i) {
+    const double bar = figure.barOfStep[i];
+    if (!(bar < most)) continue;
+    // What the step leaves of the bar is for the seeds.
+    const int seeds =
+        results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth, figure.seeds) : 1;
+    const double wall = costOf(record, results.stepCases[i]).wall * seeds;
+    if (seeds > 0 && wall < best.wall) best = {record.cases.cases[results.stepCases[i]].name, bar / value, seeds, wall};
+  }
+  return best;
+}
+
+std::string checkJson(const CheckRecord& record, const CheckResults& results) {
+  Json json{{"scene", record.scene},
+            {"origin", record.origin},
+            {"program", {{"version", support::buildInfo().version}, {"commit", support::buildInfo().commit}}},
+            {"seeds_matter", results.seeded},
+            {"bar_percent", results.percent},
+            {"skin", bitsText(results.skin)}};
+  json["cases"] = Json::array();
+  for (std::size_t c = 0; c < record.cases.cases.size(); ++c) json["cases"].push_back(caseJson(record, c));
+  json["not_asked"] = Json::array();
+  for (const CheckOmission& o : record.cases.omitted)
+    json["not_asked"].push_back({{"axis", wordOf(o.axis)}, {"why", o.why}});
+  json["step_cases"] = Json::array();
+  for (const std::size_t c : results.stepCases) json["step_cases"].push_back(record.cases.cases[c].name);
+  json["figures"] = Json::array();
+  for (const CheckFigure& f : results.figures) {
+    json["figures"].push_back(figureJson(f, results));
+    json["figures"].back()["headline"] = isHeadline(results, f);
+  }
+  return json.dump(1) + "\n";
+}
+
+std::string costsJson(const CheckRecord& record, const CheckResults& results) {
+  Json json{{"scene", record.scene}, {"machine", support::machineText()}};
+  json["cases"] = Json::array();
+  for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
+    const CaseCost cost = costOf(record, c);
+    json["cases"].push_back({{"name", record.cases.cases[c].name},
+                             {"wall_s", numberOf(cost.wall)},
+                             {"cpu_s", numberOf(cost.cpu)},
+                             {"steps", numberOf(cost.steps)},
+                             {"expected_over_base", record.cases.cases[c].cost}});
+  }
+  json["cheapest"] = Json::array();
+  for (const CheckFigure& f : results.figures) {
+    if (!isHeadline(results, f)) continue;
+    Json row{{"figure", f.name}};
+    for (const double percent : kPercents) {
+      const Cheapest c = cheapest(record, results, f, percent);
+      Json& cell = row[fmt::format("{:g} %", percent)];
+      if (!c.name.empty()) cell = {{"case", c.name}, {"error_by_step", c.step}, {"seeds", c.seeds}, {"wall_s", c.wall}};
+    }
+    json["cheapest"].push_back(row);
+  }
+  return json.dump(1) + "\n";
+}
+
+bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
+  static const std::vector<std::string> kOfVehicle = {
+      "speed [m/s]",        "slip [-]",         "sinkage mean [m]", "sinkage max [m]",
+      "drive torque [N m]", "tension mean [N]", "tension peak [N]", "motion resistance [N]"};
+  const auto has = [&](const auto& test) { return std::any_of(results.figures.begin(), results.figures.end(), test); };
+  const auto ofVehicle = [](const CheckFigure& f) {
+    return std::find(kOfVehicle.begin(), kOfVehicle.end(), f.name) != kOfVehicle.end();
+  };
+  const auto isForce = [](const CheckFigure& f) { return f.name.find(" force ") != std::string::npos; };
+  const auto isEnd = [](const CheckFigure& f) {
+    return f.name.ends_with(" at the end") && !f.name.starts_with("ledger.");
+  };
+  if (has(ofVehicle)) return ofVehicle(figure);
+  if (has(isForce)) return isForce(figure);
+  return !has(isEnd) || isEnd(figure);
+}
+
+std::string checkText(const CheckRecord& record, const CheckResults& results) {
+  std::string text = fmt::format("\n{}: values with error bars; changes from the scene as it is, verdicts at {:g} %\n",
+                                 record.scene, results.percent);
+  for (const CheckFigure& f : results.figures) {
+    if (!isHeadline(results, f) || !std::isfinite(f.value.value)) continue;
+    text += fmt::format("{}  {}\n", f.name, valueText({f.value.value, f.bar}));
+    if (results.seeded)
+      text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
+                          shareText(f, {0, f.value.halfWidth}), f.seeds);
+    for (const AxisError& e : f.errors)
+      text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", wordOf(e.axis), changeText(e.change),
+                          shareText(f, e.change), studies::verdictText(e.verdict), orderText(e));
+    text += fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
+  }
+  text += "\nruns\n";
+  for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
+    const CaseCost cost = costOf(record, c);
+    const CaseStatus status = statusOf(record, c);
+    text += fmt::format("  {:<14} {:<44} {}{}\n", record.cases.cases[c].name, record.cases.cases[c].what,
+                        std::isfinite(cost.wall) ? fmt::format("{:.3g} s each, {:.3g} s of CPU", cost.wall, cost.cpu)
+                                                 : status.word,
+                        status.message.empty() ? "" : ": " + status.message);
+  }
+  for (const CheckOmission& o : record.cases.omitted)
+    text += fmt::format("  {:<14} not asked: {}\n", wordOf(o.axis), o.why);
+  return text + fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
+}
+
+std::string checkPage(const CheckRecord& record, const CheckResults& results) {
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}: error bars</title>\n<style>body{{"
+      "font:14px sans-serif;margin:2em}}table{{border-collapse:collapse}}td,th{{padding:2px 10px;text-align:left;"
+      "border-bottom:1px solid #ddd}}</style></head><body>\n<h1>{0}: error bars</h1>\n<p>Program {1}, {2}. Verdicts at "
+      "{3:g} % of a value. The bar is the root of the sum of the squares of the seeds' 95 % interval and of every "
+      "change with its interval.</p>\n",
+      escaped(record.scene), support::buildInfo().version, support::buildInfo().commit, results.percent);
+  page += fmt::format("<p><img src=\"{}\" alt=\"error over run time\" style=\"max-width:100%\"></p>\n", kCheckPlot);
+  page += "<table>\n" +
+          cellsOf({"figure", "value with bar", "by", "change", "share", "verdict", "cheapest within 10, 5, 1 %; order"},
+                  "th");
+  page += figureRows(record, results) + "</table>\n<h2>Runs</h2>\n<table>\n" +
+          cellsOf({"case", "what", "status", "wall time of one [s]", "CPU time of its steps [s]", "steps"}, "th");
+  const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.4g}", v) : "-"; };
+  for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
+    const CaseCost cost = costOf(record, c);
+    const CaseStatus status = statusOf(record, c);
+    page += cellsOf({record.cases.cases[c].name, record.cases.cases[c].what,
+                     status.word + (status.message.empty() ? "" : ": " + status.message), number(cost.wall),
+                     number(cost.cpu), number(cost.steps)});
+  }
+  page += "</table>\n<p>Skin of the neighbour lists: " + bitsText(results.skin) + ".";
+  for (const CheckOmission& o : record.cases.omitted)
+    page += fmt::format(" Not asked: {} ({}).", wordOf(o.axis), escaped(o.why));
+  return page + "</p>\n<p>Time series with bars: <a href=\"series.csv\">series.csv</a>.</p>\n</body></html>\n";
+}
+
+} // namespace grouser::sweeps

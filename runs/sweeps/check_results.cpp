@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/check_results.hpp"
+
+#include "runs/sweeps/run_manifest.hpp"
+#include "runs/sweeps/run_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::sweeps {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+using output::RunStatus;
+
+/// Figures of all runs: those of a sweep, and of scenes without a vehicle all columns at the end.
+SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                       const std::filesystem::path& folder, bool hasVehicle) {
+  SweepFigures figures = sweepFigures(runs.plan, outcomes, folder);
+  if (hasVehicle) return figures;
+  std::vector<std::string> added;
+  std::vector<std::vector<std::pair<std::string, double>>> ends(runs.plan.runs.size());
+  for (std::size_t r = 0; r < runs.plan.runs.size(); ++r) {
+    if (outcomes[r].status != RunStatus::finished) continue;
+    const RunSeries series = readSeries(folder / runs.plan.runs[r].name);
+    for (std::size_t c = 0; c < series.columns.size(); ++c) {
+      if (series.values[c].empty() || series.columns[c].starts_with("terrain.rebuilds")) continue;
+      const std::string name = series.columns[c] + " at the end";
+      ends[r].emplace_back(name, series.values[c].back());
+      if (std::find(added.begin(), added.end(), name) == added.end()) added.push_back(name);
+    }
+  }
+  for (const std::string& name : added) {
+    figures.columns.push_back(name);
+    for (std::size_t r = 0; r < ends.size(); ++r) {
+      const auto at = std::find_if(ends[r].begin(), ends[r].end(), [&](const auto& e) { return e.first == name; });
+      figures.values[r].push_back(at == ends[r].end() ? kNone : at->second);
+    }
+  }
+  return figures;
+}
+
+/// Values of one figure by case and seed.
+class Values {
+public:
+  Values(const CheckRuns& runs, const SweepFigures& figures, std::size_t column)
+      : runs_(runs), figures_(figures), column_(column) {}
+
+  std::vector<double> of(std::size_t aCase) const {
+    std::vector<double> values;
+    for (std::size_t r = 0; r < runs_.caseOf.size(); ++r)
+      if (runs_.caseOf[r] == aCase && std::isfinite(at(r))) values.push_back(at(r));
+    return values;
+  }
+  /// Values of two cases, of the seeds that both have.
+  std::pair<std::vector<double>, std::vector<double>> pairs(std::size_t a, std::size_t b) const {
+    std::pair<std::vector<double>, std::vector<double>> found;
+    for (std::size_t r = 0; r < runs_.caseOf.size(); ++r)
+      for (std::size_t s = 0; s < runs_.caseOf.size(); ++s)
+        if (runs_.caseOf[r] == a && runs_.caseOf[s] == b && runs_.seedOf[r] == runs_.seedOf[s] &&
+            std::isfinite(at(r)) && std::isfinite(at(s)))
+          found.first.push_back(at(r)), found.second.push_back(at(s));
+    return found;
+  }
+
+private:
+  double at(std::size_t run) const { return figures_.values[run][column_]; }
+  const CheckRuns& runs_;
+  const SweepFigures& figures_;
+  std::size_t column_;
+};
+
+/// Index of the case of a refinement of the step (0: the base); none where it is missing.
+std::optional<std::size_t> stepCase(const CheckCases& cases, int refinement) {
+  for (std::size_t c = 0; c < cases.cases.size(); ++c) {
+    const CheckAxis axis = cases.cases[c].axis;
+    if ((axis == CheckAxis::step || axis == CheckAxis::base) && cases.cases[c].refinement == refinement) return c;
+  }
+  return std::nullopt;
+}
+
+/// The verdict on a change of a figure; none is shown of one whose mean may as well be zero, unless nothing changed.
+studies::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, double bar, bool seeded) {
+  const double mean = std::fabs(figure.value.value);
+  if (error.change.value == 0 && error.change.halfWidth == 0) return studies::Verdict::equal;
+  if (mean <= figure.value.halfWidth || mean == 0) return studies::Verdict::notShown;
+  const support::Estimate share{error.change.value / mean, error.change.halfWidth / mean};
+  return seeded ? judgeSeeds(share, bar, error.seeds) : studies::judge(share, bar);
+}
+
+/// Makes one figure of the values of all cases.
+class FigureMaker {
+public:
+  FigureMaker(const CheckCases& cases, const Values& values, double percent)
+      : cases_(cases), values_(values), bar_(0.01 * percent) {}
+
+  CheckFigure make(const std::string& name, const std::vector<std::size_t>& stepCases) {
+    figure_.name = name;
+    const std::vector<double> base = values_.of(0);
+    figure_.seeds = static_cast<int>(base.size());
+    figure_.value = cases_.seeded ? studies::interval95(base) : support::Estimate{base.front(), 0};
+    cases_.seeded ? addScatteredStep() : addStep();
+    for (std::size_t c = 1; c < cases_.cases.size(); ++c) addOther(c);
+    std::vector<support::Estimate> parts;
+    for (const AxisError& e : figure_.errors)
+      if (e.axis != CheckAxis::precision || !cases_.seeded) parts.push_back(e.change);
+    figure_.bar = totalBar(figure_.value.halfWidth, parts);
+    for (const std::size_t c : stepCases) figure_.barOfStep.push_back(barOfStep(c));
+    return figure_;
+  }
+
+private:
+  void add(AxisError error) {
+    error.verdict = verdictOf(figure_, error, bar_, cases_.seeded);
+    figure_.errors.push_back(error);
+  }
+
+  /// Values at h, h/2, h/4... as far as they are there, from this refinement on.
+  std::vector<double> refined(int from) const {
+    std::vector<double> values;
+    for (int refinement = from;; ++refinement) {
+      const std::optional<std::size_t> c = stepCase(cases_, refinement);
+      const std::vector<double> found = c ? values_.of(*c) : std::vector<double>{};
+      if (found.empty()) return values;
+      values.push_back(found.front());
+    }
+  }
+
+  void addStep() {
+    const std::vector<double> values = refined(0);
+    if (values.size() < 2) return;
+    const StepError e = stepError(values);
+    // The bar reaches as far as the change and what is not known of it.
+    add({CheckAxis::step, {e.change, std::max(0.0, e.bar - std::fabs(e.change))}, e.order, 1, {}});
+  }
+
+  /// Change between two cases; none without common seeds.
+  std::optional<support::Estimate> change(std::optional<std::size_t> from, std::optional<std::size_t> to) const {
+    if (!from || !to) return std::nullopt;
+    const auto [a, b] = values_.pairs(*from, *to);
+    return a.empty() ? std::nullopt : std::optional(studies::pairedChange(a, b));
+  }
+
+  void addScatteredStep() {
+    const auto base = stepCase(cases_, 0), fine = stepCase(cases_, 1), coarse = stepCase(cases_, -1);
+    const std::optional<support::Estimate> finer = change(base, fine);
+    if (!finer) return;
+    const ScatteredStepError e = scatteredStepError(*finer, change(coarse, base));
+    add({CheckAxis::step, e.change, e.order, static_cast<int>(values_.pairs(*base, *fine).first.size()), {}});
+  }
+
+  void addOther(std::size_t c) {
+    const CheckAxis axis = cases_.cases[c].axis;
+    if (axis == CheckAxis::step || axis == CheckAxis::skin) return;
+    const auto [a, b] = values_.pairs(0, c);
+    if (a.empty()) return;
+    const support::Estimate changed =
+        cases_.seeded ? studies::pairedChange(a, b) : support::Estimate{b.front() - a.front(), 0};
+    add({axis, changed, std::nullopt, static_cast<int>(a.size()), {}});
+  }
+
+  /// Error bar of the figure at the step of case c, all else as in the base.
+  double barOfStep(std::size_t c) const {
+    const int refinement = cases_.cases[c].refinement;
+    if (!cases_.seeded) {
+      const std::vector<double> values = refined(refinement);
+      return values.size() < 2 ? kNone : stepError(values).bar;
+    }
+    if (refinement > 0) return kNone; // nothing finer is there to compare with
+    const std::optional<support::Estimate> e = change(c, stepCase(cases_, 1));
+    return e ? std::fabs(e->value) + e->halfWidth : kNone;
+  }
+
+  const CheckCases& cases_;
+  const Values& values_;
+  double bar_;
+  CheckFigure figure_;
+};
+
+/// Whether the runs of the skin's case end in the bits of the base's with the same seed.
+SameBits sameBits(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                  const std::filesystem::path& folder) {
+  SameBits same = SameBits::notRun;
+  for (std::size_t r = 0; r < runs.caseOf.size(); ++r) {
+    if (cases.cases[runs.caseOf[r]].axis != CheckAxis::skin || outcomes[r].status != RunStatus::finished) continue;
+    for (std::size_t b = 0; b < runs.caseOf.size(); ++b) {
+      if (runs.caseOf[b] != 0 || runs.seedOf[b] != runs.seedOf[r] || outcomes[b].status != RunStatus::finished)
+        continue;
+      const std::string one = RunManifest(folder / runs.plan.runs[r].name).text("state_hash"),
+                        other = RunManifest(folder / runs.plan.runs[b].name).text("state_hash");
+      if (one != other) return SameBits::no;
+      same = SameBits::yes;
+    }
+  }
+  return same;
+}
+
+} // namespace
+
+CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                          const std::filesystem::path& folder, double percent) {
+  CheckResults results;
+  results.seeded = cases.seeded, results.percent = percent;
+  results.skin = sameBits(cases, runs, outcomes, folder);
+  const bool hasVehicle = !runs.plan.runs.empty() && runs.plan.runs.front().scene.vehicle.has_value();
+  const SweepFigures figures = figuresOf(runs, outcomes, folder, hasVehicle);
+  for (std::size_t c = 0; c < cases.cases.size(); ++c) {
+    const CheckAxis axis = cases.cases[c].axis;
+    bool finished = false;
+    for (std::size_t r = 0; r < runs.caseOf.size(); ++r)
+      finished = finished || (runs.caseOf[r] == c && outcomes[r].status == RunStatus::finished);
+    if (finished && (axis == CheckAxis::step || axis == CheckAxis::base)) results.stepCases.push_back(c);
+  }
+  for (std::size_t column = 0; column < figures.columns.size(); ++column) {
+    const Values values(runs, figures, column);
+    if (values.of(0).empty()) continue;
+    results.figures.push_back(FigureMaker(cases, values, percent).make(figures.columns[column], results.stepCases));
+  }
+  return results;
+}
+
+} // namespace grouser::sweeps

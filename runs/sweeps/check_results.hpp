@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/sweeps/check_cases.hpp"
+#include "runs/sweeps/check_errors.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the runs of a check tell of the scene's figures.
+namespace grouser::sweeps {
+
+/// The runs of a check: those of a case with the seeds that were chosen for it.
+struct CheckRuns {
+  SweepPlan plan;                   ///< keys: kCaseKey, kSeedKey
+  std::vector<std::size_t> caseOf;  ///< [runs] index into CheckCases::cases
+  std::vector<std::int64_t> seedOf; ///< [runs]
+};
+
+/// Error of a figure by one axis.
+struct AxisError {
+  CheckAxis axis = CheckAxis::step;
+  support::Estimate change;    ///< from the base to the better or other setting, in the figure's unit; of the step
+                               ///< extrapolated to nothing where an order is seen
+  std::optional<double> order; ///< of the step, where one is seen
+  int seeds = 0;               ///< pairs of runs behind it
+  studies::Verdict verdict = studies::Verdict::notShown; ///< against the bar
+};
+
+struct CheckFigure {
+  std::string name;        ///< with its unit: "sinkage mean [m]"
+  support::Estimate value; ///< of the base; half width over the seeds, 0 where seeds make no difference
+  int seeds = 0;           ///< runs behind it
+  std::vector<AxisError> errors;
+  double bar = 0; ///< totalBar() of all but precision where seeds count; the half width of the error bar
+  /// Beside each run of the step axis and the base: its error bar, in the figure's unit, NaN where it has none.
+  std::vector<double> barOfStep;
+};
+
+/// Sameness of bits, which skin must not change.
+enum class SameBits { yes, no, notRun };
+
+struct CheckResults {
+  bool seeded = false;
+  double percent = 5; ///< of a figure's mean: the bar of the verdicts
+  std::vector<CheckFigure> figures;
+  std::vector<std::size_t> stepCases; ///< those of barOfStep: finished cases of the step axis and the base
+  SameBits skin = SameBits::notRun;
+};
+
+/// `folder`: that of the runs' folders. A figure is kept where a base run has it.
+CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                          const std::filesystem::path& folder, double percent);
+
+} // namespace grouser::sweeps

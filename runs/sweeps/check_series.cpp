@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/check_series.hpp"
+
+#include "runs/support/csv_cell.hpp"
+#include "runs/sweeps/run_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace grouser::sweeps {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// A run's series, its case and its seed.
+struct Member {
+  std::size_t aCase;
+  int refinement; ///< of the step
+  std::int64_t seed;
+  RunSeries series;
+};
+
+/// Those of the base and of finer steps that have ended.
+std::vector<Member> membersOf(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                              const std::filesystem::path& folder) {
+  std::vector<Member> members;
+  for (std::size_t r = 0; r < runs.caseOf.size(); ++r) {
+    const CheckCase& c = cases.cases[runs.caseOf[r]];
+    const bool ofStep = c.axis == CheckAxis::base || (c.axis == CheckAxis::step && c.refinement > 0);
+    if (!ofStep || outcomes[r].status != output::RunStatus::finished) continue;
+    members.push_back({runs.caseOf[r], c.refinement, runs.seedOf[r], readSeries(folder / runs.plan.runs[r].name)});
+  }
+  return members;
+}
+
+bool sameTimes(const RunSeries& a, const RunSeries& b) {
+  if (a.time.size() != b.time.size()) return false;
+  for (std::size_t i = 0; i < a.time.size(); ++i)
+    if (std::fabs(a.time[i] - b.time[i]) > 1e-9 * std::fabs(a.time.back())) return false;
+  return true;
+}
+
+/// Mean and half width; of runs that repeat the one value.
+support::Estimate estimateOf(const std::vector<double>& values, bool seeded) {
+  if (values.empty()) return {kNone, kNone};
+  return seeded ? studies::interval95(values) : support::Estimate{values.front(), 0};
+}
+
+/// Numbers of one column in one row, by refinement and seed.
+using Cell = std::map<int, std::map<std::int64_t, double>>;
+
+double stepBar(const Cell& cell, bool seeded) {
+  const auto base = cell.find(0);
+  if (base == cell.end()) return kNone;
+  if (!seeded) {
+    std::vector<double> values;
+    for (int refinement = 0; cell.contains(refinement); ++refinement)
+      values.push_back(cell.at(refinement).begin()->second);
+    return values.size() < 2 ? kNone : stepError(values).bar;
+  }
+  const auto fine = cell.find(1);
+  if (fine == cell.end()) return kNone;
+  std::vector<double> a, b;
+  for (const auto& [seed, value] : base->second)
+    if (const auto other = fine->second.find(seed); other != fine->second.end())
+      a.push_back(value), b.push_back(other->second);
+  if (a.empty()) return kNone;
+  const support::Estimate change = studies::pairedChange(a, b);
+  return std::fabs(change.value) + change.halfWidth;
+}
+
+/// One column of all members at one time.
+Cell cellOf(const std::vector<Member>& members, const std::string& column, std::size_t row) {
+  Cell cell;
+  for (const Member& m : members)
+    if (const std::vector<double>* values = m.series.of(column); values && std::isfinite((*values)[row]))
+      cell[m.refinement][m.seed] = (*values)[row];
+  return cell;
+}
+
+} // namespace
+
+CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                        const std::filesystem::path& folder) {
+  std::vector<Member> members = membersOf(cases, runs, outcomes, folder);
+  CheckSeries all;
+  const auto base = std::find_if(members.begin(), members.end(), [](const Member& m) { return m.refinement == 0; });
+  if (base == members.end()) return all;
+  const RunSeries first = base->series;
+  std::erase_if(members, [&](const Member& m) { return !sameTimes(m.series, first); });
+  all.time = first.time;
+  for (const std::string& column : first.columns) {
+    if (column.starts_with("terrain.rebuilds")) continue; // of the search, not of the ground
+    SeriesWithBars& s = all.series.emplace_back();
+    s.name = column;
+    for (std::size_t row = 0; row < all.time.size(); ++row) {
+      const Cell cell = cellOf(members, column, row);
+      std::vector<double> values;
+      if (const auto at = cell.find(0); at != cell.end())
+        for (const auto& [seed, value] : at->second) values.push_back(value);
+      const support::Estimate e = estimateOf(values, cases.seeded);
+      s.value.push_back(e.value), s.seeds.push_back(e.halfWidth), s.step.push_back(stepBar(cell, cases.seeded));
+      s.bar.push_back(std::hypot(s.seeds.back(), s.step.back()));
+    }
+  }
+  return all;
+}
+
+std::string seriesCsv(const CheckSeries& series) {
+  std::string text = "time [s]";
+  for (const SeriesWithBars& s : series.series)
+    for (const char* what : {"", " seeds +-", " step +-", " bar +-"}) text += "," + support::csvCell(s.name + what);
+  text += "\n";
+  for (std::size_t row = 0; row < series.time.size(); ++row) {
+    text += support::csvCell(series.time[row]);
+    for (const SeriesWithBars& s : series.series)
+      for (const double value : {s.value[row], s.seeds[row], s.step[row], s.bar[row]})
+        text += "," + support::csvCell(value);
+    text += "\n";
+  }
+  return text;
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/kept_checks.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+#include "runs/support/kept_files.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/text_file.hpp"
+#include "runs/sweeps/check_cases.hpp"
+#include "runs/sweeps/check_report.hpp"
+#include "runs/sweeps/runner.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <limits>
+
+namespace grouser::sweeps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSeedsOfCheck = 8; // of a whole one
+
+/// The resolved scene without what its figures do not depend on.
+std::string originText(scene::Scene scene) {
+  const scene::RunSettings fresh;
+  scene.run.seed = fresh.seed, scene.run.frameInterval = fresh.frameInterval;
+  scene.run.checkpointInterval = fresh.checkpointInterval;
+  scene.output = {}, scene.parallel = {};
+  return identity(scene);
+}
+
+nlohmann::json readJson(const fs::path& path) {
+  std::ifstream file(path);
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
+double numberOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::infinity();
+}
+
+/// The check that is kept of this scene; no object where there is none.
+nlohmann::json keptCheck(const scene::Scene& scene) {
+  const std::string origin = originText(scene);
+  const auto kept = support::KeptFiles::ofUser();
+  if (!kept) return {};
+  nlohmann::json json = readJson(kept->fileOf(support::KeptFiles::Kind::check, origin));
+  return json.is_object() && json.value("of", "") == origin ? json : nlohmann::json();
+}
+
+std::string barsText(const nlohmann::json& kept) {
+  const nlohmann::json& check = kept.at("check");
+  std::string text =
+      fmt::format("checked   error bars of the last check of this scene ({}, commit {})\n",
+                  kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>());
+  for (const nlohmann::json& f : check.at("figures")) {
+    if (!f.value("headline", false) || !f.at("value").is_number()) continue;
+    text += fmt::format("  {:<34} {}\n", f.at("name").get<std::string>(),
+                        valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
+  }
+  return text;
+}
+
+} // namespace
+
+std::string checkOrigin(const scene::Scene& scene) {
+  base::StateHash hash;
+  for (const char c : originText(scene)) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  return hash.hex();
+}
+
+void keepCheck(const scene::Scene& scene, const std::string& json, const fs::path& folder) {
+  const auto kept = support::KeptFiles::ofUser();
+  if (!kept || !kept->writable()) return;
+  const std::string origin = originText(scene);
+  const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin),
+                 fresh = support::KeptFiles::freshName(file);
+  try {
+    const nlohmann::json all = {{"of", origin}, {"folder", folder.string()}, {"check", nlohmann::json::parse(json)}};
+    support::replaceTextFile(fresh, all.dump() + "\n");
+    kept->put(fresh, file);
+  } catch (const std::exception&) {
+    std::error_code error; // a later run then says that nothing was checked
+    fs::remove(fresh, error);
+  }
+}
+
+std::string checkNote(const scene::Scene& scene, double runSeconds) {
+  try {
+    const nlohmann::json kept = keptCheck(scene);
+    if (kept.is_object()) return barsText(kept);
+  } catch (const nlohmann::json::exception&) {
+    // damaged, or of another version
+  }
+  return fmt::format(
+      "unchecked errors of step, extent and seed: grouser check {}, about {} (--budget 20min: as much as "
+      "fits)\n",
+      scene.file.string(), support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck)));
+}
+
+void checkFolderOfCheck(const fs::path& folder) {
+  const nlohmann::json json = readJson(folder / kCheckFile);
+  if (json.is_object() && json.contains("origin") && json.contains("figures")) return;
+  std::error_code error;
+  for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPage, kCheckPlot})
+    if (fs::exists(folder / name, error))
+      throw base::InputError(
+          fmt::format("{}: is a file that no check has written, and this one would write over it; name "
+                      "another folder with --out, or overwrite it with --force",
+                      (folder / name).string()));
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+
+#include <filesystem>
+#include <string>
+
+/// The last check of each scene, kept beside settled beds, so that a later run can say how far its figures hold.
+namespace grouser::sweeps {
+
+/// Hash of what decides a scene's results, seed, output and machine aside.
+std::string checkOrigin(const scene::Scene& scene);
+
+/// Keeps check.json of `folder` for later runs. Nothing is said where it cannot be kept.
+void keepCheck(const scene::Scene& scene, const std::string& json, const std::filesystem::path& folder);
+
+/// For the end of a run of this scene that took `runSeconds`: figures with their bars where it has been checked, else
+/// how long `grouser check` would take. Whole lines.
+std::string checkNote(const scene::Scene& scene, double runSeconds);
+
+/// Throws InputError where the folder holds files of other origin in the places of a check's.
+void checkFolderOfCheck(const std::filesystem::path& folder);
+
+} // namespace grouser::sweeps

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/sweeps/sweep_plan.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// Runs of a scene as processes of their own.
+namespace grouser::sweeps {
+
+struct SweepOptions {
+  std::filesystem::path program; ///< of grouser
+  std::filesystem::path folder;  ///< the runs' folders go in here, with summary.csv and summary.png
+  int jobs = 1;                  ///< runs at the same time
+  double seconds = 0;            ///< no run is begun after so many; 0: no end
+  bool force = false;            ///< run again what has already been run, and overwrite folders of other origin
+  bool plot = true;
+};
+
+using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
+
+/// What decides the result of a run, as text: the resolved scene without device, threads and folder.
+std::string identity(scene::Scene scene);
+
+/// Runs what is not there yet, in the order of the plan, at most `jobs` at a time. A run is left out when its folder
+/// holds a finished one of the same identity(); what is half done or of another scene is run again. `changed` is called
+/// at the start and after every run; `what` stands before the lines of progress. Throws InputError, before anything is
+/// started, where a run's folder holds something else. Returns how each run stands.
+std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
+                                     const OutcomesChanged& changed);
+
+} // namespace grouser::sweeps

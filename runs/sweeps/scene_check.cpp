@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/sweeps/scene_check.hpp"
+
+#include "runs/setup/grain_count.hpp"
+#include "runs/setup/ground_setup.hpp"
+#include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/placement.hpp"
+#include "runs/setup/restitution_check.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_surroundings.hpp"
+#include "runs/simulation/mechanism.hpp"
+#include "vehicle/spec_file.hpp"
+
+namespace grouser::sweeps {
+
+void checkScene(const scene::Scene& scene) {
+  setup::checkRestitutions(scene);
+  setup::plannedGrains(scene);
+  if (scene.vehicle) {
+    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
+    setup::checkParts(scene);
+  }
+  const double step = setup::chooseTimeStep(scene);
+  setup::checkGround(scene, step);
+  if (!scene.mechanism.empty()) const simulation::Mechanism mechanism(setup::mechanismSetup(scene), step);
+}
+
+} // namespace grouser::sweeps

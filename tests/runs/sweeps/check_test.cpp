@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/load_scene.hpp"
+#include "runs/sweeps/check_cases.hpp"
+#include "runs/sweeps/check_report.hpp"
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+namespace grouser::sweeps {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class Check : public ProgramTest {
+protected:
+  static constexpr const char* kQuiet = "[output]\nplots = false\npicture = false\nframes = false\n";
+
+  /// A grain in free fall for 0.1 s. Symplectic Euler falls too far by g T h / 2, exactly.
+  void writeFall() const {
+    std::ofstream(folder_ / "fall.toml")
+        << "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-3\noutput_interval = 0.01\nthreads = 1\n"
+           "[material.glass]\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
+        << kQuiet;
+  }
+  /// Some grains at random places that fall onto a plane.
+  void writeHeap() const {
+    std::ofstream(folder_ / "heap.toml")
+        << "version = 1\n[run]\nduration = 0.05\ntime_step = 2e-4\noutput_interval = 0.01\nthreads = 1\n"
+           "[material.glass]\nstiffness = 1e4\n[[grains]]\nform = \"random\"\nnumber = 30\nlow = [0, 0, 0]\n"
+           "high = [0.15, 0.15, 0.1]\nradius = 0.01\nmaterial = \"glass\"\n"
+           "[[plane]]\nname = \"ground\"\nmaterial = \"glass\"\n"
+        << kQuiet;
+  }
+  Json json(const std::string& name) const { return Json::parse(contents((folder_ / name).string())); }
+  static Json figure(const Json& check, const std::string& name) {
+    for (const Json& f : check.at("figures"))
+      if (f.at("name") == name) return f;
+    ADD_FAILURE() << name << " is missing";
+    return {};
+  }
+  static Json errorBy(const Json& figure, const std::string& axis) {
+    for (const Json& e : figure.at("errors"))
+      if (e.at("axis") == axis) return e;
+    ADD_FAILURE() << axis << " is missing";
+    return {};
+  }
+};
+
+TEST_F(Check, AFallsErrorByTheStepIsFoundWithItsOrder) {
+  writeFall();
+  const Outcome o = call("check fall.toml --out c");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  const Json f = figure(json("c/check.json"), "grain.0.position.z [m] at the end");
+  const double g = 9.81, duration = 0.1, step = 1e-3;
+  EXPECT_NEAR(f.at("value").get<double>(), 1 - 0.5 * g * duration * (duration + step), 1e-8);
+  const Json e = errorBy(f, "step");
+  EXPECT_NEAR(e.at("order").get<double>(), 1, 0.01);
+  EXPECT_NEAR(e.at("change").get<double>(), 0.5 * g * duration * step, 1e-7); // the true error
+  EXPECT_NEAR(f.at("bar").get<double>(), 1.25 * 0.5 * g * duration * step, 1e-6);
+}
+
+TEST_F(Check, SeriesCarryTheirBarsAtEveryTime) {
+  writeFall();
+  ASSERT_EQ(call("check fall.toml --axes step --out c").code, 0);
+  std::ifstream file(folder_ / "c/series.csv");
+  std::string head, line, last;
+  std::getline(file, head);
+  int rows = 0;
+  while (std::getline(file, line)) last = line, ++rows;
+  EXPECT_EQ(rows, 11);
+  const std::string name = "grain.0.position.z [m]";
+  EXPECT_NE(head.find("," + name + "," + name + " seeds +-," + name + " step +-," + name + " bar +-"), std::string::npos)
+      << head;
+}
+
+TEST_F(Check, TheFilesAreTheSameForOneJobTwoJobsAndSeveralCalls) {
+  writeHeap();
+  ASSERT_EQ(call("check heap.toml --seeds 3 --out one").code, 0);
+  ASSERT_EQ(call("check heap.toml --seeds 3 --jobs 2 --out two").code, 0);
+  // A call that begins no run after a moment, one in whose place a run was lost, and one that ends it.
+  call("check heap.toml --seeds 3 --out some --seconds 0.05");
+  fs::remove(folder_ / "some/base,seed=1/manifest.json");
+  ASSERT_EQ(call("check heap.toml --seeds 3 --out some").code, 0);
+  for (const char* name : {kCheckFile, kCheckSeries}) {
+    const std::string text = contents((folder_ / "one" / name).string());
+    ASSERT_FALSE(text.empty());
+    EXPECT_EQ(text, contents((folder_ / "two" / name).string())) << name;
+    EXPECT_EQ(text, contents((folder_ / "some" / name).string())) << name;
+  }
+  const Json check = json("one/check.json");
+  EXPECT_EQ(check.at("skin"), "the same bits");
+  EXPECT_EQ(check.at("seeds_matter"), true);
+  const Json f = figure(check, "ground force z [N]");
+  EXPECT_EQ(f.at("seeds"), 3);
+  EXPECT_GT(f.at("seeds_half_width").get<double>(), 0);
+  EXPECT_GT(f.at("bar").get<double>(), f.at("seeds_half_width").get<double>());
+}
+
+TEST_F(Check, WhatCannotRunIsShownAndTheOthersGoOn) {
+  writeHeap();
+  // Twice the step of the scene is above what its contacts bear.
+  const Outcome o = call("check heap.toml --seeds 2 --axes step --set run.time_step=1e-3 --out c");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  bool refused = false;
+  for (const Json& c : json("c/check.json").at("cases"))
+    if (c.at("name") == "step_times_2") {
+      refused = c.at("status") == "refused";
+      EXPECT_NE(c.at("message").get<std::string>().find("time_step"), std::string::npos);
+    }
+  EXPECT_TRUE(refused);
+  EXPECT_NE(o.out.find("step_times_2"), std::string::npos);
+}
+
+TEST_F(Check, ABudgetNamesWhatItLeavesOut) {
+  writeHeap();
+  const Outcome o = call("check heap.toml --seeds 4 --budget 1s --set run.time_step=1e-5 --out c");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(o.out.find("left out: "), std::string::npos) << o.out;
+  const std::string first = contents((folder_ / "c/check.json").string());
+  ASSERT_EQ(call("check heap.toml --seeds 4 --budget 1s --set run.time_step=1e-5 --out c").code, 0);
+  EXPECT_EQ(contents((folder_ / "c/check.json").string()), first); // it chooses as before
+}
+
+TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
+  writeFall();
+  const std::string keep = "export GROUSER_CACHE=$PWD/cache; ";
+  const Outcome before = call("run fall.toml --out r", keep);
+  ASSERT_EQ(before.code, 0) << before.errors;
+  EXPECT_NE(before.out.find("errors of step, extent and seed: grouser check "), std::string::npos) << before.out;
+  ASSERT_EQ(call("check fall.toml --out c", keep).code, 0);
+  const Outcome after = call("run fall.toml --out r --force", keep);
+  EXPECT_EQ(after.out.find("grouser check fall"), std::string::npos) << after.out;
+  EXPECT_NE(after.out.find("grain.0.position.z [m] at the end"), std::string::npos) << after.out;
+  EXPECT_NE(after.out.find(" +- "), std::string::npos);
+  // Of another scene they say nothing.
+  const Outcome other = call("run fall.toml --out r --force --set run.time_step=5e-4", keep);
+  EXPECT_NE(other.out.find("grouser check "), std::string::npos) << other.out;
+}
+
+TEST_F(Check, WrongWordsAreRefusedBeforeAnythingIsWritten) {
+  writeFall();
+  const std::pair<const char*, const char*> cases[] = {{"--budget soon", "--budget soon"},
+                                                       {"--axes step,colour", "--axes colour"},
+                                                       {"--set run.seed=4", "run.seed"},
+                                                       {"--seeds 1", "--seeds"},
+                                                       {"--bar 0", "--bar"},
+                                                       {"--jobs 0", "--jobs"},
+                                                       {"--set run.time_step=-1", "time_step"}};
+  for (const auto& [words, named] : cases) {
+    const Outcome o = call(std::string("check fall.toml --out c ") + words);
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_NE(o.errors.find(named), std::string::npos) << o.errors;
+    EXPECT_FALSE(fs::exists(folder_ / "c")) << words;
+  }
+  fs::create_directory(folder_ / "mine");
+  std::ofstream(folder_ / "mine/check.json") << "notes\n";
+  EXPECT_EQ(call("check fall.toml --out mine").code, 2);
+  EXPECT_EQ(contents((folder_ / "mine/check.json").string()), "notes\n");
+  EXPECT_EQ(call("check missing.toml").code, 2);
+}
+
+TEST_F(Check, WhereNothingEndsItSaysWhy) {
+  writeFall();
+  // Through a plane at 100 m/s.
+  const Outcome o = call("check fall.toml --axes step --out c --set grain.0.velocity='[0, 0, -9000]'");
+  EXPECT_NE(o.code, 0);
+  EXPECT_NE(o.errors.find("error"), std::string::npos);
+}
+
+} // namespace
+} // namespace grouser::sweeps
