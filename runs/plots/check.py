@@ -75,7 +75,7 @@ def draw(check_path, costs_path):
         return None
     columns = min(3, len(figures))
     rows = math.ceil(len(figures) / columns)
-    figure = drawing.Figure(figsize=(4.3 * columns, 3.6 * rows))
+    figure = drawing.Figure(figsize=(4.3 * columns, 3.6 * rows + 0.8), constrained_layout=False)
     panels = figure.subplots(rows, columns, squeeze=False).flatten()
     for axis, one in zip(panels, figures):
         panel(axis, one, check, costs)
@@ -90,9 +90,9 @@ def draw(check_path, costs_path):
         entries.update(zip(*reversed(axis.get_legend_handles_labels())))
     figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=5, fontsize=8, frameon=False)
     figure.suptitle(f"{check['scene']}: error against run time", fontsize=10)
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.tight_layout(rect=(0, 0.5 / rows / 3.6, 1, 1))
     return figure
 
 
 if __name__ == "__main__":
-    drawing.main(__doc__, draw, dpi=110)
+    drawing.main(__doc__, draw, files=2, dpi=110)

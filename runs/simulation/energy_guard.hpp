@@ -42,7 +42,8 @@ public:
   /// zeta^2 + 1)) of damping ratio zeta, a quarter at most.
   static constexpr double kSpringShare = 0.25;
 
-  /// Share of the energy that bodies and contacts hold that is rounding [-].
+  /// Share that is rounding [-] of the energy that bodies and contacts hold, and of m g radius of all grains: places
+  /// have a resolution of 1e-8 of a diameter.
   static constexpr double kRounding = 1e-6;
 
   /// Energies since the last look [J].
@@ -56,7 +57,7 @@ public:
     /// Of what was exchanged, what counts of `energy` [-].
     double share(double energy) const { return moved > 0 && energy > neverAlarms ? (energy - neverAlarms) / moved : 0; }
   };
-  /// `held`: energy of bodies and contacts [J].
+  /// `held`: energy of bodies and contacts, and m g radius of all grains [J].
   Exchange since(const Ledger& now, double held) const;
   /// What is wrong since the last look, in words; empty where nothing is.
   std::string judge(const Ledger& now, double held) const;

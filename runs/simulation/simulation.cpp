@@ -307,7 +307,15 @@ void Simulation::checkEnergy() {
 }
 
 double Simulation::energyHeld(const Ledger& now) const {
-  return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic);
+  return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic) + weightHeld();
+}
+
+/// What rests on stiff contacts holds next to no energy, yet its weight works on the resolution of its place.
+double Simulation::weightHeld() const {
+  if (!ground_.grains) return 0;
+  const terrain::GrainModel& model = ground_.grains->model();
+  const double one = hasBed() ? setup_.ground.grains->bed->restEnergy : model.mass * norm(model.gravity) * model.radius;
+  return one * static_cast<double>(ground_.grains->count() - ground_.grains->system().fixedCount);
 }
 
 std::string Simulation::energyVerdict(const Ledger& now) const { return guard_.judge(now, energyHeld(now)); }

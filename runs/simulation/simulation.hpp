@@ -88,6 +88,7 @@ private:
   double partsElastic() const;
   std::string energyVerdict(const Ledger& now) const;
   double energyHeld(const Ledger& now) const;
+  double weightHeld() const; ///< m g radius of all grains [J]
   void checkEnergy(const Ledger& now);
   template <class Advance> void namingCause(const Advance& advance);
   std::string causeOf(const terrain::GrainFault& fault);

@@ -30,7 +30,7 @@ std::string set(const std::string& key, double value) { return fmt::format("{}={
 /// A name as part of a key: in quotes where it is no plain word.
 std::string keyWord(const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-  return plain && !name.empty() ? name : "\"" + name + "\"";
+  return plain && !name.empty() ? name : fmt::format("\"{}\"", name);
 }
 
 /// Makes the cases of one scene.
@@ -164,7 +164,7 @@ private:
   /// Stiffness and cohesion that keep strains and strength of the bed's material at another size of its grains.
   void addSoilOf(double share, Overrides& overrides) const {
     const scene::Material& soil = scene_.material(scene_.terrain->material);
-    const std::string section = "material." + keyWord(soil.name) + ".";
+    const std::string section = fmt::format("material.{}.", keyWord(soil.name));
     if (soil.stiffness) overrides.push_back(set(section + "stiffness", share * *soil.stiffness));
     if (soil.cohesion > 0) overrides.push_back(set(section + "cohesion", share * soil.cohesion));
     for (const scene::ContactPair& pair : scene_.contacts) {

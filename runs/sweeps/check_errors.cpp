@@ -12,6 +12,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSafety = 1.25;                    // Roache's factor for three grids or more
 constexpr double kLeastOrder = 0.5, kMostOrder = 8; // rattle has orders up to 8
+constexpr double kLeastLeft = 0.25;                 // of C h, where no order is seen
 constexpr double kAgree = 0.5;                      // orders of one convergence
 
 /// log2(a / b) where both have one sign and the order is one that a scheme can have.
@@ -47,7 +48,9 @@ StepError stepError(std::span<const double> values) {
   double most = 0;
   for (std::size_t i = 0; i + 1 < values.size(); ++i)
     most = std::max(most, std::ldexp(std::fabs(finest - values[i]), static_cast<int>(i)));
-  error.bar = std::fabs(error.change) + (values.size() == 2 ? 1.0 : 0.25) * most;
+  // The finest value has as much of it left as its step says.
+  const double left = 1 / (std::ldexp(1.0, static_cast<int>(values.size()) - 1) - 1);
+  error.bar = std::fabs(error.change) + std::max(kLeastLeft, left) * most;
   return error;
 }
 

@@ -21,7 +21,8 @@ struct StepError {
 /// shrink, and tell orders that agree within 0.5; the figure at h = 0 then follows by Richardson's extrapolation, and
 /// the bar is 1.25 times the change (P. J. Roache, J. Fluids Eng. 116 (1994) 405, grid convergence index of three or
 /// more grids). Where no order is seen, errors are taken to stay below C h, with C the largest |value - finest| / h
-/// that is seen: the bar is the change to the finest value and a quarter of C h; twice that for two values alone.
+/// that is seen: the bar is the change to the finest value and a quarter of C h, a third for three values, all of it
+/// for two.
 StepError stepError(std::span<const double> values);
 
 /// The same where runs scatter with the seed: paired changes of the figure, fine less base and base less coarse.

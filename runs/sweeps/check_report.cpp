@@ -100,6 +100,9 @@ std::string orderText(const AxisError& e) {
   return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
 }
 
+/// Not what is missing, or zero in all runs.
+bool isTold(const CheckFigure& f) { return std::isfinite(f.value.value) && (f.value.value != 0 || f.bar != 0); }
+
 std::string cheapestText(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::vector<std::string> parts;
   for (const double percent : kPercents) {
@@ -280,7 +283,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
   std::string text = fmt::format("\n{}: values with error bars; changes from the scene as it is, verdicts at {:g} %\n",
                                  record.scene, results.percent);
   for (const CheckFigure& f : results.figures) {
-    if (!isHeadline(results, f) || !std::isfinite(f.value.value)) continue;
+    if (!isHeadline(results, f) || !isTold(f)) continue;
     text += fmt::format("{}  {}\n", f.name, valueText({f.value.value, f.bar}));
     if (results.seeded)
       text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
@@ -301,7 +304,8 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
   }
   for (const CheckOmission& o : record.cases.omitted)
     text += fmt::format("  {:<14} not asked: {}\n", wordOf(o.axis), o.why);
-  return text + fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
+  if (results.skin != SameBits::notRun) text += fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
+  return text;
 }
 
 std::string checkPage(const CheckRecord& record, const CheckResults& results) {

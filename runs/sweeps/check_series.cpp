@@ -114,13 +114,14 @@ CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const st
 std::string seriesCsv(const CheckSeries& series) {
   std::string text = "time [s]";
   for (const SeriesWithBars& s : series.series)
-    for (const char* what : {"", " seeds +-", " step +-", " bar +-"}) text += "," + support::csvCell(s.name + what);
+    for (const char* what : {"", " seeds +-", " step +-", " bar +-"})
+      text += fmt::format(",{}", support::csvCell(s.name + what));
   text += "\n";
   for (std::size_t row = 0; row < series.time.size(); ++row) {
     text += support::csvCell(series.time[row]);
     for (const SeriesWithBars& s : series.series)
       for (const double value : {s.value[row], s.seeds[row], s.step[row], s.bar[row]})
-        text += "," + support::csvCell(value);
+        text += fmt::format(",{}", support::csvCell(value));
     text += "\n";
   }
   return text;

@@ -78,7 +78,8 @@ TEST_F(Check, SeriesCarryTheirBarsAtEveryTime) {
   while (std::getline(file, line)) last = line, ++rows;
   EXPECT_EQ(rows, 11);
   const std::string name = "grain.0.position.z [m]";
-  EXPECT_NE(head.find("," + name + "," + name + " seeds +-," + name + " step +-," + name + " bar +-"), std::string::npos)
+  EXPECT_NE(head.find("," + name + "," + name + " seeds +-," + name + " step +-," + name + " bar +-"),
+            std::string::npos)
       << head;
 }
 
@@ -108,10 +109,11 @@ TEST_F(Check, TheFilesAreTheSameForOneJobTwoJobsAndSeveralCalls) {
 TEST_F(Check, WhatCannotRunIsShownAndTheOthersGoOn) {
   writeHeap();
   // Twice the step of the scene is above what its contacts bear.
-  const Outcome o = call("check heap.toml --seeds 2 --axes step --set run.time_step=1e-3 --out c");
+  const Outcome o = call("check heap.toml --seeds 2 --axes step --set run.time_step=4e-4 --out c");
   ASSERT_EQ(o.code, 0) << o.errors;
   bool refused = false;
-  for (const Json& c : json("c/check.json").at("cases"))
+  const Json check = json("c/check.json");
+  for (const Json& c : check.at("cases"))
     if (c.at("name") == "step_times_2") {
       refused = c.at("status") == "refused";
       EXPECT_NE(c.at("message").get<std::string>().find("time_step"), std::string::npos);
@@ -122,11 +124,13 @@ TEST_F(Check, WhatCannotRunIsShownAndTheOthersGoOn) {
 
 TEST_F(Check, ABudgetNamesWhatItLeavesOut) {
   writeHeap();
-  const Outcome o = call("check heap.toml --seeds 4 --budget 1s --set run.time_step=1e-5 --out c");
+  const Outcome o =
+      call("check heap.toml --seeds 4 --budget 1s --set run.time_step=1e-5 --set run.duration=0.4 --out c");
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("left out: "), std::string::npos) << o.out;
   const std::string first = contents((folder_ / "c/check.json").string());
-  ASSERT_EQ(call("check heap.toml --seeds 4 --budget 1s --set run.time_step=1e-5 --out c").code, 0);
+  ASSERT_EQ(call("check heap.toml --seeds 4 --budget 1s --set run.time_step=1e-5 --set run.duration=0.4 --out c").code,
+            0);
   EXPECT_EQ(contents((folder_ / "c/check.json").string()), first); // it chooses as before
 }
 
@@ -166,6 +170,20 @@ TEST_F(Check, WrongWordsAreRefusedBeforeAnythingIsWritten) {
   EXPECT_EQ(call("check fall.toml --out mine").code, 2);
   EXPECT_EQ(contents((folder_ / "mine/check.json").string()), "notes\n");
   EXPECT_EQ(call("check missing.toml").code, 2);
+}
+
+TEST_F(Check, TheBarsOfScenesWithAKnownTruthHoldIt) {
+  const std::string script = std::string(GROUSER_SOURCE_DIR) + "/tests/check_coverage --variants 1 --scenes ";
+  const Outcome held = shell(script + "bounce,pendulum,column --out held --program \"$grouser\"");
+  EXPECT_EQ(held.code, 0) << held.out << held.errors;
+  EXPECT_NE(held.out.find("all        3 of 3 held"), std::string::npos) << held.out;
+  // Of a program whose bars are a thousandth of what they should be it says so.
+  std::ofstream(folder_ / "boast")
+      << "#!/bin/sh\n'" << programUnderTest().string()
+      << "' \"$@\" && sed -i 's/\"bar\": \\([0-9.]*\\)/\"bar\": 0.00\\1/' \"$4/check.json\"\n";
+  fs::permissions(folder_ / "boast", fs::perms::owner_all);
+  const Outcome boasted = shell(script + "pendulum --out boasted --program ./boast");
+  EXPECT_EQ(boasted.code, 1) << boasted.out << boasted.errors;
 }
 
 TEST_F(Check, WhereNothingEndsItSaysWhy) {

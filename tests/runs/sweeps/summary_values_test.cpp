@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace grouser::commands {
+namespace grouser::sweeps {
 
 using namespace test; // fixtures
 
@@ -143,4 +143,4 @@ TEST_F(SummaryValues, OfSurfacesAreMeansByAxisAndPlacesAtTheEnd) {
 }
 
 } // namespace
-} // namespace grouser::commands
+} // namespace grouser::sweeps
