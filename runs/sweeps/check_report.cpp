@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 using output::RunStatus;
 
 constexpr double kPercents[] = {10, 5, 1};
+constexpr int kMostTold = 24; // figures in a terminal
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -282,8 +283,11 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
 std::string checkText(const CheckRecord& record, const CheckResults& results) {
   std::string text = fmt::format("\n{}: values with error bars; changes from the scene as it is, verdicts at {:g} %\n",
                                  record.scene, results.percent);
+  int told = 0, more = 0;
   for (const CheckFigure& f : results.figures) {
     if (!isHeadline(results, f) || !isTold(f)) continue;
+    if (++told > kMostTold) ++more;
+    if (told > kMostTold) continue;
     text += fmt::format("{}  {}\n", f.name, valueText({f.value.value, f.bar}));
     if (results.seeded)
       text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
@@ -293,6 +297,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
                           shareText(f, e.change), studies::verdictText(e.verdict), orderText(e));
     text += fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
   }
+  if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckPage);
   text += "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseCost cost = costOf(record, c);
