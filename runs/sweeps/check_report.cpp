@@ -101,8 +101,11 @@ std::string orderText(const AxisError& e) {
   return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
 }
 
-/// Not what is missing, or zero in all runs.
-bool isTold(const CheckFigure& f) { return std::isfinite(f.value.value) && (f.value.value != 0 || f.bar != 0); }
+/// Not what is missing, or rounding of zero in all runs.
+bool isTold(const CheckFigure& f) {
+  constexpr double kRounding = 1e-12;
+  return std::isfinite(f.value.value) && (std::fabs(f.value.value) > kRounding || f.bar > kRounding);
+}
 
 std::string cheapestText(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::vector<std::string> parts;
@@ -115,6 +118,29 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
                                     : fmt::format("{}{}, {}", c.name, seeds, support::Progress::duration(c.wall))));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// All axes of a figure that scatters.
+std::string linesOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
+  std::string text = fmt::format("{}  {}\n", f.name, valueText({f.value.value, f.bar}));
+  text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
+                      shareText(f, {0, f.value.halfWidth}), f.seeds);
+  for (const AxisError& e : f.errors)
+    text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", wordOf(e.axis), changeText(e.change),
+                        shareText(f, e.change), studies::verdictText(e.verdict), orderText(e));
+  return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
+}
+
+/// Of runs that repeat, a figure a line: its bar, the order of the step, and the cheapest step that keeps 1 %.
+std::string lineOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
+  std::string order;
+  for (const AxisError& e : f.errors)
+    if (e.axis == CheckAxis::step) order = orderText(e);
+  const Cheapest c = cheapest(record, results, f, kPercents[2]);
+  const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : kNone;
+  return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, valueText({f.value.value, f.bar}),
+                     std::isfinite(share) ? fmt::format("{:.2g} %", share) : "", order,
+                     c.name.empty() ? "" : "1 %: " + c.name);
 }
 
 std::string escaped(const std::string& text) {
@@ -169,7 +195,9 @@ std::string valueText(const support::Estimate& e) {
                              std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
                              power);
   }
-  const int digits = std::clamp(-last, 0, 9);
+  constexpr int kMostDigits = 9;
+  if (hasWidth && -last > kMostDigits) return fmt::format("{:.10g} +- {:.1e}", e.value, e.halfWidth);
+  const int digits = std::clamp(-last, 0, kMostDigits);
   if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
   return studies::plusMinus(e, digits);
 }
@@ -288,14 +316,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     if (!isHeadline(results, f) || !isTold(f)) continue;
     if (++told > kMostTold) ++more;
     if (told > kMostTold) continue;
-    text += fmt::format("{}  {}\n", f.name, valueText({f.value.value, f.bar}));
-    if (results.seeded)
-      text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
-                          shareText(f, {0, f.value.halfWidth}), f.seeds);
-    for (const AxisError& e : f.errors)
-      text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", wordOf(e.axis), changeText(e.change),
-                          shareText(f, e.change), studies::verdictText(e.verdict), orderText(e));
-    text += fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
+    text += results.seeded ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckPage);
   text += "\nruns\n";
