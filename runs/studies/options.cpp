@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/options.hpp"
 
+#include "base/error.hpp"
 #include "runs/studies/option_parts.hpp"
 #include "runs/support/option_checks.hpp"
 
@@ -27,10 +28,43 @@ void addImpact(CLI::App& study, ImpactCommand& c) {
   impact->callback([&c] { studyImpactCommand(c); });
 }
 
-void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& random) {
+/// Words of which each is of one kind of map alone.
+void checkStabilityWords(const CLI::App& stability, bool random, const std::string& scene) {
+  const bool vehicle = scene == "vehicle";
+  const auto only = [&](const char* name, bool may, const char* with) {
+    if (!may && stability.count(name) > 0)
+      throw base::InputError(fmt::format("{} is of {} alone; leave it out, or add that", name, with));
+  };
+  for (const char* name : {"--maps", "--part", "--seconds", "--device", "--threads"})
+    only(name, vehicle, "--scene vehicle");
+  only("--resume", vehicle || random, "--scene vehicle and --random");
+  for (const char* name : {"--random", "--grains", "--column"}) only(name, !vehicle, "--scene grains");
+}
+
+void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStability& c) {
+  stability
+      .add_option("--scene", scene,
+                  "grains, or vehicle: maps of the tracked vehicle over tension, grains, stiffness, drop, gravity, "
+                  "masses and inertias, each point against a quarter of its step; exit code 1 if one is silently wrong "
+                  "or stopped for a wrong cause (MINUTES one core; with --quick SECONDS)")
+      ->check(CLI::IsMember({"grains", "vehicle"}))
+      ->capture_default_str();
+  stability
+      .add_option(
+          "--maps", c.maps,
+          fmt::format("of the vehicle, separated by commas: {}; default: all", fmt::join(vehicleMapNames(), ", ")))
+      ->delimiter(',');
+  addPieceOptions(stability, c.pieces);
+}
+
+void addStability(CLI::App& study, GrainStudies& studies) {
+  GrainStabilityCommand& c = studies.stability;
+  RandomStability& random = studies.randomStability;
   CLI::App* stability = study.add_subcommand(
       "stability", "Maps of stable steps of grains over stiffness and damping: one contact, a column, random beds, "
-                   "beside predicted limits (half a minute, one core); of mechanisms: multibody --stability");
+                   "beside predicted limits (half a minute, one core), or of a vehicle; of mechanisms: multibody "
+                   "--stability");
+  addVehicleStability(*stability, studies.stabilityScene, studies.vehicleStability);
   QuickValues quick;
   quick.instead(stability->add_option("--grains", c.bedGrains, "of the random beds")
                     ->check(support::wholeNumber(8, 100'000))
@@ -51,10 +85,13 @@ void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& ra
       ->check(support::wholeNumber(0, 1'000'000'000))
       ->capture_default_str()
       ->needs(scenes);
-  stability->add_flag("--resume", random.resume, "goes on with the table that a stopped call has left")->needs(scenes);
-  stability->callback([&c, &random, quick] {
+  stability->callback([&c, &random, &studies, stability, quick] {
+    checkStabilityWords(*stability, random.scenes > 0, studies.stabilityScene);
     if (c.place.quick) quick.take();
-    if (random.scenes > 0)
+    random.resume = studies.vehicleStability.pieces.resume;
+    if (studies.stabilityScene == "vehicle")
+      studyVehicleStability(studies.vehicleStability, c.place);
+    else if (random.scenes > 0)
       studyRandomStability(random, c.place);
     else
       studyGrainStabilityCommand(c);
@@ -148,7 +185,7 @@ void addShear(CLI::App& study, ShearCommand& c) {
 
 void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addImpact(study, studies.impact);
-  addStability(study, studies.stability, studies.randomStability);
+  addStability(study, studies);
   addPrecision(study, studies.precision);
   addPacking(study, studies.packing);
   addCollapse(study, studies.collapse);
