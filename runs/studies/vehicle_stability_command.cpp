@@ -31,13 +31,14 @@ struct Column {
   const char* name;
   double MapFigures::*value;
 };
-constexpr std::array<Column, 10> kFigures{{{"speed [m/s]", &MapFigures::speed},
+constexpr std::array<Column, 11> kFigures{{{"speed [m/s]", &MapFigures::speed},
                                            {"height [m]", &MapFigures::height},
                                            {"lowest height [m]", &MapFigures::lowest},
                                            {"pitch [rad]", &MapFigures::pitch},
                                            {"power [W]", &MapFigures::power},
                                            {"tension [N]", &MapFigures::tension},
                                            {"sinkage [m]", &MapFigures::sinkage},
+                                           {"dissipated [J]", &MapFigures::dissipated},
                                            {"integration error [J]", &MapFigures::integrationError},
                                            {"turnover [J]", &MapFigures::turnover},
                                            {"left over [-]", &MapFigures::leftOver}}};
@@ -128,13 +129,13 @@ std::vector<JudgedPoint> judged(const std::vector<VehicleMap>& maps, const Piece
   return points;
 }
 
-int countOf(const std::vector<JudgedPoint>& points, const std::string& map, Verdict verdict) {
+int countOf(const std::vector<JudgedPoint>& points, const std::string& map, MapVerdict verdict) {
   return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const JudgedPoint& p) {
     return (map.empty() || p.map->name == map) && p.judgement.verdict == verdict;
   }));
 }
 
-const char* wordOf(Verdict verdict) { return kVerdictWords[static_cast<std::size_t>(verdict)]; }
+const char* wordOf(MapVerdict verdict) { return kVerdictWords[static_cast<std::size_t>(verdict)]; }
 
 void writeTables(const std::vector<VehicleMap>& maps, const std::vector<JudgedPoint>& points, const fs::path& folder) {
   support::writeTextFile(folder / "vehicle.csv", vehicleMapsCsv(points), "--out");
@@ -155,8 +156,9 @@ std::string vehicleMapsCsv(const std::vector<JudgedPoint>& points) {
                         p.point->step, wordOf(p.judgement.verdict), support::csvCell(p.judgement.why), p.run.reached,
                         p.finer.reached, p.run.wallSeconds + p.finer.wallSeconds);
     for (const Column& c : kFigures)
-      text += "," + support::csvCell(p.run.figures.*c.value) + "," + support::csvCell(p.finer.figures.*c.value);
-    text += "," + support::csvCell(p.finer.cause) + "\n";
+      text +=
+          fmt::format(",{},{}", support::csvCell(p.run.figures.*c.value), support::csvCell(p.finer.figures.*c.value));
+    text += fmt::format(",{}\n", support::csvCell(p.finer.cause));
   }
   return text;
 }
@@ -183,13 +185,14 @@ std::string vehicleMapsTable(const std::vector<JudgedPoint>& points) {
     int all = 0;
     std::string counts;
     for (std::size_t v = 0; v < kVerdictWords.size(); ++v) {
-      const int count = countOf(points, name, static_cast<Verdict>(v));
+      const int count = countOf(points, name, static_cast<MapVerdict>(v));
       all += count, counts += fmt::format(" {:>15}", count);
     }
     text += fmt::format("\n  {:<10} {:>7}{}", name.empty() ? "all" : name, all, counts);
   }
   text += "\n";
-  for (const Verdict verdict : {Verdict::stopped, Verdict::refused, Verdict::wrongCause, Verdict::silentlyWrong})
+  for (const MapVerdict verdict :
+       {MapVerdict::stopped, MapVerdict::refused, MapVerdict::wrongCause, MapVerdict::silentlyWrong})
     for (const JudgedPoint& p : points)
       if (p.judgement.verdict == verdict)
         text += fmt::format("{}: {} at {} = {:.4g}, {} = {:.4g}: {}\n", wordOf(verdict), p.map->name, p.map->x.label,
@@ -204,7 +207,7 @@ void studyVehicleStability(const VehicleStability& command, const StudyPlace& pl
   std::vector<VehicleMap> maps;
   for (const std::string& name : names) maps.push_back(vehicleMap(name, place.quick, scratch));
   fs::remove_all(scratch);
-  Pieces pieces("stability", place, command.pieces, recipeOf(maps, place.quick));
+  Pieces pieces("stability_vehicle", place, command.pieces, recipeOf(maps, place.quick));
   const support::StopSignals signals;
   fmt::print("          the shipped vehicle, each point at its step and at a quarter of it\n");
   runAll(maps, pieces, command.pieces);
@@ -218,14 +221,14 @@ void studyVehicleStability(const VehicleStability& command, const StudyPlace& pl
   if (pieces.left() > 0) fmt::print("{} points are missing: call again with --resume\n", pieces.left());
   nlohmann::ordered_json counts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v)
-    counts[kVerdictWords[v]] = countOf(points, "", static_cast<Verdict>(v));
+    counts[kVerdictWords[v]] = countOf(points, "", static_cast<MapVerdict>(v));
   writeStudyOrigin(pieces.folder(), "stability",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
                    {{"scene", "vehicle"}, {"quick", place.quick}, {"maps", names}, {"verdicts", counts}});
   writeTables(maps, points, pieces.folder());
   if (pieces.left() == 0) fs::remove_all(pieces.folder() / "kept");
   fmt::print("tables    {}\n", pieces.folder().string());
-  if (const int wrong = countOf(points, "", Verdict::silentlyWrong) + countOf(points, "", Verdict::wrongCause);
+  if (const int wrong = countOf(points, "", MapVerdict::silentlyWrong) + countOf(points, "", MapVerdict::wrongCause);
       wrong > 0)
     throw std::runtime_error(
         fmt::format("{} points are silently wrong, or stopped for a wrong cause: see above", wrong));

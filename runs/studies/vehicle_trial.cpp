@@ -83,7 +83,7 @@ public:
   }
 
 private:
-  MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   double samples_ = 0, sunken_ = 0;
 };
 
@@ -101,7 +101,8 @@ void drive(simulation::Simulation& run, const VehicleCase& what, VehicleTrial& t
     trial.reached = run.time();
     window.means(f);
     const simulation::Ledger ledger = run.ledger();
-    f.integrationError = ledger.integrationError, f.turnover = ledger.turnover;
+    f.dissipated = ledger.dissipated.total(), f.integrationError = ledger.integrationError,
+    f.turnover = ledger.turnover;
     f.leftOver = ledger.turnover > 0 ? ledger.residual / ledger.turnover : 0;
     if (run.steps() > begin) f.power = (ledger.driveWork - workBefore) / (run.time() - began);
   };

@@ -36,6 +36,7 @@ struct MapFigures {
   double power = NAN;            ///< of the drives [W]
   double tension = NAN;          ///< in the tracks' pins [N]
   double sinkage = NAN;          ///< of the shoes that carry load [m]
+  double dissipated = NAN;       ///< in the whole run [J]
   double integrationError = NAN; ///< of the whole run [J]
   double turnover = NAN;         ///< absolute work of the whole run [J]
   double leftOver = NAN;         ///< of the books of the whole run over the turnover [-]: rounding

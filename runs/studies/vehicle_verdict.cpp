@@ -9,17 +9,22 @@
 namespace grouser::studies {
 
 const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
-  // A tenth of what is measured, and a floor where that is small: a hundredth of the speeds driven here, a tenth of the
-  // arms' deflection, a hundredth of the power of a drive, a hundredth of a strand's pull.
+  // A twentieth of what is measured, and a floor where that is small: a hundredth of the vehicle's walking pace, a
+  // tenth of the arms' deflection under its weight, a hundredth of what it takes to drive, and of a strand's pull.
   static const std::vector<ComparedFigure> onRigidGround = {
-      {"speed", "m/s", &MapFigures::speed, 0.1, 0.02},      {"height", "m", &MapFigures::height, 0, 0.004},
-      {"lowest height", "m", &MapFigures::lowest, 0, 0.01}, {"pitch", "rad", &MapFigures::pitch, 0, 0.005},
-      {"power", "W", &MapFigures::power, 0.1, 100},         {"tension", "N", &MapFigures::tension, 0.1, 100}};
+      {"speed", "m/s", &MapFigures::speed, 0.05, 0.01},
+      {"height", "m", &MapFigures::height, 0, 0.004},
+      {"lowest height", "m", &MapFigures::lowest, 0, 0.01},
+      {"pitch", "rad", &MapFigures::pitch, 0, 0.005},
+      {"power", "W", &MapFigures::power, 0.05, 30},
+      {"tension", "N", &MapFigures::tension, 0.05, 50},
+      {"dissipated energy", "J", &MapFigures::dissipated, 0.1, 10}};
   // Grains at another step settle into another bed: as far apart as beds of other seeds are.
   static const std::vector<ComparedFigure> onGrains = {{"speed", "m/s", &MapFigures::speed, 0.2, 0.05},
                                                        {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},
                                                        {"power", "W", &MapFigures::power, 0.3, 300},
-                                                       {"tension", "N", &MapFigures::tension, 0.2, 300}};
+                                                       {"tension", "N", &MapFigures::tension, 0.2, 300},
+                                                       {"dissipated energy", "J", &MapFigures::dissipated, 0.2, 50}};
   return onBed ? onGrains : onRigidGround;
 }
 
@@ -76,17 +81,17 @@ std::string difference(const MapFigures& run, const MapFigures& finer, bool onBe
 } // namespace
 
 Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
-  if (run.end == TrialEnd::refused) return {Verdict::refused, run.cause};
+  if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped) {
     const Blame blame = blameOf(run.cause);
     // Where the step is to blame a shorter one goes on; where it is not, that meets the same.
     const bool confirmed = blame.step ? finer.end == TrialEnd::sound
                                       : finer.end == TrialEnd::stopped && blameOf(finer.cause).kind == blame.kind;
-    return {confirmed ? Verdict::stopped : Verdict::wrongCause, run.cause};
+    return {confirmed ? MapVerdict::stopped : MapVerdict::wrongCause, run.cause};
   }
-  if (finer.end != TrialEnd::sound) return {Verdict::silentlyWrong, "at a quarter of the step: " + finer.cause};
+  if (finer.end != TrialEnd::sound) return {MapVerdict::silentlyWrong, "at a quarter of the step: " + finer.cause};
   const std::string differs = difference(run.figures, finer.figures, onBed);
-  return {differs.empty() ? Verdict::sound : Verdict::silentlyWrong, differs};
+  return {differs.empty() ? MapVerdict::sound : MapVerdict::silentlyWrong, differs};
 }
 
 } // namespace grouser::studies

@@ -10,7 +10,7 @@
 /// The verdict on a run of a stability map: against the same scene at a quarter of the step.
 namespace grouser::studies {
 
-enum class Verdict {
+enum class MapVerdict {
   sound,         ///< ends, and so does the finer run, with figures alike
   stopped,       ///< by a guard, for a cause that the finer run confirms
   wrongCause,    ///< by a guard, for a cause that the finer run does not show
@@ -21,7 +21,7 @@ inline constexpr std::array<const char*, 5> kVerdictWords{"sound", "stopped", "w
                                                           "refused"};
 
 struct Judgement {
-  Verdict verdict = Verdict::sound;
+  MapVerdict verdict = MapVerdict::sound;
   std::string why; ///< the message of the guard or of the refusal; for the rest what differs, and by how much
 };
 
