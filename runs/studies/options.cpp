@@ -45,7 +45,7 @@ void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStabili
   stability
       .add_option("--scene", scene,
                   "grains, or vehicle: maps of the tracked vehicle over tension, grains, stiffness, drop, gravity, "
-                  "masses and inertias, each point against a quarter of its step; exit code 1 if one is silently wrong "
+                  "masses and inertias, each point against a quarter of its step; exit code 3 if one is silently wrong "
                   "or stopped for a wrong cause (MINUTES one core; with --quick SECONDS)")
       ->check(CLI::IsMember({"grains", "vehicle"}))
       ->capture_default_str();
@@ -79,7 +79,7 @@ void addStability(CLI::App& study, GrainStudies& studies) {
           ->add_option(
               "--random", random.scenes,
               "instead: so many random scenes, each at its automatic step and its limit, and by bisection at the "
-              "longest that is sound; exit code 1 if one is not at the former (200: 7 min, one core)")
+              "longest that is sound; exit code 3 if one is not at the former (200: 7 min, one core)")
           ->check(support::wholeNumber(1, 1'000'000));
   stability->add_option("--seed", random.seed, "of the random scenes")
       ->check(support::wholeNumber(0, 1'000'000'000))

@@ -153,7 +153,7 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
                  {"weight of the vehicle over the shipped one's [-]"}};
   map.onBed = true;
   const vehicle::VehicleSpec spec = shippedSpec(folder);
-  const std::vector<double> radii = quick ? std::vector<double>{0.04} : std::vector<double>{0.02, 0.027, 0.04, 0.06};
+  const std::vector<double> radii = quick ? std::vector<double>{0.05} : std::vector<double>{0.025, 0.035, 0.05};
   const std::vector<double> weights = quick ? std::vector<double>{1} : std::vector<double>{0.5, 1, 3, 10};
   for (const double radius : radii)
     for (const double weight : weights)
@@ -187,10 +187,10 @@ VehicleMap drop(bool quick, const fs::path& folder) {
   const auto make = [](double height) {
     VehicleCase c = onRigidGround({});
     c.scene = "[material.ground]\nstiffness = 1e7\nrestitution = 0.3\nfriction = 0.8\n"
-              "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [6, 2.6]\nheight_range = [0, 0.05]\n"
+              "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [8, 2.6]\nheight_range = [0, 0.05]\n"
               "kind = \"rigid\"\nmaterial = \"ground\"\n"
               "[driver]\nsprocket_speed = 0\ntension_ramp = 0.05\nweight_ramp = 0\ndrive_start = 0.05\n" +
-              fmt::format("[vehicle]\nclearance = {:.9g}\nsphere_radius = 0.03\n", height);
+              fmt::format("[vehicle]\nposition = [2.5, 0]\nclearance = {:.9g}\nsphere_radius = 0.03\n", height);
     const double lands = 0.05 + std::sqrt(2 * height / kG);
     c.from = lands + 0.2, c.until = lands + 0.5;
     return c;
@@ -214,7 +214,7 @@ VehicleMap masses(bool quick, const fs::path& folder) {
     return onRigidGround({}, {{"shoe", "mass", fmt::format("{:.9g}", mass)},
                               {"shoe", "inertia", triple(spec.shoe.inertia, mass / spec.shoe.mass)}});
   };
-  return overSteps(map, quick ? std::vector<double>{1.4e3} : std::vector<double>{40, 130, 435, 1.4e3}, mapShares(quick),
+  return overSteps(map, quick ? std::vector<double>{1.4e3} : std::vector<double>{65, 150, 435, 1.4e3}, mapShares(quick),
                    make, folder);
 }
 
@@ -249,7 +249,7 @@ std::vector<std::string> vehicleMapNames() {
 }
 
 std::vector<double> mapShares(bool quick) {
-  return quick ? std::vector<double>{0.99, 1.5} : std::vector<double>{0.3, 0.6, 0.99, 1.5};
+  return quick ? std::vector<double>{0.99, 1.5} : std::vector<double>{0.5, 0.99, 1.5};
 }
 
 VehicleMap vehicleMap(const std::string& name, bool quick, const fs::path& folder) {

@@ -276,7 +276,7 @@ TEST(StepLimit, OfAShoeUnderAWheelIsBothSpringsOnItsMassAndItsEnd) {
   // pin's direction. The depth solves 4/3 modulus width sqrt(2 R) depth^1.5 = load.
   const double pad = modulus * 0.136 * 0.28 / 8.5, arm = 1 / 25.0 + 1 / 8.5 + 0.068 * 0.068 / 0.02;
   for (const double g : {9.81, 98.1}) {
-    const StepLimit limit = stepLimit(standing(fmt::format("run.gravity=0,0,-{}", g)));
+    const StepLimit limit = stepLimit(standing(fmt::format("run.gravity=[0,0,-{}]", g)));
     double low = 0, high = 0.01; // bisection, for the limit uses the closed form
     for (int i = 0; i < 100; ++i) {
       const double depth = 0.5 * (low + high);
@@ -287,8 +287,8 @@ TEST(StepLimit, OfAShoeUnderAWheelIsBothSpringsOnItsMassAndItsEnd) {
     EXPECT_EQ(limit.what, "shoe on rigid ground under a road wheel");
     EXPECT_NEAR(limit.calm / damped(pad, pad * tau), 1, 1e-9) << "what the automatic step keeps to";
   }
-  EXPECT_GT(stepLimit(standing("run.gravity=0,0,-9.81")).step, 1e-4) << "that of the shipped scenes";
-  EXPECT_NEAR(stepLimit(standing("run.gravity=0,0,0")).step / damped(pad, pad * tau), 1, 1e-9) << "its pad alone";
+  EXPECT_GT(stepLimit(standing("run.gravity=[0,0,-9.81]")).step, 1e-4) << "that of the shipped scenes";
+  EXPECT_NEAR(stepLimit(standing("run.gravity=[0,0,0]")).step / damped(pad, pad * tau), 1, 1e-9) << "its pad alone";
 }
 
 TEST(StepLimit, OfAShoeThatTurnsMoreEasilyThanItShiftsIsShorter) {
