@@ -46,7 +46,7 @@ void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStabili
       .add_option("--scene", scene,
                   "grains, or vehicle: maps of the tracked vehicle over tension, grains, stiffness, drop, gravity, "
                   "masses and inertias, each point against a quarter of its step; exit code 3 if one is silently wrong "
-                  "or stopped for a wrong cause (MINUTES one core; with --quick SECONDS)")
+                  "or stopped for a wrong cause (half an hour on one core; with --quick three minutes)")
       ->check(CLI::IsMember({"grains", "vehicle"}))
       ->capture_default_str();
   stability
@@ -73,7 +73,8 @@ void addStability(CLI::App& study, GrainStudies& studies) {
   stability->add_option("--column", c.columnGrains, "grains of the column")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  addPlace(*stability, c.place, "stability", "one stiffness and three damping ratios only, in seconds");
+  addPlace(*stability, c.place, "stability (of a vehicle: out/study_stability_vehicle)",
+           "one stiffness and three damping ratios only, in seconds; of a vehicle a few points of each map");
   CLI::Option* scenes =
       stability
           ->add_option(

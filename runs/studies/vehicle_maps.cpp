@@ -25,6 +25,7 @@ constexpr double kDriveStart = 0.2; // [s]
 constexpr double kHardStart = 0.05; // [s]
 constexpr int kLinePoints = 25;     // of a predicted line
 constexpr const char* kStepAxis = "step [s]";
+constexpr const char* kLongest = "longest step that the program takes";
 
 struct Drive {
   double speed = 2;   ///< of the sprockets [rad/s]
@@ -90,7 +91,7 @@ VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::v
     const double longest = longestStep(what, folder);
     for (const double share : shares) map.points.push_back({x, share * longest, what, share * longest});
   }
-  PredictedLine limit{"longest step that the program takes", {}, {}};
+  PredictedLine limit{kLongest, {}, {}};
   const auto [low, high] = std::minmax_element(xs.begin(), xs.end());
   std::vector<double> at{*low, *high};
   if (*low > 0) at = between(*low, *high, kLinePoints);
@@ -169,6 +170,18 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   return map;
 }
 
+/// What another seed changes, beside which the rest of a bed's differences stand. None in a quick pass.
+VehicleMap seeds(bool quick, const fs::path& folder) {
+  VehicleMap map{"seeds", "beds of radius 0.05 m from other seeds", {"seed", false}, {kStepAxis}};
+  map.onBed = true;
+  constexpr int kSeeds = 4;
+  for (int seed = 1; seed <= kSeeds && !quick; ++seed)
+    map.points.push_back({seed * 1.0, kStep, onBed(0.05, {}, seed), kStep});
+  const double longest = longestStep(onBed(0.05, {}), folder);
+  map.lines = {{kLongest, {1, kSeeds}, {longest, longest}}};
+  return map;
+}
+
 VehicleMap stiffness(bool quick, const fs::path& folder) {
   const VehicleMap map{"stiffness", "stiffness of shoes and wheels", {"foundation modulus [N/m3]"}, {kStepAxis}};
   const vehicle::VehicleSpec spec = shippedSpec(folder);
@@ -232,11 +245,14 @@ VehicleMap inertias(bool quick, const fs::path& folder) {
 
 using Make = VehicleMap (*)(bool, const fs::path&);
 const std::vector<std::pair<std::string, Make>>& makers() {
-  static const std::vector<std::pair<std::string, Make>> all = {
-      {"tension", speedAndTension}, {"grains", grainsAndWeight},
-      {"stiffness", stiffness},     {"drop", drop},
-      {"gravity", gravity},         {"mass", masses},
-      {"inertia", inertias}};
+  static const std::vector<std::pair<std::string, Make>> all = {{"tension", speedAndTension},
+                                                                {"grains", grainsAndWeight},
+                                                                {"seeds", seeds},
+                                                                {"stiffness", stiffness},
+                                                                {"drop", drop},
+                                                                {"gravity", gravity},
+                                                                {"mass", masses},
+                                                                {"inertia", inertias}};
   return all;
 }
 
