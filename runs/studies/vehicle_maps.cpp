@@ -108,7 +108,7 @@ VehicleMap speedAndTension(bool quick, const fs::path& folder) {
   const vehicle::VehicleSpec spec = shippedSpec(folder);
   const std::vector<double> preloads =
       quick ? std::vector<double>{300, 9200} : std::vector<double>{100, 1000, 9200, 30e3, 90e3};
-  const std::vector<double> speeds = quick ? std::vector<double>{2, 40} : std::vector<double>{1, 3, 10, 30, 100};
+  const std::vector<double> speeds = quick ? std::vector<double>{2, 40} : std::vector<double>{3, 10, 30, 60, 100};
   for (const double preload : preloads)
     for (const double speed : speeds) {
       const Drive drive{speed, kHardStart, 8 + 0.4 * speed * spec.pitchRadius(), 0.7};
@@ -239,7 +239,7 @@ VehicleMap inertias(bool quick, const fs::path& folder) {
   const auto make = [&](double ratio) {
     return onRigidGround({}, {{"shoe", "inertia", triple(spec.shoe.inertia, solid / ratio / spec.shoe.inertia.y)}});
   };
-  return overSteps(map, quick ? std::vector<double>{6} : std::vector<double>{0.06, 0.2, 0.655, 2, 6, 20},
+  return overSteps(map, quick ? std::vector<double>{2} : std::vector<double>{0.2, 0.655, 2, 6},
                    mapShares(quick), make, folder);
 }
 
