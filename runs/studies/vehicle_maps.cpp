@@ -239,8 +239,8 @@ VehicleMap inertias(bool quick, const fs::path& folder) {
   const auto make = [&](double ratio) {
     return onRigidGround({}, {{"shoe", "inertia", triple(spec.shoe.inertia, solid / ratio / spec.shoe.inertia.y)}});
   };
-  return overSteps(map, quick ? std::vector<double>{2} : std::vector<double>{0.2, 0.655, 2, 6},
-                   mapShares(quick), make, folder);
+  return overSteps(map, quick ? std::vector<double>{2} : std::vector<double>{0.2, 0.655, 2, 6}, mapShares(quick), make,
+                   folder);
 }
 
 using Make = VehicleMap (*)(bool, const fs::path&);
