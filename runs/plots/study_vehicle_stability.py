@@ -5,6 +5,8 @@ A panel a map: each point sound (blue), stopped by a guard for a true cause (ora
 silently wrong (red cross), or refused before the run (grey x); what is predicted as lines on top. A 0 on a logarithmic axis
 stands at its left end.
 """
+import textwrap
+
 import drawing
 
 VERDICTS = {"sound": dict(color="tab:blue", marker="o"), "stopped": dict(color="tab:orange", marker="s"),
@@ -25,10 +27,10 @@ def panel(axis, of, limits):
         axis.set_xscale("log")
     if limits and limits[0]["logarithmic y"] == "1":
         axis.set_yscale("log")
-    axis.set_title(limits[0]["title"] if limits else of[0]["map"], fontsize=9)
+    axis.set_title(textwrap.fill(limits[0]["title"] if limits else of[0]["map"], 42), fontsize=9)
     axis.set_xlabel(of[0]["x axis"], fontsize=8)
-    axis.set_ylabel(of[0]["y axis"], fontsize=8)
-    axis.tick_params(labelsize=7)
+    axis.set_ylabel(textwrap.fill(of[0]["y axis"], 36), fontsize=8)
+    axis.tick_params(which="both", labelsize=7)
 
 
 def draw(*paths):
