@@ -137,6 +137,27 @@ void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
   if (!s.roller.x.empty()) wheel("roller", s.roller.mass, s.roller.radius);
 }
 
+/// A shoe between rigid ground and the wheel that it bears. The highest mode of both springs together is no higher than
+/// that of the ground's, its whole pad against shift and turn, and that of the wheel's on the shoe's end added up
+/// (Weyl). The wheel lies as deep as its share of the weight presses it, F = 4/3 modulus width sqrt(2 R) depth^(3/2).
+/// Where `grouser study stability --scene vehicle` finds vehicles unsound is docs/vehicle_stability.md.
+void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
+  if (!scene.terrain || scene.terrain->granular()) return;
+  const vehicle::ContactSpec& c = s.contact;
+  const double length = s.shoe.halfLength, width = s.shoe.padHalfWidth, mass = s.shoe.mass;
+  const double pad = c.foundationModulus * 4 * length * width;
+  const double onGround =
+      pad * std::max({1 / mass, length * length / (3 * s.shoe.inertia.y), width * width / (3 * s.shoe.inertia.x)});
+  const double load = s.totalMass() * norm(scene.run.gravity) / (2 * s.roadWheel.count);
+  const double strip = c.foundationModulus * 2 * width * std::sqrt(2 * s.roadWheel.radius);
+  const double depth = load > 0 ? base::pow(0.75 * load / strip, 2.0 / 3) : 0;
+  const double underWheel =
+      2 * strip * std::sqrt(depth) * (1 / s.roadWheel.mass + 1 / mass + length * length / s.shoe.inertia.y);
+  const double both = onGround + underWheel;
+  consider(limit, both, both * c.relaxationTime, "shoe on rigid ground under a road wheel",
+           "lower contact.foundation_modulus in vehicle.spec");
+}
+
 } // namespace
 
 StepLimit stepLimit(const scene::Scene& scene) {
@@ -147,7 +168,9 @@ StepLimit stepLimit(const scene::Scene& scene) {
     considerModes(limit, c);
   }
   considerFreeSurfaces(limit, scene, grainKinds(scene));
-  if (scene.vehicle) considerVehicle(limit, vehicle::readVehicleSpec(scene.vehicle->spec));
+  if (!scene.vehicle) return limit;
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  considerVehicle(limit, spec), considerPressedShoe(limit, scene, spec);
   return limit;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/options.hpp"
 
+#include "base/error.hpp"
 #include "runs/studies/option_parts.hpp"
 #include "runs/support/option_checks.hpp"
 
@@ -27,10 +28,43 @@ void addImpact(CLI::App& study, ImpactCommand& c) {
   impact->callback([&c] { studyImpactCommand(c); });
 }
 
-void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& random) {
+/// Words of which each is of one kind of map alone.
+void checkStabilityWords(const CLI::App& stability, bool random, const std::string& scene) {
+  const bool vehicle = scene == "vehicle";
+  const auto only = [&](const char* name, bool may, const char* with) {
+    if (!may && stability.count(name) > 0)
+      throw base::InputError(fmt::format("{} is of {} alone; leave it out, or add that", name, with));
+  };
+  for (const char* name : {"--maps", "--part", "--seconds", "--device", "--threads"})
+    only(name, vehicle, "--scene vehicle");
+  only("--resume", vehicle || random, "--scene vehicle and --random");
+  for (const char* name : {"--random", "--grains", "--column"}) only(name, !vehicle, "--scene grains");
+}
+
+void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStability& c) {
+  stability
+      .add_option("--scene", scene,
+                  "grains, or vehicle: maps of the tracked vehicle over tension, grains, stiffness, drop, gravity, "
+                  "masses and inertias, each point against a quarter of its step; exit code 3 if one is silently wrong "
+                  "or stopped for a wrong cause (half an hour on one core; with --quick three minutes)")
+      ->check(CLI::IsMember({"grains", "vehicle"}))
+      ->capture_default_str();
+  stability
+      .add_option(
+          "--maps", c.maps,
+          fmt::format("of the vehicle, separated by commas: {}; default: all", fmt::join(vehicleMapNames(), ", ")))
+      ->delimiter(',');
+  addPieceOptions(stability, c.pieces);
+}
+
+void addStability(CLI::App& study, GrainStudies& studies) {
+  GrainStabilityCommand& c = studies.stability;
+  RandomStability& random = studies.randomStability;
   CLI::App* stability = study.add_subcommand(
       "stability", "Maps of stable steps of grains over stiffness and damping: one contact, a column, random beds, "
-                   "beside predicted limits (half a minute, one core); of mechanisms: multibody --stability");
+                   "beside predicted limits (half a minute, one core), or of a vehicle; of mechanisms: multibody "
+                   "--stability");
+  addVehicleStability(*stability, studies.stabilityScene, studies.vehicleStability);
   QuickValues quick;
   quick.instead(stability->add_option("--grains", c.bedGrains, "of the random beds")
                     ->check(support::wholeNumber(8, 100'000))
@@ -39,22 +73,26 @@ void addStability(CLI::App& study, GrainStabilityCommand& c, RandomStability& ra
   stability->add_option("--column", c.columnGrains, "grains of the column")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  addPlace(*stability, c.place, "stability", "one stiffness and three damping ratios only, in seconds");
+  addPlace(*stability, c.place, "stability (of a vehicle: out/study_stability_vehicle)",
+           "one stiffness and three damping ratios only, in seconds; of a vehicle a few points of each map");
   CLI::Option* scenes =
       stability
           ->add_option(
               "--random", random.scenes,
               "instead: so many random scenes, each at its automatic step and its limit, and by bisection at the "
-              "longest that is sound; exit code 1 if one is not at the former (200: 7 min, one core)")
+              "longest that is sound; exit code 3 if one is not at the former (200: 7 min, one core)")
           ->check(support::wholeNumber(1, 1'000'000));
   stability->add_option("--seed", random.seed, "of the random scenes")
       ->check(support::wholeNumber(0, 1'000'000'000))
       ->capture_default_str()
       ->needs(scenes);
-  stability->add_flag("--resume", random.resume, "goes on with the table that a stopped call has left")->needs(scenes);
-  stability->callback([&c, &random, quick] {
+  stability->callback([&c, &random, &studies, stability, quick] {
+    checkStabilityWords(*stability, random.scenes > 0, studies.stabilityScene);
     if (c.place.quick) quick.take();
-    if (random.scenes > 0)
+    random.resume = studies.vehicleStability.pieces.resume;
+    if (studies.stabilityScene == "vehicle")
+      studyVehicleStability(studies.vehicleStability, c.place);
+    else if (random.scenes > 0)
       studyRandomStability(random, c.place);
     else
       studyGrainStabilityCommand(c);
@@ -148,7 +186,7 @@ void addShear(CLI::App& study, ShearCommand& c) {
 
 void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addImpact(study, studies.impact);
-  addStability(study, studies.stability, studies.randomStability);
+  addStability(study, studies);
   addPrecision(study, studies.precision);
   addPacking(study, studies.packing);
   addCollapse(study, studies.collapse);

@@ -8,6 +8,7 @@
 #include "runs/studies/precision_command.hpp"
 #include "runs/studies/random_stability.hpp"
 #include "runs/studies/shear.hpp"
+#include "runs/studies/vehicle_stability.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -18,6 +19,8 @@ struct GrainStudies {
   ImpactCommand impact;
   GrainStabilityCommand stability;
   RandomStability randomStability;
+  VehicleStability vehicleStability;
+  std::string stabilityScene = "grains"; ///< or "vehicle"
   PrecisionCommand precision;
   PackingCommand packing;
   CollapseCommand collapse;

@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
         Unsound{"StepAboveThatOfShoes",
                 2,
                 replaced(vehicle(kQuickStart + "sprocket_speed = 2\n"), "1e-4", "3e-4"),
-                {"run.time_step", "shoe on rigid ground or wheel"}},
+                {"run.time_step", "shoe on rigid ground under a road wheel"}},
         Unsound{"WheelsTurnTooFar",
                 2,
                 vehicle(kQuickStart + "sprocket_speed = 20\n", "steps_per_period = 2000\n"),

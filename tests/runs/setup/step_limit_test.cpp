@@ -7,9 +7,12 @@
 #include "contact/restitution.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "tests/vehicle/spec_variant.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -261,13 +264,40 @@ TEST(StepLimit, OfAFreeSurfaceCountsTheGrainsThatMayLieOnIt) {
   EXPECT_NEAR(bed.limit().step / undamped(kStiffness * (1 / kMass + 1 / 1e-4)), 1, 1e-9) << "one at least";
 }
 
-TEST(StepLimit, OfAShoeIsItsWholePadOnItsMass) {
-  const StepLimit limit = stepLimit(loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml"));
+/// The vehicle that hangs, or stands on rigid ground.
+scene::Scene standing(const std::string& change = "run.duration=1") {
+  return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {change});
+}
+
+TEST(StepLimit, OfAShoeUnderAWheelIsBothSpringsOnItsMassAndItsEnd) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
-  // Pads of 136 x 280 mm, shoes of 8.5 kg.
-  const double springs = spec.contact.foundationModulus * 0.136 * 0.28 / 8.5;
-  EXPECT_NEAR(limit.step / damped(springs, springs * spec.contact.relaxationTime), 1, 1e-9);
-  EXPECT_EQ(limit.what, "shoe on rigid ground or wheel");
+  const double modulus = spec.contact.foundationModulus, tau = spec.contact.relaxationTime;
+  // Pads of 136 x 280 mm, shoes of 8.5 kg; wheels of 25 kg and 0.19 m under a tenth of 5018 kg; 0.02 kg m2 about the
+  // pin's direction. The depth solves 4/3 modulus width sqrt(2 R) depth^1.5 = load.
+  const double pad = modulus * 0.136 * 0.28 / 8.5, arm = 1 / 25.0 + 1 / 8.5 + 0.068 * 0.068 / 0.02;
+  for (const double g : {9.81, 98.1}) {
+    const StepLimit limit = stepLimit(standing(fmt::format("run.gravity=[0,0,-{}]", g)));
+    double low = 0, high = 0.01; // bisection, for the limit uses the closed form
+    for (int i = 0; i < 100; ++i) {
+      const double depth = 0.5 * (low + high);
+      (4.0 / 3 * modulus * 0.28 * std::sqrt(0.38) * std::pow(depth, 1.5) < 501.8 * g ? low : high) = depth;
+    }
+    const double springs = pad + modulus * 0.28 * 2 * std::sqrt(0.38 * low) * arm;
+    EXPECT_NEAR(limit.step / damped(springs, springs * tau), 1, 1e-6) << g;
+    EXPECT_EQ(limit.what, "shoe on rigid ground under a road wheel");
+    EXPECT_NEAR(limit.calm / damped(pad, pad * tau), 1, 1e-9) << "what the automatic step keeps to";
+  }
+  EXPECT_GT(stepLimit(standing("run.gravity=[0,0,-9.81]")).step, 1e-4) << "that of the shipped scenes";
+  EXPECT_NEAR(stepLimit(standing("run.gravity=[0,0,0]")).step / damped(pad, pad * tau), 1, 1e-9) << "its pad alone";
+}
+
+TEST(StepLimit, OfAShoeThatTurnsMoreEasilyThanItShiftsIsShorter) {
+  const test::SpecVariant light({{"shoe", "inertia", "[0.0064, 0.0020, 0.0080]"}});
+  const StepLimit limit = stepLimit(standing("vehicle.spec=" + light.path()));
+  // A tenth of the moments: about y 136 x 280 mm of pad turn 0.0020 kg m2, about x 0.0064 kg m2, the quicker.
+  const double turns = 1e10 * 0.136 * 0.28 * 0.14 * 0.14 / 3 / 0.0064;
+  EXPECT_LT(limit.step, damped(turns, turns * 2e-4));
+  EXPECT_GT(limit.step, 0.5 * damped(turns, turns * 2e-4));
 }
 
 TEST(StepLimit, IsThatOfTheSmallestGrainOfAMaterial) {

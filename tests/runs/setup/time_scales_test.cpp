@@ -304,7 +304,7 @@ TEST(TimeScales, SwingsOfAVehiclesSpringsAndStopsAreJudgedAtTheirKeys) {
     EXPECT_NEAR(stepOf(scene(variant)), stiff.period / 20, 1e-5 * stiff.period) << "auto";
     EXPECT_EQ(errorOf(scene(variant), {"run.time_step=1e-4", "run.steps_per_period=2"}), "no error");
   }
-  EXPECT_EQ(errorOf(scene(test::SpecVariant({})), {"run.time_step=1.5e-4"}), "no error");
+  EXPECT_EQ(errorOf(scene(test::SpecVariant({})), {"run.time_step=1.2e-4"}), "no error");
 }
 
 TEST(TimeScales, AutomaticStepTakesTwentyStepsForABounceOffAStop) {

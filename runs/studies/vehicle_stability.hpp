@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/studies/pieces.hpp"
+#include "runs/studies/vehicle_maps.hpp"
+#include "runs/studies/vehicle_verdict.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::studies {
+
+/// `grouser study stability --scene vehicle`.
+struct VehicleStability {
+  PieceOptions pieces;
+  std::vector<std::string> maps; ///< names; empty: all
+};
+/// Throws std::runtime_error, after all is written, where a point is silently wrong or stopped for a wrong cause.
+void studyVehicleStability(const VehicleStability& command, const StudyPlace& place);
+
+/// A point and what became of it.
+struct JudgedPoint {
+  const VehicleMap* map;
+  const MapPoint* point;
+  VehicleTrial run, finer; ///< the latter of no meaning where the former was refused
+  Judgement judgement;
+};
+std::string vehicleMapsCsv(const std::vector<JudgedPoint>& points);
+std::string predictedLinesCsv(const std::vector<VehicleMap>& maps);
+/// A line a map, then each stop, each refusal of its kind, and each point that is wrong, in words.
+std::string vehicleMapsTable(const std::vector<JudgedPoint>& points);
+
+} // namespace grouser::studies

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stability maps of the vehicle: the judge tells sound from wrong, steps beyond the predicted limit are refused, and
+// where nobody refuses them a guard stops the run and names the step.
+#include "runs/studies/vehicle_stability.hpp"
+#include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace grouser::studies {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+VehicleTrial soundTrial() {
+  VehicleTrial t;
+  t.figures = {0.5, 0.4, 0.39, 0.001, 2000, 5000, NAN, 3000, 1, 1e5, 1e-13};
+  return t;
+}
+VehicleTrial stoppedTrial(const std::string& cause) {
+  VehicleTrial t = soundTrial();
+  t.end = TrialEnd::stopped, t.cause = cause;
+  return t;
+}
+
+constexpr const char* kUnstable = "step 512, time 0.1 s: the steps have made 12 J; the contacts are unstable: use a "
+                                  "smaller time_step or softer contacts";
+constexpr const char* kThrown = "step 50, time 0.1 s: left track thrown: idler is 40 mm off its plates";
+constexpr const char* kSkips = "step 50, time 0.1 s: right track skips: 3.00 teeth have passed, but 2.00 pitches";
+constexpr const char* kPressed = "step 9: grain 3 is about to pass through what is rigid; the energies balance, so the "
+                                 "step is not to blame: use stiffer contacts";
+
+TEST(VehicleVerdict, RunsThatAgreeAreSound) {
+  EXPECT_EQ(judge(soundTrial(), soundTrial(), false).verdict, MapVerdict::sound);
+  VehicleTrial near = soundTrial();
+  near.figures.speed *= 1.02, near.figures.tension *= 0.95;
+  EXPECT_EQ(judge(soundTrial(), near, false).verdict, MapVerdict::sound);
+}
+
+TEST(VehicleVerdict, EveryComparedFigureThatDiffersMakesARunSilentlyWrong) {
+  for (const bool onBed : {false, true})
+    for (const ComparedFigure& c : comparedFigures(onBed)) {
+      VehicleTrial run = soundTrial();
+      run.figures.sinkage = 0.03;
+      VehicleTrial finer = run;
+      finer.figures.*c.value += 0.9 * c.floor;
+      EXPECT_EQ(judge(run, finer, onBed).verdict, MapVerdict::sound) << c.name;
+      finer.figures.*c.value = 1.01 * (run.figures.*c.value + c.floor) / (1 - c.relative) + 0.01 * c.floor;
+      for (const auto& [a, b] : {std::pair{run, finer}, std::pair{finer, run}}) {
+        const Judgement judgement = judge(a, b, onBed);
+        EXPECT_EQ(judgement.verdict, MapVerdict::silentlyWrong) << c.name;
+        EXPECT_EQ(judgement.why.find(c.name), 0u) << judgement.why;
+      }
+      for (const double none : {double(NAN), double(INFINITY)}) {
+        finer.figures.*c.value = none;
+        EXPECT_EQ(judge(run, finer, onBed).verdict, MapVerdict::silentlyWrong) << c.name << " " << none;
+        EXPECT_EQ(judge(finer, run, onBed).verdict, MapVerdict::silentlyWrong) << c.name << " " << none;
+      }
+    }
+}
+
+TEST(VehicleVerdict, BooksThatDoNotCloseAreSilentlyWrong) {
+  for (const double leftOver : {1e-6, -1e-6, double(NAN)}) {
+    VehicleTrial run = soundTrial();
+    run.figures.leftOver = leftOver;
+    EXPECT_EQ(judge(run, soundTrial(), false).verdict, MapVerdict::silentlyWrong) << leftOver;
+    EXPECT_EQ(judge(soundTrial(), run, false).verdict, MapVerdict::silentlyWrong) << leftOver;
+  }
+}
+
+TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
+  const auto verdict = [](const VehicleTrial& run, const VehicleTrial& finer) {
+    return judge(run, finer, true).verdict;
+  };
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), soundTrial()), MapVerdict::stopped);
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kUnstable)), MapVerdict::wrongCause)
+      << "a shorter step helps";
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kThrown)), MapVerdict::wrongCause);
+  EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kThrown)), MapVerdict::stopped);
+  EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kSkips)), MapVerdict::stopped) << "one event seen in two ways";
+  EXPECT_EQ(verdict(stoppedTrial(kThrown), soundTrial()), MapVerdict::wrongCause) << "the step has done it";
+  EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kPressed)), MapVerdict::wrongCause);
+  EXPECT_EQ(verdict(stoppedTrial("of a cause that nobody knows"), soundTrial()), MapVerdict::wrongCause);
+  EXPECT_EQ(verdict(soundTrial(), stoppedTrial(kThrown)), MapVerdict::silentlyWrong);
+  VehicleTrial refused = soundTrial();
+  refused.end = TrialEnd::refused, refused.cause = "scene.toml:4: time_step";
+  EXPECT_EQ(verdict(refused, VehicleTrial{}), MapVerdict::refused);
+  EXPECT_EQ(judge(refused, VehicleTrial{}, true).why, refused.cause);
+  EXPECT_EQ(verdict(soundTrial(), refused), MapVerdict::silentlyWrong) << "nothing has confirmed it";
+}
+
+class VehicleMaps : public FolderTest {};
+
+TEST_F(VehicleMaps, StepsBeyondTheLineAreRefusedAndThoseBelowAreNot) {
+  std::set<std::string> names;
+  for (const std::string& name : vehicleMapNames()) {
+    const VehicleMap map = vehicleMap(name, false, folder_);
+    EXPECT_EQ(map.name, name);
+    EXPECT_TRUE(names.insert(name).second);
+    EXPECT_GE(map.points.size(), name == "seeds" ? 4u : 9u) << name;
+    EXPECT_FALSE(map.lines.empty()) << name;
+    int refused = 0, stepped = 0;
+    for (const MapPoint& p : map.points) {
+      const double longest = longestStep(p.what, folder_);
+      const bool beyond = p.step > longest;
+      stepped += p.y == p.step, refused += beyond;
+      if (beyond) {
+        const VehicleTrial trial = tryVehicle(p.what, p.step, {folder_});
+        EXPECT_EQ(trial.end, TrialEnd::refused) << name << " " << p.x << " " << p.y;
+        EXPECT_NE(trial.cause.find("time_step"), std::string::npos) << trial.cause;
+      } else {
+        EXPECT_NO_THROW(sceneOf(p.what, p.step, folder_)) << name << " " << p.x << " " << p.y;
+      }
+    }
+    // Steps are an axis of such a map; the last of them is beyond.
+    EXPECT_EQ(refused * mapShares(false).size(), stepped > 0 && !map.onBed ? map.points.size() : 0) << name;
+  }
+  EXPECT_THROW(vehicleMap("none", true, folder_), base::InputError);
+}
+
+TEST_F(VehicleMaps, AStepThatIsMuchTooLongIsCaughtEvenWhereNobodyRefusesIt) {
+  const VehicleMap map = vehicleMap("stiffness", true, folder_);
+  const VehicleCase& what = map.points.front().what;
+  const double longest = longestStep(what, folder_);
+  const VehicleTrial wild = tryVehicle(what, 8 * longest, {folder_}, StepCheck::none);
+  ASSERT_EQ(wild.end, TrialEnd::stopped);
+  EXPECT_TRUE(blameOf(wild.cause).step) << wild.cause;
+  EXPECT_LT(wild.reached, what.until);
+}
+
+class VehicleStudy : public ProgramTest {};
+
+TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
+  const std::string words = "study stability --scene vehicle --quick --maps gravity,mass --out results";
+  const fs::path runs = folder_ / "results" / "runs";
+  // Of each two points the second is beyond the limit: refused, and so done at once.
+  const Outcome part = call(words + " --part 2/2");
+  ASSERT_EQ(part.code, 0) << part.errors;
+  EXPECT_TRUE(fs::exists(runs / "gravity_1.csv") && fs::exists(runs / "mass_1.csv"));
+  EXPECT_FALSE(fs::exists(runs / "gravity_0.csv") || fs::exists(folder_ / "results" / "vehicle.csv"));
+
+  const std::string numbers =
+      "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
+      "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover [J],left over [-]\n";
+  const std::string row = "1e-4,0,0.7,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n";
+  put(runs / "gravity_0.csv", numbers + row + row);
+  put(runs / "gravity_0.txt", "\n\n");
+  const Outcome sound = call(words + " --resume --seconds 1e-9");
+  ASSERT_EQ(sound.code, 0) << sound.errors;
+  EXPECT_NE(sound.out.find("points are missing"), std::string::npos) << sound.out;
+  EXPECT_NE(sound.out.find("refused: gravity"), std::string::npos) << sound.out;
+  const std::string csv = contents(folder_ / "results" / "vehicle.csv");
+  EXPECT_NE(csv.find(",sound,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",refused,"), std::string::npos) << csv;
+  EXPECT_TRUE(fs::exists(folder_ / "results" / "vehicle.png") || sound.errors.find("python3") != std::string::npos);
+
+  // A finer run that says otherwise ends the study with a code of its own.
+  put(runs / "gravity_0.csv", numbers + row + "2.5e-5,0,0.7,1,0.9,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n");
+  const Outcome wrong = call(words + " --resume --seconds 1e-9");
+  EXPECT_EQ(wrong.code, 3) << wrong.out;
+  EXPECT_NE(wrong.out.find("silently wrong: gravity"), std::string::npos) << wrong.out;
+  EXPECT_NE(wrong.errors.find("1 points are silently wrong"), std::string::npos) << wrong.errors;
+
+  const Outcome other = call("study stability --scene vehicle --quick --maps drop --out results --resume");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
+}
+
+TEST_F(VehicleStudy, RefusesWordsOfOtherMaps) {
+  for (const char* words :
+       {"--scene boat", "--scene vehicle --maps round", "--maps drop", "--seconds 3", "--part 1/2", "--resume",
+        "--threads 2", "--random 3 --scene vehicle", "--random 3 --seconds 4", "--scene vehicle --grains 20",
+        "--scene vehicle --column 4", "--scene vehicle --part 3/2", "--scene vehicle --seconds -1"}) {
+    const Outcome o = call(std::string("study stability --quick --out results ") + words);
+    EXPECT_EQ(o.code, 2) << words << "\n" << o.out;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "results")) << "nothing is begun";
+  EXPECT_NE(call("study stability --help").out.find("--maps"), std::string::npos);
+}
+
+} // namespace
+} // namespace grouser::studies
