@@ -33,8 +33,7 @@ constexpr double kMostCopied = 60'000; // grains of a piece
 constexpr double kMostTaken = 400'000; // grains of a kept bed that is taken as it is
 constexpr double kTrials = 4;          // small beds that a porosity is looked for with
 constexpr double kStride = 4;          // of soft steps
-constexpr double kUnfinished = 1.4;    // of the steps taken, to rest, where a tile's time was up [-]
-constexpr double kFurtherPlot = 0.4;   // of the first one's time, with which Python begins [-]
+constexpr double kFurtherPlot = 0.3;   // of the first one's time, with which Python begins [-]
 
 std::string time(double seconds) {
   return seconds < 0.095  ? fmt::format("{:.2f} s", seconds)
@@ -110,8 +109,8 @@ private:
     if (copied) {
       const scene::Scene piece = pieceOf(probed_, grains_, kMostCopied);
       if (scene_.terrain->settleTimeLimit > 0)
-        tile_ = settleTile(setup::simulationSetup(piece), scene_.terrain->porosity.has_value(), exec_,
-                           1.5 * options_.seconds);
+        tile_ = settleTile(setup::simulationSetup(piece), scene_.terrain->porosity.has_value(),
+                           exec_.onCpu() ? base::cpuExec(1) : exec_, 1.5 * options_.seconds);
       setup::SimulationSetup setup = copiedBed(piece);
       const Stopwatch building;
       make(std::move(setup));
@@ -140,7 +139,7 @@ private:
     try {
       probed_ = softened(scene_, timeStep_, kStride);
       build();
-      times_ = timeSteps(*simulation_, exec_, options_.seconds,
+      times_ = timeSteps(*simulation_, exec_, 2 * options_.seconds, // nothing has to be settled first
                          std::max<std::int64_t>(1, std::llround(steps_ / kStride) - 2));
       stride_ = kStride;
       return true;
@@ -195,22 +194,21 @@ private:
     const double each = last.seconds / std::max(1.0, last.steps) * (1 - last.lists - last.parts);
     const double whole = scale_ * (each * tile_.falling / std::max(1e-300, tile_.resting) +
                                    lists() * tile_.rebuilds / std::max(1.0, tile_.steps));
-    const double unfinished = tile_.complete ? 1 : kUnfinished;
     std::string how = fmt::format("{:.0f} steps to rest of a tile of {:.0f} grains", tile_.steps, tile_.grains);
-    if (!tile_.complete) how += ", which had not come to rest when its time was up";
+    if (!tile_.complete) how += ", whose time was up: rest guessed half a second after the fall";
     if (scene_.terrain->tile) {
       const double cells = std::min(1.0, (*scene_.terrain->tile)[0] * (*scene_.terrain->tile)[1] /
                                              (scene_.terrain->size[0] * scene_.terrain->size[1]));
-      add(f_.preparation, "settling a tile", unfinished * tile_.steps * whole * cells, how);
+      add(f_.preparation, "settling a tile", tile_.steps * whole * cells, how);
       add(f_.preparation, "settling its copies", kCopiesRest / timeStep_ * whole, "");
       return;
     }
     if (scene_.terrain->porosity) {
       const double sample = sampleGrains(scene_, timeStep_);
-      add(f_.preparation, "friction for the porosity", kTrials * unfinished * tile_.seconds * sample / tile_.grains,
+      add(f_.preparation, "friction for the porosity", kTrials * tile_.seconds * sample / tile_.grains,
           fmt::format("{:g} small beds of {:.0f} grains", kTrials, sample));
     }
-    add(f_.preparation, "settling the bed", unfinished * tile_.steps * whole, how);
+    add(f_.preparation, "settling the bed", tile_.steps * whole, how);
   }
 
   void output() {

@@ -74,19 +74,37 @@ TEST(CountedGrains, BedTooLargeToBeLaidSaysHowSureItIs) {
   EXPECT_NE(unsure.doubt.find("within"), std::string::npos);
 }
 
+StepTimes::Group group(double steps, double seconds, double lists = 0, double parts = 0, double grains = 100) {
+  return {steps, seconds, lists, parts, grains};
+}
+
 TEST(ProbedSteps, RestTakesWhatTheLastThirdTook) {
   StepTimes times;
-  for (int k = 0; k < 6; ++k) times.groups.push_back({10, k < 3 ? 1.0 : 2.0, 100});
-  // A third of 9 s is reached by the last two groups.
-  EXPECT_DOUBLE_EQ(secondsOfRest(times, 40, 100), 40 * 4.0 / 20);
-  EXPECT_EQ(secondsOfRest({}, 40, 100), 0);
+  for (int k = 0; k < 6; ++k) times.groups.push_back(group(10, k < 3 ? 1.0 : 2.0));
+  // A third of 9 s is reached by the last two groups: 0.2 s a step.
+  EXPECT_DOUBLE_EQ(times.last().seconds / times.last().steps, 0.2);
+  EXPECT_NEAR(costOfRun(times, 100, 1, 0).whole(), 9 + 40 * 0.2, 1e-12);
+  // A run that ends within the probe takes what its steps took.
+  EXPECT_NEAR(costOfRun(times, 25, 1, 0).whole(), 2.5, 1e-12);
+  EXPECT_EQ(costOfRun({}, 40, 1, 0).whole(), 0);
+}
+
+TEST(ProbedSteps, LongerStepsCountAsManyButTheirListsEndAsOften) {
+  StepTimes times;
+  times.groups.push_back(group(10, 1, 0.3, 0.2));
+  const StepCost cost = costOfRun(times, 40, 4, 0);
+  EXPECT_NEAR(cost.grains, 4 * 0.5, 1e-12);
+  EXPECT_NEAR(cost.parts, 4 * 0.2, 1e-12);
+  EXPECT_NEAR(cost.lists, 0.3, 1e-12);
 }
 
 TEST(ProbedSteps, GrainsThatEnterLaterMakeThemDearerAlongTheLine) {
   StepTimes times;
-  for (int k = 1; k <= 6; ++k) times.groups.push_back({100, 100 * (1e-6 + 2e-8 * k), 1.0 * k});
+  for (int k = 1; k <= 6; ++k) times.groups.push_back(group(100, 100 * (1e-6 + 2e-8 * k), 0, 0, k));
+  double probe = 0;
+  for (const StepTimes::Group& g : times.groups) probe += g.seconds;
   // Exactly on a line of 1 us and 20 ns a grain.
-  EXPECT_NEAR(secondsOfRest(times, 1000, 50), 1000 * (1e-6 + 2e-8 * 50), 1e-12);
+  EXPECT_NEAR(costOfRun(times, 1600, 1, 50).whole(), probe + 1000 * (1e-6 + 2e-8 * 50), 1e-12);
 }
 
 Forecast someForecast() {
@@ -116,7 +134,7 @@ TEST(ForecastFigures, PartsAddUp) {
 TEST(ForecastFigures, ProbeThatFailedTellsNoTotal) {
   Forecast f = someForecast();
   f.warning = "the probe's steps failed";
-  EXPECT_EQ(forecastText(f).find("in all"), std::string::npos);
+  EXPECT_EQ(forecastText(f).find("  in all"), std::string::npos);
   EXPECT_NE(forecastText(f).find("warning: the probe's steps failed"), std::string::npos);
 }
 
@@ -154,17 +172,17 @@ TEST(MachineFit, DemandGrowsWithGrainsAndFrames) {
 }
 
 /// The program itself.
-class Plan : public ProgramTest {
+class PlanProgram : public ProgramTest {
 protected:
   void write(const std::string& text) const { std::ofstream(folder_ / "bed.toml") << text; }
 };
 
-TEST_F(Plan, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
+TEST_F(PlanProgram, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --json plan.json --threads 1");
   ASSERT_EQ(o.code, 0) << o.errors;
-  for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "in all",
-                           "memory of the process", "on the disk", "steps to rest of a tile of"})
+  for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "\n  in all  ",
+                           "to expect on", "memory of the process", "on the disk", "steps to rest of a tile of"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
   double sum = 0;
@@ -180,7 +198,7 @@ TEST_F(Plan, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
   EXPECT_EQ(left, 2);
 }
 
-TEST_F(Plan, KeptBedIsFoundAndNotSettledAgain) {
+TEST_F(PlanProgram, KeptBedIsFoundAndNotSettledAgain) {
   write(bedScene());
   const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
   ASSERT_EQ(call("run bed.toml --out first", keep).code, 0);
@@ -191,18 +209,18 @@ TEST_F(Plan, KeptBedIsFoundAndNotSettledAgain) {
   EXPECT_NE(anew.out.find("settling the bed"), std::string::npos) << anew.out;
 }
 
-TEST_F(Plan, WithoutProbeRunsNothing) {
+TEST_F(PlanProgram, WithoutProbeRunsNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --no-probe");
   EXPECT_EQ(o.code, 0);
-  EXPECT_EQ(o.out.find("in all"), std::string::npos);
+  EXPECT_EQ(o.out.find("to expect on"), std::string::npos);
   EXPECT_NE(o.out.find("grain steps"), std::string::npos);
   const Outcome both = call("plan bed.toml --no-probe --json plan.json");
   EXPECT_EQ(both.code, 2);
   EXPECT_EQ(call("plan bed.toml --threads some").code, 2);
 }
 
-TEST_F(Plan, WhatDoesNotFitIsRefusedByPlanAndRun) {
+TEST_F(PlanProgram, WhatDoesNotFitIsRefusedByPlanAndRun) {
   // A million frames of 86 thousand grains: 4 TB of frames a million steps.
   write(
       "version = 1\n[run]\nduration = 100\ntime_step = 1e-6\nframe_interval = 1e-6\n[material.sand]\nstiffness = 1e4\n"
@@ -216,7 +234,7 @@ TEST_F(Plan, WhatDoesNotFitIsRefusedByPlanAndRun) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
-TEST_F(Plan, MemoryThatTheShellLimitsCounts) {
+TEST_F(PlanProgram, MemoryThatTheShellLimitsCounts) {
   write("version = 1\n[run]\nduration = 1e-3\ntime_step = 1e-6\n[material.sand]\nstiffness = 1e4\n"
         "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [4, 4, 4]\nradius = 0.01\nmaterial = \"sand\"\n");
   const Outcome o = call("run bed.toml", "ulimit -v 3000000; ");
