@@ -178,7 +178,7 @@ private:
       add(f_.preparation, "laying the bed", laying_ + grains_ * kLaid, "");
     }
     if (!kept_ && (spheres || !hasBed(scene_))) {
-      const double settled = hasBed(scene_) ? 0.6 * tile_.seconds : 0; // of the tile again, to be copied
+      const double settled = hasBed(scene_) ? tile_.fallen * tile_.seconds : 0; // of the tile again, to be copied
       add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
           "as the probe's");
     }
@@ -231,7 +231,7 @@ private:
       add(f_.output, "plots", o.plot * (1 + kFurtherPlot * (plots - 1)), fmt::format("{:.0f} by Python", plots));
     }
     add(f_.output, "files begun", o.begin, "");
-    f_.disk = (frames * o.frameBytes + o.checkpointBytes) * std::max(1.0, scale_) + rows * kRow;
+    f_.disk = (frames * o.frameBytes + o.checkpointBytes) * std::max(1.0, scale_) + demand().rows;
     const double wrote = o.frame + o.checkpoint;
     if (wrote > 0) f_.diskSpeed = (o.frameBytes + o.checkpointBytes) / wrote;
   }
@@ -293,10 +293,14 @@ private:
     return mean;
   }
 
+  Demand demand() const {
+    return demandOf(scene_, static_cast<std::int64_t>(grains_), timeStep_, !exec_.onCpu());
+  }
+
   void memory() {
-    const Demand demand = demandOf(scene_, static_cast<std::int64_t>(grains_), timeStep_, !exec_.onCpu());
-    f_.process = demand.process, f_.device = demand.device;
-    if (f_.disk == 0) f_.disk = demand.disk();
+    const Demand all = demand();
+    f_.process = all.process, f_.device = all.device;
+    if (f_.disk == 0) f_.disk = all.disk();
   }
 
   /// A folder of this process beside where the results will go.
@@ -310,7 +314,6 @@ private:
     parts.push_back({name, std::max(0.0, seconds), how});
   }
 
-  static constexpr double kRow = 3000;       // bytes
   static constexpr double kLaid = 2e-6;      // of a grain, to put it on the device [s]
   static constexpr double kCopiesRest = 0.2; // simulated time that copies need to rest [s]
 

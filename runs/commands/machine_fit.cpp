@@ -6,6 +6,7 @@
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
+#include "runs/setup/size_checks.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "terrain/grain_entry.hpp"
 #include "terrain/grain_state.hpp"
@@ -24,8 +25,8 @@ namespace {
 
 constexpr double kGiB = 1073741824.0;
 constexpr double kProgram = 100e6, kVehicle = 250e6; // of a process, beside its grains [bytes]
-constexpr double kRowBytes = 3000;                   // of results.h5 and timeseries.csv, of the widest scenes
-constexpr double kCheckpointBytes = 300;             // of a grain in a checkpoint, with its contacts
+constexpr double kRow = 1000, kVehicleRow = 7000;    // of results.h5 and timeseries.csv [bytes]
+constexpr double kCheckpointBytes = 250;             // of a grain in a checkpoint, with its contacts
 constexpr double kMostRemembered = 2e6;              // grains, of which a state is kept in memory too
 
 std::string size(double bytes) {
@@ -74,7 +75,7 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
   const auto times = [&](double interval) { return std::floor(std::min(steps, scene.run.duration / interval)) + 1; };
   if (scene.output.frames) demand.frames = times(scene.run.frameInterval) * all * frameBytesOfGrain(scene);
   demand.checkpoint = all * kCheckpointBytes;
-  demand.rows = times(scene.run.outputInterval) * kRowBytes;
+  demand.rows = times(scene.run.outputInterval) * (scene.vehicle ? kVehicleRow : kRow);
   return demand;
 }
 
@@ -85,7 +86,7 @@ Room roomOf(const base::Exec& exec, const fs::path& folder, bool overwritten) {
   room.place = existing(folder);
   std::error_code error;
   const fs::space_info disk = fs::space(room.place, error);
-  if (!error) room.disk = static_cast<double>(disk.available) + (overwritten ? bytesIn(folder) : 0);
+  if (!error && disk.capacity > 0) room.disk = static_cast<double>(disk.available) + (overwritten ? bytesIn(folder) : 0);
   return room;
 }
 
@@ -109,6 +110,9 @@ std::string misfit(const Demand& demand, const Room& room) {
 
 void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::path& folder, bool overwritten, bool disk,
                 const base::Ranks* ranks) {
+  // These name the key that makes them.
+  setup::checkFillSizes(scene);
+  setup::checkBedSize(scene);
   const int all = ranks ? ranks->comm().size() : 1, here = ranks ? ranks->ranksOnHost() : 1;
   const Demand demand =
       demandOf(scene, setup::plannedGrains(scene), setup::chooseTimeStep(scene), !exec.onCpu(), all, here);

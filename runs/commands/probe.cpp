@@ -155,12 +155,13 @@ SettledTile settleTile(const setup::SimulationSetup& piece, bool prepared, const
   }
   tile.steps = static_cast<double>(report.steps), tile.seconds = settling.seconds();
   tile.rebuilds = static_cast<double>(grains.system().rebuilds);
+  const double fall = std::sqrt(2 * bed.fall / norm(ground.grains->model.gravity));
   if (!tile.complete) {
     // Grains fall, and rest about half a second later.
-    const double fall = std::sqrt(2 * bed.fall / norm(ground.grains->model.gravity));
     const double more = std::max(1.2, (fall + 0.5) / (tile.steps + 1) / ground.grains->model.timeStep);
     tile.steps *= more, tile.rebuilds *= more, tile.seconds *= more;
   }
+  tile.fallen = std::min(1.0, (fall + 0.1) / (std::max(1.0, tile.steps) * ground.grains->model.timeStep));
   grains.invalidateNeighbours();
   const Stopwatch list;
   grains.refreshNeighbours();

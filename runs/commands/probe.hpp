@@ -60,6 +60,7 @@ struct SettledTile {
   double seconds = 0;   ///< all that took [s]
   double falling = 0;   ///< mean time a step until then, lists left out [s]
   double resting = 0;   ///< of a step at rest [s]
+  double fallen = 0;    ///< share of the steps until the last grain has fallen, and a tenth of a second [-]
   bool complete = true; ///< it came to rest within the time given
 };
 /// Settles the tile of a piece made by pieceOf(): prepared as a porosity asks, where the scene has one.
