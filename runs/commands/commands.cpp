@@ -2,6 +2,9 @@
 #include "runs/commands/commands.hpp"
 
 #include "base/error.hpp"
+#include "runs/commands/counted_grains.hpp"
+#include "runs/commands/forecast.hpp"
+#include "runs/commands/machine_fit.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/commands/run_scene.hpp"
 #include "runs/output/manifest.hpp"
@@ -10,8 +13,10 @@
 #include "runs/output/sinkage.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/step_limit.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/sphere_cache.hpp"
+#include "runs/support/device_choice.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/kept_checks.hpp"
 #include "runs/sweeps/overrides.hpp"
@@ -37,6 +42,13 @@ void drawAndName(const fs::path& results, const fs::path& folder, const std::vec
   for (const fs::path& plot : output::drawPlots(results, folder, names, warning))
     fmt::print("plot      {}\n", plot.string());
   if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
+}
+
+/// Of the results: `given` on the command line, or as the scene says.
+fs::path folderOf(const scene::Scene& scene, const std::string& given) {
+  return !given.empty()                 ? fs::path(given)
+         : !scene.output.folder.empty() ? fs::path(scene.output.folder)
+                                        : fs::path("out") / scene.name();
 }
 
 void nameIfThere(const char* what, const fs::path& file) {
@@ -75,9 +87,7 @@ void runCommand(const RunCommand& command) {
   if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
   RunRequest options;
-  options.folder = !command.folder.empty()        ? fs::path(command.folder)
-                   : !scene.output.folder.empty() ? fs::path(scene.output.folder)
-                                                  : fs::path("out") / scene.name();
+  options.folder = folderOf(scene, command.folder);
   options.force = command.force, options.hash = command.hash, options.steps = command.steps;
   options.cache = command.cache;
   options.commandLine = command.commandLine;
@@ -131,11 +141,30 @@ void sinkageCommand(const SinkageCommand& command) {
 }
 
 void planCommand(const PlanCommand& command) {
-  sweeps::checkGivenOnce(command.overrides);
-  const scene::Scene scene = setup::loadScene(command.scene, command.overrides);
+  std::vector<std::string> overrides = command.overrides;
+  if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
+  if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
+  sweeps::checkGivenOnce(overrides);
+  const scene::Scene scene = setup::loadScene(command.scene, overrides);
   scene::printNotes(scene);
-  fmt::print("{}", planText(scene));
+  const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, nullptr);
+  const fs::path folder = folderOf(scene, command.folder);
+  // What does not fit is neither laid nor run, but shown.
+  std::string misfit;
+  try {
+    requireFit(scene, exec, folder, true, true, nullptr);
+  } catch (const base::InputError& error) {
+    misfit = error.what();
+  }
+  const CountedGrains counted = countGrains(scene, setup::chooseTimeStep(scene), misfit.empty() ? kMostLaid : 0);
+  fmt::print("{}", planText(scene, &counted));
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
+  std::fflush(stdout);
+  if (!misfit.empty()) throw base::InputError(misfit);
+  if (!command.probe) return;
+  const Forecast forecast = forecastOf(scene, counted, {folder, 1, command.cache});
+  fmt::print("{}", forecastText(forecast));
+  if (!command.json.empty()) support::writeTextFile(command.json, forecastJson(forecast), "--json");
 }
 
 void spheresCommand(const SpheresCommand& command) {

@@ -57,8 +57,15 @@ void sinkageCommand(const SinkageCommand& command);
 struct PlanCommand {
   std::string scene;
   std::vector<std::string> overrides;
-  int ranks = 1; ///< to be planned for
+  int ranks = 1;              ///< to be planned for
+  std::string device;         ///< empty: as the scene says
+  std::optional<int> threads; ///< empty: as the scene says
+  std::string folder;         ///< that results would go to; empty: as the scene says
+  bool probe = true;          ///< run a second of the scene's kind of work
+  bool cache = true;          ///< as that of a run
+  std::string json;           ///< file for the forecast; empty: none
 };
+/// Throws InputError where the run would not fit this machine, when all is printed.
 void planCommand(const PlanCommand& command);
 
 struct SpheresCommand {

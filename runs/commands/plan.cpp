@@ -192,11 +192,12 @@ std::string switches(const scene::Scene& scene) {
 
 } // namespace
 
-std::string planText(const scene::Scene& scene) {
+std::string planText(const scene::Scene& scene, const CountedGrains* counted) {
   setup::checkRestitutions(scene);
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
-  const std::int64_t grains = setup::plannedGrains(scene);
-  text += fmt::format("  {:<24} {}\n", "grains", grains);
+  const std::int64_t grains = counted ? counted->grains : setup::plannedGrains(scene);
+  const std::string doubt = counted && !counted->exact ? fmt::format(" ({})", counted->doubt) : "";
+  text += fmt::format("  {:<24} {}{}\n", "grains", grains, doubt);
   if (grains) text += memoryText(scene, static_cast<double>(grains));
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);

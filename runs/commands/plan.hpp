@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/commands/counted_grains.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 namespace grouser::commands {
 
 /// What the scene switches on and leaves out, its size, time step, memory and cost. Reads height-map and vehicle spec.
-std::string planText(const scene::Scene& scene);
+/// `counted`: its grains, where they have been counted; null: about as many as their volume tells.
+std::string planText(const scene::Scene& scene, const CountedGrains* counted = nullptr);
 
 /// A part of it: every pair of materials that can meet, with the values that act between them, and a note where a value
 /// of one material does nothing. Empty where nothing can touch.

@@ -69,12 +69,19 @@ void addSweep(CLI::App& app, const Invocation&) {
 void addPlan(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<PlanCommand>();
   PlanCommand& p = *command;
-  CLI::App* plan =
-      app.add_subcommand("plan", "What a scene switches on, its size, time step, memory and cost; runs nothing");
+  CLI::App* plan = app.add_subcommand(
+      "plan", "What a scene switches on, its size, time step and memory, and by a second of its kind of work how long "
+              "it will take here");
   plan->add_option("scene", p.scene, "scene file")->required();
   plan->add_option("--set", p.overrides, kSetHelp)->allow_extra_args(false);
   plan->add_option("--ranks", p.ranks, "also how so many ranks (mpirun -np) would share the grains")
       ->check(support::wholeNumber(1, 100'000));
+  plan->add_option("--device", p.device, "auto, cpu or cuda; default: as the scene says");
+  plan->add_option("--threads", p.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
+  plan->add_option("--out", p.folder, "folder that results would go to; default: out/NAME of the scene");
+  CLI::Option* without = plan->add_flag("!--no-probe", p.probe, "run nothing: no time to expect");
+  plan->add_option("--json", p.json, "also write the time to expect to this file, by its parts")->excludes(without);
+  plan->add_flag("!--no-cache", p.cache, "for a run that settles the bed and cuts the parts anew");
   plan->callback([command] { planCommand(*command); });
 }
 

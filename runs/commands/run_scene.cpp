@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/commands/bed_text.hpp"
 #include "runs/commands/failed_run.hpp"
+#include "runs/commands/machine_fit.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
 #include "runs/output/mechanism_output.hpp"
@@ -400,6 +401,7 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
   const setup::Provenance provenance = setup::provenanceOf(scene);
   requireAlike(provenance, options.commandLine, comm);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
+  requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
   if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<simulation::Checkpoint> former = formerRun(provenance, options);

@@ -3,10 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/sphere.hpp"
-#include "runs/scene/bed_radii.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
-#include "runs/setup/grain_memory.hpp"
 #include "runs/setup/grain_model.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/laws.hpp"
@@ -14,6 +12,7 @@
 #include "runs/setup/placement.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/size_checks.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
@@ -22,50 +21,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace grouser::setup {
 
 using base::Vec3d;
 
 namespace {
-
-constexpr double kGiB = 1073741824.0; // [bytes]
-
-double memoryOfMachine() { // [bytes]
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-/// Throws before any memory is taken when grains cannot fit into this machine.
-void checkBlockSizes(const scene::Scene& scene) {
-  const double bytes = grainMemory(scene).most();
-  for (std::size_t k = 0; k < scene.fills.size(); ++k) {
-    const auto grains = static_cast<double>(placedCount(scene.fills[k]));
-    if (grains * bytes > memoryOfMachine())
-      scene.fail(
-          "grains", k, scene.fills[k].form == scene::FillForm::random ? "number" : "radius",
-          fmt::format("{} makes {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use fewer or larger grains",
-                      scene.fills[k].form == scene::FillForm::random ? "[-]" : "[m]", grains, grains * bytes / kGiB,
-                      memoryOfMachine() / kGiB));
-  }
-}
-
-/// The same of a bed.
-void checkBedSize(const scene::Scene& scene, const terrain::BedOptions& options) {
-  const double bytes = grainMemory(scene).most();
-  const scene::Terrain& t = *scene.terrain;
-  const double volume = options.meanVolume();
-  double solid = t.size[0] * t.size[1] * t.depth.value_or(0) * (1 - t.porosity.value_or(scene::Terrain::kPoured));
-  if (t.layers)
-    solid = t.size[0] * t.size[1] * *t.layers * volume / (*t.spacing * *t.grainRadius * *t.spacing * *t.grainRadius);
-  const double grains = t.coarsening ? 0 : solid / volume; // of a graded bed its plan knows, which costs nothing
-  const double memory = memoryOfMachine();
-  if (grains * bytes > memory || grains > 4e9)
-    scene.fail("terrain", scene::radiiKey(t),
-               fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use larger grains, "
-                           "a thinner bed or a smaller terrain.size",
-                           grains, grains * bytes / kGiB, memory / kGiB));
-}
 
 terrain::PartitionOptions partitionOf(const scene::Scene& scene, int ranks) {
   terrain::PartitionOptions partition;
@@ -91,7 +52,7 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSet
     return {};
   }
   const terrain::BedOptions options = bedOptions(scene);
-  checkBedSize(scene, options);
+  checkBedSize(scene);
   terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
   ground.rigid = plan.floor;
   checkLevelAcross(scene, *ground.surface);
@@ -279,7 +240,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
   const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return ground;
-  checkBlockSizes(scene);
+  checkFillSizes(scene);
   const Surroundings around = surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{});
   const std::vector<scene::Grain> placed = placedGrains(scene);
   checkStart(scene, placed, around, timeStep);

@@ -36,6 +36,8 @@ public:
   /// One line: where the sets of all ranks came from, and how long that took. Empty where there were none. All ranks
   /// call it.
   std::string summary(const base::Comm& comm = {}) const;
+  /// How long this rank has cut what was not kept [s].
+  double cutting() const { return cutting_; }
 
 private:
   std::optional<base::SphereSet> find(const std::filesystem::path& file, const std::string& origin) const;

@@ -182,6 +182,31 @@ void addShear(CLI::App& study, ShearCommand& c) {
   doStudy(*shear, c, studyShearCommand, quick);
 }
 
+void addFeatures(CLI::App& study, FeaturesCommand& c) {
+  CLI::App* app = study.add_subcommand(
+      "features", "What each feature costs in time and memory when it is on, in turns with a bed without it, and that "
+                  "it costs nothing when it is off (3 min)");
+  app->add_option("--features", c.features,
+                  "names, separated by commas, such as rolling,hertz,off_rolling; default: all")
+      ->delimiter(',');
+  QuickValues quick;
+  quick.instead(app->add_option("--grains", c.grains, "of the bed, about")
+                    ->check(support::wholeNumber(864, 100'000'000))
+                    ->capture_default_str(),
+                c.grains, 864);
+  quick.instead(app->add_option("--pairs", c.pairs, "of turns without and with a feature")
+                    ->check(support::wholeNumber(2, 1000))
+                    ->capture_default_str(),
+                c.pairs, 5);
+  quick.instead(app->add_option("--turn", c.turn, "length of a turn [s]")
+                    ->check(support::positive("a time in seconds"))
+                    ->capture_default_str(),
+                c.turn, 0.01);
+  addPieceOptions(*app, c.pieces);
+  addPlace(*app, c.place, "features", "864 grains and short turns: in seconds");
+  doStudy(*app, c, studyFeaturesCommand, quick);
+}
+
 } // namespace
 
 void addGrainStudies(CLI::App& study, GrainStudies& studies) {
@@ -191,6 +216,7 @@ void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addPacking(study, studies.packing);
   addCollapse(study, studies.collapse);
   addShear(study, studies.shear);
+  addFeatures(study, studies.features);
 }
 
 } // namespace grouser::studies

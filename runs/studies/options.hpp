@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/studies/collapse.hpp"
+#include "runs/studies/features.hpp"
 #include "runs/studies/grain_stability.hpp"
 #include "runs/studies/impact.hpp"
 #include "runs/studies/packing.hpp"
@@ -25,6 +26,7 @@ struct GrainStudies {
   PackingCommand packing;
   CollapseCommand collapse;
   ShearCommand shear;
+  FeaturesCommand features;
 };
 
 /// Adds the studies of grains to the command `study`.
