@@ -46,7 +46,7 @@ void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStabili
       .add_option("--scene", scene,
                   "grains, or vehicle: maps of the tracked vehicle over tension, grains, stiffness, drop, gravity, "
                   "masses and inertias, each point against a quarter of its step; exit code 3 if one is silently wrong "
-                  "or stopped for a wrong cause (half an hour on one core; with --quick three minutes)")
+                  "or stopped for a wrong cause (an hour on one core; with --quick some minutes)")
       ->check(CLI::IsMember({"grains", "vehicle"}))
       ->capture_default_str();
   stability

@@ -82,8 +82,7 @@ std::string triple(const base::Vec3d& v, double times) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", times * v.x, times * v.y, times * v.z);
 }
 
-/// Steps over something else: at shares of the longest that the program takes, which is the line drawn. `lineFrom`: of
-/// something that may be 0.
+/// Steps over something else: at shares of the longest that the program takes, which is the line drawn.
 VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::vector<double>& shares,
                      const std::function<VehicleCase(double)>& make, const fs::path& folder) {
   for (const double x : xs) {
@@ -93,8 +92,12 @@ VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::v
   }
   PredictedLine limit{kLongest, {}, {}};
   const auto [low, high] = std::minmax_element(xs.begin(), xs.end());
-  std::vector<double> at{*low, *high};
-  if (*low > 0) at = between(*low, *high, kLinePoints);
+  std::vector<double> at;
+  if (map.x.logarithmic) at = between(*low, *high, kLinePoints);
+  for (int i = 0; i < kLinePoints && !map.x.logarithmic; ++i) {
+    const double share = static_cast<double>(i) / (kLinePoints - 1); // squared: closer where limits change most
+    at.push_back(*low + (*high - *low) * share * share);
+  }
   for (const double x : at) limit.x.push_back(x), limit.y.push_back(longestStep(make(x), folder));
   map.lines.push_back(limit);
   return map;

@@ -84,9 +84,12 @@ Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) 
   if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped) {
     const Blame blame = blameOf(run.cause);
-    // Where the step is to blame a shorter one goes on; where it is not, that meets the same.
-    const bool confirmed = blame.step ? finer.end == TrialEnd::sound
-                                      : finer.end == TrialEnd::stopped && blameOf(finer.cause).kind == blame.kind;
+    const bool same = finer.end == TrialEnd::stopped && blameOf(finer.cause).kind == blame.kind;
+    // Where the step is to blame a shorter one goes on beyond, whatever it meets later; where it is not, that meets the
+    // same.
+    const bool beyond =
+        finer.end == TrialEnd::sound || (finer.end == TrialEnd::stopped && !same && finer.reached > run.reached);
+    const bool confirmed = blame.step ? beyond : same;
     return {confirmed ? MapVerdict::stopped : MapVerdict::wrongCause, run.cause};
   }
   if (finer.end != TrialEnd::sound) return {MapVerdict::silentlyWrong, "at a quarter of the step: " + finer.cause};

@@ -81,7 +81,12 @@ TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
   EXPECT_EQ(verdict(stoppedTrial(kUnstable), soundTrial()), MapVerdict::stopped);
   EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kUnstable)), MapVerdict::wrongCause)
       << "a shorter step helps";
-  EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kThrown)), MapVerdict::wrongCause);
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kThrown)), MapVerdict::wrongCause) << "no later";
+  VehicleTrial later = stoppedTrial(kThrown);
+  later.reached = 0.5;
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::stopped) << "it went on beyond that";
+  later.cause = kUnstable;
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::wrongCause) << "a shorter step helps no more";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kThrown)), MapVerdict::stopped);
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kSkips)), MapVerdict::stopped) << "one event seen in two ways";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), soundTrial()), MapVerdict::wrongCause) << "the step has done it";
