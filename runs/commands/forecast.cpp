@@ -293,9 +293,7 @@ private:
     return mean;
   }
 
-  Demand demand() const {
-    return demandOf(scene_, static_cast<std::int64_t>(grains_), timeStep_, !exec_.onCpu());
-  }
+  Demand demand() const { return demandOf(scene_, static_cast<std::int64_t>(grains_), timeStep_, !exec_.onCpu()); }
 
   void memory() {
     const Demand all = demand();

@@ -86,7 +86,8 @@ Room roomOf(const base::Exec& exec, const fs::path& folder, bool overwritten) {
   room.place = existing(folder);
   std::error_code error;
   const fs::space_info disk = fs::space(room.place, error);
-  if (!error && disk.capacity > 0) room.disk = static_cast<double>(disk.available) + (overwritten ? bytesIn(folder) : 0);
+  if (!error && disk.capacity > 0)
+    room.disk = static_cast<double>(disk.available) + (overwritten ? bytesIn(folder) : 0);
   return room;
 }
 

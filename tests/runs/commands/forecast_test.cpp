@@ -226,7 +226,7 @@ TEST_F(PlanProgram, WhatDoesNotFitIsRefusedByPlanAndRun) {
       "version = 1\n[run]\nduration = 100\ntime_step = 1e-6\nframe_interval = 1e-6\n[material.sand]\nstiffness = 1e4\n"
       "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [1, 1, 0.9]\nradius = 0.01\nmaterial = \"sand\"\n");
   for (const char* words : {"plan bed.toml", "run bed.toml"}) {
-    const Outcome o = call(words);
+    const Outcome o = call(words, "ulimit -f 4000; "); // were it begun, it would end soon
     EXPECT_EQ(o.code, 2) << words;
     EXPECT_NE(o.error().find("bed.toml: does not fit this machine: its results take"), std::string::npos) << o.errors;
     EXPECT_NE(o.error().find("run.frame_interval"), std::string::npos) << o.errors;
