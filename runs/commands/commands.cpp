@@ -76,6 +76,14 @@ void chooseCheckpoint(const RunCommand& command, RunRequest& options) {
                                        command.folder, folder.string()));
 }
 
+/// Of preparation and steps [s]: what a run without pictures takes.
+double secondsOf(const output::Summary& summary) {
+  double seconds = 0;
+  for (const char* part : {"wall_preparation_s", "wall_steps_s"})
+    if (const auto at = summary.figures.find(part); at != summary.figures.end()) seconds += at->second;
+  return seconds;
+}
+
 } // namespace
 
 void runCommand(const RunCommand& command) {
@@ -108,7 +116,7 @@ void runCommand(const RunCommand& command) {
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
   output::listFiles(options.folder);
-  if (!command.steps) fmt::print("{}", sweeps::checkNote(scene, summary.wallTime));
+  if (!command.steps) fmt::print("{}", sweeps::checkNote(scene, secondsOf(summary)));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 

@@ -40,7 +40,7 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
 Manifest::Manifest(const fs::path& folder, const setup::Provenance& provenance,
                    const std::map<std::string, std::string>& metadata)
     : path_(folder / kName), scene_(fs::absolute(provenance.file).lexically_normal().string()), started_(now()),
-      overrides_(provenance.overrides), notes_(metadata) {}
+      overrides_(provenance.overrides), inputs_(provenance.inputs), notes_(metadata) {}
 
 void Manifest::write(RunStatus status) const {
   const support::BuildInfo build = support::buildInfo();
@@ -48,6 +48,7 @@ void Manifest::write(RunStatus status) const {
   json["status"] = base::wordOf(status);
   json["scene"] = scene_;
   json["overrides"] = overrides_;
+  json["inputs"] = inputs_;
   json["program"] = {{"name", "grouser"},
                      {"version", build.version},
                      {"commit", build.commit},

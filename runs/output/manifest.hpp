@@ -28,6 +28,7 @@ private:
   std::filesystem::path path_;
   std::string scene_, started_;
   std::vector<std::string> overrides_;
+  std::string inputs_; ///< setup::inputsOf()
   std::map<std::string, std::string> notes_;
   Summary summary_;
 };

@@ -38,10 +38,10 @@ def panel(axis, figure, check, costs):
         marker, colour = AXES[error["axis"]]
         size, half = share(error["change"], value), share(error["half_width"], value)
         wall = cost[of_axis[error["axis"]]]["wall_s"]
-        if wall is None or size is None:
+        if wall is None or not size:
             continue
-        low = max(size - (half or 0), 1e-5)
-        axis.errorbar([wall], [max(size, 1e-5)], yerr=[[max(size, 1e-5) - low], [half or 0]], marker=marker,
+        low = max(size - (half or 0), 1e-3 * size)
+        axis.errorbar([wall], [size], yerr=[[size - low], [half or 0]], marker=marker,
                       color=colour, capsize=3, linestyle="none", label=error["axis"].replace("_", " "))
     for case in check["cases"]:
         if case["status"] in ("failed", "refused"):
@@ -90,7 +90,7 @@ def draw(check_path, costs_path):
         entries.update(zip(*reversed(axis.get_legend_handles_labels())))
     figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=5, fontsize=8, frameon=False)
     figure.suptitle(f"{check['scene']}: error against run time", fontsize=10)
-    figure.tight_layout(rect=(0, 0.5 / rows / 3.6, 1, 1))
+    figure.tight_layout(rect=(0, 0.7 / (3.6 * rows + 0.8), 1, 1))
     return figure
 
 

@@ -22,6 +22,7 @@ double memoryOfMachine() { // [bytes]
 } // namespace
 
 void checkFillSizes(const scene::Scene& scene) {
+  if (scene.fills.empty()) return;
   const double bytes = grainMemory(scene).most();
   for (std::size_t k = 0; k < scene.fills.size(); ++k) {
     const auto grains = static_cast<double>(placedCount(scene.fills[k]));

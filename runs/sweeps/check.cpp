@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/support/hdf5_file.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/check_choice.hpp"
@@ -12,14 +13,17 @@
 #include "runs/sweeps/kept_checks.hpp"
 #include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/run_manifest.hpp"
+#include "runs/sweeps/run_series.hpp"
 #include "runs/sweeps/scene_check.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace grouser::sweeps {
 
@@ -43,6 +47,9 @@ public:
   Check(const fs::path& file, const CheckOptions& options)
       : options_(options), fixed_(quiet(options.fixed)), scene_(setup::loadScene(file, fixed_)) {
     checkScene(scene_);
+    if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.seeds)
+      throw base::InputError(
+          fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one", scene_.run.seed, options.seeds));
     record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = checkOrigin(scene_);
     record_.cases = checkCases(file, fixed_, scene_);
     keepAxes();
@@ -128,7 +135,29 @@ private:
   }
 
   void make(const std::string& what) {
-    record_.outcomes = runMissing(record_.runs.plan, options_.sweep, what, [](const std::vector<SweepOutcome>&) {});
+    SweepOptions sweep = options_.sweep;
+    if (!options_.budget.empty()) { // what the first run did not tell must not cost more than was asked
+      const double left = std::max(1e-3, budgetSeconds(options_.budget) - clock_.seconds());
+      sweep.seconds = sweep.seconds > 0 ? std::min(sweep.seconds, left) : left;
+    }
+    record_.outcomes = runMissing(record_.runs.plan, sweep, what, [](const std::vector<SweepOutcome>&) {});
+    for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
+      if (record_.outcomes[r].status == RunStatus::finished) requireReadable(r);
+  }
+
+  /// A run whose files are damaged has failed, and is made again by a call that finds it so.
+  void requireReadable(std::size_t r) {
+    const fs::path folder = record_.folder / record_.runs.plan.runs[r].name;
+    try {
+      readSeries(folder);
+      support::Hdf5File::open(folder / "results.h5");
+    } catch (const std::exception& error) {
+      record_.outcomes[r] = {RunStatus::failed, fmt::format("its results are damaged: {}; the same call again makes "
+                                                            "them anew",
+                                                            error.what())};
+      std::error_code none;
+      fs::remove(folder / "manifest.json", none);
+    }
   }
 
   /// True where the base has a run that ended.
@@ -167,13 +196,21 @@ private:
     write(kCheckPage, checkPage(record_, results));
     for (const char* name : {kCheckFile, kCheckSeries, kCheckCosts, kCheckPage})
       fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
-    keepCheck(scene_, json, record_.folder);
+    const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
+                                        [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
+    keepCheck(scene_, json, static_cast<int>(finished), record_.folder);
     if (results.skin == SameBits::no)
       throw base::SimulationError(
           "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
   }
 
+  struct Clock {
+    std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); }
+  };
+
   const CheckOptions& options_;
+  Clock clock_;
   const std::vector<std::string> fixed_;
   const scene::Scene scene_;
   CheckRecord record_;

@@ -86,18 +86,22 @@ private:
           {set("run.tolerance", tolerance)}, std::sqrt(1 / factor), refinement);
       return;
     }
+    // Coarse steps are as much longer or shorter than 2^k h that they end where the base does.
+    const double end = std::max(1.0, std::round(scene_.run.duration / step_)) * step_;
+    const double step = refinement > 0 ? factor * step_ : end / std::max(1.0, std::round(end / (factor * step_)));
     const auto whole = [this](double time) { return std::max(1.0, std::round(time / step_)) * step_; };
-    Overrides overrides = {set("run.time_step", factor * step_)};
+    Overrides overrides = {set("run.time_step", step), set("run.duration", end)};
     if (refinement > 0)
       overrides.insert(overrides.end(), {set("run.output_interval", whole(scene_.run.outputInterval)),
-                                         set("run.frame_interval", whole(scene_.run.frameInterval)),
-                                         set("run.duration", whole(scene_.run.duration))});
-    add(CheckAxis::step, name, fmt::format("time step {:.4g} s", factor * step_), overrides, 1, refinement);
+                                         set("run.frame_interval", whole(scene_.run.frameInterval))});
+    add(CheckAxis::step, name, fmt::format("time step {:.4g} s", step), overrides, 1, refinement);
   }
 
   void addSkin() {
     if (grains_ == 0) return omit(CheckAxis::skin, "no grains");
-    const double skin = std::min(2.0, kWiderSkin * scene_.run.skin);
+    constexpr double kWidest = 2;
+    const double wider = kWiderSkin * scene_.run.skin;
+    const double skin = wider <= kWidest ? wider : scene_.run.skin / kWiderSkin;
     add(CheckAxis::skin, "skin", fmt::format("run.skin {:g}", skin), {set("run.skin", skin)});
   }
 
@@ -123,7 +127,8 @@ private:
     Overrides overrides = {fmt::format("terrain.size=[{}, {}]", t->size[0], width)};
     if (t->tile) overrides.push_back(fmt::format("terrain.tile=[{}, {}]", (*t->tile)[0], kLarger * (*t->tile)[1]));
     if (const auto& y = scene_.run.domainY)
-      overrides.push_back(fmt::format("run.domain_y=[{}, {}]", kLarger * (*y)[0], kLarger * (*y)[1]));
+      overrides.push_back(fmt::format("run.domain_y=[{}, {}]", (*y)[0] - 0.5 * (kLarger - 1) * ((*y)[1] - (*y)[0]),
+                                      (*y)[1] + 0.5 * (kLarger - 1) * ((*y)[1] - (*y)[0])));
     const bool hilly = t->heightRange[0] != t->heightRange[1];
     add(CheckAxis::width, "wider", fmt::format("{:.4g} m wide{}", width, hilly ? ", the height-map with it" : ""),
         overrides);

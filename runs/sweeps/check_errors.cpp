@@ -54,28 +54,34 @@ StepError stepError(std::span<const double> values) {
   return error;
 }
 
-ScatteredStepError scatteredStepError(const support::Estimate& fine, const std::optional<support::Estimate>& coarse) {
-  ScatteredStepError error{fine, std::nullopt};
-  if (!coarse || std::fabs(fine.value) <= fine.halfWidth || std::fabs(coarse->value) <= coarse->halfWidth) return error;
-  error.order = orderOf(coarse->value, fine.value);
+ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<const double> coarse) {
+  ScatteredStepError error{studies::interval95(fine), std::nullopt, 0};
+  error.bar = 2 * (std::fabs(error.change.value) + error.change.halfWidth);
+  if (coarse.size() != fine.size() || std::fabs(error.change.value) <= error.change.halfWidth) return error;
+  const support::Estimate before = studies::interval95(coarse);
+  if (std::fabs(before.value) <= before.halfWidth) return error;
+  const double f = error.change.value, c = before.value;
+  error.order = orderOf(c, f);
   if (!error.order) return error;
-  const double growth = 1 / (1 - std::exp2(-*error.order)); // of h to nothing over that of h to h/2
-  error.change = {growth * fine.value, growth * fine.halfWidth};
+  // f c / (c - f), and its derivatives by f and c.
+  const double byFine = c * c / ((c - f) * (c - f)), byCoarse = -f * f / ((c - f) * (c - f));
+  std::vector<double> linear;
+  for (std::size_t i = 0; i < fine.size(); ++i) linear.push_back(byFine * fine[i] + byCoarse * coarse[i]);
+  error.change = {f * c / (c - f), studies::interval95(linear).halfWidth};
+  error.bar = std::fabs(error.change.value) + error.change.halfWidth;
   return error;
 }
 
 studies::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds) {
   constexpr int kEnough = 8;
-  if (seeds < kEnough && difference.halfWidth > 0.5 * bar) return studies::Verdict::notShown;
-  return studies::judge(difference, bar);
+  const studies::Verdict verdict = studies::judge(difference, bar);
+  const bool few = seeds < kEnough && difference.halfWidth > 0.5 * bar;
+  return few && verdict == studies::Verdict::equal ? studies::Verdict::notShown : verdict;
 }
 
-double totalBar(double seedsHalfWidth, std::span<const support::Estimate> errors) {
+double totalBar(double seedsHalfWidth, std::span<const double> bars) {
   double squares = seedsHalfWidth * seedsHalfWidth;
-  for (const support::Estimate& e : errors) {
-    const double part = std::fabs(e.value) + e.halfWidth;
-    squares += part * part;
-  }
+  for (const double bar : bars) squares += bar * bar;
   return std::sqrt(squares);
 }
 

@@ -25,20 +25,23 @@ struct StepError {
 /// for two.
 StepError stepError(std::span<const double> values);
 
-/// The same where runs scatter with the seed: paired changes of the figure, fine less base and base less coarse.
-/// `coarse`: step 2 h, without a value where it was not run. An order is seen where both intervals leave out zero, the
-/// signs are the same and the change shrinks by 2^0.5 to 2^8; then the change is extrapolated to h = 0.
+/// The same where runs scatter with the seed.
 struct ScatteredStepError {
-  support::Estimate change; ///< from the base to the finest, extrapolated where an order is seen
+  support::Estimate change; ///< from the base to half its step; to no step at all where an order is seen
   std::optional<double> order;
+  double bar = 0; ///< what the step may be wrong by: |change| + half width, twice that where no order is seen
 };
-ScatteredStepError scatteredStepError(const support::Estimate& fine, const std::optional<support::Estimate>& coarse);
+/// `fine`: a figure at h/2 less that at h, a number a seed; `coarse`: that at h less that at 2 h, of the same seeds, or
+/// empty. An order is seen where both means lie outside their intervals, have one sign and shrink by 2^0.5 to 2^8; then
+/// the change to h = 0 is f c / (c - f) of these means, and its interval that of its linear part over the seeds, with
+/// the scatter of the order in it. Where none is seen h/2 is as wrong again as it differs: of first order.
+ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<const double> coarse);
 
-/// How a difference stands to a bar. With fewer than 8 seeds its half width must lie below half of the bar to count.
+/// How a difference stands to a bar. With fewer than 8 seeds its half width must lie below half of the bar for *equal*.
 studies::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds);
 
-/// Root of the sum of the squares of the seeds' half width, and of |change| + half width of each error.
-double totalBar(double seedsHalfWidth, std::span<const support::Estimate> errors);
+/// Root of the sum of the squares of the seeds' half width and of the bars of all errors.
+double totalBar(double seedsHalfWidth, std::span<const double> bars);
 
 /// How many seeds bring the half width of the 95 % interval below `bar`, where `seeds` of them gave `halfWidth`, all
 /// in one unit; 0: more than a thousand, or fewer than two were run.

@@ -38,13 +38,17 @@ std::string bitsText(SameBits bits) {
   return bits == SameBits::yes ? "the same bits" : bits == SameBits::no ? "OTHER BITS" : "not run";
 }
 
-Json errorJson(const AxisError& e, double value) {
+Json errorJson(const AxisError& e, const CheckFigure& f) {
+  const double value = f.value.value;
   Json json{{"axis", wordOf(e.axis)},
             {"change", numberOf(e.change.value)},
             {"half_width", numberOf(e.change.halfWidth)},
             {"share_of_value", numberOf(value != 0 ? e.change.value / std::fabs(value) : kNone)},
             {"seeds", e.seeds},
             {"verdict", studies::verdictText(e.verdict)}};
+  if (e.axis == CheckAxis::precision && f.value.halfWidth > 0)
+    json["inside_the_seeds_interval"] = std::fabs(e.change.value) <= f.value.halfWidth;
+  json["bar"] = numberOf(e.bar);
   if (e.axis == CheckAxis::step) json["order"] = e.order ? numberOf(*e.order) : Json(nullptr);
   return json;
 }
@@ -60,10 +64,18 @@ Json figureJson(const CheckFigure& f, const CheckResults& results) {
     json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds);
   }
   json["errors"] = Json::array();
-  for (const AxisError& e : f.errors) json["errors"].push_back(errorJson(e, f.value.value));
+  for (const AxisError& e : f.errors) json["errors"].push_back(errorJson(e, f));
   json["bar_of_step"] = Json::array();
   for (const double bar : f.barOfStep) json["bar_of_step"].push_back(numberOf(bar));
   return json;
+}
+
+/// A message without the name that the folder was given.
+std::string placeless(std::string message, const CheckRecord& record) {
+  const std::string folder = (record.folder / "").string();
+  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder, at))
+    message.erase(at, folder.size());
+  return message;
 }
 
 Json caseJson(const CheckRecord& record, std::size_t c) {
@@ -74,12 +86,12 @@ Json caseJson(const CheckRecord& record, std::size_t c) {
             {"what", one.what},
             {"overrides", one.overrides},
             {"status", status.word}};
-  if (!status.message.empty()) json["message"] = status.message;
+  if (!status.message.empty()) json["message"] = placeless(status.message, record);
   json["runs"] = Json::array();
   for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
     if (record.runs.caseOf[r] != c) continue;
     Json run{{"seed", record.runs.seedOf[r]}, {"status", std::string(base::wordOf(record.outcomes[r].status))}};
-    if (!record.outcomes[r].message.empty()) run["message"] = record.outcomes[r].message;
+    if (!record.outcomes[r].message.empty()) run["message"] = placeless(record.outcomes[r].message, record);
     json["runs"].push_back(run);
   }
   return json;
@@ -96,7 +108,10 @@ std::string shareText(const CheckFigure& f, const support::Estimate& change) {
   return changeText(percents) + " %";
 }
 
-std::string orderText(const AxisError& e) {
+std::string remark(const CheckResults& results, const CheckFigure& f, const AxisError& e) {
+  if (e.axis == CheckAxis::precision && results.seeded)
+    return std::fabs(e.change.value) <= f.value.halfWidth ? "inside the seeds' interval"
+                                                          : "OUTSIDE the seeds' interval";
   if (e.axis != CheckAxis::step) return "";
   return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
 }
@@ -127,7 +142,7 @@ std::string linesOf(const CheckRecord& record, const CheckResults& results, cons
                       shareText(f, {0, f.value.halfWidth}), f.seeds);
   for (const AxisError& e : f.errors)
     text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", wordOf(e.axis), changeText(e.change),
-                        shareText(f, e.change), studies::verdictText(e.verdict), orderText(e));
+                        shareText(f, e.change), studies::verdictText(e.verdict), remark(results, f, e));
   return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
 }
 
@@ -135,7 +150,7 @@ std::string linesOf(const CheckRecord& record, const CheckResults& results, cons
 std::string lineOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::string order;
   for (const AxisError& e : f.errors)
-    if (e.axis == CheckAxis::step) order = orderText(e);
+    if (e.axis == CheckAxis::step) order = remark(results, f, e);
   const Cheapest c = cheapest(record, results, f, kPercents[2]);
   const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : kNone;
   return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, valueText({f.value.value, f.bar}),
@@ -171,7 +186,7 @@ std::string figureRows(const CheckRecord& record, const CheckResults& results) {
                      isHeadline(results, f) ? cheapestText(record, results, f) : ""});
     for (const AxisError& e : f.errors)
       rows += cellsOf({"", "", wordOf(e.axis), changeText(e.change), shareText(f, e.change),
-                       studies::verdictText(e.verdict), orderText(e)});
+                       studies::verdictText(e.verdict), remark(results, f, e)});
   }
   return rows;
 }
@@ -261,7 +276,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
   json["figures"] = Json::array();
   for (const CheckFigure& f : results.figures) {
     json["figures"].push_back(figureJson(f, results));
-    json["figures"].back()["headline"] = isHeadline(results, f);
+    json["figures"].back()["headline"] = isHeadline(results, f) && isTold(f);
   }
   return json.dump(1) + "\n";
 }
@@ -304,7 +319,8 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
     return f.name.ends_with(" at the end") && !f.name.starts_with("ledger.");
   };
   if (has(ofVehicle)) return ofVehicle(figure);
-  if (has(isForce)) return isForce(figure);
+  // Of few grains each is looked at.
+  if (has(isForce)) return isForce(figure) || (isEnd(figure) && figure.name.starts_with("grain."));
   return !has(isEnd) || isEnd(figure);
 }
 
@@ -342,7 +358,9 @@ std::string checkPage(const CheckRecord& record, const CheckResults& results) {
       "{3:g} % of a value. The bar is the root of the sum of the squares of the seeds' 95 % interval and of every "
       "change with its interval.</p>\n",
       escaped(record.scene), support::buildInfo().version, support::buildInfo().commit, results.percent);
-  page += fmt::format("<p><img src=\"{}\" alt=\"error over run time\" style=\"max-width:100%\"></p>\n", kCheckPlot);
+  std::error_code error;
+  if (std::filesystem::exists(record.folder / kCheckPlot, error))
+    page += fmt::format("<p><img src=\"{}\" alt=\"error over run time\" style=\"max-width:100%\"></p>\n", kCheckPlot);
   page += "<table>\n" +
           cellsOf({"figure", "value with bar", "by", "change", "share", "verdict", "cheapest within 10, 5, 1 %; order"},
                   "th");

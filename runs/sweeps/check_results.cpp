@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace grouser::sweeps {
 
@@ -55,18 +56,23 @@ public:
       if (runs_.caseOf[r] == aCase && std::isfinite(at(r))) values.push_back(at(r));
     return values;
   }
-  /// Values of two cases, of the seeds that both have.
-  std::pair<std::vector<double>, std::vector<double>> pairs(std::size_t a, std::size_t b) const {
-    std::pair<std::vector<double>, std::vector<double>> found;
-    for (std::size_t r = 0; r < runs_.caseOf.size(); ++r)
-      for (std::size_t s = 0; s < runs_.caseOf.size(); ++s)
-        if (runs_.caseOf[r] == a && runs_.caseOf[s] == b && runs_.seedOf[r] == runs_.seedOf[s] &&
-            std::isfinite(at(r)) && std::isfinite(at(s)))
-          found.first.push_back(at(r)), found.second.push_back(at(s));
+  /// Differences from case `from` to case `to`, seed by seed, of the seeds that both have, and `third` where it is one.
+  std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
+    const std::map<std::int64_t, double> a = bySeed(from), b = bySeed(to);
+    const std::map<std::int64_t, double> c = third ? bySeed(*third) : a;
+    std::vector<double> found;
+    for (const auto& [seed, value] : a)
+      if (const auto other = b.find(seed); other != b.end() && c.contains(seed)) found.push_back(other->second - value);
     return found;
   }
 
 private:
+  std::map<std::int64_t, double> bySeed(std::size_t aCase) const {
+    std::map<std::int64_t, double> values;
+    for (std::size_t r = 0; r < runs_.caseOf.size(); ++r)
+      if (runs_.caseOf[r] == aCase && std::isfinite(at(r))) values[runs_.seedOf[r]] = at(r);
+    return values;
+  }
   double at(std::size_t run) const { return figures_.values[run][column_]; }
   const CheckRuns& runs_;
   const SweepFigures& figures_;
@@ -104,10 +110,14 @@ public:
     figure_.value = cases_.seeded ? studies::interval95(base) : support::Estimate{base.front(), 0};
     cases_.seeded ? addScatteredStep() : addStep();
     for (std::size_t c = 1; c < cases_.cases.size(); ++c) addOther(c);
-    std::vector<support::Estimate> parts;
-    for (const AxisError& e : figure_.errors)
-      if (e.axis != CheckAxis::precision || !cases_.seeded) parts.push_back(e.change);
-    figure_.bar = totalBar(figure_.value.halfWidth, parts);
+    std::vector<double> parts;
+    bool hasStep = false;
+    for (const AxisError& e : figure_.errors) {
+      hasStep = hasStep || e.axis == CheckAxis::step;
+      if (e.axis != CheckAxis::precision || !cases_.seeded) parts.push_back(e.bar);
+    }
+    const bool known = hasStep || cases_.seeded;
+    figure_.bar = known ? totalBar(figure_.value.halfWidth, parts) : std::numeric_limits<double>::infinity();
     for (const std::size_t c : stepCases) figure_.barOfStep.push_back(barOfStep(c));
     return figure_;
   }
@@ -134,32 +144,46 @@ private:
     if (values.size() < 2) return;
     const StepError e = stepError(values);
     // The bar reaches as far as the change and what is not known of it.
-    add({CheckAxis::step, {e.change, std::max(0.0, e.bar - std::fabs(e.change))}, e.order, 1, {}});
+    const double rest = std::max(0.0, e.bar - std::fabs(e.change));
+    add({CheckAxis::step, {e.change, rest}, e.order, 1, std::max(e.bar, std::fabs(e.change)), {}});
   }
 
-  /// Change between two cases; none without common seeds.
-  std::optional<support::Estimate> change(std::optional<std::size_t> from, std::optional<std::size_t> to) const {
-    if (!from || !to) return std::nullopt;
-    const auto [a, b] = values_.pairs(*from, *to);
-    return a.empty() ? std::nullopt : std::optional(studies::pairedChange(a, b));
+  /// Changes from case `from` to case `to`, of the seeds that all three cases have; the third may be missing.
+  std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
+    return values_.changes(from, to, third);
+  }
+
+  /// The step's error at the base, from h to h/2 and, where it is there for the same seeds, from 2 h to h.
+  ScatteredStepError scatteredAtBase(std::size_t& seeds) const {
+    const auto fine = stepCase(cases_, 1), coarse = stepCase(cases_, -1);
+    const std::vector<double> both = coarse ? changes(0, *fine, coarse) : std::vector<double>{};
+    seeds = changes(0, *fine, std::nullopt).size();
+    if (both.size() < 2) return scatteredStepError(changes(0, *fine, std::nullopt), {});
+    seeds = both.size();
+    return scatteredStepError(both, changes(*coarse, 0, fine));
   }
 
   void addScatteredStep() {
-    const auto base = stepCase(cases_, 0), fine = stepCase(cases_, 1), coarse = stepCase(cases_, -1);
-    const std::optional<support::Estimate> finer = change(base, fine);
-    if (!finer) return;
-    const ScatteredStepError e = scatteredStepError(*finer, change(coarse, base));
-    add({CheckAxis::step, e.change, e.order, static_cast<int>(values_.pairs(*base, *fine).first.size()), {}});
+    const auto fine = stepCase(cases_, 1);
+    if (!fine || changes(0, *fine, std::nullopt).empty()) return;
+    std::size_t seeds = 0;
+    const ScatteredStepError e = scatteredAtBase(seeds);
+    add({CheckAxis::step, e.change, e.order, static_cast<int>(seeds), e.bar, {}});
   }
 
   void addOther(std::size_t c) {
     const CheckAxis axis = cases_.cases[c].axis;
     if (axis == CheckAxis::step || axis == CheckAxis::skin) return;
-    const auto [a, b] = values_.pairs(0, c);
-    if (a.empty()) return;
+    const std::vector<double> change = changes(0, c, std::nullopt);
+    if (change.empty()) return;
     const support::Estimate changed =
-        cases_.seeded ? studies::pairedChange(a, b) : support::Estimate{b.front() - a.front(), 0};
-    add({axis, changed, std::nullopt, static_cast<int>(a.size()), {}});
+        cases_.seeded ? studies::interval95(change) : support::Estimate{change.front(), 0};
+    add({axis,
+         changed,
+         std::nullopt,
+         static_cast<int>(change.size()),
+         std::fabs(changed.value) + changed.halfWidth,
+         {}});
   }
 
   /// Error bar of the figure at the step of case c, all else as in the base.
@@ -169,9 +193,17 @@ private:
       const std::vector<double> values = refined(refinement);
       return values.size() < 2 ? kNone : stepError(values).bar;
     }
-    if (refinement > 0) return kNone; // nothing finer is there to compare with
-    const std::optional<support::Estimate> e = change(c, stepCase(cases_, 1));
-    return e ? std::fabs(e->value) + e->halfWidth : kNone;
+    const auto fine = stepCase(cases_, 1);
+    if (!fine || changes(0, *fine, std::nullopt).empty()) return kNone;
+    std::size_t seeds = 0;
+    const ScatteredStepError base = scatteredAtBase(seeds);
+    if (c == 0) return base.bar;
+    // What lies between this case and the base is added to the base's error, or taken off.
+    const std::vector<double> change = changes(c, 0, std::nullopt);
+    if (change.empty()) return kNone;
+    const support::Estimate apart = studies::interval95(change);
+    if (!base.order) return (refinement > 0 ? 1 : 2) * (std::fabs(apart.value) + apart.halfWidth);
+    return std::fabs(base.change.value + apart.value) + base.change.halfWidth + apart.halfWidth;
   }
 
   const CheckCases& cases_;
@@ -191,6 +223,7 @@ SameBits sameBits(const CheckCases& cases, const CheckRuns& runs, const std::vec
         continue;
       const std::string one = RunManifest(folder / runs.plan.runs[r].name).text("state_hash"),
                         other = RunManifest(folder / runs.plan.runs[b].name).text("state_hash");
+      if (one.empty() || other.empty()) continue;
       if (one != other) return SameBits::no;
       same = SameBits::yes;
     }

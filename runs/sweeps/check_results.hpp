@@ -27,6 +27,7 @@ struct AxisError {
                                ///< extrapolated to nothing where an order is seen
   std::optional<double> order; ///< of the step, where one is seen
   int seeds = 0;               ///< pairs of runs behind it
+  double bar = 0;              ///< what the figure may be wrong by: |change| + half width; of the step see check_errors
   studies::Verdict verdict = studies::Verdict::notShown; ///< against the bar
 };
 
@@ -35,7 +36,9 @@ struct CheckFigure {
   support::Estimate value; ///< of the base; half width over the seeds, 0 where seeds make no difference
   int seeds = 0;           ///< runs behind it
   std::vector<AxisError> errors;
-  double bar = 0; ///< totalBar() of all but precision where seeds count; the half width of the error bar
+  /// totalBar() of all but precision where seeds count; infinite where seeds make no difference and no run with a finer
+  /// step is there.
+  double bar = 0;
   /// Beside each run of the step axis and the base: its error bar, in the figure's unit, NaN where it has none.
   std::vector<double> barOfStep;
 };

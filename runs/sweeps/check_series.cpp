@@ -65,13 +65,11 @@ double stepBar(const Cell& cell, bool seeded) {
   }
   const auto fine = cell.find(1);
   if (fine == cell.end()) return kNone;
-  std::vector<double> a, b;
+  std::vector<double> changes;
   for (const auto& [seed, value] : base->second)
     if (const auto other = fine->second.find(seed); other != fine->second.end())
-      a.push_back(value), b.push_back(other->second);
-  if (a.empty()) return kNone;
-  const support::Estimate change = studies::pairedChange(a, b);
-  return std::fabs(change.value) + change.halfWidth;
+      changes.push_back(other->second - value);
+  return changes.empty() ? kNone : scatteredStepError(changes, {}).bar;
 }
 
 /// One column of all members at one time.
@@ -105,7 +103,7 @@ CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const st
         for (const auto& [seed, value] : at->second) values.push_back(value);
       const support::Estimate e = estimateOf(values, cases.seeded);
       s.value.push_back(e.value), s.seeds.push_back(e.halfWidth), s.step.push_back(stepBar(cell, cases.seeded));
-      s.bar.push_back(std::hypot(s.seeds.back(), s.step.back()));
+      s.both.push_back(std::hypot(s.seeds.back(), s.step.back()));
     }
   }
   return all;
@@ -114,13 +112,13 @@ CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const st
 std::string seriesCsv(const CheckSeries& series) {
   std::string text = "time [s]";
   for (const SeriesWithBars& s : series.series)
-    for (const char* what : {"", " seeds +-", " step +-", " bar +-"})
+    for (const char* what : {"", " seeds +-", " step +-", " both +-"})
       text += fmt::format(",{}", support::csvCell(s.name + what));
   text += "\n";
   for (std::size_t row = 0; row < series.time.size(); ++row) {
     text += support::csvCell(series.time[row]);
     for (const SeriesWithBars& s : series.series)
-      for (const double value : {s.value[row], s.seeds[row], s.step[row], s.bar[row]})
+      for (const double value : {s.value[row], s.seeds[row], s.step[row], s.both[row]})
         text += fmt::format(",{}", support::csvCell(value));
     text += "\n";
   }

@@ -14,9 +14,8 @@ struct SeriesWithBars {
   std::string name;          ///< with its unit
   std::vector<double> value; ///< mean over the seeds
   std::vector<double> seeds; ///< half width of its 95 % interval; 0 where seeds make no difference
-  std::vector<double> step;  ///< half width of the error by the step: of runs that repeat stepError(); of those that
-                             ///< scatter |change of the mean from h to h/2| and the half width of that
-  std::vector<double> bar;   ///< root of the sum of their squares
+  std::vector<double> step;  ///< half width of the error by the step: stepError(), or scatteredStepError() of h and h/2
+  std::vector<double> both;  ///< root of the sum of their squares; other axes have no part in it
 };
 struct CheckSeries {
   std::vector<double> time; ///< [s]

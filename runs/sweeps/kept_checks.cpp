@@ -3,11 +3,13 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/check_cases.hpp"
 #include "runs/sweeps/check_report.hpp"
+#include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/runner.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +34,7 @@ std::string originText(scene::Scene scene) {
   scene.run.seed = fresh.seed, scene.run.frameInterval = fresh.frameInterval;
   scene.run.checkpointInterval = fresh.checkpointInterval;
   scene.output = {}, scene.parallel = {};
-  return identity(scene);
+  return identity(scene) + setup::inputsOf(scene);
 }
 
 nlohmann::json readJson(const fs::path& path) {
@@ -54,16 +56,51 @@ nlohmann::json keptCheck(const scene::Scene& scene) {
   return json.is_object() && json.value("of", "") == origin ? json : nlohmann::json();
 }
 
+/// "step, depth, 8 seeds": what is in the bar of a figure.
+std::string partsOf(const nlohmann::json& figure, bool seeded) {
+  std::string text;
+  for (const nlohmann::json& e : figure.at("errors"))
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", e.at("axis").get<std::string>());
+  if (seeded) text += fmt::format("{}{} seeds", text.empty() ? "" : ", ", figure.at("seeds").get<int>());
+  return text;
+}
+
 std::string barsText(const nlohmann::json& kept) {
+  constexpr int kMost = 12;
   const nlohmann::json& check = kept.at("check");
-  std::string text =
-      fmt::format("checked   error bars of the last check of this scene ({}, commit {})\n",
-                  kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>());
+  std::string text, parts;
+  int told = 0, more = 0;
   for (const nlohmann::json& f : check.at("figures")) {
     if (!f.value("headline", false) || !f.at("value").is_number()) continue;
-    text += fmt::format("  {:<34} {}\n", f.at("name").get<std::string>(),
+    if (++told > kMost) ++more;
+    if (told > kMost) continue;
+    if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
+    text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
                         valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
   }
+  if (more > 0) text += fmt::format("  and {} more\n", more);
+  return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,
+                     kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>(), text);
+}
+
+/// As a shell takes it for one word.
+std::string quoted(const std::string& word) {
+  if (word.find_first_of(" '\"[](),|&;<>*?$") == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      text += "'\\''";
+    else
+      text += c;
+  }
+  return text + "'";
+}
+
+/// The command that checks this scene, with what was overridden.
+std::string commandOf(const scene::Scene& scene) {
+  std::string text = fmt::format("grouser check {}", quoted(scene.file.string()));
+  for (const std::string& o : scene.overrides)
+    if (keyOf(o) != "run.seed") text += fmt::format(" --set {}", quoted(o));
   return text;
 }
 
@@ -75,14 +112,19 @@ std::string checkOrigin(const scene::Scene& scene) {
   return hash.hex();
 }
 
-void keepCheck(const scene::Scene& scene, const std::string& json, const fs::path& folder) {
+void keepCheck(const scene::Scene& scene, const std::string& json, int runs, const fs::path& folder) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept || !kept->writable()) return;
   const std::string origin = originText(scene);
-  const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin),
-                 fresh = support::KeptFiles::freshName(file);
+  const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin);
+  const fs::path fresh = support::KeptFiles::freshName(file);
   try {
-    const nlohmann::json all = {{"of", origin}, {"folder", folder.string()}, {"check", nlohmann::json::parse(json)}};
+    const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(scene);
+    if (former.is_object() && former.value("runs", 0) > runs &&
+        former.at("check").at("program").at("commit") == check.at("program").at("commit"))
+      return;
+    const nlohmann::json all = {
+        {"of", origin}, {"runs", runs}, {"folder", fs::absolute(folder).lexically_normal().string()}, {"check", check}};
     support::replaceTextFile(fresh, all.dump() + "\n");
     kept->put(fresh, file);
   } catch (const std::exception&) {
@@ -98,16 +140,20 @@ std::string checkNote(const scene::Scene& scene, double runSeconds) {
   } catch (const nlohmann::json::exception&) {
     // damaged, or of another version
   }
-  return fmt::format(
-      "unchecked errors of step, extent and seed: grouser check {}, about {} (--budget 20min: as much as "
-      "fits)\n",
-      scene.file.string(), support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck)));
+  return fmt::format("unchecked errors of step, extent and seed: {}, about {} (--budget 20min: as much as fits)\n",
+                     commandOf(scene),
+                     support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck)));
 }
 
 void checkFolderOfCheck(const fs::path& folder) {
   const nlohmann::json json = readJson(folder / kCheckFile);
   if (json.is_object() && json.contains("origin") && json.contains("figures")) return;
   std::error_code error;
+  const nlohmann::json choice = readJson(folder / kCheckChoice);
+  if (fs::exists(folder / kCheckChoice, error) && !(choice.is_object() && choice.contains("asked")))
+    throw base::InputError(fmt::format("{}: is a file that no check has written; name another folder with --out, or "
+                                       "overwrite it with --force",
+                                       (folder / kCheckChoice).string()));
   for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPage, kCheckPlot})
     if (fs::exists(folder / name, error))
       throw base::InputError(

@@ -56,6 +56,20 @@ Table readTable(const fs::path& path) {
   return table;
 }
 
+/// Whether its first row of the time series has few grains; reads no more of it than that.
+bool hasFewGrains(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line, first;
+  std::getline(file, line);
+  std::size_t grains = 0;
+  while (grains <= kGrainsWithSeries && std::getline(file, line)) {
+    const std::string step = line.substr(0, line.find(','));
+    if (grains > 0 && step != first) break;
+    first = step, ++grains;
+  }
+  return grains <= kGrainsWithSeries;
+}
+
 /// Adds the grains of grains.csv, whose lines are step, time, id and what it is, in the order of the rows.
 void addGrains(const Table& table, RunSeries& series) {
   constexpr std::size_t kId = 2, kFirst = 3;
@@ -90,8 +104,9 @@ RunSeries readSeries(const fs::path& folder) {
     std::vector<double>& values = series.values.emplace_back();
     for (const std::vector<double>& row : table.rows) values.push_back(row[c]);
   }
+  const fs::path grains = folder / "grains.csv";
   std::error_code error;
-  if (fs::exists(folder / "grains.csv", error)) addGrains(readTable(folder / "grains.csv"), series);
+  if (fs::exists(grains, error) && hasFewGrains(grains)) addGrains(readTable(grains), series);
   return series;
 }
 

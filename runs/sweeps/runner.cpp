@@ -5,6 +5,9 @@
 #include "base/exec.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/file_lock.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/run_manifest.hpp"
@@ -35,7 +38,10 @@ using output::RunStatus;
 constexpr const char* kLog = "log.txt"; // what a run printed
 
 bool isFinished(const fs::path& folder, const scene::Scene& scene) {
-  if (RunManifest(folder).text("status") != base::wordOf(RunStatus::finished)) return false;
+  const RunManifest manifest(folder);
+  if (manifest.text("status") != base::wordOf(RunStatus::finished) ||
+      manifest.commit() != support::buildInfo().commit || manifest.text("inputs") != setup::inputsOf(scene))
+    return false;
   try {
     return identity(setup::loadScene(folder / "scene.toml")) == identity(scene);
   } catch (const base::InputError&) {
@@ -47,10 +53,25 @@ bool isFinished(const fs::path& folder, const scene::Scene& scene) {
 void checkRunFolder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
-  const bool isOurs = fs::exists(folder / "manifest.json", error) || fs::exists(folder / kLog, error);
+  const bool isOurs = fs::exists(folder / kLog, error); // a run of its own has none
   if (!fs::is_directory(folder, error) || (!isOurs && !fs::is_empty(folder, error)))
     throw base::InputError(fmt::format(
         "{}: stands where a run's folder should be; name another with --out, or use it with --force", folder.string()));
+}
+
+/// Waits for a run that is still ending in this folder: one of a sweep that was killed writes a checkpoint first.
+void awaitFormer(const fs::path& folder) {
+  constexpr auto kPatience = std::chrono::seconds(60);
+  constexpr auto kLook = std::chrono::milliseconds(20);
+  const auto begun = std::chrono::steady_clock::now();
+  for (;; std::this_thread::sleep_for(kLook)) {
+    support::FileLock lock;
+    if (lock.take(folder)) return;
+    if (std::chrono::steady_clock::now() - begun > kPatience)
+      throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
+                                         "folder with --out",
+                                         folder.string()));
+  }
 }
 
 /// Starts the program with its output in the log. Returns the process.
@@ -148,7 +169,12 @@ private:
   }
 
   void launch(std::size_t i) {
-    fs::create_directories(folder(i));
+    std::error_code error;
+    fs::create_directories(folder(i), error);
+    if (error)
+      throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
+                                         folder(i).string(), error.message()));
+    awaitFormer(folder(i));
     // What an earlier run left must not be taken for what this one does.
     for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
     std::vector<std::string> words = {options_.program.string(), "run", plan_.scene.string()};
@@ -231,6 +257,12 @@ std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& 
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
         fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
+  support::FileLock alone; // two sweeps in one folder would take each other's files away
+  if (!alone.take(options.folder))
+    throw base::InputError(
+        fmt::format("{}: another sweep or check is at work in this folder; wait for its end, or name "
+                    "another with --out",
+                    options.folder.string()));
   Runner runner(plan, options, what, changed);
   runner.run();
   return runner.outcomes();

@@ -27,9 +27,10 @@ using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
 std::string identity(scene::Scene scene);
 
 /// Runs what is not there yet, in the order of the plan, at most `jobs` at a time. A run is left out when its folder
-/// holds a finished one of the same identity(); what is half done or of another scene is run again. `changed` is called
-/// at the start and after every run; `what` stands before the lines of progress. Throws InputError, before anything is
-/// started, where a run's folder holds something else. Returns how each run stands.
+/// holds a finished one of the same identity(), the same bytes of all files that the scene names, and the same commit
+/// of the program; what is half done or of another scene is run again. `changed` is called at the start and after every
+/// run; `what` stands before the lines of progress. Throws InputError, before anything is started, where a run's folder
+/// holds something else. Returns how each run stands.
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
                                      const OutcomesChanged& changed);
 

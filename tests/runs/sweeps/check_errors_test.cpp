@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace grouser::sweeps {
@@ -52,31 +53,59 @@ TEST(CheckErrors, WhatDoesNotChangeHasNoError) {
   EXPECT_FALSE(e.order);
 }
 
+using Numbers = std::vector<double>;
+
 TEST(CheckErrors, OfSeedsAnOrderIsSeenOnlyWhereBothIntervalsLeaveOutZero) {
-  const ScatteredStepError first = scatteredStepError({-0.1, 0.01}, support::Estimate{-0.2, 0.02});
+  const Numbers fine = {-0.11, -0.10, -0.09}, coarse = {-0.22, -0.20, -0.18}, wide = {-0.3, -0.1, 0.1};
+  const ScatteredStepError first = scatteredStepError(fine, coarse);
   ASSERT_TRUE(first.order);
   EXPECT_NEAR(*first.order, 1, 1e-12);
   EXPECT_NEAR(first.change.value, -0.2, 1e-12);
-  EXPECT_NEAR(first.change.halfWidth, 0.02, 1e-12);
-  EXPECT_FALSE(scatteredStepError({-0.1, 0.11}, support::Estimate{-0.2, 0.02}).order);
-  EXPECT_FALSE(scatteredStepError({-0.1, 0.01}, support::Estimate{-0.2, 0.21}).order);
-  EXPECT_FALSE(scatteredStepError({-0.1, 0.01}, support::Estimate{0.2, 0.02}).order); // other signs
-  EXPECT_FALSE(scatteredStepError({-0.1, 0.01}, std::nullopt).order);
-  EXPECT_NEAR(scatteredStepError({-0.1, 0.11}, std::nullopt).change.value, -0.1, 1e-12);
+  // Of 4 f - c, seed by seed: -0.22, -0.20, -0.18.
+  EXPECT_NEAR(first.change.halfWidth, 4.303 * 0.02 / std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(first.bar, 0.2 + first.change.halfWidth, 1e-12);
+  EXPECT_FALSE(scatteredStepError(wide, coarse).order);
+  EXPECT_FALSE(scatteredStepError(fine, wide).order);
+  EXPECT_FALSE(scatteredStepError(fine, Numbers{0.22, 0.20, 0.18}).order); // other signs
+  // None is assumed, but that h/2 is as wrong as it differs from h.
+  const ScatteredStepError none = scatteredStepError(fine, {});
+  EXPECT_FALSE(none.order);
+  EXPECT_NEAR(none.change.value, -0.1, 1e-12);
+  EXPECT_NEAR(none.bar, 2 * (0.1 + none.change.halfWidth), 1e-12);
 }
 
-TEST(CheckErrors, FewSeedsShowNothingUnlessTheyScatterLittle) {
+TEST(CheckErrors, TheBarOfScatteredRunsHoldsAnErrorOfFirstOrder) {
+  // Eight seeds, each run with noise of its own; the error at h is C = 1, so the changes are -1/2 and -1 in the mean.
+  std::mt19937 dice(1);
+  for (const double noise : {0.05, 0.1, 0.2, 0.5, 2.0})
+    for (const bool withCoarse : {true, false}) {
+      std::normal_distribution<double> scatter(0, noise);
+      constexpr int kTrials = 1000;
+      int held = 0;
+      for (int trial = 0; trial < kTrials; ++trial) {
+        Numbers fine, coarse;
+        for (int seed = 0; seed < 8; ++seed) {
+          const double half = 0.5 + scatter(dice), base = 1 + scatter(dice), twice = 2 + scatter(dice);
+          fine.push_back(half - base);
+          if (withCoarse) coarse.push_back(base - twice);
+        }
+        held += scatteredStepError(fine, coarse).bar >= 1 ? 1 : 0;
+      }
+      EXPECT_GE(held, 0.9 * kTrials) << noise << (withCoarse ? " with 2 h" : "");
+    }
+}
+
+TEST(CheckErrors, FewSeedsShowNothingEqualUnlessTheyScatterLittle) {
   EXPECT_EQ(judgeSeeds({0.0, 0.04}, 0.05, 8), studies::Verdict::equal);
   EXPECT_EQ(judgeSeeds({0.0, 0.04}, 0.05, 7), studies::Verdict::notShown);
   EXPECT_EQ(judgeSeeds({0.0, 0.02}, 0.05, 3), studies::Verdict::equal);
-  EXPECT_EQ(judgeSeeds({0.2, 0.02}, 0.05, 3), studies::Verdict::differs);
+  EXPECT_EQ(judgeSeeds({0.2, 0.1}, 0.05, 3), studies::Verdict::differs);
   EXPECT_EQ(judgeSeeds({0.0, 0.06}, 0.05, 20), studies::Verdict::notShown);
 }
 
-TEST(CheckErrors, TheBarAddsSquaresOfChangesWithTheirIntervals) {
-  const std::vector<support::Estimate> errors = {{-3, 1}, {0, 3}};
-  EXPECT_NEAR(totalBar(12, errors), 13, 1e-12); // 12, 4 and 3
-  EXPECT_TRUE(std::isinf(totalBar(INFINITY, errors)));
+TEST(CheckErrors, TheBarIsTheRootOfTheSumOfSquares) {
+  EXPECT_NEAR(totalBar(12, Numbers{4, 3}), 13, 1e-12);
+  EXPECT_TRUE(std::isinf(totalBar(INFINITY, Numbers{4, 3})));
 }
 
 TEST(CheckErrors, SeedsForABarFollowStudentsDistribution) {

@@ -142,6 +142,20 @@ TEST_F(CheckResults, TheSkinMustGiveTheSameBits) {
   EXPECT_EQ(results().skin, SameBits::no);
 }
 
+TEST_F(CheckResults, WithoutFinerStepsThereIsNoBar) {
+  record_.cases.seeded = false;
+  add(CheckAxis::base, "base", 0, {3.8});
+  add(CheckAxis::precision, "double", 0, {3.9});
+  EXPECT_TRUE(std::isinf(depth().bar));
+}
+
+TEST_F(CheckResults, RunsWithoutAHashSayNothingOfTheSkin) {
+  add(CheckAxis::base, "base", 0, {10});
+  add(CheckAxis::skin, "skin", 0, {10});
+  std::ofstream(folder_ / "skin0/manifest.json") << "{}\n";
+  EXPECT_EQ(results().skin, SameBits::notRun);
+}
+
 TEST_F(CheckResults, TheCheapestSettingHoldsStepAndSeedsTogether) {
   add(CheckAxis::base, "base", 0, {10, 10.1, 9.9, 10});
   add(CheckAxis::step, "half", 1, {9.9, 10.0, 9.8, 9.9});
@@ -160,9 +174,9 @@ TEST_F(CheckResults, SeriesHaveAValueAndABarAtEveryTime) {
   ASSERT_EQ(s.series.size(), 1U); // rebuilds are none of the ground's
   EXPECT_EQ(s.series[0].name, "depth [m]");
   EXPECT_EQ(s.series[0].value, (std::vector<double>{1, 22, 11}));
-  EXPECT_NEAR(s.series[0].step[1], 0.2, 1e-9);
+  EXPECT_NEAR(s.series[0].step[1], 2 * 0.2, 1e-9);
   EXPECT_NEAR(s.series[0].seeds[1], 2 * kStudent / std::sqrt(3.0), 1e-6);
-  EXPECT_NEAR(s.series[0].bar[1], std::hypot(s.series[0].seeds[1], s.series[0].step[1]), 1e-9);
+  EXPECT_NEAR(s.series[0].both[1], std::hypot(s.series[0].seeds[1], s.series[0].step[1]), 1e-9);
 }
 
 } // namespace

@@ -78,7 +78,7 @@ TEST_F(Check, SeriesCarryTheirBarsAtEveryTime) {
   while (std::getline(file, line)) last = line, ++rows;
   EXPECT_EQ(rows, 11);
   const std::string name = "grain.0.position.z [m]";
-  EXPECT_NE(head.find("," + name + "," + name + " seeds +-," + name + " step +-," + name + " bar +-"),
+  EXPECT_NE(head.find("," + name + "," + name + " seeds +-," + name + " step +-," + name + " both +-"),
             std::string::npos)
       << head;
 }
@@ -145,9 +145,37 @@ TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
   EXPECT_EQ(after.out.find("grouser check fall"), std::string::npos) << after.out;
   EXPECT_NE(after.out.find("grain.0.position.z [m] at the end"), std::string::npos) << after.out;
   EXPECT_NE(after.out.find(" +- "), std::string::npos);
+  // A lesser check does not take the place of a better one.
+  ASSERT_EQ(call("check fall.toml --axes precision --out less", keep).code, 0);
+  const Outcome still = call("run fall.toml --out r --force", keep);
+  EXPECT_NE(still.out.find("error bars by step"), std::string::npos) << still.out;
   // Of another scene they say nothing.
   const Outcome other = call("run fall.toml --out r --force --set run.time_step=5e-4", keep);
   EXPECT_NE(other.out.find("grouser check "), std::string::npos) << other.out;
+}
+
+TEST_F(Check, ARunOfOnesOwnIsNotWrittenOver) {
+  writeFall();
+  ASSERT_EQ(call("run fall.toml --out mine/base").code, 0);
+  const std::string before = contents((folder_ / "mine/base/manifest.json").string());
+  EXPECT_EQ(call("check fall.toml --out mine").code, 2);
+  EXPECT_EQ(contents((folder_ / "mine/base/manifest.json").string()), before);
+}
+
+TEST_F(Check, AFileOfTheSceneThatHasChangedIsNoticed) {
+  std::ofstream(folder_ / "ball.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  std::ofstream(folder_ / "mesh.toml")
+      << "version = 1\n[run]\nduration = 0.01\ntime_step = 1e-4\noutput_interval = 0.01\nthreads = 1\n"
+         "[material.glass]\nstiffness = 1e4\n[[grain]]\nposition = [5, 5, 5]\nradius = 0.1\nmaterial = \"glass\"\n"
+         "[[mesh]]\nfile = \"ball.off\"\nposition = [0, 0, 0]\nmaterial = \"glass\"\n"
+      << kQuiet;
+  ASSERT_EQ(call("check mesh.toml --axes step --out c").code, 0);
+  const Outcome again = call("check mesh.toml --axes step --out c");
+  EXPECT_NE(again.out.find("base                         finished already"), std::string::npos) << again.out;
+  std::ofstream(folder_ / "ball.off") << "OFF\n4 4 0\n0 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const Outcome changed = call("check mesh.toml --axes step --out c");
+  EXPECT_EQ(changed.code, 0) << changed.errors;
+  EXPECT_EQ(changed.out.find("finished already"), std::string::npos) << changed.out;
 }
 
 TEST_F(Check, WrongWordsAreRefusedBeforeAnythingIsWritten) {
