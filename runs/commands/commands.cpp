@@ -20,6 +20,7 @@
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/kept_checks.hpp"
 #include "runs/sweeps/overrides.hpp"
+#include "runs/sweeps/scene_check.hpp"
 #include "runs/sweeps/sweep.hpp"
 #include "runs/sweeps/sweep_files.hpp"
 #include "spheredecomp/decompose.hpp"
@@ -157,6 +158,7 @@ void planCommand(const PlanCommand& command) {
   scene::printNotes(scene);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, nullptr);
   const fs::path folder = folderOf(scene, command.folder);
+  sweeps::checkScene(scene);
   // What does not fit is neither laid nor run, but shown.
   std::string misfit;
   try {

@@ -7,7 +7,6 @@
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/size_checks.hpp"
-#include "runs/setup/step_limit.hpp"
 #include "terrain/grain_entry.hpp"
 #include "terrain/grain_state.hpp"
 
@@ -115,8 +114,9 @@ void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::pat
   setup::checkFillSizes(scene);
   setup::checkBedSize(scene);
   const int all = ranks ? ranks->comm().size() : 1, here = ranks ? ranks->ranksOnHost() : 1;
-  const Demand demand =
-      demandOf(scene, setup::plannedGrains(scene), setup::chooseTimeStep(scene), !exec.onCpu(), all, here);
+  // Rows and frames are hardly ever closer than steps; which step is sound is asked later, of parts that are.
+  const double step = scene.run.timeStep.value_or(std::min(scene.run.outputInterval, scene.run.frameInterval));
+  const Demand demand = demandOf(scene, setup::plannedGrains(scene), step, !exec.onCpu(), all, here);
   Room room = roomOf(exec, folder, overwritten);
   if (!disk) room.disk.reset();
   const std::string why = misfit(demand, room);

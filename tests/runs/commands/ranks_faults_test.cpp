@@ -116,16 +116,17 @@ kill $first; wait $first)");
   EXPECT_FALSE(fs::exists(folder_ / "nowhere")) << "made by asking for its lock";
 }
 
-TEST_F(OnRanks, WithoutMemoryTheRunEndsAndSaysWhatToDo) {
+TEST_F(OnRanks, WithoutMemoryTheRunIsRefusedAndSaysWhatToDo) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the sanitizer needs all addresses";
 #endif
   // 1.3 million grains need 460 MB, and as much again while they are laid.
   const Outcome o = shell("ulimit -v 500000; \"$grouser\" run bed.toml --out o --threads 1 --steps 1 "
                           "--set terrain.grain_radius=0.002 --set terrain.layers=24 --set 'run.time_step=\"auto\"'");
-  EXPECT_EQ(o.code, 4);
-  EXPECT_NE(o.errors.find("out of host memory"), std::string::npos) << o.errors;
-  EXPECT_NE(o.errors.find("use larger or fewer grains"), std::string::npos) << o.errors;
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.errors.find("does not fit this machine"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("use fewer or larger grains"), std::string::npos) << o.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
 }
 
 } // namespace
