@@ -49,8 +49,9 @@ Table tableOf(const std::vector<VehicleTrial>& trials) {
   table.names = {"step [s]", "end", "reached [s]", "wall [s]"};
   for (const Column& c : kFigures) table.names.push_back(c.name);
   for (const VehicleTrial& t : trials) {
-    table.rows.push_back({t.step, static_cast<double>(t.end), t.reached, t.wallSeconds});
-    for (const Column& c : kFigures) table.rows.back().push_back(t.figures.*c.value);
+    std::vector<double> row = {t.step, static_cast<double>(t.end), t.reached, t.wallSeconds};
+    for (const Column& c : kFigures) row.push_back(t.figures.*c.value);
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

@@ -59,8 +59,8 @@ TEST(VehicleVerdict, EveryComparedFigureThatDiffersMakesARunSilentlyWrong) {
       }
       for (const double none : {double(NAN), double(INFINITY)}) {
         finer.figures.*c.value = none;
-        EXPECT_EQ(judge(run, finer, onBed).verdict, MapVerdict::silentlyWrong) << c.name << " " << none;
-        EXPECT_EQ(judge(finer, run, onBed).verdict, MapVerdict::silentlyWrong) << c.name << " " << none;
+        for (const auto& [a, b] : {std::pair{run, finer}, std::pair{finer, run}})
+          EXPECT_EQ(judge(a, b, onBed).verdict, MapVerdict::silentlyWrong) << c.name << " " << none;
       }
     }
 }
