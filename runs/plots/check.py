@@ -47,7 +47,7 @@ def panel(axis, figure, check, costs):
         if case["status"] in ("failed", "refused"):
             axis.plot([base * cost[case["name"]]["expected_over_base"]], [0.97], "x", color="red", markersize=9,
                       transform=axis.get_xaxis_transform(), clip_on=False)
-            axis.annotate(f"{case['name']}\n{case['status']}",
+            axis.annotate(f"{case['name'].replace('step_', '').replace('_', ' ')}\n{case['status']}",
                           (base * cost[case["name"]]["expected_over_base"], 0.93), color="red", fontsize=7, ha="center",
                           va="top", xycoords=axis.get_xaxis_transform())
     half = figure["seeds_half_width"]
@@ -75,7 +75,7 @@ def draw(check_path, costs_path):
         return None
     columns = min(3, len(figures))
     rows = math.ceil(len(figures) / columns)
-    figure = drawing.Figure(figsize=(4.3 * columns, 3.6 * rows + 0.8), constrained_layout=False)
+    figure = drawing.Figure(figsize=(4.3 * columns, 3.6 * rows + 0.8))
     panels = figure.subplots(rows, columns, squeeze=False).flatten()
     for axis, one in zip(panels, figures):
         panel(axis, one, check, costs)
@@ -90,7 +90,8 @@ def draw(check_path, costs_path):
         entries.update(zip(*reversed(axis.get_legend_handles_labels())))
     figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=5, fontsize=8, frameon=False)
     figure.suptitle(f"{check['scene']}: error against run time", fontsize=10)
-    figure.tight_layout(rect=(0, 0.7 / (3.6 * rows + 0.8), 1, 1))
+    below = 0.4 / (3.6 * rows + 0.8)  # room for the legend
+    figure.get_layout_engine().set(rect=(0, below, 1, 1 - below))
     return figure
 
 

@@ -61,6 +61,7 @@ private:
            double costOfStep = 1, int refinement = 0) {
     CheckCase c;
     c.axis = axis, c.name = name, c.what = what, c.overrides = overrides, c.refinement = refinement;
+    c.cost = std::ldexp(1.0, refinement); // where it is refused, and nothing more is known
     try {
       Overrides all = fixed_;
       for (const std::string& o : overrides) putOverride(all, o);
