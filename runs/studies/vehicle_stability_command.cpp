@@ -47,7 +47,7 @@ constexpr std::array<Column, 11> kFigures{{{"speed [m/s]", &MapFigures::speed},
 Table tableOf(const std::vector<VehicleTrial>& trials) {
   Table table;
   table.names = {"step [s]", "end", "reached [s]", "wall [s]"};
-  for (const Column& c : kFigures) table.names.push_back(c.name);
+  for (const Column& c : kFigures) table.names.emplace_back(c.name);
   for (const VehicleTrial& t : trials) {
     std::vector<double> row = {t.step, static_cast<double>(t.end), t.reached, t.wallSeconds};
     for (const Column& c : kFigures) row.push_back(t.figures.*c.value);

@@ -96,8 +96,8 @@ private:
       seconds = pilot();
       support::replaceTextFile(file, nlohmann::json{{"asked", asked}, {"base_run_s", seconds}}.dump(1) + "\n");
     }
-    const CheckChoice choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget),
-                                          std::max(seconds, 1e-3), options_.sweep.jobs);
+    CheckChoice choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget),
+                                    std::max(seconds, 1e-3), options_.sweep.jobs);
     fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget,
                support::Progress::duration(choice.seconds), leftOutText(choice));
     return choice;
