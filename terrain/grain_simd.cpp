@@ -47,6 +47,13 @@ int widthOf([[maybe_unused]] int most) {
   return 1;
 }
 
+/// Works on `count` items, some at a time, that take about so long each.
+void runLanes(const base::Exec& exec, const char* name, detail::LaneStep* lanes, const GrainKernelData& d,
+              const ForceData<float>& f, std::int64_t count, double nanoseconds) {
+  const int some = grainsAtATime(count, exec.threads);
+  base::forEach(exec, name, (count + some - 1) / some, StepSome{lanes, d, f, count, some, nanoseconds});
+}
+
 } // namespace
 
 bool hasSimd(unsigned features) {
@@ -69,17 +76,13 @@ int wallSimdWidth(unsigned featuresAtBoundaries, int most) {
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width) {
   detail::LaneStep* const step = width == 16 ? detail::stepAvx512 : width == 8 ? detail::stepAvx2 : detail::stepSse;
-  const int some = grainsAtATime(count, exec.threads);
-  base::forEach(exec, "grain step in lanes", (count + some - 1) / some,
-                StepSome{step, d, f, count, some, kNanosecondsOfGrain});
+  runLanes(exec, "grain step in lanes", step, d, f, count, kNanosecondsOfGrain);
 }
 
 void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t near,
                  int width) {
   detail::LaneStep* const walls = width == 16 ? detail::wallsAvx512 : width == 8 ? detail::wallsAvx2 : detail::wallsSse;
-  const int some = grainsAtATime(near, exec.threads);
-  base::forEach(exec, "walls in lanes", (near + some - 1) / some,
-                StepSome{walls, d, f, near, some, kNanosecondsAtWall});
+  runLanes(exec, "walls in lanes", walls, d, f, near, kNanosecondsAtWall);
 }
 
 namespace detail {

@@ -4,8 +4,8 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "runs/support/stopwatch.hpp"
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,13 +14,7 @@
 /// Pieces of a scene's work, run and timed on this machine.
 namespace grouser::commands {
 
-class Stopwatch {
-public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+using support::Stopwatch;
 
 /// How long a step takes, by what works in it [s].
 struct StepTimes {

@@ -7,20 +7,17 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/ground.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "runs/support/stopwatch.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 
 namespace grouser::studies {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double kRadius = 0.01, kStiffness = 1e5; // [m], [N/m]
 constexpr int kLayers = 6, kTile = 12;             // grains on a side of the tile
@@ -82,9 +79,9 @@ void fill(Table& table, double bytesWithout, double bytesWith, double grainsWith
 /// As many steps as take `seconds`, by a first look.
 template <class Step> std::int64_t stepsIn(double seconds, const Step& step) {
   step(5);
-  const Clock::time_point start = Clock::now();
+  const support::Stopwatch start;
   step(20);
-  return std::max<std::int64_t>(20, std::llround(seconds / (since(start) / 20)));
+  return std::max<std::int64_t>(20, std::llround(seconds / (start.seconds() / 20)));
 }
 
 std::string hashOfGrains(const terrain::Grains& grains) { return terrain::hashOf(grains.state(), base::Comm()).hex(); }
@@ -156,10 +153,10 @@ Table measureFeature(const FeaturesCommand& c, const Feature& feature, const bas
       c.pairs,
       [&](bool with) {
         terrain::Grains& grains = grainsOf(with);
-        const Clock::time_point begin = Clock::now();
+        const support::Stopwatch begin;
         advance(grains, steps);
         base::synchronize(exec);
-        return 1e9 * since(begin) / static_cast<double>(steps) / static_cast<double>(grains.count());
+        return 1e9 * begin.seconds() / static_cast<double>(steps) / static_cast<double>(grains.count());
       },
       table);
   fill(table, bytesOf(grainsOf(false)), bytesOf(grainsOf(true)), static_cast<double>(grainsOf(false).count()),
@@ -192,12 +189,12 @@ Table measureOutput(const FeaturesCommand& c, const base::Exec& exec, const std:
   inPairs(
       c.pairs,
       [&](bool with) {
-        const Clock::time_point begin = Clock::now();
+        const support::Stopwatch begin;
         for (std::int64_t k = 0; k < turns; ++k) {
           step(kOutputEvery);
           if (with) write();
         }
-        return 1e9 * since(begin) / static_cast<double>(turns * kOutputEvery) / static_cast<double>(grains.count());
+        return 1e9 * begin.seconds() / static_cast<double>(turns * kOutputEvery) / static_cast<double>(grains.count());
       },
       table);
   const auto n = static_cast<double>(grains.count());

@@ -9,21 +9,18 @@
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "runs/support/stopwatch.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
 namespace grouser::studies {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr const char* kVehicle = "vehicle";
 constexpr const char* kOutput = "output";
@@ -89,17 +86,17 @@ Table measureVehicle(const FeaturesCommand& c, const base::Exec& exec) {
     for (std::int64_t i = 0; i < steps;) i += run.advance(steps - i);
     base::synchronize(exec);
   };
-  const Clock::time_point first = Clock::now();
+  const support::Stopwatch first;
   advance(*runs[1], 20);
-  const std::int64_t steps = std::max<std::int64_t>(10, std::llround(c.turn / (since(first) / 20)));
+  const std::int64_t steps = std::max<std::int64_t>(10, std::llround(c.turn / (first.seconds() / 20)));
   Table table{kFeatureColumns, {}};
   for (int k = 0; k <= c.pairs; ++k) {
     stopStudyIfAsked();
     double times[2];
     for (const bool with : {k % 2 != 0, k % 2 == 0}) {
-      const Clock::time_point begin = Clock::now();
+      const support::Stopwatch begin;
       advance(*runs[with ? 1 : 0], steps);
-      times[with ? 1 : 0] = 1e9 * since(begin) / static_cast<double>(steps);
+      times[with ? 1 : 0] = 1e9 * begin.seconds() / static_cast<double>(steps);
     }
     const auto grains = [&](int i) { return static_cast<double>(runs[i]->ground().grains->count()); };
     if (k > 0) table.rows.push_back({times[0], times[1], bytes[0], bytes[1], grains(0), grains(1), 0});
@@ -114,7 +111,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
       throw base::InputError(fmt::format("study features: --features {}: is none of {}", name, fmt::join(known, ", ")));
   Pieces pieces("features", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
-  const Clock::time_point begin = Clock::now();
+  const support::Stopwatch begin;
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
   fmt::print("          about {} grains on {}, {} pairs of turns of {:g} s, +- 95 % of the pairs\n", c.grains,
              base::describe(exec), c.pairs, c.turn);
@@ -149,7 +146,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
   }
   if (pieces.left() > 0) fmt::print("{} features are missing: call again with --resume\n", pieces.left());
   support::writeTextFile(pieces.folder() / "features.csv", csv, "--out");
-  writeStudyOrigin(pieces.folder(), "features", since(begin), recipeOf(c));
+  writeStudyOrigin(pieces.folder(), "features", begin.seconds(), recipeOf(c));
   output::drawPicture("study_features.py", {pieces.folder() / "features.csv"}, pieces.folder() / "features.png");
   fmt::print("tables    {}\n", pieces.folder().string());
 }

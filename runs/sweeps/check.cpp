@@ -6,6 +6,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/progress.hpp"
+#include "runs/support/stopwatch.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/check_choice.hpp"
 #include "runs/sweeps/check_report.hpp"
@@ -20,7 +21,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -204,13 +204,8 @@ private:
           "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
   }
 
-  struct Clock {
-    std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); }
-  };
-
   const CheckOptions& options_;
-  Clock clock_;
+  const support::Stopwatch clock_;
   const std::vector<std::string> fixed_;
   const scene::Scene scene_;
   CheckRecord record_;

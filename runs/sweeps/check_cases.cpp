@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 namespace grouser::sweeps {
 
@@ -208,35 +209,11 @@ private:
 
 } // namespace
 
-std::string wordOf(CheckAxis axis) {
-  switch (axis) {
-  case CheckAxis::base:
-    return "base";
-  case CheckAxis::step:
-    return "step";
-  case CheckAxis::skin:
-    return "skin";
-  case CheckAxis::depth:
-    return "depth";
-  case CheckAxis::width:
-    return "width";
-  case CheckAxis::floor:
-    return "floor";
-  case CheckAxis::grainSize:
-    return "grain_size";
-  case CheckAxis::spheres:
-    return "spheres";
-  default:
-    return "precision";
-  }
-}
-
 CheckAxis checkAxisOf(const std::string& word) {
+  const std::optional<CheckAxis> axis = base::valueOf<CheckAxis>(word);
+  if (axis && axis != CheckAxis::base) return *axis;
   std::vector<std::string> words;
-  for (const CheckAxis axis : kCheckAxes) {
-    if (wordOf(axis) == word) return axis;
-    words.push_back(wordOf(axis));
-  }
+  for (const CheckAxis known : kCheckAxes) words.emplace_back(base::wordOf(known));
   throw base::InputError(fmt::format("--axes {}: is none of {}", word, fmt::join(words, ", ")));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/enum_words.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <string>
@@ -14,8 +15,6 @@ enum class CheckAxis { base, step, skin, depth, width, floor, grainSize, spheres
 inline constexpr CheckAxis kCheckAxes[] = {CheckAxis::step,    CheckAxis::skin,     CheckAxis::depth,
                                            CheckAxis::width,   CheckAxis::floor,    CheckAxis::grainSize,
                                            CheckAxis::spheres, CheckAxis::precision};
-/// "step", "grain size"; of the base "base".
-std::string wordOf(CheckAxis axis);
 /// The axis of such a word, of --axes. Throws InputError that names them all.
 CheckAxis checkAxisOf(const std::string& word);
 
@@ -60,3 +59,16 @@ double runsOfWholeCheck(const scene::Scene& scene, int seeds);
 bool seedMatters(const scene::Scene& scene);
 
 } // namespace grouser::sweeps
+
+template <> struct grouser::base::EnumWords<grouser::sweeps::CheckAxis> {
+  using E = sweeps::CheckAxis;
+  static constexpr EnumWord<E> list[] = {{E::base, "base"},
+                                         {E::step, "step"},
+                                         {E::skin, "skin"},
+                                         {E::depth, "depth"},
+                                         {E::width, "width"},
+                                         {E::floor, "floor"},
+                                         {E::grainSize, "grain_size"},
+                                         {E::spheres, "spheres"},
+                                         {E::precision, "precision"}};
+};

@@ -22,7 +22,7 @@ std::optional<double> orderOf(double a, double b) {
   return order >= kLeastOrder && order <= kMostOrder ? std::optional(order) : std::nullopt;
 }
 
-/// Seen in the last three differences, or in the last two where there are no more.
+/// Seen in the last three differences.
 std::optional<double> orderSeen(std::span<const double> values) {
   const std::size_t n = values.size();
   if (n < 4) return std::nullopt;

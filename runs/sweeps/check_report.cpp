@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/check_report.hpp"
 
+#include "runs/studies/common.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/sweeps/run_manifest.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace grouser::sweeps {
 
@@ -26,12 +28,10 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Of the numbers among them; NaN where there are none.
 double medianOf(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return kNone;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  return values.empty() ? kNone : studies::medianOf(std::move(values));
 }
 
 std::string bitsText(SameBits bits) {
@@ -40,7 +40,7 @@ std::string bitsText(SameBits bits) {
 
 Json errorJson(const AxisError& e, const CheckFigure& f) {
   const double value = f.value.value;
-  Json json{{"axis", wordOf(e.axis)},
+  Json json{{"axis", base::wordOf(e.axis)},
             {"change", numberOf(e.change.value)},
             {"half_width", numberOf(e.change.halfWidth)},
             {"share_of_value", numberOf(value != 0 ? e.change.value / std::fabs(value) : kNone)},
@@ -82,7 +82,7 @@ Json caseJson(const CheckRecord& record, std::size_t c) {
   const CheckCase& one = record.cases.cases[c];
   const CaseStatus status = statusOf(record, c);
   Json json{{"name", one.name},
-            {"axis", wordOf(one.axis)},
+            {"axis", base::wordOf(one.axis)},
             {"what", one.what},
             {"overrides", one.overrides},
             {"status", status.word}};
@@ -141,7 +141,7 @@ std::string linesOf(const CheckRecord& record, const CheckResults& results, cons
   text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
                       shareText(f, {0, f.value.halfWidth}), f.seeds);
   for (const AxisError& e : f.errors)
-    text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", wordOf(e.axis), changeText(e.change),
+    text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", base::wordOf(e.axis), changeText(e.change),
                         shareText(f, e.change), studies::verdictText(e.verdict), remark(results, f, e));
   return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
 }
@@ -185,7 +185,7 @@ std::string figureRows(const CheckRecord& record, const CheckResults& results) {
                      shareText(f, {0, f.value.halfWidth}), "",
                      isHeadline(results, f) ? cheapestText(record, results, f) : ""});
     for (const AxisError& e : f.errors)
-      rows += cellsOf({"", "", wordOf(e.axis), changeText(e.change), shareText(f, e.change),
+      rows += cellsOf({"", "", std::string(base::wordOf(e.axis)), changeText(e.change), shareText(f, e.change),
                        studies::verdictText(e.verdict), remark(results, f, e)});
   }
   return rows;
@@ -270,7 +270,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) json["cases"].push_back(caseJson(record, c));
   json["not_asked"] = Json::array();
   for (const CheckOmission& o : record.cases.omitted)
-    json["not_asked"].push_back({{"axis", wordOf(o.axis)}, {"why", o.why}});
+    json["not_asked"].push_back({{"axis", base::wordOf(o.axis)}, {"why", o.why}});
   json["step_cases"] = Json::array();
   for (const std::size_t c : results.stepCases) json["step_cases"].push_back(record.cases.cases[c].name);
   json["figures"] = Json::array();
@@ -345,7 +345,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
                         status.message.empty() ? "" : ": " + status.message);
   }
   for (const CheckOmission& o : record.cases.omitted)
-    text += fmt::format("  {:<14} not asked: {}\n", wordOf(o.axis), o.why);
+    text += fmt::format("  {:<14} not asked: {}\n", base::wordOf(o.axis), o.why);
   if (results.skin != SameBits::notRun) text += fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
   return text;
 }
@@ -376,7 +376,7 @@ std::string checkPage(const CheckRecord& record, const CheckResults& results) {
   }
   page += "</table>\n<p>Skin of the neighbour lists: " + bitsText(results.skin) + ".";
   for (const CheckOmission& o : record.cases.omitted)
-    page += fmt::format(" Not asked: {} ({}).", wordOf(o.axis), escaped(o.why));
+    page += fmt::format(" Not asked: {} ({}).", base::wordOf(o.axis), escaped(o.why));
   return page + "</p>\n<p>Time series with bars: <a href=\"series.csv\">series.csv</a>.</p>\n</body></html>\n";
 }
 

@@ -60,7 +60,7 @@ protected:
   static AxisError errorBy(const CheckFigure& figure, CheckAxis axis) {
     for (const AxisError& e : figure.errors)
       if (e.axis == axis) return e;
-    ADD_FAILURE() << wordOf(axis) << " is missing";
+    ADD_FAILURE() << base::wordOf(axis) << " is missing";
     return {};
   }
   void SetUp() override {
