@@ -176,7 +176,7 @@ TEST_F(Check, AFileOfTheSceneThatHasChangedIsNoticed) {
   std::ofstream(folder_ / "mesh.toml")
       << "version = 1\n[run]\nduration = 0.01\ntime_step = 1e-4\noutput_interval = 0.01\nthreads = 1\n"
          "[material.glass]\nstiffness = 1e4\n[[grain]]\nposition = [5, 5, 5]\nradius = 0.1\nmaterial = \"glass\"\n"
-         "[[mesh]]\nfile = \"ball.off\"\nposition = [0, 0, 0]\nmaterial = \"glass\"\n"
+         "[[mesh]]\nfile = \"ball.off\"\nsphere_radius = 0.05\nposition = [0, 0, 0]\nmaterial = \"glass\"\n"
       << kQuiet;
   ASSERT_EQ(call("check mesh.toml --axes step --out c").code, 0);
   const Outcome again = call("check mesh.toml --axes step --out c");
