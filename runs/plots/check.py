@@ -7,12 +7,14 @@ a cross, at the run time that was to be expected. Lines at 10, 5 and 1 %.
 """
 import json
 import math
+import pathlib
 
 import drawing
 
 AXES = {"depth": ("s", "C1"), "width": ("D", "C2"), "floor": ("v", "C3"), "grain_size": ("^", "C4"),
         "spheres": ("P", "C5"), "precision": ("*", "C6")}
 MOST = 6
+LEAST = 5e-3  # of the value: smaller errors end at the lower edge
 
 
 def share(number, value):
@@ -40,7 +42,7 @@ def panel(axis, figure, check, costs):
         wall = cost[of_axis[error["axis"]]]["wall_s"]
         if wall is None or not size:
             continue
-        low = max(size - (half or 0), 1e-3 * size)
+        low = max(size - (half or 0), min(LEAST, size))
         axis.errorbar([wall], [size], yerr=[[size - low], [half or 0]], marker=marker,
                       color=colour, capsize=3, linestyle="none", label=error["axis"].replace("_", " "))
     for case in check["cases"]:
@@ -54,10 +56,17 @@ def panel(axis, figure, check, costs):
     if check["seeds_matter"] and half is not None and share(half, value):
         axis.axhline(share(half, value), color="0.4", linestyle="--", linewidth=0.8,
                      label=f"seeds, {figure['seeds']} of them")
-    for percent in (0.1, 0.05, 0.01):
-        axis.axhline(percent, color="0.8", linewidth=0.8, zorder=0)
     axis.set_xscale("log")
     axis.set_yscale("log")
+    axis.margins(x=0.2)
+    axis.set_ylim(bottom=LEAST, top=max(0.15, 1.6 * axis.get_ylim()[1]))
+    for percent in (10, 5, 1):
+        axis.axhline(percent / 100, color="0.75", linewidth=0.8, zorder=0)
+        axis.annotate(f"{percent} %", (1, percent / 100), fontsize=6, color="0.5", ha="right", va="bottom",
+                      xycoords=axis.get_yaxis_transform())
+    for side in (axis.xaxis.set_major_formatter, axis.xaxis.set_minor_formatter):
+        side(lambda wall, _: f"{wall:g}")
+    axis.tick_params(axis="x", which="both", labelsize=7)
     axis.set_title(figure["name"], fontsize=9)
     axis.grid(True, which="major", color="0.93")
 
@@ -89,7 +98,7 @@ def draw(check_path, costs_path):
     for axis in panels[:len(figures)]:
         entries.update(zip(*reversed(axis.get_legend_handles_labels())))
     figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=5, fontsize=8, frameon=False)
-    figure.suptitle(f"{check['scene']}: error against run time", fontsize=10)
+    figure.suptitle(f"{pathlib.PurePath(check['scene']).name}: error against run time", fontsize=10)
     below = 0.4 / (3.6 * rows + 0.8)  # room for the legend
     figure.get_layout_engine().set(rect=(0, below, 1, 1 - below))
     return figure
