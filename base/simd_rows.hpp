@@ -116,10 +116,10 @@ template <SimdVector V> GROUSER_SIMD void storeRows(Float4* rows, V (&in)[4]) {
   for (int k = 0; k < 4; ++k) store(rows + k * kStride, in[k]);
 }
 
-/// Records of 16 bytes at `from`, those that `which` names, by component; which[l] in lane l.
-template <int kWidth>
+/// Of records of kBytes at `from`, those that `which` names, the first 16 bytes, by component; which[l] in lane l.
+template <int kWidth, std::size_t kBytes = 16>
 GROUSER_SIMD void gatherRows(const void* from, const std::uint32_t* which, Simd<std::int32_t, kWidth> (&out)[4]) {
-  const auto row = [&](int l) { return load<Int4>(static_cast<const char*>(from) + 16 * std::size_t{which[l]}); };
+  const auto row = [&](int l) { return load<Int4>(static_cast<const char*>(from) + kBytes * std::size_t{which[l]}); };
   for (int k = 0; k < 4; ++k) {
     if constexpr (kWidth == 4) {
       out[k] = row(k);

@@ -165,7 +165,7 @@ private:
   }
 
   GROUSER_HD Ball ballOf(int i) const {
-    const base::Vec4f velocity = grains.velocity[i], spin = grains.spin[i];
+    const base::Vec4f velocity = grains.motion[i].velocity, spin = grains.motion[i].spin;
     Ball ball{model.scale.toMetres(grains.position[i]),
               velocity.xyz().template as<double>(),
               spin.xyz().template as<double>(),

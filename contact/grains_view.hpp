@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/position.hpp"
+#include "contact/motion.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +12,7 @@ namespace grouser::contact {
 /// The grains' state for code that computes loads on them: device arrays by slot.
 struct GrainsView {
   const base::Position* position;
-  const base::Vec4f* velocity; ///< [m/s]; w: radius [m], where radii differ; < 0: the grain is fixed
-  const base::Vec4f* spin;     ///< [rad/s]; w: material, where there are several
+  const Motion* motion;
   const std::uint32_t* id;
   std::size_t count;                    ///< slots
   const std::uint32_t* ghost = nullptr; ///< not 0 for grains of other ranks, whose loads are theirs to compute; null

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
 constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
+constexpr std::uint32_t kWindow = 1024;     // spheres that are ordered among themselves
 constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
 
 } // namespace
@@ -25,9 +26,9 @@ NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std:
                              const base::Period& period)
     : exec_(exec), diameter_(diameter), skin_(skin), period_(period), width_(width), count_(exec), start_(exec),
       slot_(exec), reach_(exec), history_(exec), touching_(exec), id_(exec), order_(exec), cellStart_(exec),
-      bounds_(exec, 6) {}
+      slotAt_(exec), bounds_(exec, 6) {}
 
-void NeighbourList::sort(const Position* position, std::size_t count) {
+void NeighbourList::sort(const Position* position, std::size_t count, const std::uint32_t* rowOf) {
   sorted_ = count;
   const auto n = static_cast<std::int64_t>(count);
   order_.resize(count);
@@ -54,6 +55,22 @@ void NeighbourList::sort(const Position* position, std::size_t count) {
   const std::int64_t cells = static_cast<std::int64_t>(grid_.cells.x) * grid_.cells.y * grid_.cells.z;
   cellStart_.resize(static_cast<std::size_t>(cells) + 1);
   base::forEach(exec_, "mark cell starts", n + 1, MarkStarts{key.data(), n, cells, cellStart_.data()});
+  if (!exec_.onCpu()) groupByContacts(rowOf);
+}
+
+/// A warp takes as long as its grain with the most contacts: grains that lie near each other change places, so that
+/// those in a warp have equally many. On a CPU each grain takes what it takes.
+void NeighbourList::groupByContacts(const std::uint32_t* rowOf) {
+  const auto n = static_cast<std::int64_t>(sorted_);
+  base::Array<std::uint64_t> key(exec_, sorted_);
+  base::Array<std::uint32_t> place(exec_, sorted_), byCell(exec_, sorted_);
+  base::copyOnDevice(exec_, byCell.data(), order_.data(), sorted_ * sizeof(std::uint32_t));
+  base::forEach(exec_, "assign contact keys", n,
+                AssignContactKeys{contacts(), order_.data(), rowOf, kWindow, key.data()});
+  base::iota(exec_, place.data(), sorted_);
+  base::sortByKey(exec_, key.data(), place.data(), sorted_);
+  slotAt_.resize(sorted_);
+  base::forEach(exec_, "take places", n, TakePlaces{place.data(), byCell.data(), order_.data(), slotAt_.data()});
 }
 
 TouchingRows NeighbourList::contacts() const {
@@ -110,6 +127,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const NearSpheres near{grid_,
                          position,
                          cellStart_.data(),
+                         slotAt_.empty() ? nullptr : slotAt_.data(),
                          (diameter_ + skin_) * (diameter_ + skin_),
                          radii,
                          skin_,
@@ -150,7 +168,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
                                  former,
                                  origins ? origins->arrived : TravellingRows{}});
   haveRows_ = true;
-  cellStart_ = base::Array<std::uint32_t>(exec_);
+  cellStart_ = base::Array<std::uint32_t>(exec_), slotAt_ = base::Array<std::uint32_t>(exec_);
 }
 
 std::uint32_t NeighbourList::mostTouching(const std::uint32_t* slots, std::size_t count) const {
@@ -173,7 +191,7 @@ NeighbourView NeighbourList::view() {
 
 std::size_t NeighbourList::bytes() const {
   return count_.bytes() + start_.bytes() + slot_.bytes() + reach_.bytes() + history_.bytes() + touching_.bytes() +
-         id_.bytes() + order_.bytes() + cellStart_.bytes();
+         id_.bytes() + order_.bytes() + cellStart_.bytes() + slotAt_.bytes();
 }
 
 NeighbourList::HostCopy NeighbourList::toHost() const {

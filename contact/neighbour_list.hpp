@@ -28,7 +28,8 @@ public:
                 const base::Period& period = {});
 
   /// Sorts `count` grains in space. Afterwards `order()[i]` is the old slot of the grain that belongs in slot i.
-  void sort(const base::Position* position, std::size_t count);
+  /// `rowOf`: by old slot, its row in the present list, or a higher number without one; null: that of the slot itself.
+  void sort(const base::Position* position, std::size_t count, const std::uint32_t* rowOf = nullptr);
   const std::uint32_t* order() const { return order_.data(); }
 
   /// Lists the neighbours of grains already permuted by `order()`, and restores history from the last list.
@@ -68,6 +69,7 @@ public:
 
 private:
   TouchingRows contacts() const;
+  void groupByContacts(const std::uint32_t* rowOf);
   /// Gives the rows of `count_` neighbours their starts. Returns the places of all of them.
   std::uint32_t layRows();
   void checkLengths(std::uint32_t most, bool equal) const;
@@ -83,7 +85,7 @@ private:
   base::Array<std::uint64_t> touching_;
   base::Array<std::uint32_t> id_; ///< by slot, as at the build
   std::int64_t stride_{1}, maskWords_{1};
-  base::Array<std::uint32_t> order_, cellStart_, bounds_;
+  base::Array<std::uint32_t> order_, cellStart_, slotAt_, bounds_;
   CellGrid grid_;
 };
 

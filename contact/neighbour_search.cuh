@@ -3,6 +3,7 @@
 
 #include "contact/cell_grid.hpp"
 #include "contact/cell_search.cuh"
+#include "contact/neighbour_rows.cuh"
 #include "contact/neighbour_view.hpp"
 
 /// How neighbours are found: spheres sorted by the cells of a grid, and a look into the 27 cells around each.
@@ -13,6 +14,7 @@ struct NearSpheres {
   CellGrid grid;
   const base::Position* position;
   const std::uint32_t* cellStart;
+  const std::uint32_t* slotAt; ///< by place in the cells; null where spheres lie in the order of these
   std::int64_t reach2;
   RadiiInW radii;
   std::int64_t skin;
@@ -29,7 +31,8 @@ struct NearSpheres {
                     y = c.y + static_cast<std::uint32_t>(column % 3) - 1;
       if (!besides(0, x) || !besides(1, y)) continue;
       const ColumnOfThree near(grid, cellStart, x, y, c.z);
-      for (std::uint32_t j = near.first; j < near.last; ++j) {
+      for (std::uint32_t k = near.first; k < near.last; ++k) {
+        const std::uint32_t j = slotAt ? slotAt[k] : k;
         if (static_cast<int>(j) == i) continue;
         const base::Vec3l apart = grid.period.apart(p, position[j]);
         if (!differencesHold(apart)) continue;
@@ -45,6 +48,30 @@ private:
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;
     return c < cells;
+  }
+};
+
+/// Orders spheres that lie near each other by their contacts.
+struct AssignContactKeys {
+  static constexpr std::uint64_t kMost = 255; ///< contacts told apart
+  TouchingRows former;
+  const std::uint32_t* order; ///< former slots, in the order of the cells
+  const std::uint32_t* rowOf; ///< row of the former list by former slot; null: the slot's own
+  std::uint32_t window;       ///< spheres that are ordered among themselves
+  std::uint64_t* key;
+  GROUSER_HD void operator()(int k) const {
+    const std::uint32_t slot = order[k], contacts = former.contactsOf(rowOf ? rowOf[slot] : slot);
+    key[k] = static_cast<std::uint64_t>(k) / window << 8 | (contacts < kMost ? contacts : kMost);
+  }
+};
+
+/// place[k]: in the order of the cells, of the sphere in slot k.
+struct TakePlaces {
+  const std::uint32_t *place, *byCell;
+  std::uint32_t *order, *slotAt;
+  GROUSER_HD void operator()(int k) const {
+    order[k] = byCell[place[k]];
+    slotAt[place[k]] = static_cast<std::uint32_t>(k);
   }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/vec.hpp"
+#include "contact/motion.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -37,14 +37,16 @@ struct TravellingRows {
   GROUSER_HD std::uint32_t words() const { return 1 + capacity * (1 + width); }
 };
 
-/// Radii of spheres that are not all alike: by slot, in `w` [m], each a whole number of units of length; of spheres
-/// that never move the opposite.
+/// Radii of spheres that are not all alike: by slot, in the `w` of their velocities [m], each a whole number of units
+/// of length; of spheres that never move the opposite.
 struct RadiiInW {
-  const base::Vec4f* sphere = nullptr; ///< null: all have the list's diameter
-  float unitsPerLength = 0;            ///< a power of two
-  const base::Vec4f* fixed = nullptr;  ///< by slot, w < 0: never moves and needs no row; null where all may move
-  GROUSER_HD std::int64_t units(int i) const { return static_cast<std::int64_t>(fabsf(sphere[i].w) * unitsPerLength); }
-  GROUSER_HD bool isFixed(int i) const { return fixed && fixed[i].w < 0; }
+  const Motion* sphere = nullptr; ///< null: all have the list's diameter
+  float unitsPerLength = 0;       ///< a power of two
+  const Motion* fixed = nullptr;  ///< by slot, w < 0: never moves and needs no row; null where all may move
+  GROUSER_HD std::int64_t units(int i) const {
+    return static_cast<std::int64_t>(fabsf(sphere[i].velocity.w) * unitsPerLength);
+  }
+  GROUSER_HD bool isFixed(int i) const { return fixed && fixed[i].velocity.w < 0; }
 };
 
 /// Where the rows of a list on one of several ranks come from.

@@ -38,11 +38,11 @@ struct OfGrains {
   const base::Position* position;
   base::PositionScale scale;
   double grainRadius;
-  const Vec4f* radiusInW;     ///< null where all have grainRadius
+  const Motion* radiusInW;    ///< in velocity.w; null where all have grainRadius
   const std::uint32_t* ghost; ///< null where there are none
   GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
   GROUSER_HD double radius(int g) const {
-    return radiusInW ? std::fabs(static_cast<double>(radiusInW[g].w)) : grainRadius;
+    return radiusInW ? std::fabs(static_cast<double>(radiusInW[g].velocity.w)) : grainRadius;
   }
   /// Slaves are left out: they may be one step behind, and their masters count on their own ranks.
   GROUSER_HD bool counts(int g) const { return !(ghost && ghost[g]); }
@@ -82,7 +82,7 @@ std::vector<double> heights(const std::vector<std::uint64_t>& words) {
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach) {
   const contact::GrainsView view = grains.view();
   const OfGrains source{view.position, grains.scale(), grains.model().radius,
-                        grains.system().constants.manyRadii() ? view.velocity : nullptr, view.ghost};
+                        grains.system().constants.manyRadii() ? view.motion : nullptr, view.ghost};
   std::vector<std::uint64_t> words = raise(exec, source, view.count, grid, reach);
   grains.system().comm.minimum(words.data(), words.size());
   return heights(words);

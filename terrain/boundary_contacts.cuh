@@ -40,8 +40,8 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   GROUSER_HD void run(int k, WallBooks& books) const {
     if (Kernel::ended()) return;
     const int i = static_cast<int>(d.nearBoundary[k]);
-    const Vec4f velocity = d.velocity[i];
-    const Vec v = velocity.xyz().template as<Real>(), w = d.spin[i].xyz().template as<Real>();
+    const Vec4f velocity = d.motion[i].velocity;
+    const Vec v = velocity.xyz().template as<Real>(), w = d.motion[i].spin.xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
     const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
     // Only surfaces feel a grain that never moves: the ground holds it.

@@ -46,7 +46,7 @@ GrainFields::GrainFields(const GrainLayout& scene) {
   boundaryHistory.width = static_cast<std::size_t>(scene.boundaries * scene.historyWidth());
   boundaryContactMask.width = boundaryOf.width = scene.boundaries > 0;
   crossings.width = scene.periodic > 0;
-  formerVelocity.width = rowOrigin.width = 0;
+  formerMotion.width = rowOrigin.width = 0;
 }
 
 std::size_t GrainFields::bytesPerGrain() const {
@@ -79,12 +79,11 @@ void GrainArrays::append(const EnteringGrains& grains) {
   const auto set = [&]<class T>(base::Array<T>& array, const std::vector<T>& values) {
     base::copyToDevice(exec_, array.data() + before, values.data(), fresh * sizeof(T));
   };
-  set(fields_.position.now, grains.position), set(fields_.velocity.now, grains.velocity);
-  set(fields_.spin.now, grains.spin), set(fields_.id.now, grains.id);
-  std::vector<Vec4f> former = grains.velocity;
+  set(fields_.position.now, grains.position), set(fields_.motion.now, grains.motion), set(fields_.id.now, grains.id);
+  std::vector<Motion> former = grains.motion;
   const base::Vec3f fallen = gravityStep_.as<float>();
-  for (Vec4f& v : former) v = {v.x - fallen.x, v.y - fallen.y, v.z - fallen.z, v.w};
-  set(fields_.velocity.next, former);
+  for (auto& [v, w] : former) v = {v.x - fallen.x, v.y - fallen.y, v.z - fallen.z, v.w};
+  set(fields_.motion.next, former);
 }
 
 void GrainArrays::setSlots(std::size_t slots) {
@@ -162,24 +161,22 @@ void GrainArrays::resizeKeeping(std::size_t slots) {
 
 void GrainArrays::holdFormer() {
   if (!hasFormer_) return;
-  fields_.formerVelocity.width = 1;
-  fields_.formerVelocity.now.swap(fields_.velocity.next);
+  fields_.formerMotion.width = 1;
+  fields_.formerMotion.now.swap(fields_.motion.next);
 }
 
 void GrainArrays::releaseFormer() {
-  if (fields_.formerVelocity.width == 0) return;
-  fields_.formerVelocity.width = 0;
-  fields_.formerVelocity.now.swap(fields_.velocity.next);
-  fields_.formerVelocity.now = base::Array<Vec4f>(exec_);
+  if (fields_.formerMotion.width == 0) return;
+  fields_.formerMotion.width = 0;
+  fields_.formerMotion.now.swap(fields_.motion.next);
+  fields_.formerMotion.now = base::Array<Motion>(exec_);
   hasFormer_ = true;
 }
 
 void GrainArrays::stop() {
-  for (base::Array<Vec4f>* array : {&fields_.velocity.now, &fields_.spin.now}) {
-    std::vector<Vec4f> values = array->toHost();
-    for (Vec4f& v : values) v = {0, 0, 0, v.w};
-    array->assign(values);
-  }
+  std::vector<Motion> motion = fields_.motion.now.toHost();
+  for (auto& [v, w] : motion) v = {0, 0, 0, v.w}, w = {0, 0, 0, w.w};
+  fields_.motion.now.assign(motion);
   fields_.remainders.now.zero();
   hasFormer_ = false;
 }
@@ -188,8 +185,7 @@ void GrainArrays::describe(GrainKernelData& d) {
   GrainFields& f = fields_;
   d.count = static_cast<std::int64_t>(slots_);
   d.position = f.position.now.data(), d.nextPosition = f.position.next.data();
-  d.velocity = f.velocity.now.data(), d.nextVelocity = f.velocity.next.data();
-  d.spin = f.spin.now.data(), d.nextSpin = f.spin.next.data();
+  d.motion = f.motion.now.data(), d.nextMotion = f.motion.next.data();
   d.remainders = f.remainders.now.data();
   d.id = f.id.now.data();
   d.reference = f.reference.now.data();

@@ -17,10 +17,7 @@ struct GrainFields {
   explicit GrainFields(const GrainLayout& scene);
 
   GrainField<base::Position> position{kBuffered | kSorted | kMigrates | kGhosted | kUpdated, &GrainState::position};
-  /// [m/s]; w: radius [m], where radii differ; of a fixed grain the opposite, or -1
-  GrainField<Vec4f> velocity{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
-  /// [rad/s]; w: material, where there are several
-  GrainField<Vec4f> spin{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
+  GrainField<Motion> motion{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
   GrainField<Remainders> remainders{kSorted | kMigrates, &GrainState::remainders};
   GrainField<std::uint32_t> id{kSorted | kMigrates | kGhosted, &GrainState::id};
   /// [slot][wall, floor or surface][numbers of history]
@@ -28,9 +25,9 @@ struct GrainFields {
   /// A bit for each wall, floor or surface in touch.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
-  /// Velocities before the last step while the grains are sorted between steps; else these are velocity.next, and the
+  /// How they moved before the last step while the grains are sorted between steps; else that is motion.next, and the
   /// width is 0.
-  GrainField<Vec4f> formerVelocity{kSorted | kMigrates};
+  GrainField<Motion> formerMotion{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
   /// 1 + place in the list of grains near boundaries; 0 for all others.
@@ -39,8 +36,8 @@ struct GrainFields {
   GrainField<std::uint32_t> rowOrigin{kSorted};
 
   template <class Self> static auto all(Self& f) {
-    return std::tie(f.position, f.velocity, f.spin, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask,
-                    f.crossings, f.formerVelocity, f.reference, f.boundaryOf, f.rowOrigin);
+    return std::tie(f.position, f.motion, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask, f.crossings,
+                    f.formerMotion, f.reference, f.boundaryOf, f.rowOrigin);
   }
 
   /// On the device, of one grain.
@@ -50,7 +47,7 @@ struct GrainFields {
 /// Grains that enter on this rank, one an element.
 struct EnteringGrains {
   std::vector<base::Position> position;
-  std::vector<Vec4f> velocity, spin; ///< as the fields of these names
+  std::vector<Motion> motion;
   std::vector<std::uint32_t> id;
 };
 
@@ -90,10 +87,10 @@ public:
   /// Keeps what fits; further slots are undefined.
   void resizeKeeping(std::size_t slots);
 
-  /// Velocities before the last step, on the device, by slot; null where something else than a step came last.
-  const Vec4f* formerVelocities() const { return hasFormer_ ? fields_.velocity.next.data() : nullptr; }
-  bool knowsFormerVelocities() const { return hasFormer_; } ///< a rank without grains too, whose array has no address
-  /// Between these two calls the grains may be sorted and migrate without the loss of formerVelocities().
+  /// Before the last step, on the device, by slot; null where something else than a step came last.
+  const Motion* formerMotion() const { return hasFormer_ ? fields_.motion.next.data() : nullptr; }
+  bool knowsFormerMotion() const { return hasFormer_; } ///< a rank without grains too, whose array has no address
+  /// Between these two calls the grains may be sorted and migrate without the loss of formerMotion().
   void holdFormer();
   void releaseFormer();
   /// Forgets velocities and spins.

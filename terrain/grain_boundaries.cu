@@ -30,9 +30,9 @@ struct MarkNearBoundary {
       return;
     }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
-    const double within = reach + (manyRadii ? fabs(static_cast<double>(d.velocity[i].w)) : 0.0);
+    const double within = reach + (manyRadii ? fabs(static_cast<double>(d.motion[i].velocity.w)) : 0.0);
     // Walls and floor do nothing to a grain that never moves; surfaces feel it.
-    const bool moves = !(d.features & kFixed) || !isFixed(d.velocity[i]);
+    const bool moves = !(d.features & kFixed) || !isFixed(d.motion[i].velocity);
     bool near = moves && (d.features & kFloor) && !d.floor.clearOf(x, within);
     for (int b = 0; moves && b < d.wallCount; ++b)
       near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;

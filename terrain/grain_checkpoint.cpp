@@ -70,14 +70,11 @@ void saveFields(const GrainArrays& arrays, const std::vector<std::uint32_t>& slo
 }
 
 void saveMotion(const GrainFields& f, const std::vector<std::uint32_t>& slots, GrainState& s) {
-  forSlots(f.velocity, slots, [&](const Vec4f& v) {
-    s.velocity.push_back(v.xyz());
-    if (s.layout.radii) s.radius.push_back(std::fabs(v.w));
-    if (s.layout.fixed) s.fixed.push_back(isFixed(v));
-  });
-  forSlots(f.spin, slots, [&](const Vec4f& w) {
-    s.spin.push_back(w.xyz());
-    if (s.layout.materials) s.material.push_back(static_cast<std::uint32_t>(w.w));
+  forSlots(f.motion, slots, [&](const Motion& m) {
+    s.velocity.push_back(m.velocity.xyz()), s.spin.push_back(m.spin.xyz());
+    if (s.layout.radii) s.radius.push_back(std::fabs(m.velocity.w));
+    if (s.layout.fixed) s.fixed.push_back(isFixed(m.velocity));
+    if (s.layout.materials) s.material.push_back(static_cast<std::uint32_t>(m.spin.w));
   });
 }
 
@@ -174,12 +171,11 @@ GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const Snapsho
   rows.contactForces = options.contactForces;
   forSlots(f.id, slots, [&](std::uint32_t id) { rows.id.push_back(id); });
   forSlots(f.position, slots, [&](const Position& p) { rows.position.push_back(p); });
-  forSlots(f.velocity, slots, [&](const Vec4f& v) {
-    rows.velocity.push_back(v.xyz());
-    if (rows.manyRadii) rows.radius.push_back(std::fabs(v.w));
-    if (rows.someFixed) rows.fixed.push_back(isFixed(v));
+  forSlots(f.motion, slots, [&](const Motion& m) {
+    rows.velocity.push_back(m.velocity.xyz()), rows.spin.push_back(m.spin.xyz());
+    if (rows.manyRadii) rows.radius.push_back(std::fabs(m.velocity.w));
+    if (rows.someFixed) rows.fixed.push_back(isFixed(m.velocity));
   });
-  forSlots(f.spin, slots, [&](const Vec4f& w) { rows.spin.push_back(w.xyz()); });
   if (options.contactForces) {
     const std::vector<Vec3f> force = contactForces(system);
     for (const std::uint32_t i : slots) rows.contactForce.push_back(force[i]);
@@ -224,15 +220,16 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
     if (field.savedAs && field.width > 0) field.now.assign(own_.*field.savedAs);
   });
   std::vector<Position> position(own_.rows());
-  std::vector<Vec4f> velocity(own_.rows()), spin(own_.rows());
+  std::vector<Motion> motion(own_.rows());
   for (std::size_t k = 0; k < own_.rows(); ++k) {
     position[k] = placeAtList(own_, k);
     const Vec3f &v = own_.velocity[k], &w = own_.spin[k];
     const float radius = own_.radius.empty() ? 0.0f : own_.radius[k];
-    velocity[k] = {v.x, v.y, v.z, system.constants.storedRadius(radius, !own_.fixed.empty() && own_.fixed[k] != 0)};
-    spin[k] = {w.x, w.y, w.z, own_.material.empty() ? 0.0f : static_cast<float>(own_.material[k])};
+    motion[k].velocity = {v.x, v.y, v.z,
+                          system.constants.storedRadius(radius, !own_.fixed.empty() && own_.fixed[k] != 0)};
+    motion[k].spin = {w.x, w.y, w.z, own_.material.empty() ? 0.0f : static_cast<float>(own_.material[k])};
   }
-  f.position.now.assign(position), f.velocity.now.assign(velocity), f.spin.now.assign(spin);
+  f.position.now.assign(position), f.motion.now.assign(motion);
   f.boundaryHistory.now.assign(historyOf(own_.wallShear, own_.wallRolling));
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();

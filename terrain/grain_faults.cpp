@@ -18,7 +18,7 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] != id || ghost[i]) continue;
     const base::Vec3d x = c.scale.toMetres(f.position.now.at(i));
-    found[0] = x.x, found[1] = x.y, found[2] = x.z, found[3] = norm(f.velocity.now.at(i).xyz().as<double>());
+    found[0] = x.x, found[1] = x.y, found[2] = x.z, found[3] = norm(f.motion.now.at(i).velocity.xyz().as<double>());
   }
   system.comm.maximum(found, 4);
   const std::string where =

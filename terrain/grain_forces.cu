@@ -12,19 +12,20 @@ namespace {
 
 /// Adds up the change of velocity that each grain had in the last step.
 struct AddVelocityChange {
-  const Vec4f *now, *before;
+  const Motion *now, *before;
   const std::uint32_t* ghost; ///< null where there are none
   base::FixedPoint scale;     ///< of one grain's [m/s]
   std::int64_t* sum;
   GROUSER_HD void operator()(int i) const {
-    if ((ghost && ghost[i]) || isFixed(now[i])) return;
-    base::atomicAdd64(sum, scale.quantise(norm(now[i].xyz().as<double>() - before[i].xyz().as<double>())));
+    if ((ghost && ghost[i]) || isFixed(now[i].velocity)) return;
+    base::atomicAdd64(sum,
+                      scale.quantise(norm(now[i].velocity.xyz().as<double>() - before[i].velocity.xyz().as<double>())));
   }
 };
 
 struct MeasureContactForce {
   static constexpr double kNanoseconds = 200;
-  const Vec4f *now, *before, *spin;
+  const Motion *now, *before;
   const Remainders* remainders; ///< of `now`
   base::Vec3d gravityStep;      ///< g dt [m/s]
   double timeStep;
@@ -32,18 +33,18 @@ struct MeasureContactForce {
   const double* massPerCube; ///< else [materials] mass over radius^3
   base::Vec3f* force;
   GROUSER_HD void operator()(int i) const {
-    if (isFixed(now[i])) { // what it takes is not summed
+    if (isFixed(now[i].velocity)) { // what it takes is not summed
       force[i] = {};
       return;
     }
-    const base::Vec3f v = now[i].xyz(), was = before[i].xyz();
+    const base::Vec3f v = now[i].velocity.xyz(), was = before[i].velocity.xyz();
     base::Vec3d change;
     for (int a = 0; a < 3; ++a) {
       const double remainder = lowRemainder(remainders[i].axis[a]) * remainderQuantum(v[a]);
       change[a] = static_cast<double>(v[a]) + remainder - static_cast<double>(was[a]);
     }
-    const double r = static_cast<double>(now[i].w);
-    const double m = mass > 0 ? mass : massPerCube[static_cast<int>(spin[i].w)] * r * r * r;
+    const double r = static_cast<double>(now[i].velocity.w);
+    const double m = mass > 0 ? mass : massPerCube[static_cast<int>(now[i].spin.w)] * r * r * r;
     force[i] = ((change - gravityStep) * (m / timeStep)).as<float>();
   }
 };
@@ -57,9 +58,9 @@ double forceRatio(const GrainSystem& system) {
   // A grain that hits at many thousand g still fits, and a million million of them.
   const base::FixedPoint scale = base::fixedPointFor(weightChange, 24);
   base::Array<std::int64_t> sum(system.exec, std::vector<std::int64_t>{0});
-  const GrainField<Vec4f>& velocity = system.arrays.fields().velocity;
+  const GrainField<Motion>& motion = system.arrays.fields().motion;
   base::forEach(system.exec, "measure unrest", static_cast<std::int64_t>(system.arrays.slots()),
-                AddVelocityChange{velocity.now.data(), velocity.next.data(), system.ghosts(), scale, sum.data()});
+                AddVelocityChange{motion.now.data(), motion.next.data(), system.ghosts(), scale, sum.data()});
   std::int64_t total = sum.toHost().front();
   system.comm.sum(&total, 1);
   return scale.checked(total, "changes of velocity") / weightChange /
@@ -67,14 +68,14 @@ double forceRatio(const GrainSystem& system) {
 }
 
 std::vector<base::Vec3f> contactForces(const GrainSystem& system) {
-  if (!system.arrays.knowsFormerVelocities())
+  if (!system.arrays.knowsFormerMotion())
     throw std::logic_error("contact forces are asked for when something else than a step came last");
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();
   base::Array<base::Vec3f> force(system.exec, system.arrays.slots());
   base::forEach(system.exec, "measure contact forces", static_cast<std::int64_t>(system.arrays.slots()),
-                MeasureContactForce{f.velocity.now.data(), system.arrays.formerVelocities(), f.spin.now.data(),
-                                    f.remainders.now.data(), c.model.gravity * c.model.timeStep, c.model.timeStep,
+                MeasureContactForce{f.motion.now.data(), system.arrays.formerMotion(), f.remainders.now.data(),
+                                    c.model.gravity * c.model.timeStep, c.model.timeStep,
                                     c.manyRadii() ? 0 : c.model.mass, system.laws.massPerCube(), force.data()});
   return force.toHost();
 }

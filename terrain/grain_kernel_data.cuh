@@ -39,11 +39,11 @@ struct GrainKernelData {
   const std::uint32_t* active;                  ///< slots that this launch is for; null: all
   const std::uint32_t* role;                    ///< by slot: this launch is for those of role 0; null: all
 
-  // State. Positions, velocities and spins are read from `now` and written to `next`: neighbours still read `now`.
+  // State. Positions and motions are read from `now` and written to `next`: neighbours still read `now`.
   const base::Position* position;
-  const Vec4f *velocity, *spin;
+  const Motion* motion;
   base::Position* nextPosition;
-  Vec4f *nextVelocity, *nextSpin;
+  Motion* nextMotion;
   Remainders* remainders;
   const std::uint32_t* id;
   base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
@@ -117,7 +117,8 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
     return {r, perCube * r * r * r, static_cast<std::int64_t>(radius * d.unitsPerLength), m};
   }
   GROUSER_HD GrainSize<Real> sizeOf(int i) const {
-    return has(kManyRadii) ? sizeOf(d.velocity[i].w, has(kManyMaterials) ? d.spin[i].w : 0.0f) : sizeOf(0, 0);
+    return has(kManyRadii) ? sizeOf(d.motion[i].velocity.w, has(kManyMaterials) ? d.motion[i].spin.w : 0.0f)
+                           : sizeOf(0, 0);
   }
 };
 

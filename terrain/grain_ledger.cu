@@ -56,7 +56,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     // With remainders, which the books have too.
     Vec3d v, w;
     const Remainders kept = d.remainders[i];
-    const Vec4f speed = d.velocity[i], spin = d.spin[i];
+    const auto [speed, spin] = d.motion[i];
     base::Vec3l u = base::toUnits(d.position[i]);
     Vec3d x = u.template as<double>();
     for (int a = 0; a < 3; ++a) {
@@ -117,7 +117,7 @@ private:
           touched && Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
       const double mi = static_cast<double>(own.mass), mj = static_cast<double>(other.mass);
       // Half of it is the neighbour's, but for one that never moves.
-      const bool alone = has(kFixed) && isFixed(d.velocity[j]);
+      const bool alone = has(kFixed) && isFixed(d.motion[j].velocity);
       held.elastic +=
           (alone ? 1 : 0.5) * stored(law, overlap, ri * rj / (ri + rj), alone ? mi : mi * mj / (mi + mj), history);
       held.deepest = overlap > held.deepest ? overlap : held.deepest;

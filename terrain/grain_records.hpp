@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/motion.hpp"
 #include "terrain/compensated_sum.hpp"
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 namespace grouser::terrain {
 
 using base::Vec4f;
+using contact::Motion;
 
 /// What walls and floor do to one grain in one step.
 template <class Real> struct BoundaryLoad {

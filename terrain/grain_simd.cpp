@@ -90,9 +90,9 @@ namespace detail {
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
                   const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  const Vec4f v = d.velocity[i], w = d.spin[i];
-  step.advance(i, {d.position[i], v, w, d.remainders[i], d.reference[i]}, step.sizeOf(v.w, w.w), force, torque, deepest,
-               lost, books);
+  const Motion m = d.motion[i];
+  step.advance(i, {d.position[i], m, d.remainders[i], d.reference[i]}, step.sizeOf(m.velocity.w, m.spin.w), force,
+               torque, deepest, lost, books);
 }
 
 void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books) {
@@ -112,7 +112,7 @@ void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i) {
 
 void letStay(const GrainKernelData& d, const ForceData<float>& f, int i) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  step.stay(i, d.position[i], d.velocity[i], d.spin[i]);
+  step.stay(i, d.position[i], d.motion[i]);
 }
 
 void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,

@@ -60,9 +60,10 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const int i = d.active ? static_cast<int>(d.active[k]) : k;
     Sum sum;
     const base::Position p = d.position[i];
-    const Vec4f v = d.velocity[i], w = d.spin[i];
+    const Motion m = d.motion[i];
+    const Vec4f v = m.velocity, w = m.spin;
     if (d.role && d.role[i] != 0) return;
-    if (has(kFixed) && isFixed(v)) return stay(i, p, v, w);
+    if (has(kFixed) && isFixed(v)) return stay(i, p, m);
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
     // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
@@ -74,13 +75,13 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque);
     const Lost lost{static_cast<double>(sum.damped), static_cast<double>(sum.rubbed), static_cast<double>(sum.rolled)};
-    advance(i, {p, v, w, kept, reference}, size, force, torque, sum.deepest, lost, books);
+    advance(i, {p, m, kept, reference}, size, force, torque, sum.deepest, lost, books);
   }
 
   /// The state that a step replaces.
   struct State {
     base::Position position;
-    Vec4f velocity, spin;
+    Motion motion;
     Remainders kept;
     base::Vec3<std::uint32_t> reference;
   };
@@ -144,7 +145,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
                     Kernel::hasHistory() && heldBefore,
                     {}};
     if (history.held) history.spring = loadVector(history.at);
-    const Vec4f velocity = d.velocity[j], spin = d.spin[j];
+    const auto [velocity, spin] = d.motion[j];
     const base::Vec3i apart = Kernel::apart(p, d.position[j]);
     Side other{{}, velocity.xyz().template as<Real>(), spin.xyz().template as<Real>()};
     if (has(kFixed)) other.fixed = isFixed(velocity);
@@ -214,11 +215,11 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   }
 
   /// One that never moves: its state is handed on. The ground gives it the opposite of what parts do to it.
-  GROUSER_HD void stay(int i, const base::Position& p, const Vec4f& v, const Vec4f& w) const {
-    d.nextPosition[i] = p, d.nextVelocity[i] = v, d.nextSpin[i] = w;
+  GROUSER_HD void stay(int i, const base::Position& p, const Motion& m) const {
+    d.nextPosition[i] = p, d.nextMotion[i] = m;
     if (!has(kLoads) || d.loads.range[i] == 0) return;
     base::Vec3d force, torque;
-    addLoads(i, Kernel::sizeOf(v.w, w.w), force, torque);
+    addLoads(i, Kernel::sizeOf(m.velocity.w, m.spin.w), force, torque);
     bookHeld(i, p, {(-force).template as<Real>(), (-torque).template as<Real>()});
   }
 
@@ -302,7 +303,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
   GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
                           const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) const {
-    base::Vec3f v = now.velocity.xyz(), w = now.spin.xyz();
+    base::Vec3f v = now.motion.velocity.xyz(), w = now.motion.spin.xyz();
     double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
     base::Vec3d gained, turned; // half squares
     double massShare = 1, inertia = d.inertia;
@@ -339,8 +340,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(kPeriodic)) crossSides(i, moved, r);
     const base::Position q = base::fromUnits(moved);
     d.nextPosition[i] = q;
-    d.nextVelocity[i] = {v.x, v.y, v.z, has(kManyRadii) ? now.velocity.w : 0.0f};
-    d.nextSpin[i] = {w.x, w.y, w.z, has(kManyMaterials) ? now.spin.w : 0.0f};
+    d.nextMotion[i] = {{v.x, v.y, v.z, has(kManyRadii) ? now.motion.velocity.w : 0.0f},
+                       {w.x, w.y, w.z, has(kManyMaterials) ? now.motion.spin.w : 0.0f}};
     d.remainders[i] = kept;
 
     const base::Vec3i travelled{static_cast<std::int32_t>(q.x - r.x), static_cast<std::int32_t>(q.y - r.y),

@@ -27,8 +27,8 @@ EnteringGrains GrainSystem::entering(const std::vector<GrainSpec>& grains,
     if (ownerOf(places[i]) != comm.rank()) continue;
     const base::Vec3f v = grains[i].velocity.as<float>(), w = grains[i].spin.as<float>();
     own.position.push_back(places[i]);
-    own.velocity.push_back({v.x, v.y, v.z, constants.storedRadius(grains[i])});
-    own.spin.push_back({w.x, w.y, w.z, static_cast<float>(grains[i].material)});
+    own.motion.push_back(
+        {{v.x, v.y, v.z, constants.storedRadius(grains[i])}, {w.x, w.y, w.z, static_cast<float>(grains[i].material)}});
     own.id.push_back(static_cast<std::uint32_t>(count + i));
   }
   checkDistinct(own.position, own.id);
@@ -40,11 +40,10 @@ std::vector<std::uint32_t> GrainSystem::ghostsOnHost() const {
 }
 
 contact::RadiiInW GrainSystem::radii() const {
-  const Vec4f* const velocity = arrays.fields().velocity.now.data();
+  const contact::Motion* const motion = arrays.fields().motion.now.data();
   contact::RadiiInW radii;
-  if (constants.manyRadii())
-    radii.sphere = velocity, radii.unitsPerLength = static_cast<float>(constants.scale.perMetre);
-  if (constants.has(kFixed)) radii.fixed = velocity;
+  if (constants.manyRadii()) radii.sphere = motion, radii.unitsPerLength = static_cast<float>(constants.scale.perMetre);
+  if (constants.has(kFixed)) radii.fixed = motion;
   return radii;
 }
 

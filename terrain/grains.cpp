@@ -17,8 +17,7 @@ Grains::Grains(const base::Exec& exec, const GrainModel& model, const Boundaries
 
 contact::GrainsView Grains::view() const {
   const GrainFields& f = system_.arrays.fields();
-  return {f.position.now.data(), f.velocity.now.data(),  f.spin.now.data(),
-          f.id.now.data(),       system_.arrays.slots(), system_.ghosts()};
+  return {f.position.now.data(), f.motion.now.data(), f.id.now.data(), system_.arrays.slots(), system_.ghosts()};
 }
 
 void Grains::add(const std::vector<GrainSpec>& more) {
@@ -48,7 +47,8 @@ void Grains::rebuild() {
   GrainSystem& s = system_;
   if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.steps);
   const base::Array<base::Position>& position = s.arrays.fields().position.now;
-  s.neighbours.sort(position.data(), s.arrays.slots());
+  const auto& row = s.arrays.fields().rowOrigin;
+  s.neighbours.sort(position.data(), s.arrays.slots(), row.width > 0 ? row.now.data() : nullptr);
   s.arrays.permute(s.neighbours.order());
   const contact::RowOrigins* origins =
       s.distribution ? s.distribution->sorted(s.neighbours.order(), s.arrays) : nullptr;

@@ -26,7 +26,7 @@ struct Entering {
 struct FindInsertionOverlap {
   static constexpr double kNanoseconds = 50;
   const base::Position* position;
-  const Vec4f* velocity; ///< with the radius [m] in w, where they differ
+  const Motion* motion;
   const std::uint32_t *id, *ghost;
   base::Period period;
   const Entering* entering;
@@ -43,7 +43,7 @@ struct FindInsertionOverlap {
     const Vec3d fromCentre = period.apart(centre, position[i]).as<double>();
     for (int a = 0; a < 3; ++a)
       if (fabs(fromCentre[a]) > reach[a]) return;
-    const double own = radius > 0 ? radius : fabs(static_cast<double>(velocity[i].w)) * unitsPerMetre;
+    const double own = radius > 0 ? radius : fabs(static_cast<double>(motion[i].velocity.w)) * unitsPerMetre;
     for (std::int64_t k = 0; k < count; ++k) {
       const double overlap =
           own + entering[k].radius - norm(period.apart(entering[k].position, position[i]).as<double>());
@@ -89,7 +89,7 @@ std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::
   base::Array<std::uint64_t> deepest(system.exec, std::vector<std::uint64_t>{kNobody});
   const GrainFields& f = system.arrays.fields();
   base::forEach(system.exec, "find room", static_cast<std::int64_t>(system.arrays.slots()),
-                FindInsertionOverlap{f.position.now.data(), f.velocity.now.data(), f.id.now.data(), system.ghosts(),
+                FindInsertionOverlap{f.position.now.data(), f.motion.now.data(), f.id.now.data(), system.ghosts(),
                                      c.period, device.data(), static_cast<std::int64_t>(all.size()),
                                      scale.fromMetres((low + high) * 0.5), reach * scale.perMetre * (1 + 1e-6),
                                      c.manyRadii() ? 0.0 : c.model.radius * scale.perMetre, scale.perMetre,
@@ -113,7 +113,7 @@ void describeOverlap(const std::vector<GrainSpec>& entering, const std::vector<E
     const base::Position place = f.position.now.at(i);
     const Vec3d x = c.scale.toMetres(place);
     found[0] = x.x, found[1] = x.y, found[2] = x.z;
-    const double own = c.manyRadii() ? std::fabs(double{f.velocity.now.at(i).w}) : c.model.radius;
+    const double own = c.manyRadii() ? std::fabs(double{f.motion.now.at(i).velocity.w}) : c.model.radius;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double apart = norm(c.period.apart(all[k].position, place).as<double>()) * c.scale.unit;
       const double miss = std::fabs(own + radiusOf(entering[k], c) - apart - overlap.overlap);

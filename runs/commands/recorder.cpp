@@ -244,7 +244,7 @@ output::Frame Recorder::currentFrame() const {
   // Forces are those of the last step: before the first there are none, nor where grains were taken out after it.
   if (const auto& grains = simulation_.ground().grains)
     addGrains(frame, *grains, simulation_.setup().output.contactForces,
-              simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerVelocities());
+              simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())

@@ -104,7 +104,7 @@ public:
     for (std::size_t slot = 0; slot < n; ++slot) {
       const std::size_t id = grains_->view().id[slot];
       height_[id] = grains_->scale().toMetres(grains_->view().position[slot]).z;
-      velocity_[id] = static_cast<double>(grains_->view().velocity[slot].z);
+      velocity_[id] = static_cast<double>(grains_->view().motion[slot].velocity.z);
     }
     for (std::size_t i = 0; i < count_; ++i) {
       gap[i] = binary_ ? height_[2 * i] - height_[2 * i + 1] - 2 * kRadius : height_[i] - kRadius;

@@ -99,9 +99,9 @@ private:
     const auto three = [&bits] {
       return Vec{base::bitsAs<Float>(bits[0]), base::bitsAs<Float>(bits[1]), base::bitsAs<Float>(bits[2])};
     };
-    base::gatherRows<kWidth>(data_.velocity, slots, bits);
+    base::gatherRows<kWidth, sizeof(contact::Motion)>(&data_.motion->velocity, slots, bits);
     const Vec v = three();
-    base::gatherRows<kWidth>(data_.spin, slots, bits);
+    base::gatherRows<kWidth, sizeof(contact::Motion)>(&data_.motion->spin, slots, bits);
     const Vec w = three();
     Vec shear{};
     if (kWithFriction) {

@@ -192,23 +192,23 @@ private:
   /// knows, rows that are stored could change it.
   GROUSER_SIMD void collect() {
     const base::Position* const position = data_.position;
-    const Vec4f *const velocity = data_.velocity, *const spins = data_.spin;
+    const contact::Motion* const motion = data_.motion;
     const float* const history = data_.neighbours.history;
     const int contacts = contacts_;
     for (int c = 0; c < contacts; ++c) {
       const std::size_t i = grain_[c], j = other_[c];
       store(apart_ + c, load<Int4>(position + j) - load<Int4>(position + i));
-      const auto v = load<Float4>(velocity + i), u = load<Float4>(velocity + j);
+      const auto v = load<Float4>(&motion[i].velocity), u = load<Float4>(&motion[j].velocity);
       // The fourth number: of grains of one radius 1 where j never moves, else 0; of others what velocities have there.
       Float4 relative = v - u;
       if (kManySizes) relative[3] = u[3];
       moving_[c] = relative;
-      auto spin = load<Float4>(spins + i);
+      auto spin = load<Float4>(&motion[i].spin);
       if (kBothSpins) {
-        theirs_[c] = load<Float4>(spins + j);
+        theirs_[c] = load<Float4>(&motion[j].spin);
         if (kManySizes) spin[3] = v[3];
       } else {
-        spin += load<Float4>(spins + j);
+        spin += load<Float4>(&motion[j].spin);
       }
       turning_[c] = spin;
       const float* const spring = history + kHistory * std::size_t{entry_[c]};
@@ -349,7 +349,7 @@ private:
   /// What acts on one grain.
   GROUSER_SIMD void sum(int g, int i) {
     if (hasFixed()) {
-      if (data_.velocity[i].w < 0) return advance_.addDone(g, i), letStay(data_, forces_, i);
+      if (data_.motion[i].velocity.w < 0) return advance_.addDone(g, i), letStay(data_, forces_, i);
       if (kWithLedger) bookHeldContacts(g, i);
     }
     Sum all;
@@ -365,7 +365,7 @@ private:
     if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
       force += base::load3(&load.force), torque += base::load3(&load.torque);
-      const float radius = kManySizes ? data_.velocity[i].w : forces_.radius;
+      const float radius = kManySizes ? data_.motion[i].velocity.w : forces_.radius;
       if (load.deepest > data_.maxSurfaceShare * radius) raiseThrough(data_, forces_, i);
     }
     force[3] = damped, torque[3] = samePlace_[g] ? data_.diameter : all.most[3];
@@ -398,7 +398,7 @@ private:
     Float4 force{}, torque{};
     bool any = false;
     for (int c = begin_[g]; c < begin_[g + 1]; ++c)
-      if (data_.velocity[other_[c]].w < 0) {
+      if (data_.motion[other_[c]].velocity.w < 0) {
         any = true, force += moving_[c];
         torque += kWithRolling ? turning_[c] + apart_[c] : turning_[c];
       }

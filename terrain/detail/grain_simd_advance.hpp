@@ -81,6 +81,25 @@ private:
                     reinterpret_cast<const char*>(&in[l % 4]) + l / 4 * 16, 16);
   }
 
+  /// Of kLanes grains, whose velocities and spins lie side by side.
+  GROUSER_SIMD void loadMotion(int g, Float (&velocity)[4], Float (&spin)[4]) const {
+    Int rows[4];
+    base::gatherRows<kLanes, sizeof(contact::Motion)>(&data_.motion->velocity, slot_ + g, rows);
+    for (int k = 0; k < 4; ++k) velocity[k] = base::bitsAs<Float>(rows[k]);
+    base::gatherRows<kLanes, sizeof(contact::Motion)>(&data_.motion->spin, slot_ + g, rows);
+    for (int k = 0; k < 4; ++k) spin[k] = base::bitsAs<Float>(rows[k]);
+  }
+  GROUSER_SIMD void storeMotion(int g, Float (&velocity)[4], Float (&spin)[4], unsigned which) const {
+    base::transpose(velocity), base::transpose(spin);
+#pragma GCC unroll 8
+    for (int l = 0; l < kLanes; ++l) {
+      if (which != kAll && !(which >> l & 1)) continue;
+      contact::Motion& to = data_.nextMotion[slot_[g + l]];
+      std::memcpy(&to.velocity, reinterpret_cast<const char*>(&velocity[l % 4]) + l / 4 * 16, 16);
+      std::memcpy(&to.spin, reinterpret_cast<const char*>(&spin[l % 4]) + l / 4 * 16, 16);
+    }
+  }
+
   /// addCompensated(). Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing by one is
   /// multiplying by its inverse, to the last bit.
   struct Compensated {
@@ -128,7 +147,7 @@ private:
   GROUSER_SIMD unsigned step(int g, bool together) {
     Float v[4], w[4], force[4], torque[4];
     Int kept[4], p[4], q[4], keep[4];
-    loadAll(data_.velocity, g, together, v), loadAll(data_.spin, g, together, w);
+    loadMotion(g, v, w);
     loadAll(data_.remainders, g, together, kept), loadAll(data_.position, g, together, p);
     base::loadRows(force_ + g, force), base::loadRows(torque_ + g, torque);
     const Sizes size = sizesOf(v[3]);
@@ -175,8 +194,8 @@ private:
     raiseWhereStale(g, q, which);
     if (!kManySizes) v[3] = Float{};
     w[3] = Float{};
-    storeAll(data_.nextPosition, g, together, q, which), storeAll(data_.nextVelocity, g, together, v, which);
-    storeAll(data_.nextSpin, g, together, w, which), storeAll(data_.remainders, g, together, keep, which);
+    storeAll(data_.nextPosition, g, together, q, which), storeAll(data_.remainders, g, together, keep, which);
+    storeMotion(g, v, w, which);
     return kAll & ~which;
   }
 

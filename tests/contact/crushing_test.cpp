@@ -48,10 +48,9 @@ struct Press {
   /// Force on the grain whose middle is at height z above the plate and which moves at `speed` along z.
   double force(double z, double speed = 0) {
     const base::Array<base::Position> position(exec, std::vector{model.scale.fromMetres({0, 0, z})});
-    const base::Array<base::Vec4f> velocity(exec, std::vector{base::Vec4f{0, 0, static_cast<float>(speed), 0}}),
-        spin(exec, 1);
+    const base::Array<Motion> flight(exec, std::vector{Motion{{0, 0, static_cast<float>(speed), 0}, {}}});
     const base::Array<std::uint32_t> id(exec, 1);
-    const GrainsView grains{position.data(), velocity.data(), spin.data(), id.data(), 1};
+    const GrainsView grains{position.data(), flight.data(), id.data(), 1};
     const base::Array<PartMotion> motion(exec, std::vector{atRest({})});
     contacts->refresh(grains, motion);
     loads.zero();

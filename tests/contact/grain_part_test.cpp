@@ -20,13 +20,12 @@ constexpr double kRadius = 0.027, kStiffness = 1e6;
 /// A grain on the device under test.
 struct OneGrain {
   base::Array<base::Position> position;
-  base::Array<base::Vec4f> velocity, spin;
+  base::Array<Motion> motion;
   base::Array<std::uint32_t> id;
 
   OneGrain(const base::Exec& exec, const base::Position& p, const base::Vec3f& v)
-      : position(exec, std::vector{p}), velocity(exec, std::vector{base::Vec4f{v.x, v.y, v.z, 0}}), spin(exec, 1),
-        id(exec, 1) {}
-  GrainsView view() const { return {position.data(), velocity.data(), spin.data(), id.data(), 1}; }
+      : position(exec, std::vector{p}), motion(exec, std::vector{Motion{{v.x, v.y, v.z, 0}, {}}}), id(exec, 1) {}
+  GrainsView view() const { return {position.data(), motion.data(), id.data(), 1}; }
 };
 
 /// One grain against one part, stepped by hand.
@@ -144,9 +143,8 @@ Trace traceOf(const base::SphereSet& set, bool manyRadii, double strength) {
   for (int k = 0; k < 30; ++k) {
     const Vec3d x{radius - 2e-5 * k, 1e-5 * k, radius - 3e-5 * k};
     const base::Array<base::Position> position(exec, std::vector{model.scale.fromMetres(x)});
-    const base::Array<base::Vec4f> velocity(exec, std::vector{base::Vec4f{-0.2f, 0.1f, -0.3f, float(radius)}}),
-        spin(exec, std::vector{base::Vec4f{1, -2, 3, 0}});
-    const GrainsView grains{position.data(), velocity.data(), spin.data(), id.data(), 1};
+    const base::Array<Motion> flight(exec, std::vector{Motion{{-0.2f, 0.1f, -0.3f, float(radius)}, {1, -2, 3, 0}}});
+    const GrainsView grains{position.data(), flight.data(), id.data(), 1};
     contacts.refresh(grains, motion);
     contacts.compute(grains, motion, part.data());
     GrainLoad load{};

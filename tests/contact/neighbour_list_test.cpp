@@ -39,9 +39,9 @@ struct Bed {
     id = gathered(id, base::toHost(exec, list.order(), place.size()));
     bySlot.assign(gathered(positions, id));
     base::Array<std::uint32_t> ids(exec, id);
-    std::vector<base::Vec4f> spheres;
-    for (const std::uint32_t i : id) spheres.push_back({0, 0, 0, radius.empty() ? 0 : radius[i]});
-    base::Array<base::Vec4f> inW(exec, spheres);
+    std::vector<Motion> spheres;
+    for (const std::uint32_t i : id) spheres.push_back({{0, 0, 0, radius.empty() ? 0 : radius[i]}, {}});
+    base::Array<Motion> inW(exec, spheres);
     list.build(bySlot.data(), ids.data(), nullptr, radius.empty() ? RadiiInW{} : RadiiInW{inW.data(), 1.0f});
   }
   template <class T> static std::vector<T> gathered(const std::vector<T>& from, const Ids& order) {

@@ -126,11 +126,11 @@ TEST(GrainOnPartValues, SlipTakesTheSpinsAndVelocitiesOfBoth) {
   const Vec3d centre{0.05, 0.04, -0.1};
   const base::Array<base::Position> position(exec, std::vector{model.scale.fromMetres(x)});
   const auto four = [](const Vec3d& a) {
-    return std::vector{base::Vec4f{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z), 0}};
+    return base::Vec4f{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z), 0};
   };
-  const base::Array<base::Vec4f> velocity(exec, four(v)), spin(exec, four(w));
+  const base::Array<Motion> flight(exec, std::vector{Motion{four(v), four(w)}});
   const base::Array<std::uint32_t> id(exec, 1);
-  const GrainsView grains{position.data(), velocity.data(), spin.data(), id.data(), 1};
+  const GrainsView grains{position.data(), flight.data(), id.data(), 1};
   PartMotion part = atRest({});
   part.centre = centre, part.velocity = V, part.spin = W;
   const base::Array<PartMotion> motion(exec, std::vector<PartMotion>{part});
