@@ -99,9 +99,9 @@ public:
 
 private:
   void findBed() {
-    if (!beds_ || scene_.terrain->settleTimeLimit <= 0 || grains_ > kMostTaken) return;
-    const scene::Scene bed = setup::isPutOnBed(scene_) ? setup::sceneOfBed(scene_) : scene_;
-    kept_ = beds_->find(setup::bedOrigin(bed, setup::chooseTimeStep(bed))).has_value();
+    if (!beds_ || grains_ > kMostTaken) return;
+    const std::string origin = setup::originOfBed(scene_);
+    kept_ = !origin.empty() && beds_->find(origin);
   }
 
   void build() {

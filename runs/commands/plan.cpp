@@ -99,11 +99,8 @@ std::string putOnBedLine(const scene::Scene& scene) {
 std::string bedHeightText(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit <= 0) return "";
   std::optional<simulation::SettleReport> settled;
-  if (scene.terrain->cache)
-    if (const auto beds = simulation::BedCache::ofUser()) {
-      const scene::Scene bed = setup::isPutOnBed(scene) ? setup::sceneOfBed(scene) : scene;
-      settled = beds->find(setup::bedOrigin(bed, setup::chooseTimeStep(bed)));
-    }
+  if (const std::string origin = setup::originOfBed(scene); !origin.empty())
+    if (const auto beds = simulation::BedCache::ofUser()) settled = beds->find(origin);
   return fmt::format("  {:<24} {}\n", "settled bed",
                      settled
                          ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (kept from a run before)",

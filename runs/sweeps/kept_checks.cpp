@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "runs/setup/provenance.hpp"
+#include "runs/studies/estimate.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/text_file.hpp"
@@ -76,7 +77,7 @@ std::string barsText(const nlohmann::json& kept) {
     if (told > kMost) continue;
     if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
     text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
-                        valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
+                        studies::valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
   }
   if (more > 0) text += fmt::format("  and {} more\n", more);
   return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,
