@@ -4,9 +4,9 @@
 #include "base/error.hpp"
 #include "runs/commands/bed_text.hpp"
 #include "runs/commands/failed_run.hpp"
-#include "runs/commands/machine_fit.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
+#include "runs/forecast/machine_fit.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/checkpoint.hpp"
@@ -397,20 +397,20 @@ void describeSteps(const simulation::Mechanism& mechanism, output::Summary& summ
 }
 
 /// `hasFolder`: whether it came so far that the folder is that of this run.
-output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options, bool& hasFolder) {
+output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options,
+                            bool& hasFolder) {
   const Stopwatch whole;
   const support::StopSignals signals;
   const base::Comm comm = options.comm();
-  const setup::Provenance provenance = setup::provenanceOf(scene);
   requireAlike(provenance, options.commandLine, comm);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
-  requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
+  forecast::requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
   if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<simulation::Checkpoint> former = formerRun(provenance, options);
   Caches kept = cachesOf(scene, options);
   const std::unique_ptr<simulation::Simulation> made =
-      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), options, kept);
+      makeSimulation(setup::simulationSetup(scene, provenance, comm.size()), exec, former.get(), options, kept);
   simulation::Simulation& simulation = *made;
   const setup::SimulationSetup& setup = simulation.setup();
   const std::int64_t all = std::llround(setup.run.duration / setup.timeStep), begin = simulation.steps(),
@@ -480,10 +480,10 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
 
 } // namespace
 
-output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
+output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options) {
   bool hasFolder = false;
   try {
-    return runInFolder(scene, options, hasFolder);
+    return runInFolder(scene, provenance, options, hasFolder);
   } catch (const base::SimulationError&) {
     // Its files are closed by now.
     if (hasFolder && scene.output.plots && options.comm().alone())

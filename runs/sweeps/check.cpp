@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stopwatch.hpp"
@@ -48,10 +49,11 @@ public:
   Check(const fs::path& file, const CheckOptions& options)
       : options_(options), fixed_(quiet(options.fixed)), scene_(setup::loadScene(file, fixed_)) {
     checkScene(scene_);
+    origin_ = checkOrigin(scene_, setup::inputsOf(scene_));
     if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.seeds)
       throw base::InputError(
           fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one", scene_.run.seed, options.seeds));
-    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = checkOrigin(scene_);
+    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = hashOfOrigin(origin_);
     record_.cases = checkCases(file, fixed_, scene_);
     keepAxes();
     record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};
@@ -228,7 +230,7 @@ private:
       fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
                                         [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
-    keepCheck(scene_, json, static_cast<int>(finished), record_.folder);
+    keepCheck(origin_, json, static_cast<int>(finished), record_.folder);
     if (results.skin == SameBits::no)
       throw base::SimulationError(
           "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
@@ -238,6 +240,7 @@ private:
   const support::Stopwatch clock_;
   const std::vector<std::string> fixed_;
   const scene::Scene scene_;
+  std::string origin_;            ///< checkOrigin()
   std::vector<std::string> made_; ///< names of runs that this call has made
   CheckRecord record_;
 };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/forecast.hpp"
+#include "runs/forecast/forecast.hpp"
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/commands/machine_fit.hpp"
-#include "runs/commands/probe.hpp"
+#include "runs/forecast/machine_fit.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/ground_setup.hpp"
@@ -23,7 +22,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::commands {
+namespace grouser::forecast {
 
 namespace fs = std::filesystem;
 
@@ -89,7 +88,7 @@ public:
     const Stopwatch all;
     findBed();
     const bool sound = step();
-    if (sound) output_ = timeOutput(*simulation_, exec_, scratch(), scene_.output.plots); // it steps once more
+    if (sound) output_ = options_.timeOutput(*simulation_, exec_, scratch(), scene_.output.plots); // it steps once more
     if (sound) output();
     if (sound) prepare();
     memory();
@@ -387,4 +386,4 @@ std::string forecastJson(const Forecast& f) {
   return json.dump(2) + "\n";
 }
 
-} // namespace grouser::commands
+} // namespace grouser::forecast
