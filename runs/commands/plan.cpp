@@ -12,7 +12,6 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
-#include "runs/setup/provenance.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"

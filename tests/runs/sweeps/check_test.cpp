@@ -165,7 +165,13 @@ int count(const std::string& text, const std::string& what) {
 TEST_F(Check, TheFirstRunOfABudgetSettlesItsBedAlthoughThatOfAnotherSeedIsKept) {
   std::ofstream(folder_ / "bed.toml") << bedScene();
   const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
+  const auto settling = [&](const std::string& folder) {
+    return json(folder + "/manifest.json").at("figures").at("wall_settling_s").get<double>();
+  };
   ASSERT_EQ(call("run bed.toml --out r", keep).code, 0);
+  EXPECT_GT(settling("r"), 0);
+  ASSERT_EQ(call("run bed.toml --out again", keep).code, 0);
+  EXPECT_EQ(settling("again"), 0) << "its bed was kept";
   const Outcome o = call("check bed.toml --axes skin --seeds 2 --budget 60s --out c", keep);
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("run 1 of 1  base,seed=2"), std::string::npos) << o.out; // the run's own was kept
