@@ -183,7 +183,9 @@ private:
     }
     if (spheres)
       add(f_.preparation, "sphere sets", 0,
-          cut > 0 ? fmt::format("cut now in {}, kept for the run", time(cut)) : "kept from a run before");
+          cut > 0    ? fmt::format("cut now in {}, kept for the run", time(cut))
+          : spheres_ ? "kept from a run before"
+                     : "cut with the parts, as nothing is kept");
   }
 
   void settling() {

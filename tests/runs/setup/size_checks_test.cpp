@@ -47,7 +47,7 @@ TEST(SizeChecks, AFillBeyondAllMemoryNamesItsKey) {
   EXPECT_EQ(messageOf([] { checkFillSizes(fill("1")); }), "");
   // Four thousand million: more than any one machine has.
   const std::string message = messageOf([] { checkFillSizes(fill("33")); });
-  EXPECT_NE(message.find("scene.toml:7: grains.0.radius"), std::string::npos) << message;
+  EXPECT_NE(message.find("scene.toml:11: grains.0.radius"), std::string::npos) << message;
   EXPECT_NE(message.find("use fewer or larger grains"), std::string::npos) << message;
 }
 
