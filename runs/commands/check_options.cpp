@@ -53,7 +53,7 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->add_option("--seeds", c.options.seeds,
                    "seeds of every case, from run.seed on, where they make a difference; with --budget at most so "
                    "many; default: 8")
-      ->check(support::wholeNumber(2, 200));
+      ->check(support::wholeNumber(2, 1000));
   check
       ->add_option("--bar", c.options.percent,
                    "of a figure's value, within which verdicts call it equal [%]; default: 5")

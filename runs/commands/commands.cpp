@@ -2,11 +2,12 @@
 #include "runs/commands/commands.hpp"
 
 #include "base/error.hpp"
-#include "runs/commands/counted_grains.hpp"
-#include "runs/commands/forecast.hpp"
-#include "runs/commands/machine_fit.hpp"
+#include "runs/commands/output_times.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/commands/run_scene.hpp"
+#include "runs/forecast/counted_grains.hpp"
+#include "runs/forecast/forecast.hpp"
+#include "runs/forecast/machine_fit.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
@@ -105,7 +106,8 @@ void runCommand(const RunCommand& command) {
     chooseCheckpoint(command, options);
   else if (options.comm().first())
     output::checkOutputFolder(options.folder, options.force);
-  const output::Summary summary = runScene(scene, options);
+  const setup::Provenance provenance = setup::provenanceOf(scene);
+  const output::Summary summary = runScene(scene, provenance, options);
   if (!options.comm().first()) return;
 
   const fs::path results = options.folder / "results.h5";
@@ -117,7 +119,7 @@ void runCommand(const RunCommand& command) {
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
   output::listFiles(options.folder);
-  if (!command.steps) fmt::print("{}", sweeps::checkNote(scene, secondsOf(summary)));
+  if (!command.steps) fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary)));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 
@@ -162,19 +164,20 @@ void planCommand(const PlanCommand& command) {
   // What does not fit is neither laid nor run, but shown.
   std::string misfit;
   try {
-    requireFit(scene, exec, folder, true, true, nullptr);
+    forecast::requireFit(scene, exec, folder, true, true, nullptr);
   } catch (const base::InputError& error) {
     misfit = error.what();
   }
-  const CountedGrains counted = countGrains(scene, setup::chooseTimeStep(scene), misfit.empty() ? kMostLaid : 0);
+  const forecast::CountedGrains counted =
+      forecast::countGrains(scene, setup::chooseTimeStep(scene), misfit.empty() ? forecast::kMostLaid : 0);
   fmt::print("{}", planText(scene, &counted));
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
   std::fflush(stdout);
   if (!misfit.empty()) throw base::InputError(misfit);
   if (!command.probe) return;
-  const Forecast forecast = forecastOf(scene, counted, {folder, 1, command.cache});
-  fmt::print("{}", forecastText(forecast));
-  if (!command.json.empty()) support::writeTextFile(command.json, forecastJson(forecast), "--json");
+  const forecast::Forecast told = forecast::forecastOf(scene, counted, {folder, timeOutput, 1, command.cache});
+  fmt::print("{}", forecast::forecastText(told));
+  if (!command.json.empty()) support::writeTextFile(command.json, forecast::forecastJson(told), "--json");
 }
 
 void spheresCommand(const SpheresCommand& command) {

@@ -12,7 +12,6 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
-#include "runs/setup/provenance.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -20,8 +19,6 @@
 #include "runs/simulation/bed_cache.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
-#include "runs/support/progress.hpp"
-#include "terrain/grain_simd.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -48,22 +45,6 @@ std::string memoryText(const scene::Scene& scene, double grains) {
   part("state", m.state), part("neighbour lists", m.lists), part("contact history", m.history);
   part("planes and floor", m.boundaries);
   part("more while lists are made", m.rebuild);
-  return text;
-}
-
-/// What the grains' steps cost where they have been measured; parts and vehicle come on top.
-std::string costText(const scene::Scene& scene, double grainSteps) {
-  constexpr unsigned kPlain = contact::kFriction | terrain::kBoundaries | terrain::kLoads | terrain::kLedger;
-  const unsigned features = setup::grainFeatures(scene, setup::grainKinds(scene)) & ~terrain::kFloor;
-  const bool common = scene.run.precision == terrain::Precision::single && terrain::hasSimd(features);
-  std::string text;
-  for (const RankSpeed& s : kRankSpeeds) {
-    const double share = !common ? s.shareOfOthers : features & ~kPlain ? s.shareOfSoil : 1.0;
-    const double speed = s.grainSteps * share;
-    text += fmt::format("  {:<24} {} on {}, at {:.2g} grain steps/s (grouser bench bed), without vehicle and output\n",
-                        text.empty() ? "expected time" : "", support::Progress::duration(grainSteps / speed), s.name,
-                        speed);
-  }
   return text;
 }
 
@@ -99,11 +80,8 @@ std::string putOnBedLine(const scene::Scene& scene) {
 std::string bedHeightText(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit <= 0) return "";
   std::optional<simulation::SettleReport> settled;
-  if (scene.terrain->cache)
-    if (const auto beds = simulation::BedCache::ofUser()) {
-      const scene::Scene bed = setup::isPutOnBed(scene) ? setup::sceneOfBed(scene) : scene;
-      settled = beds->find(setup::bedOrigin(bed, setup::chooseTimeStep(bed)));
-    }
+  if (const std::string origin = setup::originOfBed(scene); !origin.empty())
+    if (const auto beds = simulation::BedCache::ofUser()) settled = beds->find(origin);
   return fmt::format("  {:<24} {}\n", "settled bed",
                      settled
                          ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (kept from a run before)",
@@ -192,7 +170,7 @@ std::string switches(const scene::Scene& scene) {
 
 } // namespace
 
-std::string planText(const scene::Scene& scene, const CountedGrains* counted) {
+std::string planText(const scene::Scene& scene, const forecast::CountedGrains* counted) {
   setup::checkRestitutions(scene);
   std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
   const std::int64_t grains = counted ? counted->grains : setup::plannedGrains(scene);
@@ -229,7 +207,6 @@ std::string planText(const scene::Scene& scene, const CountedGrains* counted) {
     text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
   }
   if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
-  if (grains) text += costText(scene, steps * static_cast<double>(grains));
   if (contact > 0 && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));

@@ -4,9 +4,9 @@
 #include "base/error.hpp"
 #include "runs/commands/bed_text.hpp"
 #include "runs/commands/failed_run.hpp"
-#include "runs/commands/machine_fit.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
+#include "runs/forecast/machine_fit.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/checkpoint.hpp"
@@ -16,9 +16,9 @@
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "runs/support/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <fmt/format.h>
@@ -27,9 +27,7 @@ namespace grouser::commands {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+using support::Stopwatch;
 
 /// Of all threads of this process since it began [s].
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -43,20 +41,20 @@ public:
   int receivedAt(std::int64_t step) {
     if (comm_.alone()) return support::StopSignals::received();
     if (step < next_) return 0;
-    const double perStep = since(asked_) / static_cast<double>(std::max<std::int64_t>(1, step - last_));
+    const double perStep = asked_.seconds() / static_cast<double>(std::max<std::int64_t>(1, step - last_));
     std::uint64_t all[] = {static_cast<std::uint64_t>(support::StopSignals::received()),
                            static_cast<std::uint64_t>(1e9 * perStep) + 1};
     comm_.maximum(all, 2);
     constexpr std::uint64_t kWithin = 200'000'000, kMost = 100; // [ns], steps
     last_ = step, next_ = step + static_cast<std::int64_t>(std::clamp<std::uint64_t>(kWithin / all[1], 1, kMost));
-    asked_ = Clock::now();
+    asked_ = {};
     return static_cast<int>(all[0]);
   }
 
 private:
   base::Comm comm_;
   std::int64_t last_ = 0, next_ = 0;
-  Clock::time_point asked_ = Clock::now();
+  Stopwatch asked_;
 };
 
 /// How the grains are divided among the ranks.
@@ -105,6 +103,7 @@ void describePlaced(const simulation::Simulation& simulation) {
 struct Caches {
   std::optional<simulation::BedCache> beds;
   std::optional<simulation::SphereCache> spheres;
+  double settling = 0; ///< wall time that the bed of this run took, where none was kept [s]
 };
 
 Caches cachesOf(const scene::Scene& scene, const RunRequest& options) {
@@ -167,12 +166,12 @@ public:
   /// checkpoint. Between rows, so that these are counted with it.
   void remember(const simulation::Simulation& simulation, const output::RunWriter& writer) {
     const auto& grains = simulation.ground().grains;
-    if (!simulation.comm().alone() || Clock::now() < rememberNext_) return;
+    if (!simulation.comm().alone() || sinceRemembered_.seconds() < pause_) return;
     if (grains && grains->count() > kMostRemembered) return;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch saving;
     good_ = simulation.save();
     goodRows_ = writer.rows(), goodFrames_ = writer.frames();
-    rememberNext_ = Clock::now() + kRememberPause * (Clock::now() - start);
+    pause_ = kRememberPause * saving.seconds(), sinceRemembered_ = {};
   }
   /// Of a run that has failed: the last state that was remembered, where no later one has been written.
   void writeRemembered(const simulation::Simulation& simulation, output::RunWriter& writer) {
@@ -199,7 +198,8 @@ private:
   std::int64_t writtenAt_ = -1;
   std::optional<simulation::SimulationState> good_;
   std::int64_t goodRows_ = 0, goodFrames_ = 0;
-  Clock::time_point rememberNext_{};
+  double pause_ = 0; ///< until the next time [s]
+  Stopwatch sinceRemembered_;
 };
 
 /// Reads the checkpoint of a run to be resumed; null for one from the start.
@@ -226,12 +226,15 @@ std::unique_ptr<simulation::Simulation> makeSimulation(setup::SimulationSetup se
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
   const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;
   std::unique_ptr<support::Progress> settling;
+  std::optional<Stopwatch> begun;
   FailedBed failed(setup, options, exec);
   simulation::SettleProgress settle = [&](double time, double agitation) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
       throw support::Stopped(signal, fmt::format("stopped by {} while the bed settled; nothing was written",
                                                  support::StopSignals::name(signal)));
     if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
+    if (time > 0 && !begun) begun.emplace(); // before that it waits for another run
+    if (begun) kept.settling = begun->seconds();
     settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   };
   settle.failed = [&](const terrain::Grains& bed, const std::string& message) { failed.leave(&bed, message); };
@@ -394,28 +397,28 @@ void describeSteps(const simulation::Mechanism& mechanism, output::Summary& summ
 }
 
 /// `hasFolder`: whether it came so far that the folder is that of this run.
-output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options, bool& hasFolder) {
-  const Clock::time_point start = Clock::now();
+output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options,
+                            bool& hasFolder) {
+  const Stopwatch whole;
   const support::StopSignals signals;
   const base::Comm comm = options.comm();
-  const setup::Provenance provenance = setup::provenanceOf(scene);
   requireAlike(provenance, options.commandLine, comm);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
-  requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
+  forecast::requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
   if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<simulation::Checkpoint> former = formerRun(provenance, options);
   Caches kept = cachesOf(scene, options);
   const std::unique_ptr<simulation::Simulation> made =
-      makeSimulation(setup::simulationSetup(scene, comm.size()), exec, former.get(), options, kept);
+      makeSimulation(setup::simulationSetup(scene, provenance, comm.size()), exec, former.get(), options, kept);
   simulation::Simulation& simulation = *made;
   const setup::SimulationSetup& setup = simulation.setup();
-  const std::int64_t whole = std::llround(setup.run.duration / setup.timeStep), begin = simulation.steps(),
-                     total = std::min(whole, options.steps.value_or(whole));
+  const std::int64_t all = std::llround(setup.run.duration / setup.timeStep), begin = simulation.steps(),
+                     total = std::min(all, options.steps.value_or(all));
   if (begin > total)
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
-  const double prepared = since(start);
+  const double prepared = whole.seconds();
   describeBuild(simulation, exec, kept);
   if (!former && comm.first())
     for (const std::string& warning : setup::vehicleWarnings(scene))
@@ -436,18 +439,19 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
   }
   output::Summary summary;
   record(simulation, recorder, checkpoints, [&] {
-    const Clock::time_point driving = Clock::now();
+    const Stopwatch driving;
     const double waitedBefore = comm.waited(), cpuBefore = cpuTime();
     if (!former) recorder.row(), recorder.frame(), checkpoints.remember(simulation, recorder.writer());
     drive(simulation, recorder, checkpoints, total);
-    const double drove = since(driving), waiting = (comm.waited() - waitedBefore) / drove;
+    const double drove = driving.seconds(), waiting = (comm.waited() - waitedBefore) / drove;
     const double cpu = 1e-6 * static_cast<double>(comm.sumOf(std::llround(1e6 * (cpuTime() - cpuBefore))));
     if (setup.output.picture) recorder.picture(setup.output.pictureWidth);
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
-    summary.wallTime = since(start);
+    summary.wallTime = whole.seconds();
     describeDrive(simulation, summary);
-    summary.figures["wall_preparation_s"] = prepared;
+    summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
+    summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
     if (simulation.settled().steps > 0) {
       summary.figures["bed_highest_m"] = simulation.settled().highest;
       summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
@@ -476,10 +480,10 @@ output::Summary runInFolder(const scene::Scene& scene, const RunRequest& options
 
 } // namespace
 
-output::Summary runScene(const scene::Scene& scene, const RunRequest& options) {
+output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options) {
   bool hasFolder = false;
   try {
-    return runInFolder(scene, options, hasFolder);
+    return runInFolder(scene, provenance, options, hasFolder);
   } catch (const base::SimulationError&) {
     // Its files are closed by now.
     if (hasFolder && scene.output.plots && options.comm().alone())

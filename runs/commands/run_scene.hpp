@@ -4,13 +4,14 @@
 #include "runs/commands/run_request.hpp"
 #include "runs/output/output.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/provenance.hpp"
 
 namespace grouser::commands {
 
-/// Runs a scene to its end and writes its folder through a RunWriter; what it returns has gone into the manifest too.
-/// With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the end, and where
-/// SIGINT or SIGTERM stops the run. One that fails leaves what is needed to see why. Throws InputError,
-/// SimulationError, DeviceError, or Stopped.
-output::Summary runScene(const scene::Scene& scene, const RunRequest& options);
+/// Runs a scene, of this provenance, to its end and writes its folder through a RunWriter; what it returns has gone
+/// into the manifest too. With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at
+/// the end, and where SIGINT or SIGTERM stops the run. One that fails leaves what is needed to see why. Throws
+/// InputError, SimulationError, DeviceError, or Stopped.
+output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options);
 
 } // namespace grouser::commands

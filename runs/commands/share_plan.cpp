@@ -72,15 +72,6 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
                       (each + ghosts) * setup::grainMemory(scene).most() / 1048576.0);
   text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
-  for (const RankSpeed& s : kRankSpeeds) {
-    // Messages travel beside the work on grains that need none.
-    const double work = each / s.grainSteps, messages = ghosts * kBytesPerGhost / s.bytesPerSecond;
-    const double step = std::max(work, messages) + s.latency;
-    text +=
-        fmt::format("  {:<24} {:.0f} % where a rank is {} ({:.2g} particle-steps/s, {:.0f} us a step for messages), "
-                    "with work evenly spread\n",
-                    "efficiency to expect", 100 * work / step, s.name, s.grainSteps, 1e6 * s.latency);
-  }
   return text;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/bed_alone.hpp"
 
+#include "runs/setup/provenance.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/step_limit.hpp"
 
 #include <algorithm>
 
@@ -26,6 +28,14 @@ scene::Scene sceneOfBed(scene::Scene scene) {
   scene.grains.clear(), scene.fills.clear(), scene.sources.clear();
   scene.vehicle.reset(), scene.driver = {}, scene.mechanism = {};
   return scene;
+}
+
+std::string originOfBed(const scene::Scene& scene) {
+  if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->cache || scene.terrain->settleTimeLimit <= 0)
+    return "";
+  if (!isPutOnBed(scene)) return bedOrigin(scene, chooseTimeStep(scene));
+  const scene::Scene bed = sceneOfBed(scene);
+  return bedOrigin(bed, chooseTimeStep(bed));
 }
 
 } // namespace grouser::setup

@@ -3,6 +3,8 @@
 
 #include "runs/scene/scene.hpp"
 
+#include <string>
+
 /// Beds that settle before anything is put on them.
 namespace grouser::setup {
 
@@ -13,5 +15,9 @@ bool isPutOnBed(const scene::Scene& scene);
 /// bed settles with the bits of a scene that has no more than this, whatever is put on it afterwards, and with the time
 /// step of that scene.
 scene::Scene sceneOfBed(scene::Scene scene);
+
+/// bedOrigin() of the bed that a run of this scene settles and keeps; empty where it settles none, or keeps none.
+/// Throws InputError where its height-map cannot be read.
+std::string originOfBed(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -43,7 +43,7 @@ terrain::PartitionOptions partitionOf(const scene::Scene& scene, int ranks) {
 }
 
 /// The terrain without its grains. Empty where it has none.
-std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSetup& ground) {
+std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSetup& ground, SizeChecks sizes) {
   if (!scene.terrain) return {};
   ground.area = terrainArea(scene);
   ground.surface = readSurface(scene);
@@ -52,7 +52,7 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSet
     return {};
   }
   const terrain::BedOptions options = bedOptions(scene);
-  checkBedSize(scene);
+  if (sizes == SizeChecks::due) checkBedSize(scene);
   terrain::BedPlan plan = terrain::planBed(*ground.surface, options);
   ground.rigid = plan.floor;
   checkLevelAcross(scene, *ground.surface);
@@ -226,21 +226,21 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
   GroundSetup ground;
-  const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
+  const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, SizeChecks::due);
   checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{}),
              timeStep);
 }
 
-GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
+GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, SizeChecks sizes) {
   checkCompany(scene);
   checkVehicleSurroundings(scene);
   checkSpeeds(scene, timeStep);
   checkSurfacesBetweenSides(scene);
   GroundSetup ground;
-  const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground);
+  const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, sizes);
   const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return ground;
-  checkFillSizes(scene);
+  if (sizes == SizeChecks::due) checkFillSizes(scene);
   const Surroundings around = surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{});
   const std::vector<scene::Grain> placed = placedGrains(scene);
   checkStart(scene, placed, around, timeStep);
@@ -259,7 +259,8 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks) {
     grains.start.clear();
     if (isPutOnBed(scene)) {
       const scene::Scene alone = sceneOfBed(scene);
-      grains.bed->alone = std::make_shared<const GroundSetup>(groundSetup(alone, chooseTimeStep(alone), ranks));
+      grains.bed->alone =
+          std::make_shared<const GroundSetup>(groundSetup(alone, chooseTimeStep(alone), ranks, SizeChecks::passed));
     }
   }
   grains.sources = sourcesOf(scene, timeStep);

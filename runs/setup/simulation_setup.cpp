@@ -8,14 +8,16 @@
 
 namespace grouser::setup {
 
-SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
+namespace {
+
+SimulationSetup compiled(const scene::Scene& scene, int ranks, SizeChecks sizes) {
   SimulationSetup setup;
   checkRestitutions(scene);
   // Before the step: what does not fit its mesh may ask for a wrong one.
   if (scene.vehicle) checkParts(scene);
   setup.timeStep = chooseTimeStep(scene);
   setup.gravity = scene.run.gravity;
-  setup.ground = groundSetup(scene, setup.timeStep, ranks);
+  setup.ground = groundSetup(scene, setup.timeStep, ranks, sizes);
   if (scene.vehicle) {
     setup.vehicle = vehicleSetup(scene);
     setup.vehicle->largestTurn = largestTurn(scene.run);
@@ -27,7 +29,20 @@ SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
   const scene::Output& o = scene.output;
   setup.output = {o.record, o.frames, o.contactForces, o.grainsCsv, o.picture, o.pictureWidth};
   setup.planes = drawnPlanes(scene);
+  return setup;
+}
+
+} // namespace
+
+SimulationSetup simulationSetup(const scene::Scene& scene, int ranks) {
+  SimulationSetup setup = compiled(scene, ranks, SizeChecks::due);
   setup.provenance = provenanceOf(scene);
+  return setup;
+}
+
+SimulationSetup simulationSetup(const scene::Scene& scene, const Provenance& provenance, int ranks) {
+  SimulationSetup setup = compiled(scene, ranks, SizeChecks::passed);
+  setup.provenance = provenance;
   return setup;
 }
 

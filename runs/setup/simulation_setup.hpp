@@ -51,5 +51,8 @@ struct SimulationSetup {
 
 /// Compiles a scene for a run on `ranks` ranks. Throws InputError with the place of what is not possible.
 SimulationSetup simulationSetup(const scene::Scene& scene, int ranks = 1);
+/// The same of a scene whose files have been read for its provenance, and which has passed checkFillSizes() and
+/// checkBedSize().
+SimulationSetup simulationSetup(const scene::Scene& scene, const Provenance& provenance, int ranks);
 
 } // namespace grouser::setup

@@ -3,6 +3,7 @@
 
 #include "runs/support/file_lock.hpp"
 #include "runs/support/sealed_file.hpp"
+#include "runs/support/stopwatch.hpp"
 
 #include <chrono>
 #include <cstring>
@@ -17,13 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr auto kKind = support::KeptFiles::Kind::spheres;
 constexpr const char* kSetFile = "kept sphere set";
 constexpr int kSetFileVersion = 1;
 constexpr auto kLook = std::chrono::milliseconds(20); // between two looks at another program's lock
-constexpr auto kPatience = std::chrono::minutes(2);   // after which one cuts beside the other
+constexpr double kPatience = 120;                     // [s], after which one cuts beside the other
 
 /// What a set has beside its spheres and its name.
 struct Figures {
@@ -94,8 +93,6 @@ base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
   return set;
 }
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 } // namespace
 
 std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
@@ -104,7 +101,7 @@ std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
 }
 
 base::SphereSet SphereCache::cut(const PartCut& part) {
-  Clock::time_point start = Clock::now();
+  support::Stopwatch clock;
   const std::string origin = spheredecomp::cutOrigin(*part.mesh, part.options);
   const fs::path file = files_.fileOf(kKind, origin);
   std::optional<base::SphereSet> set = find(file, origin);
@@ -112,18 +109,18 @@ base::SphereSet SphereCache::cut(const PartCut& part) {
   const bool usable = set || files_.writable();
   if (!set && usable) {
     // Of several programs that want one set the first cuts it.
-    while (!lock.take(support::KeptFiles::lockOf(file)) && Clock::now() - start < kPatience)
+    while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
       std::this_thread::sleep_for(kLook);
     set = find(file, origin);
   }
   if (set) {
     set->name = part.name;
-    ++taken_, taking_ += since(start);
+    ++taken_, taking_ += clock.seconds();
     return std::move(*set);
   }
-  start = Clock::now();
+  clock = {};
   base::SphereSet fresh = spheredecomp::decompose(*part.mesh, part.name, part.options);
-  ++cut_, cutting_ += since(start);
+  ++cut_, cutting_ += clock.seconds();
   if (usable && keep(file, origin, fresh)) ++kept_;
   return fresh;
 }

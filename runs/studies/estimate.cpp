@@ -83,6 +83,30 @@ std::string plusMinus(const support::Estimate& estimate, int digits) {
   return fmt::format("{:.{}f} +- {:.{}f}", estimate.value, digits, estimate.halfWidth, digits);
 }
 
+std::string valueText(const support::Estimate& e) {
+  if (!std::isfinite(e.value)) return "-";
+  const bool hasWidth = std::isfinite(e.halfWidth) && e.halfWidth > 0;
+  const double scale = hasWidth ? e.halfWidth : 0.001 * std::fabs(e.value);
+  const double size = std::max(std::fabs(e.value), scale);
+  const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // of the digits shown
+  if (size >= 1e6 || (size > 0 && size < 1e-3)) {                                        // one power of ten for both
+    const int power = static_cast<int>(std::floor(std::log10(size)));
+    const double unit = std::pow(10.0, power);
+    const int digits = std::clamp(power - last, 0, 9);
+    const std::string text = fmt::format("{:.{}f}", e.value / unit, digits);
+    return e.halfWidth == 0
+               ? fmt::format("{}e{}", text, power)
+               : fmt::format("({} +- {})e{}", text,
+                             std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
+                             power);
+  }
+  constexpr int kMostDigits = 9;
+  if (hasWidth && -last > kMostDigits) return fmt::format("{:.10g} +- {:.1e}", e.value, e.halfWidth);
+  const int digits = std::clamp(-last, 0, kMostDigits);
+  if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
+  return plusMinus(e, digits);
+}
+
 std::string percent(const support::Estimate& estimate, int digits) {
   return plusMinus({100 * estimate.value, 100 * estimate.halfWidth}, digits) + " %";
 }

@@ -33,7 +33,10 @@ std::string verdictText(Verdict verdict); ///< "equal", "differs", "not shown"
 
 /// "12.3 +- 0.4" with so many digits after the point.
 std::string plusMinus(const support::Estimate& estimate, int digits);
-/// The same in percent.
+/// "0.0729 +- 0.0090": so many digits that the half width has two, or the value three where it has none; one power of
+/// ten for both where they are very large or small; "-" where the value is no number.
+std::string valueText(const support::Estimate& estimate);
+/// "12.3 +- 0.4 %".
 std::string percent(const support::Estimate& estimate, int digits = 1);
 
 } // namespace grouser::studies

@@ -4,17 +4,18 @@
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stopwatch.hpp"
 #include "runs/support/text_file.hpp"
+#include "runs/sweeps/check_beds.hpp"
 #include "runs/sweeps/check_choice.hpp"
 #include "runs/sweeps/check_report.hpp"
 #include "runs/sweeps/check_series.hpp"
 #include "runs/sweeps/kept_checks.hpp"
 #include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/run_manifest.hpp"
-#include "runs/sweeps/run_series.hpp"
 #include "runs/sweeps/scene_check.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 namespace grouser::sweeps {
 
@@ -47,10 +49,11 @@ public:
   Check(const fs::path& file, const CheckOptions& options)
       : options_(options), fixed_(quiet(options.fixed)), scene_(setup::loadScene(file, fixed_)) {
     checkScene(scene_);
+    origin_ = checkOrigin(scene_, setup::inputsOf(scene_));
     if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.seeds)
       throw base::InputError(
           fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one", scene_.run.seed, options.seeds));
-    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = checkOrigin(scene_);
+    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = hashOfOrigin(origin_);
     record_.cases = checkCases(file, fixed_, scene_);
     keepAxes();
     record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};
@@ -80,7 +83,7 @@ private:
 
   /// Which runs are to be made: as this very check chose before, or by what the first run takes.
   CheckChoice choose() {
-    if (options_.budget.empty()) return chooseRuns(record_.cases, options_.seeds, std::nullopt, 1, 1);
+    if (options_.budget.empty()) return chooseRuns(record_.cases, options_.seeds, std::nullopt, {}, 1);
     const nlohmann::json asked = {{"origin", record_.origin},
                                   {"budget", options_.budget},
                                   {"seeds", options_.seeds},
@@ -89,18 +92,20 @@ private:
     const fs::path file = record_.folder / kCheckChoice;
     std::ifstream former(file);
     const nlohmann::json kept = nlohmann::json::parse(former, nullptr, false);
-    double seconds = 0;
-    if (kept.is_object() && kept.value("asked", nlohmann::json()) == asked && !options_.sweep.force) {
-      seconds = kept.value("base_run_s", 0.0);
-    } else {
-      seconds = pilot();
-      support::replaceTextFile(file, nlohmann::json{{"asked", asked}, {"base_run_s", seconds}}.dump(1) + "\n");
+    std::optional<CheckChoice> choice;
+    if (kept.is_object() && kept.value("asked", nlohmann::json()) == asked && !options_.sweep.force)
+      choice = keptChoice(kept.value("choice", nlohmann::json()), record_.cases);
+    if (!choice) {
+      CheckBeds beds(record_.runs.plan.scene, fixed_, record_.cases);
+      const RunCosts costs = pilot(beds);
+      choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget), costs, options_.sweep.jobs);
+      const nlohmann::json made = {
+          {"asked", asked}, {"run_s", costs.run}, {"settling_s", costs.settling}, {"choice", choiceJson(*choice)}};
+      support::replaceTextFile(file, made.dump(1) + "\n");
     }
-    CheckChoice choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget),
-                                    std::max(seconds, 1e-3), options_.sweep.jobs);
     fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget,
-               support::Progress::duration(choice.seconds), leftOutText(choice));
-    return choice;
+               support::Progress::duration(choice->seconds), leftOutText(*choice));
+    return *choice;
   }
 
   std::string leftOutText(const CheckChoice& choice) const {
@@ -110,14 +115,36 @@ private:
     return names;
   }
 
-  /// Makes the first run of the base, and returns its wall time [s].
-  double pilot() {
-    addRun(0, 0);
+  /// Makes a run of the base, and returns what runs cost by it. Of the seeds that are run in any case it takes one
+  /// whose bed no run has kept, so that it settles its bed as other cases will theirs.
+  RunCosts pilot(CheckBeds& beds) {
+    const int few = record_.cases.seeded ? std::min(options_.seeds, kFewSeeds) : 1;
+    int seed = 0;
+    while (seed < few && beds.keptSteps(0, seed)) ++seed;
+    const bool settles = seed < few;
+    if (!settles) seed = 0;
+    addRun(0, seed);
     make("check, first run");
-    const double seconds = RunManifest(record_.folder / record_.runs.plan.runs[0].name).number("wall_time_s");
-    if (record_.outcomes[0].status != RunStatus::finished || !std::isfinite(seconds)) throwBaseFailed();
-    record_.runs.plan.runs.clear(), record_.runs.caseOf.clear(), record_.runs.seedOf.clear();
-    return seconds;
+    const fs::path folder = record_.folder / record_.runs.plan.runs[0].name;
+    const RunManifest manifest(folder);
+    const double wall = manifest.number("wall_time_s");
+    if (record_.outcomes[0].status != RunStatus::finished || !std::isfinite(wall)) throwBaseFailed();
+    made_.push_back(record_.runs.plan.runs[0].name);
+    record_.runs = {{record_.runs.plan.scene, record_.runs.plan.keys, {}}, {}, {}, {}};
+
+    const auto part = [&](const char* name) {
+      return std::max(0.0, std::isfinite(manifest.figure(name)) ? manifest.figure(name) : 0);
+    };
+    RunCosts costs;
+    costs.settling = part("wall_settling_s");
+    costs.run = std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // spheres are cut once for all runs
+    // Of a kept bed only its steps are known.
+    if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
+    costs.beds = beds.numbers();
+    costs.isKept = [&beds, seed](int bed, int of) {
+      return !(bed == 0 && of == seed) && beds.keptSteps(bed, of).has_value(); // the one just made is no gift
+    };
+    return costs;
   }
 
   void addRun(std::size_t c, int seedIndex) {
@@ -136,21 +163,25 @@ private:
 
   void make(const std::string& what) {
     SweepOptions sweep = options_.sweep;
+    sweep.made = made_;
     if (!options_.budget.empty()) { // what the first run did not tell must not cost more than was asked
       const double left = std::max(1e-3, budgetSeconds(options_.budget) - clock_.seconds());
       sweep.seconds = sweep.seconds > 0 ? std::min(sweep.seconds, left) : left;
     }
     record_.outcomes = runMissing(record_.runs.plan, sweep, what, [](const std::vector<SweepOutcome>&) {});
+    record_.runs.series.assign(record_.outcomes.size(), {});
     for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
-      if (record_.outcomes[r].status == RunStatus::finished) requireReadable(r);
+      if (record_.outcomes[r].status == RunStatus::finished) read(r);
   }
 
-  /// A run whose files are damaged has failed, and is made again by a call that finds it so.
-  void requireReadable(std::size_t r) {
+  /// What a run wrote over time. One whose files are damaged has failed, and is made again by a call that finds it so.
+  void read(std::size_t r) {
     const fs::path folder = record_.folder / record_.runs.plan.runs[r].name;
     try {
-      readSeries(folder);
+      RunSeries series = readSeries(folder);
+      if (!hasPartInSeries(record_.cases.cases[record_.runs.caseOf[r]])) series.keepEnd();
       support::Hdf5File::open(folder / "results.h5");
+      record_.runs.series[r] = std::move(series);
     } catch (const std::exception& error) {
       record_.outcomes[r] = {RunStatus::failed, fmt::format("its results are damaged: {}; the same call again makes "
                                                             "them anew",
@@ -183,12 +214,13 @@ private:
     }
     const CheckResults results =
         checkResults(record_.cases, record_.runs, record_.outcomes, record_.folder, options_.percent);
+    record_.costs = costsOf(record_);
     const auto write = [&](const char* name, const std::string& text) {
       support::replaceTextFile(record_.folder / name, text);
     };
     const std::string json = checkJson(record_, results);
     write(kCheckFile, json), write(kCheckCosts, costsJson(record_, results));
-    write(kCheckSeries, seriesCsv(checkSeries(record_.cases, record_.runs, record_.outcomes, record_.folder)));
+    write(kCheckSeries, seriesCsv(checkSeries(record_.cases, record_.runs, record_.outcomes)));
     fmt::print("{}\n", checkText(record_, results));
     if (options_.sweep.plot)
       output::drawPicture("check.py", {record_.folder / kCheckFile, record_.folder / kCheckCosts},
@@ -198,7 +230,7 @@ private:
       fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
                                         [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
-    keepCheck(scene_, json, static_cast<int>(finished), record_.folder);
+    keepCheck(origin_, json, static_cast<int>(finished), record_.folder);
     if (results.skin == SameBits::no)
       throw base::SimulationError(
           "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
@@ -208,6 +240,8 @@ private:
   const support::Stopwatch clock_;
   const std::vector<std::string> fixed_;
   const scene::Scene scene_;
+  std::string origin_;            ///< checkOrigin()
+  std::vector<std::string> made_; ///< names of runs that this call has made
   CheckRecord record_;
 };
 

@@ -6,6 +6,7 @@
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/sweeps/bed_sides.hpp"
 #include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/scene_check.hpp"
 
@@ -62,15 +63,16 @@ private:
            double costOfStep = 1, int refinement = 0) {
     CheckCase c;
     c.axis = axis, c.name = name, c.what = what, c.overrides = overrides, c.refinement = refinement;
-    c.cost = std::ldexp(1.0, refinement); // where it is refused, and nothing more is known
+    c.cost = c.settling = std::ldexp(1.0, refinement); // where it is refused, and nothing more is known
     try {
       Overrides all = fixed_;
       for (const std::string& o : overrides) putOverride(all, o);
       const scene::Scene scene = setup::loadScene(file_, all);
       checkScene(scene);
       const double grains = static_cast<double>(setup::plannedGrains(scene));
-      const double steps = step_ / setup::chooseTimeStep(scene) * scene.run.duration / scene_.run.duration;
-      c.cost = costOfStep * (scene_.run.tolerance ? 1 : steps) * (grains_ > 0 ? std::max(grains, 1.0) / grains_ : 1);
+      const double steps = scene_.run.tolerance ? 1 : step_ / setup::chooseTimeStep(scene);
+      c.settling = costOfStep * steps * (grains_ > 0 ? std::max(grains, 1.0) / grains_ : 1);
+      c.cost = c.settling * (scene_.run.tolerance ? 1 : scene.run.duration / scene_.run.duration);
     } catch (const base::InputError& error) {
       c.refused = error.what();
     }
@@ -125,6 +127,8 @@ private:
   void addWidth() {
     const scene::Terrain* t = bed();
     if (!t) return omit(CheckAxis::width, "no bed of grains");
+    if (const std::string other = surfaceAtSides(scene_, kLarger); !other.empty())
+      return omit(CheckAxis::width, fmt::format("{} stands at the bed's sides, and would not move with them", other));
     const double width = kLarger * t->size[1];
     Overrides overrides = {fmt::format("terrain.size=[{}, {}]", t->size[0], width)};
     if (t->tile) overrides.push_back(fmt::format("terrain.tile=[{}, {}]", (*t->tile)[0], kLarger * (*t->tile)[1]));

@@ -25,8 +25,9 @@ struct CheckCase {
   std::string what;                   ///< "time step 5e-05 s"
   std::vector<std::string> overrides; ///< "key=value"
   int refinement = 0;                 ///< of the step: it is 2^-refinement of the base's
-  double cost = 1;                    ///< of a run over that of the base, from the numbers of steps and grains [-]
-  std::string refused;                ///< why it cannot be run; empty where it can
+  double cost = 1;     ///< of a run's steps over those of the base, from the numbers of steps and grains [-]
+  double settling = 1; ///< of its bed's settling over that of the base's, likewise [-]
+  std::string refused; ///< why it cannot be run; empty where it can
 };
 
 /// Why an axis is no question of this scene.
@@ -45,7 +46,8 @@ struct CheckCases {
 ///
 /// step: h/2 and 2 h; h/2, h/4, h/8, 2 h, 4 h where seeds make no difference. Steps fall on the same output times.
 /// A scene with run.tolerance has that varied instead.
-/// depth, width: + 50 %, width along y, of a granular terrain. floor: smooth instead of rough, and the other way.
+/// depth, width: + 50 %, width along y, of a granular terrain; no width where a plane, box, cylinder or mesh stands at
+/// the bed's sides, for it would stay where it is. floor: smooth instead of rough, and the other way.
 /// grain size: radii x 0.8 in the same soil; stiffness of linear contacts and cohesion shrink with the radius, so that
 /// strains and strength stay (C. Thakur et al., 2015).
 /// spheres: those of vehicle and meshes at half their radius. skin: 1.5 times. precision: the other one.

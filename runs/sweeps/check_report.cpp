@@ -98,7 +98,9 @@ Json caseJson(const CheckRecord& record, std::size_t c) {
 }
 
 /// "-0.0004 +- 0.0031", with a sign.
-std::string changeText(const support::Estimate& change) { return (change.value < 0 ? "" : "+") + valueText(change); }
+std::string changeText(const support::Estimate& change) {
+  return (change.value < 0 ? "" : "+") + studies::valueText(change);
+}
 
 /// "-0.5 +- 4.2 %"; empty where the value may as well be zero.
 std::string shareText(const CheckFigure& f, const support::Estimate& change) {
@@ -116,12 +118,6 @@ std::string remark(const CheckResults& results, const CheckFigure& f, const Axis
   return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
 }
 
-/// Not what is missing, or rounding of zero in all runs.
-bool isTold(const CheckFigure& f) {
-  constexpr double kRounding = 1e-12;
-  return std::isfinite(f.value.value) && (std::fabs(f.value.value) > kRounding || f.bar > kRounding);
-}
-
 std::string cheapestText(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::vector<std::string> parts;
   for (const double percent : kPercents) {
@@ -137,8 +133,8 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
 
 /// All axes of a figure that scatters.
 std::string linesOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
-  std::string text = fmt::format("{}  {}\n", f.name, valueText({f.value.value, f.bar}));
-  text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", valueText(f.value),
+  std::string text = fmt::format("{}  {}\n", f.name, studies::valueText({f.value.value, f.bar}));
+  text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", studies::valueText(f.value),
                       shareText(f, {0, f.value.halfWidth}), f.seeds);
   for (const AxisError& e : f.errors)
     text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", base::wordOf(e.axis), changeText(e.change),
@@ -153,7 +149,7 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
     if (e.axis == CheckAxis::step) order = remark(results, f, e);
   const Cheapest c = cheapest(record, results, f, kPercents[2]);
   const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : kNone;
-  return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, valueText({f.value.value, f.bar}),
+  return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, studies::valueText({f.value.value, f.bar}),
                      std::isfinite(share) ? fmt::format("{:.2g} %", share) : "", order,
                      c.name.empty() ? "" : "1 %: " + c.name);
 }
@@ -180,8 +176,8 @@ std::string cellsOf(const std::vector<std::string>& cells, const char* tag = "td
 std::string figureRows(const CheckRecord& record, const CheckResults& results) {
   std::string rows;
   for (const CheckFigure& f : results.figures) {
-    rows += cellsOf({f.name, valueText({f.value.value, f.bar}),
-                     results.seeded ? fmt::format("seeds ({})", f.seeds) : "value", valueText(f.value),
+    rows += cellsOf({f.name, studies::valueText({f.value.value, f.bar}),
+                     results.seeded ? fmt::format("seeds ({})", f.seeds) : "value", studies::valueText(f.value),
                      shareText(f, {0, f.value.halfWidth}), "",
                      isHeadline(results, f) ? cheapestText(record, results, f) : ""});
     for (const AxisError& e : f.errors)
@@ -193,39 +189,21 @@ std::string figureRows(const CheckRecord& record, const CheckResults& results) {
 
 } // namespace
 
-std::string valueText(const support::Estimate& e) {
-  if (!std::isfinite(e.value)) return "-";
-  const bool hasWidth = std::isfinite(e.halfWidth) && e.halfWidth > 0;
-  const double scale = hasWidth ? e.halfWidth : 0.001 * std::fabs(e.value);
-  const double size = std::max(std::fabs(e.value), scale);
-  const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // of the digits shown
-  if (size >= 1e6 || (size > 0 && size < 1e-3)) {                                        // one power of ten for both
-    const int power = static_cast<int>(std::floor(std::log10(size)));
-    const double unit = std::pow(10.0, power);
-    const int digits = std::clamp(power - last, 0, 9);
-    const std::string text = fmt::format("{:.{}f}", e.value / unit, digits);
-    return e.halfWidth == 0
-               ? fmt::format("{}e{}", text, power)
-               : fmt::format("({} +- {})e{}", text,
-                             std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
-                             power);
-  }
-  constexpr int kMostDigits = 9;
-  if (hasWidth && -last > kMostDigits) return fmt::format("{:.10g} +- {:.1e}", e.value, e.halfWidth);
-  const int digits = std::clamp(-last, 0, kMostDigits);
-  if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
-  return studies::plusMinus(e, digits);
-}
-
-CaseCost costOf(const CheckRecord& record, std::size_t aCase) {
-  std::vector<double> wall, cpu, steps;
+std::vector<CaseCost> costsOf(const CheckRecord& record) {
+  struct Taken {
+    std::vector<double> wall, cpu, steps;
+  };
+  std::vector<Taken> taken(record.cases.cases.size());
   for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
-    if (record.runs.caseOf[r] != aCase || record.outcomes[r].status != RunStatus::finished) continue;
+    if (record.outcomes[r].status != RunStatus::finished) continue;
     const RunManifest manifest(record.folder / record.runs.plan.runs[r].name);
-    wall.push_back(manifest.number("wall_time_s")), cpu.push_back(manifest.figure("cpu_steps_s"));
-    steps.push_back(manifest.number("steps"));
+    Taken& of = taken[record.runs.caseOf[r]];
+    of.wall.push_back(manifest.number("wall_time_s")), of.cpu.push_back(manifest.figure("cpu_steps_s"));
+    of.steps.push_back(manifest.number("steps"));
   }
-  return {medianOf(wall), medianOf(cpu), medianOf(steps)};
+  std::vector<CaseCost> costs;
+  for (const Taken& of : taken) costs.push_back({medianOf(of.wall), medianOf(of.cpu), medianOf(of.steps)});
+  return costs;
 }
 
 CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
@@ -253,7 +231,7 @@ Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const 
     // What the step leaves of the bar is for the seeds.
     const int seeds =
         results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth, figure.seeds) : 1;
-    const double wall = costOf(record, results.stepCases[i]).wall * seeds;
+    const double wall = record.costs[results.stepCases[i]].wall * seeds;
     if (seeds > 0 && wall < best.wall) best = {record.cases.cases[results.stepCases[i]].name, bar / value, seeds, wall};
   }
   return best;
@@ -285,7 +263,7 @@ std::string costsJson(const CheckRecord& record, const CheckResults& results) {
   Json json{{"scene", record.scene}, {"machine", support::machineText()}};
   json["cases"] = Json::array();
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
-    const CaseCost cost = costOf(record, c);
+    const CaseCost& cost = record.costs[c];
     json["cases"].push_back({{"name", record.cases.cases[c].name},
                              {"wall_s", numberOf(cost.wall)},
                              {"cpu_s", numberOf(cost.cpu)},
@@ -304,6 +282,12 @@ std::string costsJson(const CheckRecord& record, const CheckResults& results) {
     json["cheapest"].push_back(row);
   }
   return json.dump(1) + "\n";
+}
+
+bool isTold(const CheckFigure& figure) {
+  constexpr double kRounding = 1e-12;
+  const double rounding = kRounding * figure.scale;
+  return std::isfinite(figure.value.value) && (std::fabs(figure.value.value) > rounding || figure.bar > rounding);
 }
 
 bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
@@ -337,7 +321,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckPage);
   text += "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
-    const CaseCost cost = costOf(record, c);
+    const CaseCost& cost = record.costs[c];
     const CaseStatus status = statusOf(record, c);
     text += fmt::format("  {:<14} {:<44} {}{}\n", record.cases.cases[c].name, record.cases.cases[c].what,
                         std::isfinite(cost.wall) ? fmt::format("{:.3g} s each, {:.3g} s of CPU", cost.wall, cost.cpu)
@@ -368,7 +352,7 @@ std::string checkPage(const CheckRecord& record, const CheckResults& results) {
           cellsOf({"case", "what", "status", "wall time of one [s]", "CPU time of its steps [s]", "steps"}, "th");
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.4g}", v) : "-"; };
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
-    const CaseCost cost = costOf(record, c);
+    const CaseCost& cost = record.costs[c];
     const CaseStatus status = statusOf(record, c);
     page += cellsOf({record.cases.cases[c].name, record.cases.cases[c].what,
                      status.word + (status.message.empty() ? "" : ": " + status.message), number(cost.wall),

@@ -10,22 +10,25 @@
 /// What a check leaves: as text, as files, and as a page.
 namespace grouser::sweeps {
 
+/// What the runs of one case took: medians of those that ended; NaN where none has.
+struct CaseCost {
+  double wall = 0, cpu = 0; ///< [s] a run, preparation included; in steps alone, all threads together
+  double steps = 0;
+};
+
 /// All that a report tells of, but for the results themselves.
 struct CheckRecord {
   std::filesystem::path folder; ///< of the check
   CheckCases cases;
   CheckRuns runs;
   std::vector<SweepOutcome> outcomes;
+  std::vector<CaseCost> costs;           ///< [cases] see costsOf()
   std::vector<std::size_t> beyondBudget; ///< cases that the budget left out
   std::string scene, origin;             ///< its file; hash of what decides its results
 };
 
-/// What the runs of one case took: medians of those that ended; NaN where none has.
-struct CaseCost {
-  double wall = 0, cpu = 0; ///< [s] a run, preparation included; in steps alone, all threads together
-  double steps = 0;
-};
-CaseCost costOf(const CheckRecord& record, std::size_t aCase);
+/// [cases] from the manifests of the runs.
+std::vector<CaseCost> costsOf(const CheckRecord& record);
 
 /// "finished", "failed", "refused", "left out", "not begun", with the message behind it where there is one.
 struct CaseStatus {
@@ -53,11 +56,11 @@ std::string checkText(const CheckRecord& record, const CheckResults& results);
 /// All figures as a page, with the picture where it has been drawn.
 std::string checkPage(const CheckRecord& record, const CheckResults& results);
 
+/// Whether a figure says more than that something is zero: it is known, and itself or its bar is above rounding, 1e-12
+/// of its scale.
+bool isTold(const CheckFigure& figure);
 /// Of a vehicle the figures one asks for first, of surfaces forces, else all.
 bool isHeadline(const CheckResults& results, const CheckFigure& figure);
-
-/// "0.0729 +- 0.0090": so many digits that the half width has two.
-std::string valueText(const support::Estimate& estimate);
 
 inline constexpr const char *kCheckFile = "check.json", *kCheckCosts = "costs.json", *kCheckSeries = "series.csv",
                             *kCheckPage = "check.html", *kCheckPlot = "check.png", *kCheckChoice = "choice.json";

@@ -2,12 +2,12 @@
 #include "runs/sweeps/check_results.hpp"
 
 #include "runs/sweeps/run_manifest.hpp"
-#include "runs/sweeps/run_series.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace grouser::sweeps {
 
@@ -22,59 +22,49 @@ SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& o
                        const std::filesystem::path& folder, bool hasVehicle) {
   SweepFigures figures = sweepFigures(runs.plan, outcomes, folder);
   if (hasVehicle) return figures;
-  std::vector<std::string> added;
-  std::vector<std::vector<std::pair<std::string, double>>> ends(runs.plan.runs.size());
+  std::map<std::string, std::size_t> columnOf; // of what is added
   for (std::size_t r = 0; r < runs.plan.runs.size(); ++r) {
     if (outcomes[r].status != RunStatus::finished) continue;
-    const RunSeries series = readSeries(folder / runs.plan.runs[r].name);
+    const RunSeries& series = runs.series[r];
     for (std::size_t c = 0; c < series.columns.size(); ++c) {
       if (series.values[c].empty() || series.columns[c].starts_with("terrain.rebuilds")) continue;
       const std::string name = series.columns[c] + " at the end";
-      ends[r].emplace_back(name, series.values[c].back());
-      if (std::find(added.begin(), added.end(), name) == added.end()) added.push_back(name);
+      const auto [at, isNew] = columnOf.try_emplace(name, figures.columns.size());
+      if (isNew) figures.columns.push_back(name);
+      figures.values[r].resize(std::max(figures.values[r].size(), at->second + 1), kNone);
+      figures.values[r][at->second] = series.values[c].back();
     }
   }
-  for (const std::string& name : added) {
-    figures.columns.push_back(name);
-    for (std::size_t r = 0; r < ends.size(); ++r) {
-      const auto at = std::find_if(ends[r].begin(), ends[r].end(), [&](const auto& e) { return e.first == name; });
-      figures.values[r].push_back(at == ends[r].end() ? kNone : at->second);
-    }
-  }
+  for (std::vector<double>& row : figures.values) row.resize(figures.columns.size(), kNone);
   return figures;
 }
 
 /// Values of one figure by case and seed.
 class Values {
 public:
-  Values(const CheckRuns& runs, const SweepFigures& figures, std::size_t column)
+  Values(const RunsByCase& runs, const SweepFigures& figures, std::size_t column)
       : runs_(runs), figures_(figures), column_(column) {}
 
   std::vector<double> of(std::size_t aCase) const {
     std::vector<double> values;
-    for (std::size_t r = 0; r < runs_.caseOf.size(); ++r)
-      if (runs_.caseOf[r] == aCase && std::isfinite(at(r))) values.push_back(at(r));
+    for (const std::size_t run : runs_.of(aCase))
+      if (std::isfinite(at(run))) values.push_back(at(run));
     return values;
   }
   /// Differences from case `from` to case `to`, seed by seed, of the seeds that both have, and `third` where it is one.
   std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
-    const std::map<std::int64_t, double> a = bySeed(from), b = bySeed(to);
-    const std::map<std::int64_t, double> c = third ? bySeed(*third) : a;
+    std::vector<std::size_t> cases = {from, to};
+    if (third) cases.push_back(*third);
     std::vector<double> found;
-    for (const auto& [seed, value] : a)
-      if (const auto other = b.find(seed); other != b.end() && c.contains(seed)) found.push_back(other->second - value);
+    for (const std::vector<std::size_t>& same : runs_.sharing(cases))
+      if (std::all_of(same.begin(), same.end(), [this](std::size_t run) { return std::isfinite(at(run)); }))
+        found.push_back(at(same[1]) - at(same[0]));
     return found;
   }
 
 private:
-  std::map<std::int64_t, double> bySeed(std::size_t aCase) const {
-    std::map<std::int64_t, double> values;
-    for (std::size_t r = 0; r < runs_.caseOf.size(); ++r)
-      if (runs_.caseOf[r] == aCase && std::isfinite(at(r))) values[runs_.seedOf[r]] = at(r);
-    return values;
-  }
   double at(std::size_t run) const { return figures_.values[run][column_]; }
-  const CheckRuns& runs_;
+  const RunsByCase& runs_;
   const SweepFigures& figures_;
   std::size_t column_;
 };
@@ -212,17 +202,32 @@ private:
   CheckFigure figure_;
 };
 
+/// "m" of "depth [m] at the end"; empty where there is none.
+std::string unitOf(const std::string& name) {
+  const std::size_t from = name.rfind('['), to = name.find(']', from);
+  return from == std::string::npos || to == std::string::npos ? "" : name.substr(from + 1, to - from - 1);
+}
+
+/// To each figure the largest value among those of its unit.
+void findScales(std::vector<CheckFigure>& figures) {
+  std::map<std::string, double> largest;
+  for (const CheckFigure& f : figures) {
+    double& of = largest[unitOf(f.name)];
+    if (std::isfinite(f.value.value)) of = std::max(of, std::fabs(f.value.value));
+  }
+  for (CheckFigure& f : figures) f.scale = largest[unitOf(f.name)];
+}
+
 /// Whether the runs of the skin's case end in the bits of the base's with the same seed.
-SameBits sameBits(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                  const std::filesystem::path& folder) {
+SameBits sameBits(const CheckCases& cases, const RunsByCase& byCase, const CheckRuns& runs,
+                  const std::vector<SweepOutcome>& outcomes, const std::filesystem::path& folder) {
   SameBits same = SameBits::notRun;
-  for (std::size_t r = 0; r < runs.caseOf.size(); ++r) {
-    if (cases.cases[runs.caseOf[r]].axis != CheckAxis::skin || outcomes[r].status != RunStatus::finished) continue;
-    for (std::size_t b = 0; b < runs.caseOf.size(); ++b) {
-      if (runs.caseOf[b] != 0 || runs.seedOf[b] != runs.seedOf[r] || outcomes[b].status != RunStatus::finished)
-        continue;
-      const std::string one = RunManifest(folder / runs.plan.runs[r].name).text("state_hash"),
-                        other = RunManifest(folder / runs.plan.runs[b].name).text("state_hash");
+  for (std::size_t c = 0; c < cases.cases.size(); ++c) {
+    if (cases.cases[c].axis != CheckAxis::skin) continue;
+    for (const std::vector<std::size_t>& pair : byCase.sharing({0, c})) {
+      if (outcomes[pair[0]].status != RunStatus::finished || outcomes[pair[1]].status != RunStatus::finished) continue;
+      const std::string one = RunManifest(folder / runs.plan.runs[pair[1]].name).text("state_hash"),
+                        other = RunManifest(folder / runs.plan.runs[pair[0]].name).text("state_hash");
       if (one.empty() || other.empty()) continue;
       if (one != other) return SameBits::no;
       same = SameBits::yes;
@@ -233,25 +238,54 @@ SameBits sameBits(const CheckCases& cases, const CheckRuns& runs, const std::vec
 
 } // namespace
 
+RunsByCase::RunsByCase(const CheckRuns& runs, std::size_t cases) : members_(cases) {
+  for (std::size_t r = 0; r < runs.caseOf.size(); ++r) members_[runs.caseOf[r]].push_back({runs.seedOf[r], r});
+  for (std::vector<Member>& all : members_)
+    std::sort(all.begin(), all.end(), [](const Member& a, const Member& b) { return a.seed < b.seed; });
+}
+
+std::vector<std::size_t> RunsByCase::of(std::size_t aCase) const {
+  std::vector<std::size_t> all;
+  for (const Member& m : members_[aCase]) all.push_back(m.run);
+  return all;
+}
+
+std::vector<std::vector<std::size_t>> RunsByCase::sharing(const std::vector<std::size_t>& cases) const {
+  std::vector<std::vector<std::size_t>> rows;
+  std::vector<std::size_t> next(cases.size(), 0);
+  for (const Member& first : members_[cases.front()]) {
+    std::vector<std::size_t> row = {first.run};
+    for (std::size_t k = 1; k < cases.size(); ++k) {
+      const std::vector<Member>& other = members_[cases[k]];
+      while (next[k] < other.size() && other[next[k]].seed < first.seed) ++next[k];
+      if (next[k] < other.size() && other[next[k]].seed == first.seed) row.push_back(other[next[k]].run);
+    }
+    if (row.size() == cases.size()) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                           const std::filesystem::path& folder, double percent) {
   CheckResults results;
   results.seeded = cases.seeded, results.percent = percent;
-  results.skin = sameBits(cases, runs, outcomes, folder);
+  const RunsByCase byCase(runs, cases.cases.size());
+  results.skin = sameBits(cases, byCase, runs, outcomes, folder);
   const bool hasVehicle = !runs.plan.runs.empty() && runs.plan.runs.front().scene.vehicle.has_value();
   const SweepFigures figures = figuresOf(runs, outcomes, folder, hasVehicle);
   for (std::size_t c = 0; c < cases.cases.size(); ++c) {
     const CheckAxis axis = cases.cases[c].axis;
-    bool finished = false;
-    for (std::size_t r = 0; r < runs.caseOf.size(); ++r)
-      finished = finished || (runs.caseOf[r] == c && outcomes[r].status == RunStatus::finished);
+    const std::vector<std::size_t> own = byCase.of(c);
+    const bool finished =
+        std::any_of(own.begin(), own.end(), [&](std::size_t r) { return outcomes[r].status == RunStatus::finished; });
     if (finished && (axis == CheckAxis::step || axis == CheckAxis::base)) results.stepCases.push_back(c);
   }
   for (std::size_t column = 0; column < figures.columns.size(); ++column) {
-    const Values values(runs, figures, column);
+    const Values values(byCase, figures, column);
     if (values.of(0).empty()) continue;
     results.figures.push_back(FigureMaker(cases, values, percent).make(figures.columns[column], results.stepCases));
   }
+  findScales(results.figures);
   return results;
 }
 

@@ -3,6 +3,7 @@
 
 #include "runs/sweeps/check_cases.hpp"
 #include "runs/sweeps/check_errors.hpp"
+#include "runs/sweeps/run_series.hpp"
 #include "runs/sweeps/sweep_summary.hpp"
 
 #include <filesystem>
@@ -18,6 +19,26 @@ struct CheckRuns {
   SweepPlan plan;                   ///< keys: kCaseKey, kSeedKey
   std::vector<std::size_t> caseOf;  ///< [runs] index into CheckCases::cases
   std::vector<std::int64_t> seedOf; ///< [runs]
+  std::vector<RunSeries>
+      series; ///< [runs] of those that have finished; all rows where hasPartInSeries(), else the last
+};
+
+/// The runs of each case in the order of their seeds.
+class RunsByCase {
+public:
+  /// Of `cases` cases.
+  RunsByCase(const CheckRuns& runs, std::size_t cases);
+  /// All runs of a case.
+  std::vector<std::size_t> of(std::size_t aCase) const;
+  /// For each seed that all of these cases have their runs with it, in the order of the cases: found in one pass.
+  std::vector<std::vector<std::size_t>> sharing(const std::vector<std::size_t>& cases) const;
+
+private:
+  struct Member {
+    std::int64_t seed;
+    std::size_t run;
+  };
+  std::vector<std::vector<Member>> members_; ///< [cases]
 };
 
 /// Error of a figure by one axis.
@@ -34,6 +55,7 @@ struct AxisError {
 struct CheckFigure {
   std::string name;        ///< with its unit: "sinkage mean [m]"
   support::Estimate value; ///< of the base; half width over the seeds, 0 where seeds make no difference
+  double scale = 0;        ///< largest value of all figures of its unit, by which rounding is told
   int seeds = 0;           ///< runs behind it
   std::vector<AxisError> errors;
   /// totalBar() of all but precision where seeds count; infinite where seeds make no difference and no run with a finer

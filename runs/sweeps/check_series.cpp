@@ -2,7 +2,6 @@
 #include "runs/sweeps/check_series.hpp"
 
 #include "runs/support/csv_cell.hpp"
-#include "runs/sweeps/run_series.hpp"
 
 #include <fmt/format.h>
 
@@ -17,23 +16,21 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A run's series, its case and its seed.
+/// A run's series and its seed.
 struct Member {
-  std::size_t aCase;
   int refinement; ///< of the step
   std::int64_t seed;
-  RunSeries series;
+  const RunSeries* series;
 };
 
 /// Those of the base and of finer steps that have ended.
-std::vector<Member> membersOf(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                              const std::filesystem::path& folder) {
+std::vector<Member> membersOf(const CheckCases& cases, const CheckRuns& runs,
+                              const std::vector<SweepOutcome>& outcomes) {
   std::vector<Member> members;
   for (std::size_t r = 0; r < runs.caseOf.size(); ++r) {
     const CheckCase& c = cases.cases[runs.caseOf[r]];
-    const bool ofStep = c.axis == CheckAxis::base || (c.axis == CheckAxis::step && c.refinement > 0);
-    if (!ofStep || outcomes[r].status != output::RunStatus::finished) continue;
-    members.push_back({runs.caseOf[r], c.refinement, runs.seedOf[r], readSeries(folder / runs.plan.runs[r].name)});
+    if (hasPartInSeries(c) && outcomes[r].status == output::RunStatus::finished)
+      members.push_back({c.refinement, runs.seedOf[r], &runs.series[r]});
   }
   return members;
 }
@@ -72,32 +69,45 @@ double stepBar(const Cell& cell, bool seeded) {
   return changes.empty() ? kNone : scatteredStepError(changes, {}).bar;
 }
 
-/// One column of all members at one time.
-Cell cellOf(const std::vector<Member>& members, const std::string& column, std::size_t row) {
-  Cell cell;
-  for (const Member& m : members)
-    if (const std::vector<double>* values = m.series.of(column); values && std::isfinite((*values)[row]))
-      cell[m.refinement][m.seed] = (*values)[row];
-  return cell;
-}
+/// One column of the members that have it.
+struct Column {
+  std::vector<const Member*> members;
+  std::vector<const std::vector<double>*> values; ///< of each, all rows
+
+  Column(const std::vector<Member>& all, const std::string& name) {
+    for (const Member& m : all)
+      if (const std::vector<double>* found = m.series->of(name)) members.push_back(&m), values.push_back(found);
+  }
+  Cell at(std::size_t row) const {
+    Cell cell;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (const double value = (*values[k])[row]; std::isfinite(value))
+        cell[members[k]->refinement][members[k]->seed] = value;
+    return cell;
+  }
+};
 
 } // namespace
 
-CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                        const std::filesystem::path& folder) {
-  std::vector<Member> members = membersOf(cases, runs, outcomes, folder);
+bool hasPartInSeries(const CheckCase& aCase) {
+  return aCase.axis == CheckAxis::base || (aCase.axis == CheckAxis::step && aCase.refinement > 0);
+}
+
+CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes) {
+  std::vector<Member> members = membersOf(cases, runs, outcomes);
   CheckSeries all;
   const auto base = std::find_if(members.begin(), members.end(), [](const Member& m) { return m.refinement == 0; });
   if (base == members.end()) return all;
-  const RunSeries first = base->series;
-  std::erase_if(members, [&](const Member& m) { return !sameTimes(m.series, first); });
+  const RunSeries& first = *base->series;
+  std::erase_if(members, [&](const Member& m) { return !sameTimes(*m.series, first); });
   all.time = first.time;
   for (const std::string& column : first.columns) {
     if (column.starts_with("terrain.rebuilds")) continue; // of the search, not of the ground
     SeriesWithBars& s = all.series.emplace_back();
     s.name = column;
+    const Column ofColumn(members, column);
     for (std::size_t row = 0; row < all.time.size(); ++row) {
-      const Cell cell = cellOf(members, column, row);
+      const Cell cell = ofColumn.at(row);
       std::vector<double> values;
       if (const auto at = cell.find(0); at != cell.end())
         for (const auto& [seed, value] : at->second) values.push_back(value);

@@ -3,7 +3,6 @@
 
 #include "runs/sweeps/check_results.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,10 +21,12 @@ struct CheckSeries {
   std::vector<SeriesWithBars> series;
 };
 
+/// Whether the runs of a case have a part in the series: those of the base and of finer steps.
+bool hasPartInSeries(const CheckCase& aCase);
+
 /// Of the base's runs; a number that is not known is NaN. Series that the finer runs have not, or at other times, have
 /// no error by the step.
-CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                        const std::filesystem::path& folder);
+CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes);
 
 /// As text: time, and for each series its value and the three half widths.
 std::string seriesCsv(const CheckSeries& series);

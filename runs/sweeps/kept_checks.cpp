@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
-#include "runs/setup/provenance.hpp"
+#include "runs/studies/estimate.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/text_file.hpp"
@@ -28,15 +28,6 @@ namespace fs = std::filesystem;
 
 constexpr int kSeedsOfCheck = 8; // of a whole one
 
-/// The resolved scene without what its figures do not depend on.
-std::string originText(scene::Scene scene) {
-  const scene::RunSettings fresh;
-  scene.run.seed = fresh.seed, scene.run.frameInterval = fresh.frameInterval;
-  scene.run.checkpointInterval = fresh.checkpointInterval;
-  scene.output = {}, scene.parallel = {};
-  return identity(scene) + setup::inputsOf(scene);
-}
-
 nlohmann::json readJson(const fs::path& path) {
   std::ifstream file(path);
   return nlohmann::json::parse(file, nullptr, false);
@@ -47,9 +38,8 @@ double numberOf(const nlohmann::json& json, const char* key) {
   return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::infinity();
 }
 
-/// The check that is kept of this scene; no object where there is none.
-nlohmann::json keptCheck(const scene::Scene& scene) {
-  const std::string origin = originText(scene);
+/// The check that is kept of a scene of this origin; no object where there is none.
+nlohmann::json keptCheck(const std::string& origin) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept) return {};
   nlohmann::json json = readJson(kept->fileOf(support::KeptFiles::Kind::check, origin));
@@ -76,7 +66,7 @@ std::string barsText(const nlohmann::json& kept) {
     if (told > kMost) continue;
     if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
     text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
-                        valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
+                        studies::valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
   }
   if (more > 0) text += fmt::format("  and {} more\n", more);
   return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,
@@ -106,20 +96,27 @@ std::string commandOf(const scene::Scene& scene) {
 
 } // namespace
 
-std::string checkOrigin(const scene::Scene& scene) {
+std::string checkOrigin(scene::Scene scene, const std::string& inputs) {
+  const scene::RunSettings fresh;
+  scene.run.seed = fresh.seed, scene.run.frameInterval = fresh.frameInterval;
+  scene.run.checkpointInterval = fresh.checkpointInterval;
+  scene.output = {}, scene.parallel = {};
+  return identity(scene) + inputs;
+}
+
+std::string hashOfOrigin(const std::string& origin) {
   base::StateHash hash;
-  for (const char c : originText(scene)) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  for (const char c : origin) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   return hash.hex();
 }
 
-void keepCheck(const scene::Scene& scene, const std::string& json, int runs, const fs::path& folder) {
+void keepCheck(const std::string& origin, const std::string& json, int runs, const fs::path& folder) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept || !kept->writable()) return;
-  const std::string origin = originText(scene);
   const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin);
   const fs::path fresh = support::KeptFiles::freshName(file);
   try {
-    const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(scene);
+    const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(origin);
     if (former.is_object() && former.value("runs", 0) > runs &&
         former.at("check").at("program").at("commit") == check.at("program").at("commit"))
       return;
@@ -133,9 +130,9 @@ void keepCheck(const scene::Scene& scene, const std::string& json, int runs, con
   }
 }
 
-std::string checkNote(const scene::Scene& scene, double runSeconds) {
+std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds) {
   try {
-    const nlohmann::json kept = keptCheck(scene);
+    const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
     if (kept.is_object()) return barsText(kept);
   } catch (const nlohmann::json::exception&) {
     // damaged, or of another version

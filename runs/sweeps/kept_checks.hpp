@@ -9,17 +9,19 @@
 /// The last check of each scene, kept beside settled beds, so that a later run can say how far its figures hold.
 namespace grouser::sweeps {
 
-/// Hash of what decides a scene's results, the bytes of the files that it names with it; seed, output and machine
-/// aside.
-std::string checkOrigin(const scene::Scene& scene);
+/// What decides a scene's results, the bytes of the files that it names with it (`inputs`, see setup::inputsOf()), as
+/// text; seed, output and machine aside.
+std::string checkOrigin(scene::Scene scene, const std::string& inputs);
+/// A hash of it.
+std::string hashOfOrigin(const std::string& origin);
 
 /// Keeps check.json of `folder` for later runs, made of so many of them, unless one of more runs by the same commit is
 /// kept. Nothing is said where it cannot be kept.
-void keepCheck(const scene::Scene& scene, const std::string& json, int runs, const std::filesystem::path& folder);
+void keepCheck(const std::string& origin, const std::string& json, int runs, const std::filesystem::path& folder);
 
-/// For the end of a run of this scene, whose steps and preparation took `runSeconds`: figures with their bars where it
-/// has been checked, else how long `grouser check` would take. Whole lines.
-std::string checkNote(const scene::Scene& scene, double runSeconds);
+/// For the end of a run of this scene with these inputs, whose steps and preparation took `runSeconds`: figures with
+/// their bars where it has been checked, else how long `grouser check` would take. Whole lines.
+std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds);
 
 /// Throws InputError where the folder holds files of other origin in the places of a check's.
 void checkFolderOfCheck(const std::filesystem::path& folder);

@@ -94,6 +94,14 @@ const std::vector<double>* RunSeries::of(const std::string& column) const {
   return at == columns.end() ? nullptr : &values[static_cast<std::size_t>(at - columns.begin())];
 }
 
+void RunSeries::keepEnd() {
+  const auto shorten = [](std::vector<double>& all) {
+    if (all.size() > 1) all = {all.back()};
+  };
+  shorten(time);
+  for (std::vector<double>& column : values) shorten(column);
+}
+
 RunSeries readSeries(const fs::path& folder) {
   constexpr std::size_t kTime = 1, kFirst = 2; // step comes first
   const Table table = readTable(folder / "timeseries.csv");

@@ -16,6 +16,8 @@ struct RunSeries {
 
   /// Values of a column by its name; empty where there is none.
   const std::vector<double>* of(const std::string& column) const;
+  /// Forgets all rows but the last.
+  void keepEnd();
 };
 
 /// Of scenes with so few grains each of them is a quantity of its own: "grain.3.position.z [m]".

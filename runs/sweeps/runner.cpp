@@ -125,7 +125,9 @@ public:
   Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
       : plan_(plan), options_(options), changed_(changed), outcomes_(plan.runs.size()), progress_(what) {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-      if (!options.force && isFinished(folder(i), plan.runs[i].scene)) {
+      const bool anew =
+          options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
+      if (!anew && isFinished(folder(i), plan.runs[i].scene)) {
         outcomes_[i].status = RunStatus::finished;
         progress_.note(fmt::format("{} finished already", title(i)));
       } else {

@@ -18,6 +18,7 @@ struct SweepOptions {
   int jobs = 1;                  ///< runs at the same time
   double seconds = 0;            ///< no run is begun after so many; 0: no end
   bool force = false;            ///< run again what has already been run, and overwrite folders of other origin
+  std::vector<std::string> made; ///< names of runs that `force` does not run again: made a moment ago
   bool plot = true;
 };
 

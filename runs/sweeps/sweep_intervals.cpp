@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace grouser::sweeps {
 
@@ -37,20 +39,27 @@ std::vector<double> valuesOf(const SweepFigures& figures, const std::vector<std:
   return values;
 }
 
-/// Runs of a group, and their seeds.
+/// Runs of a group, in their order, and by seed.
 struct Members {
   std::vector<std::size_t> rows;
-  std::vector<std::string> seeds;
+  std::map<std::string, std::size_t> rowOf;
 };
 
-/// Adds to `of` how far b lies from a, over the seeds that both have.
-void addDifference(const SweepFigures& figures, const Members& a, const Members& b, std::size_t column, SeedGroup& of) {
+/// Runs of a and b that have one seed.
+std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const Members& a, const Members& b) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const auto& [seed, row] : a.rowOf)
+    if (const auto same = b.rowOf.find(seed); same != b.rowOf.end()) pairs.emplace_back(row, same->second);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// Adds to `of` how far the second of each pair of runs lies from the first.
+void addDifference(const SweepFigures& figures, const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                   std::size_t column, SeedGroup& of) {
   std::vector<double> first, second;
-  for (std::size_t i = 0; i < a.rows.size(); ++i) {
-    const auto same = std::find(b.seeds.begin(), b.seeds.end(), a.seeds[i]);
-    if (same == b.seeds.end()) continue;
-    const double x = figures.values[a.rows[i]][column],
-                 y = figures.values[b.rows[static_cast<std::size_t>(same - b.seeds.begin())]][column];
+  for (const auto& [a, b] : pairs) {
+    const double x = figures.values[a][column], y = figures.values[b][column];
     if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y);
   }
   const support::Estimate none{kNone, kNone};
@@ -66,19 +75,12 @@ std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
   return words.empty() ? "all" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// So many digits that the half width has two.
-std::string shown(const support::Estimate& e) {
-  const double scale = std::isfinite(e.halfWidth) && e.halfWidth > 0 ? e.halfWidth : 0.01 * std::fabs(e.value);
-  const int digits = scale > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9) : 3;
-  return studies::plusMinus(e, digits);
-}
-
 /// "+12.3 +- 0.4 %"; in the figure's unit where the first mean may as well be zero, of which shares say nothing.
 std::string differenceText(const support::Estimate& first, const SeedGroup& group, std::size_t column) {
   const support::Estimate &share = group.differences[column], &change = group.changes[column];
   const bool zero = !(std::fabs(first.value) > first.halfWidth) && std::isfinite(first.halfWidth);
   const double value = zero ? change.value : share.value;
-  return fmt::format("{}{}", value < 0 ? "" : "+", zero ? shown(change) : studies::percent(share));
+  return fmt::format("{}{}", value < 0 ? "" : "+", zero ? studies::valueText(change) : studies::percent(share));
 }
 
 } // namespace
@@ -92,26 +94,26 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) 
   all.keys = plan.keys;
   all.keys.erase(all.keys.begin() + at);
   std::vector<Members> members;
+  std::map<std::vector<std::string>, std::size_t> groupOf;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     std::vector<std::string> values = plan.runs[i].values;
     const std::string seedOfRun = values[static_cast<std::size_t>(at)];
     values.erase(values.begin() + at);
-    auto group = std::find_if(all.groups.begin(), all.groups.end(), [&](const auto& g) { return g.values == values; });
-    if (group == all.groups.end()) {
-      group = all.groups.insert(group, SeedGroup{values, 0, {}, {}, {}});
-      members.emplace_back();
-    }
-    Members& m = members[static_cast<std::size_t>(group - all.groups.begin())];
-    m.rows.push_back(i), m.seeds.push_back(seedOfRun);
+    const auto [group, isNew] = groupOf.try_emplace(values, all.groups.size());
+    if (isNew) all.groups.push_back({values, 0, {}, {}, {}}), members.emplace_back();
+    Members& m = members[group->second];
+    m.rows.push_back(i), m.rowOf.try_emplace(seedOfRun, i);
   }
-  for (std::size_t g = 0; g < members.size(); ++g)
+  for (std::size_t g = 0; g < members.size(); ++g) {
+    const std::vector<std::pair<std::size_t, std::size_t>> pairs = pairsOf(members[0], members[g]);
     for (std::size_t c = 0; c < all.columns.size(); ++c) {
       const std::vector<double> values = valuesOf(figures, members[g].rows, c);
       SeedGroup& group = all.groups[g];
       group.runs = std::max(group.runs, static_cast<int>(values.size()));
       group.figures.push_back(values.empty() ? support::Estimate{kNone, kNone} : studies::interval95(values));
-      addDifference(figures, members[0], members[g], c, group);
+      addDifference(figures, pairs, c, group);
     }
+  }
   return all;
 }
 
@@ -143,8 +145,8 @@ std::string intervalsText(const SeedIntervals& intervals) {
     text += intervals.columns[c] + "\n";
     for (const SeedGroup& group : intervals.groups) {
       if (!std::isfinite(group.figures[c].value)) continue;
-      text += fmt::format("  {:<{}}  {:>22}  {} seed{}", named(intervals, group), width, shown(group.figures[c]),
-                          group.runs, group.runs == 1 ? " " : "s");
+      text += fmt::format("  {:<{}}  {:>22}  {} seed{}", named(intervals, group), width,
+                          studies::valueText(group.figures[c]), group.runs, group.runs == 1 ? " " : "s");
       if (&group != &intervals.groups.front() && std::isfinite(group.differences[c].value))
         text += fmt::format("  {:>18}", differenceText(intervals.groups.front().figures[c], group, c));
       text += "\n";

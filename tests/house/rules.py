@@ -19,8 +19,8 @@ LIBRARIES = {
     'assets': {'base'},
 }
 # The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.
-PROGRAM = [['support'], ['scene'], ['setup'], ['simulation'], ['output'], ['render', 'studies', 'bench'], ['sweeps'],
-           ['commands']]
+PROGRAM = [['support'], ['scene'], ['setup'], ['simulation'], ['output'], ['render', 'studies', 'bench'],
+           ['forecast', 'sweeps'], ['commands']]
 # What only keeps or draws needs no physics.
 NARROW = {
     'runs/support': {'base'},

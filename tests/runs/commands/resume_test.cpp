@@ -85,13 +85,13 @@ protected:
                       bool force = false) {
     RunRequest options;
     options.folder = folder, options.hash = true, options.steps = steps, options.force = force;
-    return runScene(scene, options);
+    return runScene(scene, setup::provenanceOf(scene), options);
   }
   output::Summary resume(const scene::Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
     RunRequest options;
     options.folder = resumed_, options.hash = true, options.steps = steps, options.force = force;
     options.resume = resumed_ / simulation::kCheckpointName;
-    return runScene(scene, options);
+    return runScene(scene, setup::provenanceOf(scene), options);
   }
   /// Hash of the run straight through, in folder "straight".
   std::string straight() { return run(folder_ / "straight", bed()).stateHash; }

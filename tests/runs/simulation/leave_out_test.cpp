@@ -123,16 +123,7 @@ TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
   }
 }
 
-TEST(LeaveOut, PlanNamesTheCost) {
-  // On a core: as measured; what is taken several at a time too; what is not.
-  const auto speed = [](const std::vector<std::string>& overrides) {
-    const std::string line = planLine(bed(overrides), "expected time");
-    return line.substr(line.find(", at ") + 5, 7);
-  };
-  EXPECT_EQ(speed({}), "1.7e+07");
-  EXPECT_EQ(speed({"terrain.floor_grains=true", "material.soil.rolling_friction=0.1"}), "1.4e+07");
-  EXPECT_EQ(speed({"material.soil.cohesion=0.1"}), "5.1e+06");
-  EXPECT_EQ(speed({"run.precision=\"double\""}), "5.1e+06");
+TEST(LeaveOut, PlannedContactHistoryIsThatOfFriction) {
   EXPECT_NE(planLine(bed(), "contact history").find(" 96"), std::string::npos) << planLine(bed(), "contact history");
   EXPECT_NE(planLine(bed({"material.soil.friction=0", "terrain.wall_friction=0"}), "contact history").find(" 0"),
             std::string::npos);

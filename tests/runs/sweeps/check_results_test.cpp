@@ -44,16 +44,19 @@ protected:
       std::ofstream(folder / "manifest.json")
           << "{\"wall_time_s\": " << 10 << ", \"state_hash\": \"" << hash << i << "\", \"figures\": {}}\n";
       if (!failed)
-        std::ofstream(folder / "timeseries.csv") << "step,time [s],depth [m],terrain.rebuilds [-]\n0,0,1,0\n1,0.5,"
-                                                 << 2 * values[i] << ",1\n2,1," << values[i] << ",2\n";
+        std::ofstream(folder / "timeseries.csv")
+            << "step,time [s],depth [m],terrain.rebuilds [-],left over [m]\n0,0,1,0,0\n1,0.5," << 2 * values[i]
+            << ",1,0\n2,1," << values[i] << ",2," << leftOver_ << "\n";
+      record_.runs.series.push_back(failed ? RunSeries{} : readSeries(folder));
     }
   }
   sweeps::CheckResults results(double percent = 5) const {
     return checkResults(record_.cases, record_.runs, record_.outcomes, folder_, percent);
   }
-  CheckFigure depth(double percent = 5) const {
+  CheckFigure depth(double percent = 5) const { return figure("depth [m] at the end", percent); }
+  CheckFigure figure(const std::string& name, double percent = 5) const {
     for (const CheckFigure& f : results(percent).figures)
-      if (f.name == "depth [m] at the end") return f;
+      if (f.name == name) return f;
     ADD_FAILURE() << "no such figure";
     return {};
   }
@@ -69,6 +72,7 @@ protected:
   }
 
   CheckRecord record_;
+  double leftOver_ = 0;
 };
 
 TEST_F(CheckResults, DifferencesAreTakenSeedBySeed) {
@@ -136,10 +140,48 @@ TEST_F(CheckResults, TheSkinMustGiveTheSameBits) {
   add(CheckAxis::skin, "skin", 0, {10});
   EXPECT_EQ(results().skin, SameBits::yes);
   record_.cases.cases.pop_back(), record_.runs.plan.runs.pop_back(), record_.outcomes.pop_back();
-  record_.runs.caseOf.pop_back(), record_.runs.seedOf.pop_back();
+  record_.runs.caseOf.pop_back(), record_.runs.seedOf.pop_back(), record_.runs.series.pop_back();
   std::filesystem::remove_all(folder_ / "skin0");
   add(CheckAxis::skin, "skin", 0, {10}, "01");
   EXPECT_EQ(results().skin, SameBits::no);
+}
+
+TEST_F(CheckResults, SeedsArePairedInWhateverOrderTheirRunsAre) {
+  add(CheckAxis::base, "base", 0, {10, 11, 12});
+  add(CheckAxis::width, "wider", 0, {12.2, 10.1, 11.3});
+  record_.runs.seedOf = {1, 2, 3, 3, 1, 2};
+  const AxisError e = errorBy(depth(), CheckAxis::width);
+  EXPECT_EQ(e.seeds, 3);
+  EXPECT_NEAR(e.change.value, 0.2, 1e-12);
+  EXPECT_NEAR(e.change.halfWidth, kStudent * 0.1 / std::sqrt(3.0), 1e-6);
+  record_.runs.seedOf = {1, 2, 3, 4, 5, 2}; // one seed in common
+  EXPECT_EQ(errorBy(depth(), CheckAxis::width).seeds, 1);
+}
+
+TEST_F(CheckResults, OfManySeedsPairsAreFoundInTime) {
+  constexpr int kSeeds = 100'000; // squared it would take a minute
+  CheckRuns runs;
+  for (std::size_t c = 0; c < 2; ++c)
+    for (int s = 0; s < kSeeds; ++s) runs.caseOf.push_back(c), runs.seedOf.push_back(kSeeds - s);
+  const std::vector<std::vector<std::size_t>> pairs = RunsByCase(runs, 2).sharing({0, 1});
+  ASSERT_EQ(pairs.size(), static_cast<std::size_t>(kSeeds));
+  for (const std::vector<std::size_t>& pair : pairs) ASSERT_EQ(pair[1], pair[0] + kSeeds);
+}
+
+TEST_F(CheckResults, RoundingIsToldByTheLargestFigureOfItsUnit) {
+  record_.cases.seeded = false;
+  leftOver_ = 1e-14; // beside a depth of some metres
+  add(CheckAxis::base, "base", 0, {3.8});
+  add(CheckAxis::step, "half", 1, {3.4});
+  EXPECT_TRUE(isTold(depth()));
+  EXPECT_FALSE(isTold(figure("left over [m] at the end")));
+  // The same beside nothing larger than a nanometre is a length.
+  record_ = {}, record_.folder = folder_;
+  std::filesystem::remove_all(folder_ / "base0"), std::filesystem::remove_all(folder_ / "half0");
+  add(CheckAxis::base, "base", 0, {3.8e-9});
+  add(CheckAxis::step, "half", 1, {3.4e-9});
+  EXPECT_TRUE(isTold(depth()));
+  EXPECT_TRUE(isTold(figure("left over [m] at the end")));
 }
 
 TEST_F(CheckResults, WithoutFinerStepsThereIsNoBar) {
@@ -159,6 +201,7 @@ TEST_F(CheckResults, RunsWithoutAHashSayNothingOfTheSkin) {
 TEST_F(CheckResults, TheCheapestSettingHoldsStepAndSeedsTogether) {
   add(CheckAxis::base, "base", 0, {10, 10.1, 9.9, 10});
   add(CheckAxis::step, "half", 1, {9.9, 10.0, 9.8, 9.9});
+  record_.costs = costsOf(record_);
   const Cheapest ten = cheapest(record_, results(), depth(), 10), tenth = cheapest(record_, results(), depth(), 0.1);
   EXPECT_EQ(ten.name, "base");
   EXPECT_EQ(ten.seeds, 2); // t of one degree of freedom times 0.0816 / sqrt(2) is below 0.99
@@ -169,9 +212,9 @@ TEST_F(CheckResults, TheCheapestSettingHoldsStepAndSeedsTogether) {
 TEST_F(CheckResults, SeriesHaveAValueAndABarAtEveryTime) {
   add(CheckAxis::base, "base", 0, {10, 11, 12});
   add(CheckAxis::step, "half", 1, {9.9, 10.9, 11.9});
-  const CheckSeries s = checkSeries(record_.cases, record_.runs, record_.outcomes, folder_);
+  const CheckSeries s = checkSeries(record_.cases, record_.runs, record_.outcomes);
   EXPECT_EQ(s.time, (std::vector<double>{0, 0.5, 1}));
-  ASSERT_EQ(s.series.size(), 1U); // rebuilds are none of the ground's
+  ASSERT_EQ(s.series.size(), 2U); // rebuilds are none of the ground's
   EXPECT_EQ(s.series[0].name, "depth [m]");
   EXPECT_EQ(s.series[0].value, (std::vector<double>{1, 22, 11}));
   EXPECT_NEAR(s.series[0].step[1], 2 * 0.2, 1e-9);

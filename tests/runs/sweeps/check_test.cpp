@@ -4,8 +4,10 @@
 #include "runs/sweeps/check_report.hpp"
 #include "tests/runs/program_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -143,6 +145,82 @@ TEST_F(Check, ABudgetNamesWhatItLeavesOut) {
   EXPECT_EQ(choice(again.out), choice(o.out));
 }
 
+/// A bed of 90 grains that is settled before each run; `more` ends the file.
+std::string bedScene(const std::string& more = "") {
+  return "version = 1\n[run]\nduration = 0.01\noutput_interval = 0.005\nthreads = 1\n[material.sand]\nstiffness = "
+         "1e4\n[terrain]\nheightmap = \"" +
+         std::string(GROUSER_SOURCE_DIR) +
+         "/assets/heightmaps/flat.png\"\nsize = [0.2, 0.12]\nheight_range = [0, 0]\nmaterial = \"sand\"\n"
+         "grain_radius = 0.01\ndepth = 0.05\nsettle_time_limit = 5\n[output]\nplots = false\npicture = false\n"
+         "frames = false\n" +
+         more;
+}
+
+int count(const std::string& text, const std::string& what) {
+  int found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+TEST_F(Check, TheFirstRunOfABudgetSettlesItsBedAlthoughThatOfAnotherSeedIsKept) {
+  std::ofstream(folder_ / "bed.toml") << bedScene();
+  const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
+  const auto settling = [&](const std::string& folder) {
+    return json(folder + "/manifest.json").at("figures").at("wall_settling_s").get<double>();
+  };
+  ASSERT_EQ(call("run bed.toml --out r", keep).code, 0);
+  EXPECT_GT(settling("r"), 0);
+  ASSERT_EQ(call("run bed.toml --out again", keep).code, 0);
+  EXPECT_EQ(settling("again"), 0) << "its bed was kept";
+  const Outcome o = call("check bed.toml --axes skin --seeds 2 --budget 60s --out c", keep);
+  ASSERT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(o.out.find("run 1 of 1  base,seed=2"), std::string::npos) << o.out; // the run's own was kept
+  EXPECT_GT(json("c/choice.json").at("settling_s").get<double>(), 0);
+  // Where all beds are kept their steps tell what settling takes.
+  ASSERT_EQ(call("check bed.toml --axes skin --seeds 2 --budget 60s --out d", keep).code, 0);
+  EXPECT_GT(json("d/choice.json").at("settling_s").get<double>(), 0);
+}
+
+TEST_F(Check, AForcedBudgetMakesItsFirstRunOnce) {
+  writeHeap();
+  const std::string words = "check heap.toml --seeds 2 --axes skin --budget 60s --out c";
+  ASSERT_EQ(call(words).code, 0);
+  const Outcome o = call(words + " --force");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* run : {"base,seed=1", "base,seed=2", "skin,seed=1"})
+    EXPECT_EQ(count(o.out, std::string(run) + std::string(28 - std::string(run).size(), ' ') + " finished in"), 1)
+        << run << "\n"
+        << o.out;
+}
+
+TEST_F(Check, WhatBoundsABedAtItsSidesLeavesTheWidthOut) {
+  const auto width = [](const std::string& more) -> std::string {
+    const auto file = std::filesystem::temp_directory_path() / fmt::format("grouser_sides_{}.toml", getpid());
+    std::ofstream(file) << bedScene(more);
+    const scene::Scene scene = setup::loadScene(file, {});
+    const CheckCases cases = checkCases(file, {}, scene);
+    fs::remove(file);
+    for (const CheckCase& c : cases.cases)
+      if (c.axis == CheckAxis::width) return "run";
+    for (const CheckOmission& o : cases.omitted)
+      if (o.axis == CheckAxis::width) return o.why;
+    return "";
+  };
+  const auto plane = [](const char* point, const char* normal) {
+    return fmt::format("[[plane]]\nname = \"side\"\npoint = {}\nnormal = {}\nmaterial = \"sand\"\n", point, normal);
+  };
+  const auto box = [](const char* position, const char* size) {
+    return fmt::format("[[box]]\nposition = {}\nsize = {}\nmaterial = \"sand\"\n", position, size);
+  };
+  EXPECT_EQ(width(""), "run");
+  EXPECT_EQ(width(plane("[0, 0.06, 0]", "[0, -1, 0]")),
+            "plane 0 (side) stands at the bed's sides, and would not move with them");
+  EXPECT_EQ(width(plane("[0, 0, -0.1]", "[0, 0, 1]")), "run") << "a level plane is the same beside the bed";
+  EXPECT_EQ(width(box("[0.1, 0, 0]", "[0.04, 0.04, 0.3]")), "run") << "a post within it";
+  EXPECT_EQ(width(box("[0.1, -0.07, 0]", "[0.3, 0.02, 0.2]")).substr(0, 14), "box 0 stands a");
+  EXPECT_EQ(width(box("[0.1, -0.2, 0]", "[0.3, 0.02, 0.2]")), "run") << "farther than the wider bed";
+}
+
 TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
   writeFall();
   const std::string keep = "export GROUSER_CACHE=$PWD/cache; ";
@@ -193,6 +271,7 @@ TEST_F(Check, WrongWordsAreRefusedBeforeAnythingIsWritten) {
                                                        {"--axes step,colour", "--axes colour"},
                                                        {"--set run.seed=4", "run.seed"},
                                                        {"--seeds 1", "--seeds"},
+                                                       {"--seeds 1001", "--seeds"},
                                                        {"--bar 0", "--bar"},
                                                        {"--jobs 0", "--jobs"},
                                                        {"--set run.time_step=-1", "time_step"}};

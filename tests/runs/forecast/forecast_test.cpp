@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `grouser plan` tells beforehand: its arithmetic, its count of grains, and what does not fit. How long things
 // take decides no test.
-#include "runs/commands/forecast.hpp"
-#include "runs/commands/machine_fit.hpp"
-#include "runs/commands/probe.hpp"
+#include "runs/forecast/forecast.hpp"
+#include "runs/forecast/machine_fit.hpp"
+#include "runs/forecast/probe.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
@@ -16,7 +16,7 @@
 #include <fstream>
 #include <string>
 
-namespace grouser::commands {
+namespace grouser::forecast {
 
 using namespace test; // fixtures
 
@@ -190,6 +190,7 @@ TEST_F(PlanProgram, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
   EXPECT_NEAR(json["total_s"].get<double>(), sum, 1e-9 * sum);
   EXPECT_GT(json["preparation"]["settling the bed"].get<double>(), 0);
   EXPECT_FALSE(json["output"].contains("plots"));
+  EXPECT_EQ(o.out.find("H200"), std::string::npos) << "of other machines it knows nothing:\n" << o.out;
   int left = 0;
   for (const auto& entry : fs::directory_iterator(folder_)) {
     ++left;
@@ -243,4 +244,4 @@ TEST_F(PlanProgram, MemoryThatTheShellLimitsCounts) {
 }
 
 } // namespace
-} // namespace grouser::commands
+} // namespace grouser::forecast

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/machine_fit.hpp"
+#include "runs/forecast/machine_fit.hpp"
 
 #include "base/error.hpp"
 #include "base/free_memory.hpp"
@@ -16,7 +16,7 @@
 #include <cmath>
 #include <vector>
 
-namespace grouser::commands {
+namespace grouser::forecast {
 
 namespace fs = std::filesystem;
 
@@ -123,4 +123,4 @@ void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::pat
   if (!why.empty()) throw base::InputError(fmt::format("{}: does not fit this machine: {}", scene.file.string(), why));
 }
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

@@ -11,7 +11,7 @@
 #include <string>
 
 /// Whether a run fits its machine, asked before it begins.
-namespace grouser::commands {
+namespace grouser::forecast {
 
 /// What a run takes [bytes].
 struct Demand {
@@ -48,4 +48,4 @@ std::string misfit(const Demand& demand, const Room& room);
 void requireFit(const scene::Scene& scene, const base::Exec& exec, const std::filesystem::path& folder,
                 bool overwritten, bool disk, const base::Ranks* ranks);
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

@@ -8,11 +8,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 /// Pieces of a scene's work, run and timed on this machine.
-namespace grouser::commands {
+namespace grouser::forecast {
 
 using support::Stopwatch;
 
@@ -78,9 +79,9 @@ struct OutputTimes {
   double plot = 0; ///< a plot, with the start of Python [s]; 0 where none can be drawn
   double frameBytes = 0, checkpointBytes = 0;
 };
-/// Writes rows, frames and a checkpoint of the simulation into `folder`, which is made and removed, and where `plots`
-/// draws one.
-OutputTimes timeOutput(simulation::Simulation& simulation, const base::Exec& exec, const std::filesystem::path& folder,
-                       bool plots);
+/// Writes as a run does, into a folder of its own that it removes; `plots`: whether plots are drawn. The simulation may
+/// be stepped by it.
+using OutputTimer = std::function<OutputTimes(simulation::Simulation& simulation, const base::Exec& exec,
+                                              const std::filesystem::path& folder, bool plots)>;
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

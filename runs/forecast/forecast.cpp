@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/forecast.hpp"
+#include "runs/forecast/forecast.hpp"
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/commands/machine_fit.hpp"
-#include "runs/commands/probe.hpp"
+#include "runs/forecast/machine_fit.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/ground_setup.hpp"
@@ -23,7 +22,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grouser::commands {
+namespace grouser::forecast {
 
 namespace fs = std::filesystem;
 
@@ -89,7 +88,7 @@ public:
     const Stopwatch all;
     findBed();
     const bool sound = step();
-    if (sound) output_ = timeOutput(*simulation_, exec_, scratch(), scene_.output.plots); // it steps once more
+    if (sound) output_ = options_.timeOutput(*simulation_, exec_, scratch(), scene_.output.plots); // it steps once more
     if (sound) output();
     if (sound) prepare();
     memory();
@@ -99,9 +98,9 @@ public:
 
 private:
   void findBed() {
-    if (!beds_ || scene_.terrain->settleTimeLimit <= 0 || grains_ > kMostTaken) return;
-    const scene::Scene bed = setup::isPutOnBed(scene_) ? setup::sceneOfBed(scene_) : scene_;
-    kept_ = beds_->find(setup::bedOrigin(bed, setup::chooseTimeStep(bed))).has_value();
+    if (!beds_ || grains_ > kMostTaken) return;
+    const std::string origin = setup::originOfBed(scene_);
+    kept_ = !origin.empty() && beds_->find(origin);
   }
 
   void build() {
@@ -184,7 +183,9 @@ private:
     }
     if (spheres)
       add(f_.preparation, "sphere sets", 0,
-          cut > 0 ? fmt::format("cut now in {}, kept for the run", time(cut)) : "kept from a run before");
+          cut > 0    ? fmt::format("cut now in {}, kept for the run", time(cut))
+          : spheres_ ? "kept from a run before"
+                     : "cut with the parts, as nothing is kept");
   }
 
   void settling() {
@@ -387,4 +388,4 @@ std::string forecastJson(const Forecast& f) {
   return json.dump(2) + "\n";
 }
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

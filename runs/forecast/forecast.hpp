@@ -2,7 +2,8 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "runs/commands/counted_grains.hpp"
+#include "runs/forecast/counted_grains.hpp"
+#include "runs/forecast/probe.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 #include <vector>
 
 /// How long a run will take on this machine, told by a second of its kind of work.
-namespace grouser::commands {
+namespace grouser::forecast {
 
 /// One part of a run's time.
 struct ForecastPart {
@@ -36,6 +37,7 @@ struct Forecast {
 
 struct ForecastOptions {
   std::filesystem::path folder; ///< that results would go to: its disk is the one that is measured
+  OutputTimer timeOutput;       ///< with what a run writes
   double seconds = 1;           ///< for steps
   bool cache = true;            ///< beds and sphere sets may be taken from earlier runs, as a run does
 };
@@ -51,4 +53,4 @@ std::string forecastText(const Forecast& forecast);
 /// The same for programs: seconds of all parts by name, bytes, machine and commit.
 std::string forecastJson(const Forecast& forecast);
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

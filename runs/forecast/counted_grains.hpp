@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace grouser::commands {
+namespace grouser::forecast {
 
 /// How many grains a run of a scene will have, and how sure that is.
 struct CountedGrains {
@@ -24,4 +24,4 @@ inline constexpr std::int64_t kMostLaid = 1'000'000;
 /// groundSetup() throws.
 CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t mostLaid = kMostLaid);
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/commands/counted_grains.hpp"
+#include "runs/forecast/counted_grains.hpp"
 
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/simulation/laid_ground.hpp"
+#include "runs/support/stopwatch.hpp"
 #include "terrain/bed.hpp"
 
 #include <algorithm>
-#include <chrono>
 
-namespace grouser::commands {
+namespace grouser::forecast {
 
 CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t mostLaid) {
   CountedGrains counted;
@@ -28,15 +28,15 @@ CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64
   const setup::GroundSetup whole = setup::groundSetup(scene, timeStep);
   const setup::BedSetup& placed = *whole.grains->bed;
   const setup::GroundSetup& ground = placed.alone ? *placed.alone : whole; // in which the bed is laid
-  const auto start = std::chrono::steady_clock::now();
+  const support::Stopwatch laying;
   const std::vector<terrain::Seed> seeds = terrain::layBed(*ground.surface, ground.grains->bed->options);
   const auto laid = std::count_if(seeds.begin(), seeds.end(), [&](const terrain::Seed& seed) {
     return seed.fixed || !simulation::isTaken(ground, seed.centre, seed.radius);
   });
-  counted.laying = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  counted.laying = laying.seconds();
   counted.grains = laid + whole.grains->sources.total();
   for (const setup::PlacedGrains& p : whole.grains->onBed) counted.grains += static_cast<std::int64_t>(p.grains.size());
   return counted;
 }
 
-} // namespace grouser::commands
+} // namespace grouser::forecast

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What no machine's memory holds is refused at the key that asks for it, before any of it is laid.
+#include "runs/setup/size_checks.hpp"
+
+#include "base/error.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace grouser::setup {
+namespace {
+
+scene::Scene parsed(const std::string& text) { return parseScene("version = 1\n" + text, "scene.toml"); }
+
+/// Grains in a cube of this edge [m], some 1.5 kB each for all the planes that they might touch.
+scene::Scene fill(const std::string& edge) {
+  std::string planes;
+  for (int k = 0; k < 30; ++k) planes += "[[plane]]\npoint = [0, 0, -100]\nmaterial = \"glass\"\n";
+  return parsed("[run]\nduration = 1\n[material.glass]\nstiffness = 1e4\nrolling_friction = 0.1\n[[grains]]\nform = "
+                "\"lattice\"\nlow = [0, 0, 0]\nhigh = [" +
+                edge + ", " + edge + ", " + edge + "]\nradius = 0.01\nmaterial = \"glass\"\n" + planes);
+}
+
+template <class Check> std::string messageOf(const Check& check) {
+  try {
+    check();
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SizeChecks, AMechanismHasNoFillsToCount) {
+  const scene::Scene pendulum = parsed(
+      "[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\nbox = [1, 1, 1]\nposition = "
+      "[0, 0, -1]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", \"bob\"]\npoint = [0, 0, "
+      "0]\naxis = [0, 1, 0]\n");
+  ASSERT_FALSE(pendulum.mechanism.empty());
+  EXPECT_NO_THROW(checkFillSizes(pendulum));
+  EXPECT_NO_THROW(checkBedSize(pendulum));
+}
+
+TEST(SizeChecks, AFillBeyondAllMemoryNamesItsKey) {
+  EXPECT_EQ(messageOf([] { checkFillSizes(fill("1")); }), "");
+  // Four thousand million: more than any one machine has.
+  const std::string message = messageOf([] { checkFillSizes(fill("33")); });
+  EXPECT_NE(message.find("scene.toml:11: grains.0.radius"), std::string::npos) << message;
+  EXPECT_NE(message.find("use fewer or larger grains"), std::string::npos) << message;
+}
+
+TEST(SizeChecks, ASetupAsksOnceUnlessItsCallerHas) {
+  EXPECT_NE(messageOf([] { groundSetup(fill("33"), 1e-5); }).find("grains.0.radius"), std::string::npos);
+  const scene::Scene small = fill("0.1");
+  const SimulationSetup asked = simulationSetup(small), known = simulationSetup(small, {"here", {}, "as it is", ""}, 1);
+  EXPECT_EQ(asked.ground.grains->start.size(), known.ground.grains->start.size());
+  EXPECT_EQ(known.provenance.resolved, "as it is");
+  EXPECT_EQ(asked.provenance.resolved, provenanceOf(small).resolved);
+}
+
+} // namespace
+} // namespace grouser::setup
