@@ -117,6 +117,25 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Gra
   }
 }
 
+/// The idler on the tangential springs of all shoes that half a turn of the track presses to it: they turn it all
+/// alike, half of them shift it either way, and each has a shoe of its own. A strand at the pull T presses a shoe by T
+/// pitch / radius, so deep as in considerPressedShoe(). Where friction holds, the mode trembles beyond its limit by as
+/// much as Coulomb's limit allows.
+void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
+  const vehicle::ContactSpec& c = s.contact;
+  if (c.frictionInside <= 0) return;
+  const double around = s.idlerPinRadius(), radius = s.idler.radius;
+  const double shoes = std::ceil(base::kPi * around / s.shoe.pitch);
+  const double load = 0.5 * s.idler.preload * s.shoe.pitch / around;
+  const double strip = c.foundationModulus * 2 * s.shoe.padHalfWidth * std::sqrt(2 * radius);
+  const double spring = c.tangentialRatio * 2 * strip * std::sqrt(base::pow(0.75 * load / strip, 2.0 / 3));
+  const double top = s.shoe.plateTop;
+  const double rate = spring * (shoes * (radius * radius / s.idler.inertia.y + 0.5 / s.idler.mass) + 1 / s.shoe.mass +
+                                top * top / s.shoe.inertia.y);
+  considerBoth(limit, rate, rate * c.relaxationTime, fmt::format("idler that turns on {:g} shoes", shoes),
+               "lower contact.tangential_ratio or idler.preload in vehicle.spec");
+}
+
 /// The foundation between parts: shoes on rigid ground, and wheels on shoes.
 void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
@@ -135,6 +154,7 @@ void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
   wheel("road wheel", s.roadWheel.mass, s.roadWheel.radius);
   wheel("idler", s.idler.mass, s.idler.radius);
   if (!s.roller.x.empty()) wheel("roller", s.roller.mass, s.roller.radius);
+  considerIdler(limit, s);
 }
 
 /// A shoe between rigid ground and the wheel that it bears. The highest mode of both springs together is no higher than

@@ -15,6 +15,7 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   x.lost = now.integrationError - last_.error;
   x.gained = std::min(-x.lost, -x.lost - taken);
   x.given = std::min(-taken, -taken - x.lost);
+  x.taken = taken;
   x.rubbed = now.dissipated.friction - last_.rubbed;
   x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
   x.neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
@@ -35,6 +36,20 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
   if (x.given > kMostGiven * x.moved + x.neverAlarms)
     return slidingGives(now, held) ? found("sliding contacts have made", x.given)
                                    : found("steps too long for dampers have let these make", x.given);
+  return judgeHeat(now, held);
+}
+
+std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
+  if (now.dissipated.parts <= 0) return {};
+  const Exchange x = since(now, held);
+  const double all = now.dissipated.total();
+  if (-x.lost > kMostInHeat * x.taken + x.neverAlarms)
+    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
+                       "most",
+                       -x.lost, x.taken, kInterval);
+  if (-now.integrationError > kMostInHeatOfStart * all + kRounding * held + kQuiet * (now.turnover + std::fabs(all)))
+    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", -now.integrationError,
+                       all);
   return {};
 }
 

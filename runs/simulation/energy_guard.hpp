@@ -33,6 +33,11 @@ public:
   static constexpr double kMostChurned = 0.15;
   static constexpr double kMostLost = 0.3;
   static constexpr double kMostGiven = 0.02; ///< by what dissipates
+  // Shares of what was dissipated, where parts of a vehicle touch [-]. What steps make in a contact that they do not
+  // resolve its dashpot and friction take at once: however little that is beside the weight and the speed that a
+  // vehicle moves about, what has been dissipated is wrong by all of it.
+  static constexpr double kMostInHeat = 0.1;         ///< since the last look
+  static constexpr double kMostInHeatOfStart = 0.05; ///< since the start
   /// Share of all energy exchanged so far that is never an alarm [-]: what rests exchanges next to nothing.
   static constexpr double kQuiet = 1e-3;
 
@@ -52,6 +57,7 @@ public:
     double lost{};        ///< by the steps; negative: made
     double gained{};      ///< made by the steps and not dissipated; negative: lost
     double given{};       ///< by dampers and not lost by the steps; negative where they take
+    double taken{};       ///< dissipated
     double rubbed{};      ///< taken by sliding; negative where it gives
     double neverAlarms{}; ///< rounding, what is small beside the whole run, and what springs hide
     /// Of what was exchanged, what counts of `energy` [-].
@@ -74,6 +80,9 @@ public:
   void restore(const std::vector<double>& saved);
 
 private:
+  /// What the steps have made of what contacts of parts have dissipated, in words; empty where that is little.
+  std::string judgeHeat(const Ledger& now, double held) const;
+
   struct Look {
     double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, rubbed{}; ///< [J]
   };

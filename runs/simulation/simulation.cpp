@@ -329,6 +329,8 @@ void Simulation::checkEnergy(const Ledger& now) {
   if (mechanism_)
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
+  if (vehicle_)
+    remedy += "; most has been dissipated where shoes touch " + mostDissipating(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/vehicle_state.hpp"
 
+#include "contact/part_surface.hpp"
 #include "multibody/state.hpp"
+#include "vehicle/assembly.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstring>
+#include <functional>
+#include <map>
 
 namespace grouser::simulation {
 
@@ -20,6 +27,23 @@ std::vector<std::uint32_t> VehicleState::words() const {
   add(driver, driver.size());
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleState& state) {
+  std::map<std::string, double> by;
+  for (std::size_t k = 0; k < state.track.states.size(); ++k) {
+    const vehicle::PartPair& pair = assembly.pairs[k / static_cast<std::size_t>(contact::kClusters)];
+    by[assembly.parts[static_cast<std::size_t>(pair.other)].name] += state.track.states[k].dissipated;
+  }
+  for (const contact::PatchState& patch : state.ground.states) by["ground"] += patch.dissipated;
+  std::vector<std::pair<double, std::string>> most;
+  for (const auto& [name, energy] : by) most.emplace_back(energy, name);
+  std::sort(most.begin(), most.end(), std::greater<>());
+  constexpr std::size_t kNamed = 3;
+  std::string words;
+  for (std::size_t k = 0; k < std::min(kNamed, most.size()); ++k)
+    words += fmt::format("{}{} {:.3g} J", k > 0 ? ", " : "", most[k].second, most[k].first);
   return words;
 }
 

@@ -4,7 +4,12 @@
 #include "contact/saved_contacts.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
+
+namespace grouser::vehicle {
+struct Assembly;
+} // namespace grouser::vehicle
 
 namespace grouser::simulation {
 
@@ -30,5 +35,9 @@ struct VehicleState {
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;
 };
+
+/// The three that have dissipated most with the shoes that touch them since the start, in words with joules: sprocket,
+/// idler, wheels and rollers of each side, rigid ground.
+std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleState& state);
 
 } // namespace grouser::simulation

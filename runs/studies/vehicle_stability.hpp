@@ -27,6 +27,9 @@ struct JudgedPoint {
 };
 std::string vehicleMapsCsv(const std::vector<JudgedPoint>& points);
 std::string predictedLinesCsv(const std::vector<VehicleMap>& maps);
+/// How far the figures of a bed's runs lie apart that differ by their seed alone, beside what a run may differ from the
+/// one at a quarter of its step; empty unless two points of the map `seeds` are sound.
+std::string seedScatterTable(const std::vector<JudgedPoint>& points);
 /// A line a map, then each stop, each refusal of its kind, and each point that is wrong, in words.
 std::string vehicleMapsTable(const std::vector<JudgedPoint>& points);
 

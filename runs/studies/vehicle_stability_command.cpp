@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 
@@ -201,6 +202,36 @@ std::string vehicleMapsTable(const std::vector<JudgedPoint>& points) {
   return text;
 }
 
+std::string seedScatterTable(const std::vector<JudgedPoint>& points) {
+  std::vector<const JudgedPoint*> seeds;
+  for (const JudgedPoint& p : points)
+    if (p.map->name == "seeds" && p.judgement.verdict == MapVerdict::sound) seeds.push_back(&p);
+  if (seeds.size() < 2) return {};
+  std::string text = fmt::format("\n  {} beds from other seeds: mean and standard deviation at the step, the same at a "
+                                 "quarter, root mean square difference\n  of the two, and what they may differ by\n",
+                                 seeds.size());
+  for (const ComparedFigure& figure : comparedFigures(true)) {
+    std::array<double, 2> mean{}, squares{};
+    double apart = 0;
+    const double n = static_cast<double>(seeds.size());
+    const auto pairOf = [&figure](const JudgedPoint& p) {
+      return std::array<double, 2>{p.run.figures.*figure.value, p.finer.figures.*figure.value};
+    };
+    for (const JudgedPoint* p : seeds) {
+      const std::array<double, 2> values = pairOf(*p);
+      for (std::size_t k = 0; k < 2; ++k) mean[k] += values[k] / n;
+      apart += (values[0] - values[1]) * (values[0] - values[1]) / n;
+    }
+    for (const JudgedPoint* p : seeds)
+      for (std::size_t k = 0; k < 2; ++k) squares[k] += (pairOf(*p)[k] - mean[k]) * (pairOf(*p)[k] - mean[k]);
+    const double may = figure.relative * std::max(std::fabs(mean[0]), std::fabs(mean[1])) + figure.floor;
+    text += fmt::format("  {:<18} {:>9.4g} +- {:<9.3g} {:>9.4g} +- {:<9.3g} {:>9.3g} {:>9.3g} {}\n", figure.name,
+                        mean[0], std::sqrt(squares[0] / (n - 1)), mean[1], std::sqrt(squares[1] / (n - 1)),
+                        std::sqrt(apart), may, figure.unit);
+  }
+  return text;
+}
+
 void studyVehicleStability(const VehicleStability& command, const StudyPlace& place) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<std::string> names = command.maps.empty() ? vehicleMapNames() : command.maps;
@@ -218,7 +249,7 @@ void studyVehicleStability(const VehicleStability& command, const StudyPlace& pl
     fmt::print("no point is there yet: call again with --resume\n");
     return;
   }
-  fmt::print("{}", vehicleMapsTable(points));
+  fmt::print("{}{}", vehicleMapsTable(points), seedScatterTable(points));
   if (pieces.left() > 0) fmt::print("{} points are missing: call again with --resume\n", pieces.left());
   nlohmann::ordered_json counts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v)

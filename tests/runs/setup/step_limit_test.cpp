@@ -300,6 +300,35 @@ TEST(StepLimit, OfAShoeThatTurnsMoreEasilyThanItShiftsIsShorter) {
   EXPECT_GT(limit.step, 0.5 * damped(turns, turns * 2e-4));
 }
 
+TEST(StepLimit, OfAnIdlerCountsAllShoesThatRubOnIt) {
+  // Heavy shoes are slow on the ground and under wheels; the idler that they hold is as light as ever.
+  const std::vector<test::KeyChange> heavy = {{"shoe", "mass", "57"}, {"shoe", "inertia", "[0.429, 0.134, 0.537]"}};
+  const auto limit = [&](const std::string& key, const std::string& value) {
+    std::vector<test::KeyChange> changes = heavy;
+    if (!key.empty()) changes.push_back({key == "preload" ? "idler" : "contact", key, value});
+    const test::SpecVariant variant(changes);
+    return stepLimit(standing("vehicle.spec=" + variant.path()));
+  };
+  // Pins on a circle with chords of 0.154 m, where plates of 20 mm lie on a radius of 0.217 m.
+  const double around = std::hypot(0.077, 0.237);
+  EXPECT_EQ(std::ceil(base::kPi * around / 0.154), 6);
+  const auto expected = [&](double preload) {
+    const double load = 0.5 * preload * 0.154 / around;
+    double low = 0, high = 0.01; // bisection, for the limit uses the closed form
+    for (int i = 0; i < 100; ++i) {
+      const double depth = 0.5 * (low + high);
+      (4.0 / 3 * 1e10 * 0.28 * std::sqrt(0.434) * std::pow(depth, 1.5) < load ? low : high) = depth;
+    }
+    const double spring = 0.8 * 1e10 * 0.28 * 2 * std::sqrt(0.434 * low);
+    const double rate = spring * (6 * (0.217 * 0.217 / 0.55 + 0.5 / 20) + 1 / 57.0 + 0.02 * 0.02 / 0.134);
+    return damped(rate, rate * 2e-4);
+  };
+  EXPECT_NEAR(limit("", "").step / expected(9200), 1, 1e-6);
+  EXPECT_EQ(limit("", "").what, "idler that turns on 6 shoes");
+  EXPECT_NEAR(limit("preload", "20000").step / expected(20000), 1, 1e-6);
+  EXPECT_GT(limit("friction_inside", "0").step, 1.1 * expected(9200)) << "nothing holds it";
+}
+
 TEST(StepLimit, IsThatOfTheSmallestGrainOfAMaterial) {
   Bed bed;
   bed.more = "[[grain]]\nposition = [1, 0, 1]\nradius = 0.005\nmaterial = \"soil\"\n";

@@ -104,6 +104,44 @@ TEST(EnergyGuard, DampersThatGiveEnergyAreSeen) {
   EXPECT_NE(guard.judge(l, 0).find("dampers"), std::string::npos);
 }
 
+/// Of a vehicle that has been about for a while.
+Ledger booksOfParts() {
+  Ledger l = books(0, 1e5);
+  l.dissipated.parts = 500, l.dissipated.joints = 1500;
+  return l;
+}
+
+TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsIsHeldAgainstWhatIsDissipated) {
+  EnergyGuard guard;
+  Ledger l = booksOfParts();
+  guard.look(l);
+  l.turnover += 1000, l.dissipated.parts += 100;
+  l.integrationError = -112; // of 100 J a tenth, and a thousandth of the 103,100 J ever exchanged
+  EXPECT_EQ(guard.judge(l, 0), "");
+  l.integrationError = -114;
+  EXPECT_NE(guard.judge(l, 0).find("made 114 J of the 100 J dissipated since the last look"), std::string::npos);
+  l.dissipated.joints += 20;
+  EXPECT_EQ(guard.judge(l, 0), "") << "of 120 J";
+  l.dissipated = {};
+  l.dissipated.damping = 2100;
+  EXPECT_EQ(guard.judge(l, 0), "") << "contacts of grains are judged by what they exchange";
+}
+
+TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsAddsUp) {
+  EnergyGuard guard;
+  Ledger l = booksOfParts();
+  guard.look(l);
+  for (int look = 1; look <= 6; ++look) {
+    l.turnover += 1000, l.dissipated.parts += 100, l.integrationError -= 40;
+    // The last time 240 J: a twentieth of 2600 J, and a thousandth of 108,600 J, are 238.6 J.
+    EXPECT_EQ(guard.judge(l, 0).find("made 240 J of the 2.6e+03 J dissipated since the start") != std::string::npos,
+              look == 6)
+        << look << guard.judge(l, 0);
+    EXPECT_EQ(guard.judge(l, 0).empty(), look < 6);
+    guard.look(l);
+  }
+}
+
 TEST(EnergyGuard, IsRestored) {
   EnergyGuard a, b;
   Ledger l = books(5, 1000);

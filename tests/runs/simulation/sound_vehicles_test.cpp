@@ -9,6 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iostream>
+
 namespace grouser::simulation {
 namespace {
 
@@ -22,6 +25,19 @@ std::ostream& operator<<(std::ostream& out, const Drive& d) { return out << d.na
 
 class SoundVehicles : public ::testing::TestWithParam<Drive> {
 protected:
+  /// What docs/ledger.md says of them.
+  static void TearDownTestSuite() {
+    std::cout << fmt::format("sound vehicles: of what was dissipated the steps have made up to {:.1f} % between two "
+                             "looks, beyond what never alarms, and up to {:.1f} % since the start\n",
+                             100 * sinceLook, 100 * sinceStart);
+  }
+  static void note(const EnergyGuard& watch, const Ledger& now) {
+    const EnergyGuard::Exchange x = watch.since(now, std::fabs(now.kinetic) + std::fabs(now.elastic));
+    if (x.taken > 0 && -x.lost > x.neverAlarms) sinceLook = std::max(sinceLook, (-x.lost - x.neverAlarms) / x.taken);
+    sinceStart = std::max(sinceStart, -now.integrationError / now.dissipated.total());
+  }
+  inline static double sinceLook = 0, sinceStart = 0;
+
   /// How a drive with rows every `row` steps ends: its hash, or its error.
   static std::string driven(double step, std::int64_t row) {
     std::vector<std::string> sets = GetParam().sets;
@@ -30,8 +46,11 @@ protected:
       const scene::Scene scene =
           setup::loadScene(fmt::format("{}/tests/scenes/{}.toml", GROUSER_SOURCE_DIR, GetParam().base), sets);
       Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+      EnergyGuard watch;
       while (simulation.steps() < GetParam().steps) {
         simulation.step();
+        if (simulation.steps() % EnergyGuard::kInterval == 0)
+          note(watch, simulation.ledger()), watch.look(simulation.ledger());
         if (simulation.steps() % row != 0) continue;
         simulation.ledger(), simulation.vehicle()->observe(), simulation.restartMeans();
       }

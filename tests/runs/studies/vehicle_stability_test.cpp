@@ -100,6 +100,26 @@ TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
   EXPECT_EQ(verdict(soundTrial(), refused), MapVerdict::silentlyWrong) << "nothing has confirmed it";
 }
 
+TEST(VehicleSeeds, ScatterIsThatOfSoundPointsOfOneMap) {
+  const VehicleMap seeds{"seeds", "", {}, {}}, grains{"grains", "", {}, {}};
+  std::vector<JudgedPoint> points;
+  for (const double speed : {0.5, 0.6}) {
+    JudgedPoint p{&seeds, nullptr, soundTrial(), soundTrial(), {}};
+    p.run.figures.speed = speed, p.finer.figures.speed = 0.4;
+    points.push_back(p);
+  }
+  points.push_back(points.back()), points.back().map = &grains, points.back().run.figures.speed = 9;
+  points.push_back(points.front()), points.back().judgement.verdict = MapVerdict::stopped;
+  // Root mean square of 0.1 and 0.2; a fifth of 0.55 and 0.05 m/s.
+  const std::string text = seedScatterTable(points);
+  EXPECT_NE(text.find("  2 beds"), std::string::npos) << text;
+  EXPECT_NE(text.find("speed                   0.55 +- 0.0707          0.4 +- 0             0.158      0.16 m/s"),
+            std::string::npos)
+      << text;
+  points.erase(points.begin());
+  EXPECT_EQ(seedScatterTable(points), "") << "of one nothing is known";
+}
+
 class VehicleMaps : public FolderTest {};
 
 TEST_F(VehicleMaps, StepsBeyondTheLineAreRefusedAndThoseBelowAreNot) {
@@ -137,6 +157,34 @@ TEST_F(VehicleMaps, AStepThatIsMuchTooLongIsCaughtEvenWhereNobodyRefusesIt) {
   ASSERT_EQ(wild.end, TrialEnd::stopped);
   EXPECT_TRUE(blameOf(wild.cause).step) << wild.cause;
   EXPECT_LT(wild.reached, what.until);
+}
+
+/// Its hull comes down on the idlers, which press shoes to the ground with a hundred times their weight at rest.
+TEST_F(VehicleMaps, AnImpactFarStifferThanTheWeightAtRestIsCaught) {
+  const VehicleMap map = vehicleMap("drop", false, folder_);
+  const auto point =
+      std::find_if(map.points.begin(), map.points.end(), [](const MapPoint& p) { return p.x == 3 && p.step > 1e-4; });
+  ASSERT_NE(point, map.points.end());
+  const VehicleTrial trial = tryVehicle(point->what, point->step, {folder_});
+  ASSERT_EQ(trial.end, TrialEnd::stopped);
+  EXPECT_TRUE(blameOf(trial.cause).step) << trial.cause;
+  EXPECT_NE(trial.cause.find("idler"), std::string::npos) << trial.cause;
+}
+
+/// Six heavy shoes hold a light idler by friction: the steps make a fifth of all that is dissipated, and nothing else
+/// shows it.
+TEST_F(VehicleMaps, AnIdlerThatTremblesOnHeavyShoesIsRefusedAndCaught) {
+  const VehicleMap map = vehicleMap("mass", false, folder_);
+  const auto point = std::find_if(map.points.begin(), map.points.end(), [](const MapPoint& p) { return p.x == 65; });
+  ASSERT_NE(point, map.points.end());
+  const double step = 3.7e-4;
+  const VehicleTrial refused = tryVehicle(point->what, step, {folder_});
+  EXPECT_EQ(refused.end, TrialEnd::refused);
+  EXPECT_NE(refused.cause.find("idler that turns on 6 shoes"), std::string::npos) << refused.cause;
+  const VehicleTrial trial = tryVehicle(point->what, step, {folder_}, StepCheck::none);
+  ASSERT_EQ(trial.end, TrialEnd::stopped);
+  EXPECT_TRUE(blameOf(trial.cause).step) << trial.cause;
+  EXPECT_NE(trial.cause.find("idler"), std::string::npos) << trial.cause;
 }
 
 class VehicleStudy : public ProgramTest {};
