@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMostCopied = 60'000; // grains of a piece
+constexpr double kMostCopied =
+    60'000; // grains of a piece on a CPU; a GPU, where few take as long as many, has kMostTaken
 constexpr double kMostTaken = 400'000; // grains of a kept bed that is taken as it is
 constexpr double kTrials = 4;          // small beds that a porosity is looked for with
 constexpr double kStride = 4;          // of soft steps
@@ -106,7 +107,7 @@ private:
   void build() {
     const bool copied = hasBed(scene_) && !kept_;
     if (copied) {
-      const scene::Scene piece = pieceOf(probed_, grains_, kMostCopied);
+      const scene::Scene piece = pieceOf(probed_, grains_, exec_.onCpu() ? kMostCopied : kMostTaken);
       if (scene_.terrain->settleTimeLimit > 0)
         tile_ = settleTile(setup::simulationSetup(piece), scene_.terrain->porosity.has_value(),
                            exec_.onCpu() ? base::cpuExec(1) : exec_, 1.5 * options_.seconds);
