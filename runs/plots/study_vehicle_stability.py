@@ -5,6 +5,8 @@ A panel a map: each point sound (blue), stopped by a guard for a true cause (ora
 silently wrong (red cross), or refused before the run (grey x); what is predicted as lines on top. A 0 on a logarithmic axis
 stands at its left end.
 """
+import itertools
+import math
 import textwrap
 
 import drawing
@@ -12,23 +14,23 @@ import drawing
 VERDICTS = {"sound": dict(color="tab:blue", marker="o"), "stopped": dict(color="tab:orange", marker="s"),
             "refused": dict(color="tab:gray", marker="x"), "wrong cause": dict(color="tab:purple", marker="D"),
             "silently wrong": dict(color="red", marker="X", s=90)}
-STYLES = ("-", "--", ":")
+STYLES = ("-", "--", ":", "-.")
 
 
-def panel(axis, of, limits):
+def panel(axis, of, limits, styles):
     for verdict, style in VERDICTS.items():
         places = [(float(row["x"]), float(row["y"])) for row in of if row["verdict"] == verdict]
         if places:
             axis.scatter(*zip(*places), **{"s": 30, "zorder": 3, **style}, label=verdict)
-    for line, style in zip(dict.fromkeys(row["line"] for row in limits), STYLES):
+    for line in dict.fromkeys(row["line"] for row in limits):
         along = [(float(row["x"]), float(row["y"])) for row in limits if row["line"] == line]
-        axis.plot(*zip(*along), color="black", linestyle=style, linewidth=1, label=line)
+        axis.plot(*zip(*along), color="black", linestyle=styles[line], linewidth=1, label=line)
     if limits and limits[0]["logarithmic x"] == "1":
         axis.set_xscale("log")
     if limits and limits[0]["logarithmic y"] == "1":
         axis.set_yscale("log")
     axis.set_title(textwrap.fill(limits[0]["title"] if limits else of[0]["map"], 42), fontsize=9)
-    axis.set_xlabel(of[0]["x axis"], fontsize=8)
+    axis.set_xlabel(textwrap.fill(of[0]["x axis"], 40), fontsize=8)
     axis.set_ylabel(textwrap.fill(of[0]["y axis"], 36), fontsize=8)
     axis.tick_params(which="both", labelsize=7)
 
@@ -38,12 +40,13 @@ def draw(*paths):
     names = list(dict.fromkeys(row["map"] for row in points))
     if not names:
         return None
-    columns = min(4, len(names) + 1)
+    columns = math.ceil(math.sqrt(len(names) + 1))
     rows = -(-(len(names) + 1) // columns)
     figure = drawing.Figure(figsize=(3.4 * columns, 3.1 * rows))
+    styles = dict(zip(dict.fromkeys(row["line"] for row in limits), itertools.cycle(STYLES)))
     axes = figure.subplots(rows, columns, squeeze=False).flatten()
     for axis, name in zip(axes, names):
-        panel(axis, [r for r in points if r["map"] == name], [r for r in limits if r["map"] == name])
+        panel(axis, [r for r in points if r["map"] == name], [r for r in limits if r["map"] == name], styles)
     for axis in axes[len(names):]:
         axis.set_axis_off()
     seen = {label: line for axis in axes for line, label in zip(*axis.get_legend_handles_labels())}
