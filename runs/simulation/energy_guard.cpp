@@ -42,14 +42,13 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   if (now.dissipated.parts <= 0) return {};
   const Exchange x = since(now, held);
-  const double all = now.dissipated.total();
-  if (-x.lost > kMostInHeat * x.taken + x.neverAlarms)
+  const double all = now.dissipated.total(), made = -now.integrationError;
+  if (-x.lost > kMostMade * (x.taken + x.lost) + x.neverAlarms)
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
                        "most",
                        -x.lost, x.taken, kInterval);
-  if (-now.integrationError > kMostInHeatOfStart * all + kRounding * held + kQuiet * (now.turnover + std::fabs(all)))
-    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", -now.integrationError,
-                       all);
+  if (made > kMostMade * (all - made) + kRounding * held + kQuiet * (now.turnover + std::fabs(all)))
+    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }
 

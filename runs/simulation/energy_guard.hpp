@@ -27,17 +27,16 @@ public:
   static constexpr std::int64_t kInterval = 512;  ///< steps between two looks; whole batches of grains alone
   static constexpr std::int64_t kOneContact = 20; ///< steps of one; nothing is judged over fewer
   // Shares of the energy exchanged [-].
-  static constexpr double kMostMade = 0.1; ///< that bodies and springs have gained from nowhere
+  /// That bodies and springs have gained from nowhere. Where parts of a vehicle touch, of what is really dissipated
+  /// too: what steps make in a contact that they do not resolve its dashpot and friction take at once, and however
+  /// little that is beside the weight and the speed that a vehicle moves about, what was dissipated is wrong by all of
+  /// it.
+  static constexpr double kMostMade = 0.1;
   /// Made by the steps, and dissipated at once: sliding contacts of grains that bounce well book up to an eighth so at
   /// their limit step, where the motion is right yet.
   static constexpr double kMostChurned = 0.15;
   static constexpr double kMostLost = 0.3;
   static constexpr double kMostGiven = 0.02; ///< by what dissipates
-  // Shares of what was dissipated, where parts of a vehicle touch [-]. What steps make in a contact that they do not
-  // resolve its dashpot and friction take at once: however little that is beside the weight and the speed that a
-  // vehicle moves about, what has been dissipated is wrong by all of it.
-  static constexpr double kMostInHeat = 0.1;         ///< since the last look
-  static constexpr double kMostInHeatOfStart = 0.05; ///< since the start
   /// Share of all energy exchanged so far that is never an alarm [-]: what rests exchanges next to nothing.
   static constexpr double kQuiet = 1e-3;
 

@@ -115,15 +115,15 @@ TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsIsHeldAgainstWhatIsDissipated) {
   EnergyGuard guard;
   Ledger l = booksOfParts();
   guard.look(l);
-  l.turnover += 1000, l.dissipated.parts += 100;
-  l.integrationError = -112; // of 100 J a tenth, and a thousandth of the 103,100 J ever exchanged
+  l.turnover += 1000, l.dissipated.parts += 400;
+  l.integrationError = -130; // a tenth of the other 270 J, and a thousandth of the 103,400 J ever exchanged: 130.4 J
   EXPECT_EQ(guard.judge(l, 0), "");
-  l.integrationError = -114;
-  EXPECT_NE(guard.judge(l, 0).find("made 114 J of the 100 J dissipated since the last look"), std::string::npos);
+  l.integrationError = -131;
+  EXPECT_NE(guard.judge(l, 0).find("made 131 J of the 400 J dissipated since the last look"), std::string::npos);
   l.dissipated.joints += 20;
-  EXPECT_EQ(guard.judge(l, 0), "") << "of 120 J";
+  EXPECT_EQ(guard.judge(l, 0), "") << "of 420 J";
   l.dissipated = {};
-  l.dissipated.damping = 2100;
+  l.dissipated.damping = 2400;
   EXPECT_EQ(guard.judge(l, 0), "") << "contacts of grains are judged by what they exchange";
 }
 
@@ -132,14 +132,14 @@ TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsAddsUp) {
   Ledger l = booksOfParts();
   guard.look(l);
   for (int look = 1; look <= 6; ++look) {
-    l.turnover += 1000, l.dissipated.parts += 100, l.integrationError -= 40;
-    // The last time 240 J: a twentieth of 2600 J, and a thousandth of 108,600 J, are 238.6 J.
-    EXPECT_EQ(guard.judge(l, 0).find("made 240 J of the 2.6e+03 J dissipated since the start") != std::string::npos,
-              look == 6)
-        << look << guard.judge(l, 0);
-    EXPECT_EQ(guard.judge(l, 0).empty(), look < 6);
+    l.turnover += 1000, l.dissipated.parts += 100, l.integrationError -= 55;
+    // The last time 330 J: a tenth of the other 2270 J, and a thousandth of 108,600 J, are 335.6 J.
+    EXPECT_EQ(guard.judge(l, 0), "") << look;
     guard.look(l);
   }
+  l.turnover += 1000, l.dissipated.parts += 100, l.integrationError -= 55; // 385 J beside 231.5 J and 109.7 J
+  EXPECT_NE(guard.judge(l, 0).find("made 385 J of the 2.7e+03 J dissipated since the start"), std::string::npos)
+      << guard.judge(l, 0);
 }
 
 TEST(EnergyGuard, IsRestored) {
