@@ -51,7 +51,7 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   m.lists = 4 * kWord + kMask + kPlaces * kWord * (layout.radii ? 2 : 1); // the slot, and the sum of radii
   m.history = kPlaces * history;
   // Contacts that are set aside, with a start, and one cell of the grid.
-  m.rebuild = kContacts * (kWord + history) + 2 * kWord;
+  m.rebuild = kContacts * (kWord + history) + 3 * kWord; // and on a GPU what lies where in the cells
   return m;
 }
 

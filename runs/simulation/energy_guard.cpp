@@ -40,14 +40,15 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
 }
 
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
-  if (now.dissipated.parts <= 0) return {};
+  if (now.dissipated.parts <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
   const Exchange x = since(now, held);
   const double all = now.dissipated.total(), made = -now.integrationError;
   if (-x.lost > kMostMade * (x.taken + x.lost) + x.neverAlarms)
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
                        "most",
                        -x.lost, x.taken, kInterval);
-  if (made > kMostMade * (all - made) + kRounding * held + kQuiet * (now.turnover + std::fabs(all)))
+  const double neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(all)) + kSpringShare * now.elastic;
+  if (made > kMostMade * (all - made) + neverAlarms)
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }

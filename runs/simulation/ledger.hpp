@@ -17,7 +17,8 @@ struct Dissipated {
   double parts{};    ///< contacts of rigid parts with each other and with rigid ground
   double joints{};   ///< dampers and end stops of joints and springs
 
-  double total() const { return damping + friction + rolling + crushing + parts + joints; }
+  double ofGrains() const { return damping + friction + rolling + crushing; }
+  double total() const { return ofGrains() + parts + joints; }
 };
 
 /// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length

@@ -94,7 +94,7 @@ private:
     const nlohmann::json kept = nlohmann::json::parse(former, nullptr, false);
     std::optional<CheckChoice> choice;
     if (kept.is_object() && kept.value("asked", nlohmann::json()) == asked && !options_.sweep.force)
-      choice = keptChoice(kept.value("choice", nlohmann::json()), record_.cases);
+      choice = keptChoice(kept.value("choice", nlohmann::json()), record_.cases, std::max(options_.seeds, kFewSeeds));
     if (!choice) {
       CheckBeds beds(record_.runs.plan.scene, fixed_, record_.cases);
       const RunCosts costs = pilot(beds);
@@ -141,8 +141,9 @@ private:
     // Of a kept bed only its steps are known.
     if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
     costs.beds = beds.numbers();
-    costs.isKept = [&beds, seed](int bed, int of) {
-      return !(bed == 0 && of == seed) && beds.keptSteps(bed, of).has_value(); // the one just made is no gift
+    costs.isKept = [&beds, seed, settles](int bed, int of) {
+      const bool justMade = settles && bed == 0 && of == seed; // no gift
+      return !justMade && beds.keptSteps(bed, of).has_value();
     };
     return costs;
   }

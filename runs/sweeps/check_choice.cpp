@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include <charconv>
 #include <utility>
 
 namespace grouser::sweeps {
@@ -79,15 +78,16 @@ nlohmann::json choiceJson(const CheckChoice& choice) {
   return {{"seeds", choice.seeds}, {"left_out", choice.beyondBudget}, {"seconds", choice.seconds}};
 }
 
-std::optional<CheckChoice> keptChoice(const nlohmann::json& json, const CheckCases& cases) {
+std::optional<CheckChoice> keptChoice(const nlohmann::json& json, const CheckCases& cases, int most) {
   try {
     CheckChoice choice;
     json.at("seeds").get_to(choice.seeds), json.at("left_out").get_to(choice.beyondBudget);
     json.at("seconds").get_to(choice.seconds);
-    const bool fits = choice.seeds.size() == cases.cases.size() &&
-                      std::all_of(choice.seeds.begin(), choice.seeds.end(), [](int s) { return s >= 0; }) &&
-                      std::all_of(choice.beyondBudget.begin(), choice.beyondBudget.end(),
-                                  [&](std::size_t c) { return c < cases.cases.size(); });
+    const bool fits =
+        choice.seeds.size() == cases.cases.size() &&
+        std::all_of(choice.seeds.begin(), choice.seeds.end(), [most](int s) { return s >= 0 && s <= most; }) &&
+        std::all_of(choice.beyondBudget.begin(), choice.beyondBudget.end(),
+                    [&](std::size_t c) { return c < cases.cases.size(); });
     return fits ? std::optional(choice) : std::nullopt;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
@@ -95,13 +95,15 @@ std::optional<CheckChoice> keptChoice(const nlohmann::json& json, const CheckCas
 }
 
 double budgetSeconds(const std::string& text) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  const std::string unit = end;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string unit(end, text.data() + text.size());
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "min" ? 60 : unit == "h" ? 3600 : 0;
   const double seconds = factor * number;
-  if (end == text.c_str() || !std::isfinite(seconds) || seconds < 1)
-    throw base::InputError(fmt::format("--budget {}: is no time; write e.g. 90s, 20min or 1.5h", text));
+  constexpr double kMost = 3600.0 * 10'000;
+  if (error != std::errc() || !(seconds >= 1 && seconds <= kMost))
+    throw base::InputError(
+        fmt::format("--budget {}: is no time from 1 s to 10000 h; write e.g. 90s, 20min or 1.5h", text));
   return seconds;
 }
 

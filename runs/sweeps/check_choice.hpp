@@ -41,11 +41,13 @@ CheckChoice chooseRuns(const CheckCases& cases, int seeds, std::optional<double>
                        int jobs);
 inline constexpr int kFewSeeds = 3; ///< with which an interval begins to say something
 
-/// A choice as it is kept for calls that go on; empty where it is none of these cases.
+/// A choice as it is kept for calls that go on; empty where it is none of these cases, or asks for more than `most`
+/// seeds.
 nlohmann::json choiceJson(const CheckChoice& choice);
-std::optional<CheckChoice> keptChoice(const nlohmann::json& json, const CheckCases& cases);
+std::optional<CheckChoice> keptChoice(const nlohmann::json& json, const CheckCases& cases, int most);
 
-/// "90", "90s", "20min", "1.5h" in seconds. Throws InputError for anything else, and for less than a second.
+/// "90", "90s", "20min", "1.5h" in seconds. Throws InputError for anything else, for less than a second and for more
+/// than 10,000 hours.
 double budgetSeconds(const std::string& text);
 
 } // namespace grouser::sweeps

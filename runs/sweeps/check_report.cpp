@@ -329,7 +329,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
                         status.message.empty() ? "" : ": " + status.message);
   }
   for (const CheckOmission& o : record.cases.omitted)
-    text += fmt::format("  {:<14} not asked: {}\n", base::wordOf(o.axis), o.why);
+    text += fmt::format("  {:<14} left out: {}\n", base::wordOf(o.axis), o.why);
   if (results.skin != SameBits::notRun) text += fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
   return text;
 }

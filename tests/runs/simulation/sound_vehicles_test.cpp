@@ -76,7 +76,14 @@ INSTANTIATE_TEST_SUITE_P(Drives, SoundVehicles,
                                                   "driver.weight_ramp=0.03", "driver.drive_start=0.05",
                                                   "driver.drive_ramp=0.05", "vehicle.sphere_radius=0.03"},
                                                  1600},
-                                           Drive{"OnABed", "coupled", {}, 600}),
+                                           Drive{"OnABed", "coupled", {}, 600},
+                                           Drive{"OnGrainsThatBounce",
+                                                 "coupled",
+                                                 {"material.soil.restitution=0.95", "material.soil.stiffness=1e7",
+                                                  "terrain.settle_kinetic_energy=0.5", "vehicle.sphere_radius=0.03",
+                                                  "driver.tension_ramp=0.02", "driver.weight_ramp=0.03",
+                                                  "driver.drive_start=0.05", "driver.drive_ramp=0.02"},
+                                                 600}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 // Springs that a step does not resolve are refused before anything can turn so far: this asks for less.

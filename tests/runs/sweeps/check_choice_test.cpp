@@ -97,14 +97,16 @@ TEST(CheckChoice, MoreSeedsSettleMoreBeds) {
 TEST(CheckChoice, IsKeptAsItWas) {
   const CheckCases cases = someCases(true);
   const CheckChoice choice = chooseRuns(cases, 8, 120, byStepsAlone(), 1);
-  EXPECT_EQ(keptChoice(choiceJson(choice), cases), choice);
+  EXPECT_EQ(keptChoice(choiceJson(choice), cases, 8), choice);
   nlohmann::json other = choiceJson(choice);
   other["seeds"].push_back(1);
-  EXPECT_FALSE(keptChoice(other, cases));
+  EXPECT_FALSE(keptChoice(other, cases, 8));
+  other = choiceJson(choice), other["seeds"][0] = 2'000'000'000;
+  EXPECT_FALSE(keptChoice(other, cases, 8));
   other = choiceJson(choice), other["left_out"] = {7};
-  EXPECT_FALSE(keptChoice(other, cases));
-  EXPECT_FALSE(keptChoice(nlohmann::json(), cases));
-  EXPECT_FALSE(keptChoice(nlohmann::json{{"seeds", "some"}}, cases));
+  EXPECT_FALSE(keptChoice(other, cases, 8));
+  EXPECT_FALSE(keptChoice(nlohmann::json(), cases, 8));
+  EXPECT_FALSE(keptChoice(nlohmann::json{{"seeds", "some"}}, cases, 8));
 }
 
 TEST(CheckChoice, TheBaseIsAlwaysRun) {
@@ -116,7 +118,7 @@ TEST(CheckChoice, BudgetsHaveUnits) {
   EXPECT_DOUBLE_EQ(budgetSeconds("90s"), 90);
   EXPECT_DOUBLE_EQ(budgetSeconds("20min"), 1200);
   EXPECT_DOUBLE_EQ(budgetSeconds("1.5h"), 5400);
-  for (const char* wrong : {"", "min", "20 minutes", "-5min", "0", "0.5s", "nan", "inf", "1e400"})
+  for (const char* wrong : {"", "min", "20 minutes", "-5min", "0", "0.5s", "nan", "inf", "1e400", "0x10s", " 90s", "1e300h"})
     EXPECT_THROW(budgetSeconds(wrong), base::InputError) << wrong;
 }
 
