@@ -118,7 +118,8 @@ TEST(CheckChoice, BudgetsHaveUnits) {
   EXPECT_DOUBLE_EQ(budgetSeconds("90s"), 90);
   EXPECT_DOUBLE_EQ(budgetSeconds("20min"), 1200);
   EXPECT_DOUBLE_EQ(budgetSeconds("1.5h"), 5400);
-  for (const char* wrong : {"", "min", "20 minutes", "-5min", "0", "0.5s", "nan", "inf", "1e400", "0x10s", " 90s", "1e300h"})
+  for (const char* wrong :
+       {"", "min", "20 minutes", "-5min", "0", "0.5s", "nan", "inf", "1e400", "0x10s", " 90s", "1e300h"})
     EXPECT_THROW(budgetSeconds(wrong), base::InputError) << wrong;
 }
 
