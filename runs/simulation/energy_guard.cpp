@@ -47,8 +47,7 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
                        "most",
                        -x.lost, x.taken, kInterval);
-  const double neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(all)) + kSpringShare * now.elastic;
-  if (made > kMostMade * (all - made) + neverAlarms)
+  if (made > kMostMade * (all - made) + kRounding * held + kQuiet * (now.turnover + std::fabs(all)))
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }

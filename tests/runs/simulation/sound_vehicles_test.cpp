@@ -32,6 +32,7 @@ protected:
                              100 * sinceLook, 100 * sinceStart);
   }
   static void note(const EnergyGuard& watch, const Ledger& now) {
+    if (now.dissipated.parts <= now.dissipated.ofGrains()) return; // not judged by heat
     const EnergyGuard::Exchange x = watch.since(now, std::fabs(now.kinetic) + std::fabs(now.elastic));
     if (x.taken > 0 && -x.lost > x.neverAlarms) sinceLook = std::max(sinceLook, (-x.lost - x.neverAlarms) / x.taken);
     sinceStart = std::max(sinceStart, -now.integrationError / now.dissipated.total());
