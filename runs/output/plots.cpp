@@ -2,12 +2,9 @@
 #include "runs/output/plots.hpp"
 
 #include "runs/support/locations.hpp"
+#include "runs/support/program_call.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
 
 namespace grouser::output {
 
@@ -15,35 +12,6 @@ namespace {
 
 // Debian's, for which python3-matplotlib and python3-h5py are packaged; another may stand before it on the PATH.
 constexpr const char* kPython = "/usr/bin/python3";
-
-struct Outcome {
-  int status = -1;    ///< exit status; -1: could not be started
-  std::string output; ///< stdout and stderr together
-};
-
-Outcome call(std::vector<std::string> words) {
-  std::vector<char*> arguments;
-  for (std::string& w : words) arguments.push_back(w.data());
-  arguments.push_back(nullptr);
-  int ends[2];
-  if (pipe(ends) != 0) return {};
-  const pid_t child = fork();
-  if (child == 0) {
-    dup2(ends[1], STDOUT_FILENO), dup2(ends[1], STDERR_FILENO);
-    close(ends[0]), close(ends[1]);
-    execv(arguments[0], arguments.data());
-    _exit(127);
-  }
-  close(ends[1]);
-  Outcome outcome;
-  std::array<char, 4096> buffer;
-  for (ssize_t n; child > 0 && (n = read(ends[0], buffer.data(), buffer.size())) > 0;)
-    outcome.output.append(buffer.data(), static_cast<std::size_t>(n));
-  close(ends[0]);
-  int status = 0;
-  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
-  return outcome;
-}
 
 std::string lastLine(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -61,7 +29,7 @@ bool draw(const std::string& name, const std::vector<std::string>& arguments, st
   }
   std::vector<std::string> words = {kPython, script.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const Outcome outcome = call(words);
+  const support::CallOutcome outcome = support::callProgram(words);
   constexpr int kMissingPackage = 3; // what the scripts end with
   if (outcome.status == 127 || outcome.status == -1)
     warning = fmt::format("no plots: {} is missing; install python3, python3-matplotlib and python3-h5py", kPython);
@@ -102,7 +70,7 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {
   std::vector<std::string> words = {kPython, script.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const Outcome outcome = call(words);
+  const support::CallOutcome outcome = support::callProgram(words);
   if (outcome.status != 0) warning = fmt::format("{} {}: {}", kPython, script.string(), lastLine(outcome.output));
   return outcome.status == 0;
 }

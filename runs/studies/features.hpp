@@ -6,6 +6,7 @@
 #include "runs/studies/estimate.hpp"
 #include "runs/studies/pieces.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -50,6 +51,11 @@ Table measureFeature(const FeaturesCommand& command, const Feature& feature, con
 Table measureVehicle(const FeaturesCommand& command, const base::Exec& exec);
 /// A row and a frame every hundred steps beside steps alone, into `folder`.
 Table measureOutput(const FeaturesCommand& command, const base::Exec& exec, const std::filesystem::path& folder);
+
+/// One rank of two threads beside two ranks of one thread each (`mpirun`), which share a box of grains alone: calls of
+/// `grouser bench bed`, whose files go into `folder`; a GPU is shared. Throws InputError where mpirun is not to be had or
+/// a call fails.
+Table measureRanks(const FeaturesCommand& command, const std::filesystem::path& folder);
 
 /// What a feature costs, from the rows of its table.
 struct FeatureCost {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace grouser::studies {
 
@@ -86,6 +87,21 @@ TEST_F(FeaturesStudy, GoesOnWithWhatIsThereAndKnowsItsFeatures) {
   const Outcome none = call(words + "colour --force");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.error().find("--features colour: is none of friction, rolling"), std::string::npos) << none.errors;
+}
+
+TEST_F(FeaturesStudy, OfRanksBothEndInTheSameState) {
+  const Outcome one = call("study features --quick --pairs 2 --turn 0.01 --out results --features ranks");
+  ASSERT_EQ(one.code, 0) << one.errors;
+  std::ifstream rows(folder_ / "results/runs/ranks.csv");
+  std::string line;
+  std::getline(rows, line);
+  EXPECT_EQ(line.substr(line.rfind(',') + 1), "same state");
+  int pairs = 0;
+  for (; std::getline(rows, line); ++pairs) EXPECT_EQ(line.substr(line.rfind(',') + 1), "1") << line;
+  EXPECT_EQ(pairs, 2);
+  const Outcome none = call("study features --pairs 2 --out other --features ranks", "PATH=/nowhere ");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.error().find("needs mpirun"), std::string::npos) << none.errors;
 }
 
 } // namespace
