@@ -53,8 +53,8 @@ Table measureVehicle(const FeaturesCommand& command, const base::Exec& exec);
 Table measureOutput(const FeaturesCommand& command, const base::Exec& exec, const std::filesystem::path& folder);
 
 /// One rank of two threads beside two ranks of one thread each (`mpirun`), which share a box of grains alone: calls of
-/// `grouser bench bed`, whose files go into `folder`; a GPU is shared. Throws InputError where mpirun is not to be had or
-/// a call fails.
+/// `grouser bench bed`, whose files go into `folder`; a GPU is shared. Throws InputError where mpirun is not to be had
+/// or a call fails.
 Table measureRanks(const FeaturesCommand& command, const std::filesystem::path& folder);
 
 /// What a feature costs, from the rows of its table.
