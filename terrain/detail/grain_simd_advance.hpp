@@ -64,41 +64,26 @@ private:
   }
   GROUSER_SIMD static int rowOf(int lane) { return lane % 4 * (kLanes / 4) + lane / 4; }
 
-  // Components of a group's grains, from their rows and back. `together`: their slots follow each other.
-  template <class V> GROUSER_SIMD void loadAll(const void* from, int g, bool together, V (&out)[4]) const {
-    if (together) return base::loadRows(static_cast<const Float4*>(from) + slot_[g], out);
+  // Components of a group's grains, from their rows, which lie kBytes apart, and back. `together`: their slots follow
+  // each other.
+  template <std::size_t kBytes = 16, class V>
+  GROUSER_SIMD void loadAll(const void* from, int g, bool together, V (&out)[4]) const {
+    if (kBytes == 16 && together) return base::loadRows(static_cast<const Float4*>(from) + slot_[g], out);
     Int rows[4];
-    base::gatherRows<kLanes>(from, slot_ + g, rows);
+    base::gatherRows<kLanes, kBytes>(from, slot_ + g, rows);
     for (int k = 0; k < 4; ++k) out[k] = base::bitsAs<V>(rows[k]);
   }
-  template <class V> GROUSER_SIMD void storeAll(void* to, int g, bool together, V (&in)[4], unsigned which) const {
-    if (together && which == kAll) return base::storeRows(static_cast<Float4*>(to) + slot_[g], in);
+  template <std::size_t kBytes = 16, class V>
+  GROUSER_SIMD void storeAll(void* to, int g, bool together, V (&in)[4], unsigned which) const {
+    if (kBytes == 16 && together && which == kAll) return base::storeRows(static_cast<Float4*>(to) + slot_[g], in);
     base::transpose(in);
 #pragma GCC unroll 8
     for (int l = 0; l < kLanes; ++l)
       if (which == kAll || which >> l & 1)
-        std::memcpy(static_cast<char*>(to) + 16 * std::size_t{slot_[g + l]},
+        std::memcpy(static_cast<char*>(to) + kBytes * std::size_t{slot_[g + l]},
                     reinterpret_cast<const char*>(&in[l % 4]) + l / 4 * 16, 16);
   }
-
-  /// Of kLanes grains, whose velocities and spins lie side by side.
-  GROUSER_SIMD void loadMotion(int g, Float (&velocity)[4], Float (&spin)[4]) const {
-    Int rows[4];
-    base::gatherRows<kLanes, sizeof(contact::Motion)>(&data_.motion->velocity, slot_ + g, rows);
-    for (int k = 0; k < 4; ++k) velocity[k] = base::bitsAs<Float>(rows[k]);
-    base::gatherRows<kLanes, sizeof(contact::Motion)>(&data_.motion->spin, slot_ + g, rows);
-    for (int k = 0; k < 4; ++k) spin[k] = base::bitsAs<Float>(rows[k]);
-  }
-  GROUSER_SIMD void storeMotion(int g, Float (&velocity)[4], Float (&spin)[4], unsigned which) const {
-    base::transpose(velocity), base::transpose(spin);
-#pragma GCC unroll 8
-    for (int l = 0; l < kLanes; ++l) {
-      if (which != kAll && !(which >> l & 1)) continue;
-      contact::Motion& to = data_.nextMotion[slot_[g + l]];
-      std::memcpy(&to.velocity, reinterpret_cast<const char*>(&velocity[l % 4]) + l / 4 * 16, 16);
-      std::memcpy(&to.spin, reinterpret_cast<const char*>(&spin[l % 4]) + l / 4 * 16, 16);
-    }
-  }
+  static constexpr std::size_t kApart = sizeof(contact::Motion);
 
   /// addCompensated(). Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing by one is
   /// multiplying by its inverse, to the last bit.
@@ -147,7 +132,7 @@ private:
   GROUSER_SIMD unsigned step(int g, bool together) {
     Float v[4], w[4], force[4], torque[4];
     Int kept[4], p[4], q[4], keep[4];
-    loadMotion(g, v, w);
+    loadAll<kApart>(&data_.motion->velocity, g, together, v), loadAll<kApart>(&data_.motion->spin, g, together, w);
     loadAll(data_.remainders, g, together, kept), loadAll(data_.position, g, together, p);
     base::loadRows(force_ + g, force), base::loadRows(torque_ + g, torque);
     const Sizes size = sizesOf(v[3]);
@@ -195,7 +180,8 @@ private:
     if (!kManySizes) v[3] = Float{};
     w[3] = Float{};
     storeAll(data_.nextPosition, g, together, q, which), storeAll(data_.remainders, g, together, keep, which);
-    storeMotion(g, v, w, which);
+    storeAll<kApart>(&data_.nextMotion->velocity, g, together, v, which);
+    storeAll<kApart>(&data_.nextMotion->spin, g, together, w, which);
     return kAll & ~which;
   }
 
