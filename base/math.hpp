@@ -124,6 +124,26 @@ GROUSER_HD double log(double x) {
   return n * 6.93147180369123816490e-01 + (2 * (s + s * p) + n * 1.90821492927058770002e-10);
 }
 
+/// Cube root of x >= 0; 0 of what is less. By Halley's method from a guess of the exponent's third (3 % off).
+GROUSER_HD double cubeRoot(double x) {
+  if (!(x > 0)) return 0;
+  double y = bitsAs<double>(bitsAs<std::uint64_t>(x) / 3 + 0x2A9F7893782DA1CEull);
+  for (int k = 0; k < 3; ++k) {
+    const double cube = y * y * y;
+    y = y * ((cube + x + x) / (cube + cube + x));
+  }
+  return y;
+}
+GROUSER_HD float cubeRoot(float x) {
+  if (!(x > 0)) return 0;
+  float y = bitsAs<float>(bitsAs<std::uint32_t>(x) / 3 + 0x2A512CE3u);
+  for (int k = 0; k < 2; ++k) {
+    const float cube = y * y * y;
+    y = y * ((cube + x + x) / (cube + cube + x));
+  }
+  return y;
+}
+
 /// x^y for x > 0.
 GROUSER_HD double pow(double x, double y) { return base::exp(y * base::log(x)); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/number.hpp"
+#include "contact/plastic_law.hpp"
 
 #include <cmath>
 
@@ -16,11 +17,17 @@ inline constexpr unsigned kRollingFriction = 4; ///< rolling resistance with his
 inline constexpr unsigned kCohesion = 8;        ///< constant attraction while in touch
 /// Damping follows the effective mass of each contact, not one of the whole scene.
 inline constexpr unsigned kManyMasses = 16;
+inline constexpr unsigned kPlastic = 32;       ///< elastic-plastic normal springs, with history
 inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
 
-/// Numbers that a contact with these features keeps from step to step: the tangential spring, then the rolling angle.
+/// Where a contact's plastic state stands among the numbers that it keeps, behind its springs.
+GROUSER_HD constexpr int plasticPlace(unsigned features) {
+  return features & kRollingFriction ? 6 : features & (kFriction | kPlastic) ? 3 : 0;
+}
+/// Numbers that a contact with these features keeps from step to step: the tangential spring, the rolling angle, the
+/// plastic state.
 GROUSER_HD constexpr int historyWidth(unsigned features) {
-  return features & kRollingFriction ? 6 : features & kFriction ? 3 : 0;
+  return plasticPlace(features) + (features & kPlastic ? kPlasticNumbers : 0);
 }
 
 /// A contact law between two surfaces, in float or double. All of them are a normal spring and dashpot, and a
@@ -42,6 +49,9 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
 /// Cohesion (DMT, Derjaguin et al. 1975): a constant pull of 2 pi w R_eff while the spheres overlap, w the energy of
 /// adhesion. At overlap zero it ends at once: parting needs that force, and the work done against it is that gained on
 /// approach. Friction and rolling friction are limited by the pressing part, F_n without the pull.
+///
+/// Elastic-plastic contacts (plastic_law.hpp) have its force for `elastic`. Where that pulls the dashpot does not add
+/// to it, and friction is limited by the force and what the contact could be pulled with (Thakur et al. 2014).
 template <class T> struct BasicLaw {
   T stiffness{};             ///< linear: k [N/m], > 0;  Hertz: (4/3) E_eff [Pa]
   T damping{};               ///< linear: gamma [1/s], >= 0;  Hertz: 0
@@ -55,17 +65,34 @@ template <class T> struct BasicLaw {
   T rollingFriction{};       ///< [-], >= 0; 0 switches rolling resistance off
   T rollingDamping{};        ///< [-], >= 0: of the rolling spring's critical damping
   T pullPerRadius{};         ///< cohesion: 2 pi w [N/m], >= 0
+  BasicPlasticity<T> plastic{};
 
   template <class U> BasicLaw<U> as() const {
     const auto u = [](T value) { return static_cast<U>(value); };
-    return {u(stiffness),      u(damping),      u(tangentialStiffness), u(tangentialDamping),     u(friction),
-            attraction,        hertz,           u(rootDamping),         u(tangentialRootDamping), u(rollingFriction),
-            u(rollingDamping), u(pullPerRadius)};
+    return {u(stiffness),
+            u(damping),
+            u(tangentialStiffness),
+            u(tangentialDamping),
+            u(friction),
+            attraction,
+            hertz,
+            u(rootDamping),
+            u(tangentialRootDamping),
+            u(rollingFriction),
+            u(rollingDamping),
+            u(pullPerRadius),
+            plastic.template as<U>()};
+  }
+  /// The same with elastic contacts.
+  BasicLaw elastic() const {
+    BasicLaw law = *this;
+    law.plastic = {};
+    return law;
   }
   /// Features that a kernel needs for this law; kManyMasses is the scene's affair.
   unsigned features() const {
     return (hertz ? kHertz : 0u) | (friction > 0 ? kFriction : 0u) | (rollingFriction > 0 ? kRollingFriction : 0u) |
-           (pullPerRadius > 0 ? kCohesion : 0u);
+           (pullPerRadius > 0 ? kCohesion : 0u) | (plastic.share > 0 ? kPlastic : 0u);
   }
 };
 
@@ -91,8 +118,9 @@ template <class T> struct BasicReaction {
   base::Vec3<T> force; ///< on i [N]; on j it is the exact opposite
   T damped;            ///< by the dashpots within the step [J]
   T rubbed;            ///< by sliding within the step [J]
-  T pressing;          ///< normal force without cohesion [N], what limits friction
-  T normalStiffness;   ///< dF_n / d overlap of the spring [N/m]
+  T pressing;          ///< normal force without cohesion and adhesion [N], what limits friction
+  T normalStiffness;   ///< dF_n / d overlap of the elastic spring [N/m]
+  T yielded{};         ///< plastic work within the step [J]
 };
 using Reaction = BasicReaction<float>;
 
@@ -127,7 +155,8 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 
 /// Force of `law` on side i, and the tangential spring `shear` [m] carried to the end of the step. T is float, double,
 /// or SIMD numbers of these: one source for the kernels of both devices and for many contacts at a time.
-/// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit.
+/// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit. `state`:
+/// of an elastic-plastic contact, carried to the end of the step; where it is null all contacts are elastic.
 ///
 /// Work of dashpots is booked with the velocity in the middle of the step, by which symplectic Euler changes the
 /// kinetic energy exactly, F . (v_old + v_new) / 2 dt, as this contact alone would make it: second order in the step
@@ -136,23 +165,33 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 /// must not seem to move. What turning the spring into the tangent plane takes away is an error of the step's length,
 /// not a loss, and is booked nowhere here. With Hertz' law a loaded tangential spring gains or loses energy as k_t
 /// follows the contact radius, however short the step: that is the law's own, and booked as sliding.
-template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law,
-                                                                                const BasicContactGeometry<T>& touch,
-                                                                                ScalarOf<T> dt, base::Vec3<T>& shear) {
+template <unsigned kFeatures, class T>
+GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const BasicContactGeometry<T>& touch,
+                                         ScalarOf<T> dt, base::Vec3<T>& shear, BasicPlasticState<T>* state = nullptr) {
   using Scalar = ScalarOf<T>;
   const T zero{};
   const base::Vec3<T>& n = touch.normal;
   const T approach = dot(touch.velocity, n);
   const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
+  T elastic = c.elastic, least = zero, adhesion{}, yielded{};
+  if constexpr ((kFeatures & (kPlastic | kGeneral)) != 0)
+    if (state && law.plastic.share > 0) {
+      const BasicElasticSpring<T> spring{law.stiffness, touch.effectiveRadius, law.hertz};
+      const BasicPlasticForce<T> bent = plasticForce(law.plastic, spring, touch.overlap, *state);
+      elastic = bent.force, adhesion = bent.adhesion, yielded = bent.yielded;
+      if (elastic < zero) least = elastic;
+    }
   T dashpot = c.damping * approach;
-  // Without attraction the dashpot may at most cancel the spring.
-  if (!law.attraction) dashpot = c.elastic + dashpot < zero ? -c.elastic : dashpot;
-  const T pressing = c.elastic + dashpot;
-  T normalForce = pressing;
+  // Without attraction the dashpot may at most cancel the spring, and not help it to pull.
+  if (!law.attraction) dashpot = elastic + dashpot < least ? least - elastic : dashpot;
+  T normalForce = elastic + dashpot;
+  T pressing = normalForce;
+  if constexpr ((kFeatures & (kPlastic | kGeneral)) != 0) pressing += adhesion;
   if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pullPerRadius * touch.effectiveRadius;
   const T halfStepPerMass = Scalar(0.5) * dt / touch.effectiveMass;
-  BasicReaction<T> reaction{n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, zero, pressing,
-                            c.normalStiffness};
+  BasicReaction<T> reaction{
+      n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, zero, pressing, c.normalStiffness,
+      yielded};
   if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
 
   // Turn the spring into the present tangent plane, then stretch it by this step's slip.
@@ -196,12 +235,19 @@ template <unsigned kFeatures, class T> GROUSER_HD BasicReaction<T> contactForce(
   return reaction;
 }
 
-/// Energy stored in the springs of a contact [J], and gained from its cohesion, from zero at overlap 0.
+/// Energy stored in the springs of a contact [J], and gained from its cohesion, from zero at overlap 0. `state`: of an
+/// elastic-plastic contact; null for one that no step has seen.
 template <class T> GROUSER_HD double storedEnergy(const BasicLaw<T>& law, double overlap, double effectiveRadius,
-                                                  const base::Vec3<T>& shear) {
+                                                  const base::Vec3<T>& shear,
+                                                  const BasicPlasticState<double>* state = nullptr) {
   const double s2 = static_cast<double>(dot(shear, shear));
   const double k = static_cast<double>(law.stiffness), kt = static_cast<double>(law.tangentialStiffness);
   const double pull = static_cast<double>(law.pullPerRadius) * effectiveRadius * overlap;
+  if (state && law.plastic.share > 0) {
+    const BasicElasticSpring<double> spring{k, effectiveRadius, law.hertz};
+    const double sticks = law.hertz ? sqrt(effectiveRadius * overlap) : 1; // of k_t
+    return plasticEnergy(law.plastic.template as<double>(), spring, overlap, *state) + 0.5 * kt * sticks * s2 - pull;
+  }
   if (!law.hertz) return 0.5 * k * overlap * overlap + 0.5 * kt * s2 - pull;
   const double a = sqrt(effectiveRadius * overlap);
   return 0.4 * k * a * overlap * overlap + 0.5 * kt * a * s2 - pull;

@@ -23,9 +23,9 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     GrainSize<Real> size;
     std::uint32_t before; ///< boundaries that it touched in the last step
   };
-  /// By dashpots, sliding and rolling resistance [J].
+  /// By dashpots, sliding, rolling resistance and yielding [J].
   struct Losses {
-    Real damped = 0, rubbed = 0, rolled = 0;
+    Real damped = 0, rubbed = 0, rolled = 0, yielded = 0;
   };
   struct Reaction {
     Vec force, rolling; ///< on the grain [N], torque of rolling resistance [N m]
@@ -69,6 +69,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum, lost);
     if (held && now != 0) bookHeld(grain, d.fromSurfaces[k], sum, books);
     if (now != 0) bookLosses(lost, books);
+    if (has(contact::kPlastic) && d.books) addYielded(d, i, static_cast<double>(lost.yielded));
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
   }
@@ -155,9 +156,13 @@ private:
                          : nullptr;
     Vec shear{};
     if (held) shear = loaded(history, turned);
-    const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
+    contact::BasicPlasticState<Real> plastic{};
+    if (has(contact::kPlastic) && held) plastic = loadPlastic<Real>(Kernel::plasticIn(history));
+    const auto reaction =
+        contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear, has(contact::kPlastic) ? &plastic : nullptr);
     if (Kernel::hasHistory()) store(history, turned, shear);
-    lost.damped += reaction.damped, lost.rubbed += reaction.rubbed;
+    if (has(contact::kPlastic)) storePlastic(Kernel::plasticIn(history), plastic);
+    lost.damped += reaction.damped, lost.rubbed += reaction.rubbed, lost.yielded += reaction.yielded;
     Reaction result{reaction.force, {}};
     if (has(contact::kRollingFriction)) {
       Vec angle{};

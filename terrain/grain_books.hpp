@@ -31,7 +31,8 @@ enum Book : int {
   /// parts; a step each
   kWallForce = kGrainBooks,
   kWallTorque = kWallForce + 3, ///< about the origin of the world
-  kBooks = kWallTorque + 3
+  kYielded = kWallTorque + 3,   ///< by elastic-plastic contacts
+  kBooks
 };
 
 /// Quanta of the mass of the largest grain.
@@ -69,8 +70,9 @@ template <int kBegin, int kEnd> struct BooksOf {
   }
 };
 using GrainBooks = BooksOf<0, kGrainBooks>;
-using WallBooks = BooksOf<kFirstOfWalls, kBooks>;
-using HeldBooks = BooksOf<kWallForce, kBooks>; ///< forces by grains that never move
+using WallBooks = BooksOf<kFirstOfWalls, kYielded>;
+using HeldBooks = BooksOf<kWallForce, kYielded>; ///< forces by grains that never move
+using YieldBooks = BooksOf<kYielded, kBooks>;
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
 /// rounding makes of it, whose square is beyond a double's digits.

@@ -22,12 +22,14 @@ Vec3f vectorAt(const std::vector<float>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
-/// History of contacts as it lies on the device: spring and rolling angle of each, one after the other.
-std::vector<float> historyOf(const std::vector<Vec3f>& shear, const std::vector<Vec3f>& rolling) {
+/// History of contacts as it lies on the device: spring, rolling angle and plastic state of each, one after the other.
+std::vector<float> historyOf(const std::vector<Vec3f>& shear, const std::vector<Vec3f>& rolling,
+                             const std::vector<float>& deepest, const std::vector<float>& origin) {
   std::vector<float> history;
   for (std::size_t c = 0; c < shear.size(); ++c) {
     history.insert(history.end(), {shear[c].x, shear[c].y, shear[c].z});
     if (!rolling.empty()) history.insert(history.end(), {rolling[c].x, rolling[c].y, rolling[c].z});
+    if (!deepest.empty()) history.insert(history.end(), {deepest[c], origin[c]});
   }
   return history;
 }
@@ -100,7 +102,11 @@ void saveBoundarySprings(const GrainSystem& system, const std::vector<std::uint3
       const bool held = s.wallBits[k] >> b & 1;
       const std::size_t at = (slots[k] * boundaries + b) * width;
       s.wallShear.push_back(held ? vectorAt(history, at) : Vec3f{});
-      if (width > 3) s.wallRolling.push_back(held ? vectorAt(history, at + 3) : Vec3f{});
+      if (s.layout.rolling) s.wallRolling.push_back(held ? vectorAt(history, at + 3) : Vec3f{});
+      if (s.layout.plastic) {
+        s.wallDeepest.push_back(held ? history[at + width - 2] : 0.0f);
+        s.wallOrigin.push_back(held ? history[at + width - 1] : 0.0f);
+      }
     }
 }
 
@@ -117,7 +123,11 @@ void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& s
       const auto at = static_cast<std::size_t>(lists.at(i, k));
       s.neighbour.push_back(id[lists.slot[at]]);
       if (width > 0) s.contactShear.push_back(vectorAt(lists.history, at * width));
-      if (width > 3) s.contactRolling.push_back(vectorAt(lists.history, at * width + 3));
+      if (s.layout.rolling) s.contactRolling.push_back(vectorAt(lists.history, at * width + 3));
+      if (s.layout.plastic) {
+        s.contactDeepest.push_back(lists.history[at * width + width - 2]);
+        s.contactOrigin.push_back(lists.history[at * width + width - 1]);
+      }
       ++s.contacts[row];
     }
   }
@@ -230,7 +240,7 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
     motion[k].spin = {w.x, w.y, w.z, own_.material.empty() ? 0.0f : static_cast<float>(own_.material[k])};
   }
   f.position.now.assign(position), f.motion.now.assign(motion);
-  f.boundaryHistory.now.assign(historyOf(own_.wallShear, own_.wallRolling));
+  f.boundaryHistory.now.assign(historyOf(own_.wallShear, own_.wallRolling, own_.wallDeepest, own_.wallOrigin));
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
   system.books.restore(own_.books, system.comm);
@@ -271,7 +281,8 @@ void GrainCheckpoint::loadContacts(GrainSystem& system, const std::vector<std::u
   std::vector<std::size_t> first(own_.rows() + 1);
   for (std::size_t g = 0; g < own_.rows(); ++g) first[g + 1] = first[g] + own_.contacts[g];
   contact::NeighbourList::HostCopy lists = system.neighbours.toHost();
-  const std::vector<float> history = historyOf(own_.contactShear, own_.contactRolling);
+  const std::vector<float> history =
+      historyOf(own_.contactShear, own_.contactRolling, own_.contactDeepest, own_.contactOrigin);
   const auto width = static_cast<std::size_t>(system.constants.historyWidth),
              words = static_cast<std::size_t>(lists.maskWords);
   std::fill(lists.touching.begin(), lists.touching.end(), 0);

@@ -42,9 +42,10 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
 
 GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials) {
   const auto has = [&](unsigned feature) -> std::int64_t { return (features & feature) != 0; };
-  const int history = contact::historyWidth(features);
-  return {has(kLedger),   boundaries, history > 0, history > 3, has(kManyRadii), static_cast<std::int64_t>(materials),
-          has(kPeriodic), has(kFixed)};
+  const int springs = contact::plasticPlace(features);
+  return {has(kLedger),   boundaries,      springs > 0,
+          springs > 3,    has(kManyRadii), static_cast<std::int64_t>(materials),
+          has(kPeriodic), has(kFixed),     has(contact::kPlastic)};
 }
 
 namespace {

@@ -62,6 +62,14 @@ struct GrainKernelData {
   const StepFlags* former; ///< of the step before in a batch: has it raised one, this step does nothing; else null
 };
 
+/// Books what the contacts of slot i have lost by yielding in this step [J]; few scenes have any.
+GROUSER_HD void addYielded(const GrainKernelData& d, int i, double yielded) {
+  if (yielded == 0) return;
+  YieldBooks books;
+  books.add(kYielded, wholeQuanta(d.bookScale.perEnergy * yielded));
+  addToBank(d.books, i / 32, books);
+}
+
 /// Constants in the precision of the forces, by value.
 template <class Real> struct ForceData {
   Real radius, unit, timeStep, halfMass, mass, diameterUnits;
@@ -81,6 +89,12 @@ template <class Real> struct GrainSize {
 
 GROUSER_HD base::Vec3f loadVector(const float* at) { return {at[0], at[1], at[2]}; }
 GROUSER_HD void storeVector(float* at, const base::Vec3f& v) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
+template <class Real> GROUSER_HD contact::BasicPlasticState<Real> loadPlastic(const float* at) {
+  return {static_cast<Real>(at[0]), static_cast<Real>(at[1])};
+}
+template <class Real> GROUSER_HD void storePlastic(float* at, const contact::BasicPlasticState<Real>& state) {
+  at[0] = static_cast<float>(state.deepest), at[1] = static_cast<float>(state.origin);
+}
 
 /// What all kernels of grains share: which features they have, and how big a grain is.
 template <unsigned kFeatures, class Real> struct GrainKernel {
@@ -88,8 +102,9 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   ForceData<Real> f;
 
   /// The features of force functions that this kernel calls.
-  static constexpr unsigned kLaw = kFeatures & (contact::kGeneral | contact::kHertz | contact::kFriction |
-                                                contact::kRollingFriction | contact::kCohesion | contact::kManyMasses);
+  static constexpr unsigned kLaw =
+      kFeatures & (contact::kGeneral | contact::kHertz | contact::kFriction | contact::kRollingFriction |
+                   contact::kCohesion | contact::kManyMasses | contact::kPlastic);
 
   GROUSER_HD bool has(unsigned feature) const {
     return kFeatures & contact::kGeneral ? (d.features & feature) != 0 : (kFeatures & feature) != 0;
@@ -101,9 +116,13 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   /// Whether this step of a batch must do nothing: the step before it, on this rank or (after their reduction) on
   /// another, has raised a flag. Those flags are final: its kernels have ended in the stream before this one starts.
   GROUSER_HD bool ended() const { return d.former && (d.former->stale || d.former->fault != kNoFault); }
-  GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction); }
+  GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction | contact::kPlastic); }
   GROUSER_HD int historyWidth() const {
     return contact::historyWidth(kFeatures & contact::kGeneral ? d.features : kFeatures);
+  }
+  /// The plastic state of a contact's history.
+  template <class Float> GROUSER_HD Float* plasticIn(Float* history) const {
+    return history + contact::plasticPlace(kFeatures & contact::kGeneral ? d.features : kFeatures);
   }
 
   /// `radiusInW`: as velocity.w has it.

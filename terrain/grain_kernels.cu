@@ -15,6 +15,7 @@ using contact::kCohesion;
 using contact::kFriction;
 using contact::kGeneral;
 using contact::kHertz;
+using contact::kPlastic;
 using contact::kRollingFriction;
 
 namespace {
@@ -49,8 +50,14 @@ using BoundaryKernels =
                kHertz | kFriction | kRollingFriction | kManyRadii | kFloor>;
 
 /// Features that the kernel of walls and floor depends on.
-constexpr unsigned kAtBoundaries =
-    kHertz | kFriction | kRollingFriction | kCohesion | kManyRadii | kManyMaterials | kSurfaces | kFloor | kGeneral;
+constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
+                                   kManyMaterials | kSurfaces | kFloor | kGeneral;
+
+/// Elastic-plastic soils under a vehicle.
+constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction;
+using PlasticKernels =
+    KernelList<kYielding, kYielding | kFixed, kYielding | kLoads, kYielding | kFixed | kLoads, kYielding | kHertz,
+               kYielding | kHertz | kFixed, kYielding | kHertz | kLoads, kYielding | kHertz | kFixed | kLoads>;
 
 template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features) {
   return ((features == kSets) || ...);
@@ -95,6 +102,7 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
   if (const int width = exec.onCpu() ? simdWidth(features, f.law, model.mostSimdLanes) : 1; width > 1)
     return runGrainSimd(exec, d, f, count, width);
   if (ranOneOf<GrainStep>(SoilKernels{}, features, exec, "grain step", d, f, count)) return;
+  if (ranOneOf<GrainStep>(PlasticKernels{}, features, exec, "grain step", d, f, count)) return;
   if (ranOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count)) return;
   runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count);
 }
@@ -118,7 +126,8 @@ template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelDa
 
 bool hasOwnKernel(unsigned features, Precision precision) {
   features &= ~kFloor;
-  return precision == Precision::single && (listed(SoilKernels{}, features) || listed(StepKernels{}, features));
+  return precision == Precision::single &&
+         (listed(SoilKernels{}, features) || listed(PlasticKernels{}, features) || listed(StepKernels{}, features));
 }
 
 std::string featureText(unsigned features) {
@@ -127,6 +136,7 @@ std::string featureText(unsigned features) {
     if (features & feature) text += std::string(", ") + name;
   };
   add(kFriction, "friction"), add(kRollingFriction, "rolling friction"), add(kCohesion, "cohesion");
+  add(kPlastic, "plastic");
   add(kManyRadii, "many radii"), add(kManyMaterials, "many materials");
   add(kPeriodic, "periodic boundaries"), add(kBoundaries, "planes or floor"), add(kSurfaces, "moving surfaces");
   add(kFixed, "fixed grains"), add(kLoads, "rigid parts"), add(kLedger, "ledger");

@@ -156,7 +156,11 @@ private:
   GROUSER_HD double stored(const Law& law, double overlap, double effectiveRadius, double effectiveMass,
                            const float* history) const {
     const Vec3f shear = history ? loadVector(history) : Vec3f{};
-    double energyHeld = contact::storedEnergy(law, overlap, effectiveRadius, shear.template as<Real>());
+    const bool plastic = has(contact::kPlastic);
+    contact::BasicPlasticState<double> state{};
+    if (plastic && history) state = loadPlastic<double>(Kernel::plasticIn(history));
+    double energyHeld =
+        contact::storedEnergy(law, overlap, effectiveRadius, shear.template as<Real>(), plastic ? &state : nullptr);
     if (has(contact::kRollingFriction) && history) {
       const auto c = contact::coefficientsOf<contact::kGeneral>(
           law, static_cast<Real>(overlap), static_cast<Real>(effectiveMass), static_cast<Real>(effectiveRadius));
@@ -212,6 +216,7 @@ void addBooks(GrainLedger& ledger, const GrainSystem& system) {
   const GrainModel& model = system.constants.model;
   const GrainBookkeeping::Totals books = system.books.totals(system.comm);
   ledger.damped = books.damped, ledger.rubbed = books.rubbed, ledger.rolled = books.rolled;
+  ledger.yielded = books.yielded;
   ledger.work = books.work, ledger.turnover = books.turnover;
   ledger.impulse = (model.gravity * books.mass + books.wallForce) * model.timeStep;
   ledger.angularImpulse = (cross(books.moment, model.gravity) + books.wallTorque) * model.timeStep;

@@ -74,6 +74,10 @@ void GrainState::remove(const std::vector<std::uint32_t>& ids) {
       kept.neighbour[to] = kept.neighbour[from];
       if (layout.friction) kept.contactShear[to] = kept.contactShear[from];
       if (layout.rolling) kept.contactRolling[to] = kept.contactRolling[from];
+      if (layout.plastic) {
+        kept.contactDeepest[to] = kept.contactDeepest[from];
+        kept.contactOrigin[to] = kept.contactOrigin[from];
+      }
       ++to, ++left;
     }
     count = left;
@@ -81,6 +85,7 @@ void GrainState::remove(const std::vector<std::uint32_t>& ids) {
   kept.neighbour.resize(to);
   if (layout.friction) kept.contactShear.resize(to);
   if (layout.rolling) kept.contactRolling.resize(to);
+  if (layout.plastic) kept.contactDeepest.resize(to), kept.contactOrigin.resize(to);
   kept.gone.insert(kept.gone.end(), ids.begin(), ids.end());
   std::sort(kept.gone.begin(), kept.gone.end());
   kept.total -= static_cast<std::int64_t>(ids.size());

@@ -21,8 +21,10 @@ struct GrainLayout {
   std::int64_t materials{};  ///< of the grains; 0: one
   std::int64_t periodic{};   ///< 1: some boundaries are periodic
   std::int64_t fixed{};      ///< 1: some grains are fixed
+  std::int64_t plastic{};    ///< 1: contacts have a plastic state
   bool operator==(const GrainLayout&) const = default;
-  std::int64_t historyWidth() const { return 3 * (friction + rolling); } ///< numbers of history of a contact
+  /// Numbers of history of a contact: contact::historyWidth().
+  std::int64_t historyWidth() const { return 3 * (friction + rolling) + 2 * plastic; }
 };
 
 /// All of the grains on which later bits or later output depend, by id: what a checkpoint holds and a hash is taken of.
@@ -48,6 +50,8 @@ struct GrainState {
   std::vector<base::Vec3f> contactShear;   ///< [m], one a neighbour; empty without friction
   std::vector<base::Vec3f> wallRolling;    ///< as wallShear [rad]; empty without rolling friction
   std::vector<base::Vec3f> contactRolling; ///< as contactShear [rad]; empty without rolling friction
+  std::vector<float> wallDeepest, wallOrigin;       ///< as wallShear [m], [N]: contact::BasicPlasticState; else empty
+  std::vector<float> contactDeepest, contactOrigin; ///< as contactShear
 
   std::vector<std::int64_t> books; ///< of the energies since the start (GrainBookkeeping); empty without a ledger
 
@@ -70,13 +74,15 @@ struct GrainState {
     const GrainLayout& l = s.layout;
     visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin), visitor.column(s.remainders);
     visitor.contacts(s.contacts, &s.neighbour, l.friction ? &s.contactShear : nullptr,
-                     l.rolling ? &s.contactRolling : nullptr);
+                     l.rolling ? &s.contactRolling : nullptr, l.plastic ? &s.contactDeepest : nullptr,
+                     l.plastic ? &s.contactOrigin : nullptr);
     if (l.radii) visitor.column(s.radius);
     if (l.materials) visitor.column(s.material);
     if (l.fixed) visitor.column(s.fixed);
     if (l.boundaries)
       visitor.boundaries(s.wallBits, static_cast<std::size_t>(l.boundaries), l.friction ? &s.wallShear : nullptr,
-                         l.rolling ? &s.wallRolling : nullptr);
+                         l.rolling ? &s.wallRolling : nullptr, l.plastic ? &s.wallDeepest : nullptr,
+                         l.plastic ? &s.wallOrigin : nullptr);
     visitor.unhashed(s.travelled);
     if (l.periodic) visitor.unhashed(s.crossings);
   }
@@ -89,9 +95,11 @@ struct GrainState {
     perGrain("remainders", s.remainders), perGrain("radius", s.radius), perGrain("material", s.material);
     perGrain("fixed", s.fixed), perGrain("crossings", s.crossings);
     perGrain("wall_bits", s.wallBits), perGrain("wall_shear", s.wallShear), perGrain("wall_rolling", s.wallRolling);
+    perGrain("wall_deepest", s.wallDeepest), perGrain("wall_origin", s.wallOrigin);
     perGrain("contacts", s.contacts), perGrain("travelled", s.travelled);
     perContact("neighbour", s.neighbour), perContact("contact_shear", s.contactShear);
     perContact("contact_rolling", s.contactRolling);
+    perContact("contact_deepest", s.contactDeepest), perContact("contact_origin", s.contactOrigin);
   }
 };
 

@@ -24,7 +24,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   struct Sum {
     Vec force, torque;
-    Real damped = 0, rubbed = 0, rolled = 0; ///< [J]
+    Real damped = 0, rubbed = 0, rolled = 0, yielded = 0; ///< [J]
     float deepest = 0;
     Held held;
   };
@@ -70,6 +70,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
     if (has(kFixed) && sum.held.any) bookHeld(i, p, sum.held);
+    if (has(contact::kPlastic) && has(kLedger)) addYielded(d, i, static_cast<double>(sum.yielded));
     if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
@@ -185,8 +186,12 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const contact::BasicLaw<Real>& law =
         has(kManyMaterials) ? f.pairLaws[own.size.material * d.materials + other.size.material] : f.law;
     Vec shear = history.spring.template as<Real>();
-    const auto reaction = contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear);
+    contact::BasicPlasticState<Real> plastic{};
+    if (has(contact::kPlastic) && history.held) plastic = loadPlastic<Real>(Kernel::plasticIn(history.at));
+    const auto reaction =
+        contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear, has(contact::kPlastic) ? &plastic : nullptr);
     if (Kernel::hasHistory()) storeVector(history.at, shear.template as<float>());
+    if (has(contact::kPlastic)) storePlastic(Kernel::plasticIn(history.at), plastic);
     // The other half is the neighbour's, but for one that never moves.
     const Real share = onGround ? Real(1) : Real(0.5);
     Vec torque{};
@@ -195,6 +200,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(contact::kFriction)) sum.torque += torque;
     sum.damped += share * reaction.damped;
     if (has(contact::kFriction)) sum.rubbed += share * reaction.rubbed;
+    if (has(contact::kPlastic)) sum.yielded += share * reaction.yielded;
     if (has(contact::kRollingFriction)) {
       Vec angle{};
       if (history.held) angle = loadVector(history.at + 3).template as<Real>();

@@ -127,6 +127,8 @@ std::string switches(const scene::Scene& scene) {
     text += onOff(has(contact::kRollingFriction), "rolling history",
                   has(contact::kRollingFriction) ? "" : "rolling_friction is 0");
     text += onOff(has(contact::kCohesion), "cohesion", has(contact::kCohesion) ? "" : "cohesion is 0");
+    text += onOff(has(contact::kPlastic), "plastic contacts",
+                  has(contact::kPlastic) ? "" : "no law is eepa, eepa_linear or luding");
     text += onOff(has(terrain::kManyRadii), "radius of each grain",
                   kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
                                     : fmt::format("all {:g} m", kinds.largest));

@@ -86,6 +86,7 @@ void setLedgerRow(output::RowBuilder& row, const simulation::Ledger& l, bool tou
   row.set("ledger/dissipated_damping", l.dissipated.damping);
   row.set("ledger/dissipated_friction", l.dissipated.friction);
   row.set("ledger/dissipated_rolling", l.dissipated.rolling);
+  row.set("ledger/dissipated_yielding", l.dissipated.yielding);
   row.set("ledger/dissipated_crushing", l.dissipated.crushing);
   row.set("ledger/dissipated_parts", l.dissipated.parts);
   row.set("ledger/dissipated_joints", l.dissipated.joints);

@@ -372,6 +372,7 @@ void describeLedger(simulation::Simulation& simulation) {
   for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
                                     {"friction", d.friction},
                                     {"rolling", d.rolling},
+                                    {"yielding", d.yielding},
                                     {"crushing", d.crushing},
                                     {"parts", d.parts},
                                     {"joints", d.joints}})

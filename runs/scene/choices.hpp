@@ -16,8 +16,11 @@ namespace grouser::scene {
 
 /// Of [material.NAME].
 enum class ContactLawKind {
-  linear, ///< linear springs and dashpots
-  hertz   ///< Hertz-Mindlin
+  linear,     ///< linear springs and dashpots
+  hertz,      ///< Hertz-Mindlin
+  eepa,       ///< elastic-plastic with adhesion, on Hertz' law
+  eepaLinear, ///< the same on linear springs
+  luding      ///< Luding's, on linear springs
 };
 
 /// Of [[grains]]: where the centres come from.
@@ -50,7 +53,11 @@ namespace grouser::base {
 
 template <> struct EnumWords<scene::ContactLawKind> {
   using E = scene::ContactLawKind;
-  static constexpr EnumWord<E> list[] = {{E::linear, "linear"}, {E::hertz, "hertz"}};
+  static constexpr EnumWord<E> list[] = {{E::linear, "linear"},
+                                         {E::hertz, "hertz"},
+                                         {E::eepa, "eepa"},
+                                         {E::eepaLinear, "eepa_linear"},
+                                         {E::luding, "luding"}};
 };
 template <> struct EnumWords<scene::FillForm> {
   using E = scene::FillForm;

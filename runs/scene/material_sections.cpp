@@ -5,6 +5,7 @@
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/support/result_names.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace grouser::scene::detail {
@@ -25,14 +26,18 @@ Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
   t.add("density", &S::density, "kg/m3", "of the solid").atLeast(1e-3).atMost(1e5);
-  t.add("law", &S::law, "", "contact law: linear springs, or Hertz-Mindlin; both with dashpots and Coulomb friction");
+  t.add("law", &S::law, "",
+        "contact law: linear springs, or Hertz-Mindlin; elastic-plastic with adhesion: eepa (on Hertz' law), "
+        "eepa_linear and luding (on linear springs); all with dashpots and Coulomb friction (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m",
-        fmt::format("linear: normal stiffness k of a contact; {} where not given", brief(S::kStiffness)))
+        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact, at its first loading; {} where not "
+                    "given",
+                    brief(S::kStiffness)))
       .atLeast(1e-3)
       .atMost(1e12);
-  t.add("young", &S::young, "Pa", "hertz: Young's modulus of the solid; required").atLeast(1).atMost(1e13);
+  t.add("young", &S::young, "Pa", "hertz, eepa: Young's modulus of the solid; required").atLeast(1).atMost(1e13);
   t.add("poisson", &S::poisson, "-",
-        fmt::format("hertz: Poisson's ratio of the solid; {} where not given", brief(S::kPoisson)))
+        fmt::format("hertz, eepa: Poisson's ratio of the solid; {} where not given", brief(S::kPoisson)))
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-",
@@ -74,6 +79,33 @@ Table<Material> materialTable() {
         "R_eff (DMT); 0 leaves it out")
       .atLeast(0)
       .atMost(1e6);
+  t.add("plasticity", &S::plasticity, "-",
+        fmt::format(
+            "eepa, eepa_linear, luding: lambda = 1 - k1/k2, of the stiffnesses of loading and unloading; luding: "
+            "its greatest; {} where not given",
+            brief(S::kPlasticity)))
+      .atLeast(0)
+      .atMost(0.99);
+  t.add("surface_energy", &S::surfaceEnergy, "J/m2",
+        "eepa, eepa_linear: gamma of the pull-off force 1.5 pi gamma a, which grows with the radius a of the contact "
+        "that loading has left; 0 leaves adhesion out")
+      .atLeast(0)
+      .atMost(1e6);
+  t.add("adhesion_exponent", &S::adhesionExponent, "-",
+        "eepa, eepa_linear: chi, by which the pull falls with the overlap beyond pull-off, in halves; 1.5 for eepa, 1 "
+        "for eepa_linear where not given")
+      .atLeast(0.5)
+      .atMost(6);
+  t.add("plastic_depth", &S::plasticDepth, "-",
+        fmt::format("luding: phi_f; beyond an overlap of phi_f 2 R_eff / lambda the unloading stiffness grows no more; "
+                    "{} where not given",
+                    brief(S::kPlasticDepth)))
+      .above(0)
+      .atMost(1);
+  t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
+        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 leaves adhesion out")
+      .atLeast(0)
+      .atMost(1e12);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
         "sigma_f of the grains: against parts of a vehicle and meshes their normal force is at most sigma_f d^2 (d: "
         "diameter), beyond which they crush (docs/crushing.md); without it they do not")
@@ -97,6 +129,12 @@ Table<ContactPair> contactTable() {
   t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
   t.add("rolling_friction", &S::rollingFriction, "-", "of the pair").atLeast(0).atMost(2);
   t.add("cohesion", &S::cohesion, "J/m2", "energy of adhesion of the pair").atLeast(0).atMost(1e6);
+  t.add("plasticity", &S::plasticity, "-", "lambda of the pair, where both yield; 0: it is elastic")
+      .atLeast(0)
+      .atMost(0.99);
+  t.add("surface_energy", &S::surfaceEnergy, "J/m2", "gamma of the pair, where both are eepa or eepa_linear")
+      .atLeast(0)
+      .atMost(1e6);
   return t;
 }
 
@@ -108,17 +146,45 @@ template <class S> void checkOneLoss(const Section& section, const S& s) {
     section.fail("restitution", "[-] is outside [1e-06, 1], and not 0; choose one of these");
 }
 
+void completePlasticity(const Section& section, Material& m) {
+  const bool luding = m.law == ContactLawKind::luding;
+  const auto refuse = [&](const char* key, bool allowed, const char* laws) {
+    if (!allowed && section.has(key))
+      section.fail(key, fmt::format("belongs to law = {}; add that, or remove the key", laws));
+  };
+  refuse("plasticity", m.yields(), "\"eepa\", \"eepa_linear\" or \"luding\"");
+  for (const char* key : {"surface_energy", "adhesion_exponent"})
+    refuse(key, m.yields() && !luding, "\"eepa\" or \"eepa_linear\"");
+  for (const char* key : {"plastic_depth", "adhesion_stiffness"}) refuse(key, luding, "\"luding\"");
+  if (!m.yields()) return;
+  m.plasticity = m.plasticity.value_or(Material::kPlasticity);
+  if (luding) {
+    m.plasticDepth = m.plasticDepth.value_or(Material::kPlasticDepth);
+    return;
+  }
+  m.adhesionExponent = m.adhesionExponent.value_or(m.hertzian() ? 1.5 : 1);
+  const double halves = 2 * *m.adhesionExponent;
+  if (halves != std::floor(halves))
+    section.fail("adhesion_exponent",
+                 fmt::format("= {:g} [-] is not a whole number of halves; choose {:g} or {:g}", *m.adhesionExponent,
+                             std::floor(halves) / 2, std::floor(halves) / 2 + 0.5));
+}
+
 /// What belongs to the material's law gets its default; what belongs to the other must not stand there.
 void completeLaw(const Section& section, Material& m) {
-  const bool hertz = m.law == ContactLawKind::hertz;
+  const bool hertz = m.hertzian();
   for (const char* key : {"stiffness", "tangential_stiffness_ratio", "damping"})
     if (hertz && section.has(key))
-      section.fail(key, "belongs to law = \"linear\"; remove it: young, poisson and restitution say it for hertz");
+      section.fail(key, "belongs to law = \"linear\", \"eepa_linear\" or \"luding\"; remove it: young, poisson and "
+                        "restitution say it for hertz and eepa");
   for (const char* key : {"young", "poisson"})
     if (!hertz && section.has(key))
-      section.fail(key, "belongs to law = \"hertz\"; add that, or remove it: stiffness says it for linear");
+      section.fail(key, "belongs to law = \"hertz\" or \"eepa\"; add that, or remove it: stiffness says it for the "
+                        "others");
   if (hertz && !m.young)
-    section.fail("young", "[Pa] is missing, which law = \"hertz\" needs; add it, e.g. young = 7e7");
+    section.fail("young", fmt::format("[Pa] is missing, which law = \"{}\" needs; add it, e.g. young = 7e7",
+                                      base::wordOf(m.law)));
+  completePlasticity(section, m);
   if (!m.restitution && !m.damping) m.restitution = Material::kRestitution;
   if (!m.tangentialDampingRatio)
     m.tangentialDampingRatio = hertz ? Material::kHertzTangentialDampingRatio : Material::kLinearTangentialDampingRatio;
@@ -160,8 +226,13 @@ void checkContact(const Section& section, ContactPair& pair, const Scene& scene)
   requireMaterial(scene, section, "", pair.second);
   checkOneLoss(section, pair);
   for (const char* key : {"stiffness", "damping"})
-    if (section.has(key) && scene.material(pair.first).law == ContactLawKind::hertz)
+    if (section.has(key) && scene.material(pair.first).hertzian())
       section.fail(key, "belongs to law = \"linear\", but this pair is hertz; remove it");
+  const bool yields = scene.material(pair.first).yields() && scene.material(pair.second).yields();
+  if (pair.plasticity && !yields)
+    section.fail("plasticity", "belongs to pairs of which both are eepa, eepa_linear or luding; remove it");
+  if (pair.surfaceEnergy && (!yields || scene.material(pair.first).law == ContactLawKind::luding))
+    section.fail("surface_energy", "belongs to pairs of which both are eepa or eepa_linear; remove it");
   if (scene.contact(pair.first, pair.second)) section.fail("", "is given twice, in both orders; remove one of the two");
 }
 

@@ -72,6 +72,7 @@ struct Material {
   static constexpr double kStiffness = 1e6, kPoisson = 0.25, kRestitution = 0.5;
   static constexpr Fraction kTangentialStiffnessRatio{2, 7}; ///< linear
   static constexpr double kLinearTangentialDampingRatio = 0.5, kHertzTangentialDampingRatio = 1;
+  static constexpr double kPlasticity = 0.5, kPlasticDepth = 0.05;
 
   std::string name;
   double density = 2500;
@@ -87,14 +88,22 @@ struct Material {
   double rollingFriction = 0;
   double rollingDampingRatio = 0.3;
   double cohesion = 0;                    ///< [J/m2] energy of adhesion
+  std::optional<double> plasticity;       ///< [-] eepa, eepa_linear, luding: 1 - k1/k2, the greatest
+  double surfaceEnergy = 0;               ///< [J/m2] eepa, eepa_linear: gamma of the pull-off force
+  std::optional<double> adhesionExponent; ///< [-] eepa, eepa_linear: chi of the adhesive branch
+  std::optional<double> plasticDepth;     ///< [-] luding: of the smaller radius' overlap where k2 is greatest
+  double adhesionStiffness = 0;           ///< [N/m] luding: k_c of the adhesive branch
   std::optional<double> crushingStrength; ///< [Pa] of its grains against parts; empty: they do not crush
   bool operator==(const Material&) const = default;
+  /// Whether its elastic law is Hertz'; else linear springs.
+  bool hertzian() const { return law == ContactLawKind::hertz || law == ContactLawKind::eepa; }
+  bool yields() const { return law != ContactLawKind::hertz && law != ContactLawKind::linear; }
 };
 
 /// [contact."first|second"]: what a pair of materials has otherwise than the mixing rule gives.
 struct ContactPair {
   std::string first, second;
-  std::optional<double> stiffness, restitution, damping, friction, rollingFriction, cohesion;
+  std::optional<double> stiffness, restitution, damping, friction, rollingFriction, cohesion, plasticity, surfaceEnergy;
   bool operator==(const ContactPair&) const = default;
 };
 

@@ -64,7 +64,7 @@ std::vector<GrainContact> grainContacts(const scene::Scene& scene, Of which) {
   // What lies on the lowest grains of a heap that is as high as wide, over their mass [N/kg]; chains bear twice as
   // much.
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                 [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; });
+                                 [](const scene::Material& m) { return m.hertzian(); });
   const double heap =
       hertz ? base::pow(static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene))), 1.0 / 3) : 1;
   const double weighing = 2 * heap * norm(scene.run.gravity);

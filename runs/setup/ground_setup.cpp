@@ -182,7 +182,8 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
     const std::string& part = !scene.vehicle                    ? scene.meshes.front().material
                               : scene.vehicle->material.empty() ? soil
                                                                 : scene.vehicle->material;
-    contact::ContactLaw law = pairLaw(scene, soil, part, mass);
+    // Patches on parts keep springs, but no plastic state.
+    contact::ContactLaw law = pairLaw(scene, soil, part, mass).elastic();
     if (specFriction) law.friction = *specFriction;
     all.laws.push_back(law);
     all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));
@@ -251,7 +252,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, S
   grains.manyKinds = kinds.many(), grains.materials = kinds.material;
   for (const scene::Grain& g : placed)
     grains.start.push_back({g.position, g.velocity, g.spin, g.radius, kinds.indexOf(g.material), g.fixed});
-  const auto isHertz = [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; };
+  const auto isHertz = [](const scene::Material& m) { return m.hertzian(); };
   if (std::any_of(scene.materials.begin(), scene.materials.end(), isHertz)) grains.impactSpeed = scene.run.impactSpeed;
   if (bed) {
     grains.bed = bedSetup(scene, kinds, *ground.surface, *bed, timeStep);

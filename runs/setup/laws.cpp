@@ -74,16 +74,41 @@ void setHertz(const scene::Material& a, const scene::Material& b, const scene::C
       2 * beta * std::min(*a.tangentialDampingRatio, *b.tangentialDampingRatio) * std::sqrt(law.tangentialStiffness);
 }
 
+/// The smaller plasticity and adhesion stiffness, the geometric mean of the surface energies, the larger exponent and
+/// plastic depth.
+contact::BasicPlasticity<double> plasticityOf(const scene::Material& a, const scene::Material& b,
+                                              const scene::ContactPair* pair, const ContactLaw& law) {
+  contact::BasicPlasticity<double> p;
+  p.share = pair && pair->plasticity ? *pair->plasticity : std::min(*a.plasticity, *b.plasticity);
+  if (p.share <= 0) return {};
+  if (a.law == scene::ContactLawKind::luding) {
+    // x* = k2 / (k2 - k1) phi_f 2 R_i R_j / (R_i + R_j) (Luding 2008)
+    p.fullDepth = 2 * std::max(*a.plasticDepth, *b.plasticDepth) / p.share;
+    p.adhesion = std::min(a.adhesionStiffness, b.adhesionStiffness) / law.stiffness;
+    return p;
+  }
+  const double exponent = law.hertz ? 1.5 : 1;
+  p.depthShare = law.hertz ? base::pow(p.share, 1 / exponent) : p.share;
+  p.lossShare = p.share / (1 - p.share) * (1 - p.depthShare) * exponent / (exponent + 1);
+  const double energy = pair && pair->surfaceEnergy ? *pair->surfaceEnergy
+                        : &a == &b                  ? a.surfaceEnergy
+                                                    : std::sqrt(a.surfaceEnergy * b.surfaceEnergy);
+  p.pull = 1.5 * base::kPi * energy * std::sqrt(2 * p.depthShare);
+  p.exponent = static_cast<int>(2 * std::max(*a.adhesionExponent, *b.adhesionExponent) + 0.5);
+  return p;
+}
+
 } // namespace
 
 ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const std::string& nameB,
                    std::optional<double> effectiveMass) {
   const scene::Material &a = scene.material(nameA), &b = scene.material(nameB);
   const scene::ContactPair* pair = scene.contact(nameA, nameB);
-  if (a.law != b.law)
+  if (a.hertzian() != b.hertzian() || (a.yields() && b.yields() && a.law != b.law))
     scene.failMaterial(b.name, "law",
-                       fmt::format("differs from law = \"{}\" of material.{}, which it meets; surfaces that touch must "
-                                   "have the same law: give both one of the two",
+                       fmt::format("does not go with law = \"{}\" of material.{}, which it meets: surfaces that touch "
+                                   "must both be hertz or eepa, or both linear, eepa_linear or luding, and no "
+                                   "eepa_linear meets luding; give both one of the two",
                                    base::wordOf(a.law), a.name));
   ContactLaw law;
   law.attraction = a.attraction && b.attraction;
@@ -95,10 +120,11 @@ ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const st
                           : &a == &b             ? a.cohesion
                                                  : std::sqrt(a.cohesion * b.cohesion);
   law.pullPerRadius = 2 * base::kPi * cohesion;
-  if (a.law == scene::ContactLawKind::hertz)
+  if (a.hertzian())
     setHertz(a, b, pair, law);
   else
     setLinear(scene, a, b, pair, effectiveMass, law);
+  if (a.yields() && b.yields()) law.plastic = plasticityOf(a, b, pair, law);
   return law;
 }
 
@@ -106,16 +132,19 @@ contact::Coefficients<double> stiffest(const ContactLaw& law, double effectiveMa
                                        double speed) {
   const double overlap =
       law.hertz ? contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).deepest : 0;
-  return contact::coefficientsOf<contact::kGeneral>(law, overlap, effectiveMass, effectiveRadius);
+  auto c = contact::coefficientsOf<contact::kGeneral>(law, overlap, effectiveMass, effectiveRadius);
+  c.normalStiffness /= 1 - law.plastic.share; // of the line along which it is unloaded
+  return c;
 }
 
 double contactTime(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed) {
-  if (!law.hertz) return base::kPi * std::sqrt(effectiveMass / law.stiffness);
-  return contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
+  const double quicker = std::sqrt(1 - law.plastic.share); // on the line along which it is unloaded
+  if (!law.hertz) return quicker * base::kPi * std::sqrt(effectiveMass / law.stiffness);
+  return quicker * contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
 }
 
 double rayleighTimeOf(const scene::Material& m, double radius) {
-  if (m.law != scene::ContactLawKind::hertz) return std::numeric_limits<double>::infinity();
+  if (!m.hertzian()) return std::numeric_limits<double>::infinity();
   return contact::rayleighTime(radius, m.density, shearModulus(m), *m.poisson);
 }
 

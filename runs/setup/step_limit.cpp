@@ -216,7 +216,7 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
     return fmt::format("{}; raise it to {} at least, or choose smaller grains", message,
                        base::roundedUp(times * stiffness, 3));
   };
-  if (a.law == scene::ContactLawKind::hertz) {
+  if (a.hertzian()) {
     const scene::Material& soft = *b.young < *a.young ? b : a;
     scene.failMaterial(soft.name, "young", "[Pa] " + wanted(*soft.young));
   }
@@ -264,7 +264,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   if (!scene.run.timeStep) return automatic;
   checkTimeScales(scene, *scene.run.timeStep);
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                 [](const scene::Material& m) { return m.law == scene::ContactLawKind::hertz; });
+                                 [](const scene::Material& m) { return m.hertzian(); });
   if (*scene.run.timeStep > limit.step) {
     const std::string most = base::roundedDown(limit.step, 3);
     scene.fail("run", "time_step",

@@ -13,11 +13,12 @@ struct Dissipated {
   double damping{};  ///< dashpots of grains' contacts, with whatever they touch
   double friction{}; ///< sliding of grains
   double rolling{};  ///< rolling resistance of grains
+  double yielding{}; ///< plastic work of grains' contacts
   double crushing{}; ///< grains that crush against parts
   double parts{};    ///< contacts of rigid parts with each other and with rigid ground
   double joints{};   ///< dampers and end stops of joints and springs
 
-  double ofGrains() const { return damping + friction + rolling + crushing; }
+  double ofGrains() const { return damping + friction + rolling + yielding + crushing; }
   double total() const { return ofGrains() + parts + joints; }
 };
 

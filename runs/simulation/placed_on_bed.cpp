@@ -183,11 +183,13 @@ void takeMotion(const GrainState& bed, bool sameUnits, GrainState& scene) {
     for (terrain::Remainders& r : scene.remainders) r.position = 0; // its place has been rounded
   if (scene.layout.periodic) scene.crossings = bed.crossings;
   scene.contacts = bed.contacts, scene.neighbour = bed.neighbour;
-  const auto orNone = [&](const std::vector<base::Vec3f>& springs) {
-    return springs.empty() ? std::vector<base::Vec3f>(bed.neighbour.size()) : springs;
+  const auto orNone = [&]<class T>(const std::vector<T>& springs) {
+    return springs.empty() ? std::vector<T>(bed.neighbour.size()) : springs;
   };
   if (scene.layout.friction) scene.contactShear = orNone(bed.contactShear);
   if (scene.layout.rolling) scene.contactRolling = orNone(bed.contactRolling);
+  if (scene.layout.plastic)
+    scene.contactDeepest = orNone(bed.contactDeepest), scene.contactOrigin = orNone(bed.contactOrigin);
 }
 
 /// What holds them on walls, floor and surfaces.
@@ -201,6 +203,10 @@ void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& place
       scene.wallBits[k] |= 1u << place;
       if (!bed.wallShear.empty()) scene.wallShear[k * to + place] = bed.wallShear[k * from + b];
       if (!bed.wallRolling.empty()) scene.wallRolling[k * to + place] = bed.wallRolling[k * from + b];
+      if (!bed.wallDeepest.empty()) {
+        scene.wallDeepest[k * to + place] = bed.wallDeepest[k * from + b];
+        scene.wallOrigin[k * to + place] = bed.wallOrigin[k * from + b];
+      }
     }
 }
 

@@ -210,7 +210,7 @@ Ledger Simulation::wholeLedger() {
   if (ground_.grains) {
     const terrain::GrainLedger g = ground_.grains->ledger();
     l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = g.elastic;
-    l.dissipated = {g.damped, g.rubbed, g.rolled, 0, 0, 0};
+    l.dissipated = {g.damped, g.rubbed, g.rolled, g.yielded, 0, 0, 0};
     l.work = g.work, l.turnover = g.turnover;
     l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
     l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;

@@ -68,6 +68,10 @@ void TiledBed::bringToRest(terrain::Grains& grains, std::size_t floor) const {
     if (tile_.wallBits[g] & 1u) s.wallBits[k] |= 1u << floor;
     if (!tile_.wallShear.empty()) s.wallShear[k * boundaries + floor] = tile_.wallShear[g];
     if (!tile_.wallRolling.empty()) s.wallRolling[k * boundaries + floor] = tile_.wallRolling[g];
+    if (!tile_.wallDeepest.empty()) {
+      s.wallDeepest[k * boundaries + floor] = tile_.wallDeepest[g];
+      s.wallOrigin[k * boundaries + floor] = tile_.wallOrigin[g];
+    }
 
     std::vector<std::pair<std::int64_t, std::size_t>> touching; // neighbour, and its contact in the tile
     for (std::size_t c = first[g]; c < first[g + 1]; ++c) {
@@ -84,6 +88,10 @@ void TiledBed::bringToRest(terrain::Grains& grains, std::size_t floor) const {
       s.neighbour.push_back(static_cast<std::uint32_t>(id));
       if (s.layout.friction) s.contactShear.push_back(tile_.contactShear[c]);
       if (s.layout.rolling) s.contactRolling.push_back(tile_.contactRolling[c]);
+      if (s.layout.plastic) {
+        s.contactDeepest.push_back(tile_.contactDeepest[c]);
+        s.contactOrigin.push_back(tile_.contactOrigin[c]);
+      }
     }
   }
   grains.restore(s);

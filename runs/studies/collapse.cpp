@@ -41,15 +41,15 @@ std::string columnScene(const SampleGrains& material, double gate, double width,
 /// The same grains without their last boundary: springs against it are gone.
 terrain::GrainState withoutGate(terrain::GrainState s) {
   const auto before = static_cast<std::size_t>(s.layout.boundaries), after = before - 1;
-  const auto dropLast = [&](std::vector<base::Vec3f>& springs) {
+  const auto dropLast = [&]<class T>(std::vector<T>& springs) {
     if (springs.empty()) return;
-    std::vector<base::Vec3f> kept;
+    std::vector<T> kept;
     for (std::size_t g = 0; g < s.rows(); ++g)
       kept.insert(kept.end(), springs.begin() + static_cast<std::ptrdiff_t>(g * before),
                   springs.begin() + static_cast<std::ptrdiff_t>(g * before + after));
     springs = std::move(kept);
   };
-  dropLast(s.wallShear), dropLast(s.wallRolling);
+  dropLast(s.wallShear), dropLast(s.wallRolling), dropLast(s.wallDeepest), dropLast(s.wallOrigin);
   for (std::uint32_t& bits : s.wallBits) bits &= (1u << after) - 1;
   s.layout.boundaries = static_cast<std::int64_t>(after);
   return s;

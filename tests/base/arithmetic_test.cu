@@ -84,5 +84,32 @@ TEST(Arithmetic, FunctionsAreNearThoseOfTheLibrary) {
   }
 }
 
+struct CubeRoots {
+  double* out;
+  GROUSER_HD void operator()(int i) const {
+    const double x = base::pow(10.0, -12 + 0.02 * i);
+    out[2 * i] = base::cubeRoot(x);
+    out[2 * i + 1] = static_cast<double>(base::cubeRoot(static_cast<float>(x)));
+  }
+};
+
+TEST(Arithmetic, CubeRootsAreNearThoseOfTheLibraryWithTheSameBitsOnEveryMachine) {
+  constexpr int kPlaces = 1024;
+  const Exec exec = testExec(2);
+  Array<double> out(exec, std::size_t{kPlaces} * 2);
+  forEach(exec, "cube roots", kPlaces, CubeRoots{out.data()});
+  const std::vector<double> roots = out.toHost();
+  StateHash hash;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const double exact = std::cbrt(base::pow(10.0, -12 + 0.02 * static_cast<double>(i)));
+    EXPECT_NEAR(roots[2 * i] / exact, 1, 5e-16);
+    EXPECT_NEAR(roots[2 * i + 1] / exact, 1, 2.5e-7);
+    hash.add(std::bit_cast<std::uint64_t>(roots[2 * i])), hash.add(std::bit_cast<std::uint64_t>(roots[2 * i + 1]));
+  }
+  EXPECT_EQ(hash.hex(), "0") << "a fused multiply-add or another formula";
+  EXPECT_EQ(base::cubeRoot(0.0), 0.0);
+  EXPECT_EQ(base::cubeRoot(-1.0f), 0.0f);
+}
+
 } // namespace
 } // namespace grouser::base

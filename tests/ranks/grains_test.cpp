@@ -57,6 +57,19 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
     }
 }
 
+TEST(GrainsOnRanks, EqualBitsOfYieldingContacts) {
+  // Plastic states migrate with their grains, and with the springs of walls.
+  GrainModel m = gravel();
+  m.law.plastic = {0.6, 0.6, 0.3, 400, 0, 0, 3};
+  Grains alone(base::cpuExec(1), m, box(m), thrownBlock());
+  advance(alone, kSteps);
+  ASSERT_GT(alone.ledger().yielded, 0);
+  Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared());
+  advance(grains, kSteps);
+  EXPECT_EQ(allWords(grains), alone.state().words());
+  EXPECT_EQ(grains.ledger().yielded, alone.ledger().yielded);
+}
+
 TEST(GrainsOnRanks, EqualBitsAcrossPeriodicBoundaries) {
   const int n = test::comm().size();
   const GrainModel m = gravel();

@@ -40,7 +40,7 @@ TEST(GrainFields, AllNamesEachFieldOnce) {
 
 TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
   GrainState state;
-  state.layout = {1, 1, 1, 1, 1, 1, 1, 1};
+  state.layout = {1, 1, 1, 1, 1, 1, 1, 1, 1};
   RowColumns row;
   GrainState::visitRow(state, row);
   Places inFiles;

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/math.hpp"
+#include "base/number.hpp"
+
+#include <cmath>
+
+namespace grouser::contact {
+
+/// What makes the normal spring of a contact elastic-plastic. Loaded for the first time it follows the elastic law,
+///
+///   F = k1 x^m      (m = 1: linear;  m = 3/2: Hertz)
+///
+/// and it is unloaded and loaded again along a steeper line from a plastic overlap x_p, at which its force is zero:
+///
+///   F = k2 (x^m - x_p^m),  at the turning point x_m equal to the elastic force: x_p^m = (1 - k1/k2) x_m^m
+///
+/// Pulled beyond the pull-off force P it follows an adhesive branch -a(x), and x_p goes back with it, so that it is
+/// loaded again along that steeper line from wherever it was; a(x) is P where that is reached and falls to zero at
+/// x = 0, where the contact ends. Two laws:
+///
+/// - EEPA, the Edinburgh elasto-plastic adhesion model (Morrissey 2013; Thakur et al. 2014, Granular Matter 16:383):
+///   k2 is constant, k1/k2 = 1 - share; P = 1.5 pi gamma sqrt(2 x_p R_eff), at most half of what the steep line would
+///   pull at x = 0; a(x) = P (x / x_min)^chi, x_min the overlap at which the steep line meets -P.
+/// - Luding's (2008, Granular Matter 10:235): linear; k2 grows with the greatest overlap from k1 to k1 / (1 - share) at
+///   x* and beyond, x* in proportion to R_eff; a(x) = k_c x. On the adhesive branch the greatest overlap goes back to
+///   that from which the contact would have come there, and k2 with it.
+///
+/// Share and the other numbers are of the law; a contact has the state below.
+template <class T> struct BasicPlasticity {
+  T share{};       ///< lambda = 1 - k1/k2 [-], in [0, 1); Luding: the greatest; 0: the contact is elastic
+  T depthShare{};  ///< x_p / x_m on the first loading: lambda^(1/m) [-] (EEPA)
+  T lossShare{};   ///< of F x on the first loading that is dissipated since x = 0 [-] (EEPA)
+  T pull{};        ///< EEPA: P over sqrt(x_m R_eff) [N/m], >= 0
+  T fullDepth{};   ///< Luding: x* / R_eff [-], > 0; 0: EEPA
+  T adhesion{};    ///< Luding: k_c / k1 [-], >= 0
+  int exponent{2}; ///< EEPA: 2 chi
+
+  template <class U> BasicPlasticity<U> as() const {
+    const auto u = [](T value) { return static_cast<U>(value); };
+    return {u(share), u(depthShare), u(lossShare), u(pull), u(fullDepth), u(adhesion), exponent};
+  }
+};
+
+/// What an elastic-plastic contact keeps from step to step; zeros for a new one.
+template <class T> struct BasicPlasticState {
+  T deepest{}; ///< overlap at which it last left the first loading, x_m [m]
+  T origin{};  ///< force that the elastic law has at the plastic overlap, k1 x_p^m [N]
+};
+
+/// Numbers that a contact keeps for it.
+inline constexpr int kPlasticNumbers = 2;
+
+/// The normal spring of an elastic contact: F = k1 x^m, [N] at an overlap [m].
+template <class T> struct BasicElasticSpring {
+  T stiffness;       ///< linear: k [N/m];  Hertz: (4/3) E_eff [Pa]
+  T effectiveRadius; ///< [m]
+  bool hertz;
+
+  GROUSER_HD T force(T overlap) const {
+    return hertz ? stiffness * base::squareRoot(effectiveRadius * overlap) * overlap : stiffness * overlap;
+  }
+  /// x_a / x_b where the force at x_a is `ratio`, >= 0, times that at x_b.
+  GROUSER_HD T overlapRatio(T ratio) const {
+    if (!hertz) return ratio;
+    const T root = base::cubeRoot(ratio);
+    return root * root;
+  }
+};
+
+/// What the normal spring of an elastic-plastic contact does at one overlap.
+template <class T> struct BasicPlasticForce {
+  T force;    ///< [N], negative where it pulls
+  T adhesion; ///< what the contact could be pulled with here [N], >= 0; friction is limited by the force and this
+  T yielded;  ///< plastic work of this step [J], >= 0 but for rounding
+};
+
+namespace detail {
+
+/// k2 / k1 after a greatest overlap.
+template <class T> GROUSER_HD T steepness(const BasicPlasticity<T>& p, T deepest, T radius) {
+  const T most = T(1) / (T(1) - p.share);
+  if (p.fullDepth <= 0) return most;
+  const T part = deepest / (p.fullDepth * radius);
+  return T(1) + (most - T(1)) * (part < T(1) ? part : T(1));
+}
+
+/// The adhesive branch of a contact at an overlap.
+template <class T> struct AdhesiveBranch {
+  T pull;  ///< a(x) before, P beyond the place where the steep line meets it [N], >= 0
+  T slope; ///< d ln a / d ln F_elastic
+};
+
+template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasticity<T>& p,
+                                                               const BasicElasticSpring<T>& spring, T elastic, T steep,
+                                                               const BasicPlasticState<T>& state) {
+  if (p.fullDepth > 0) { // Luding: k_c x
+    const T most = steep * state.origin / (steep + p.adhesion);
+    return {p.adhesion * (elastic < most ? elastic : most), T(1)};
+  }
+  if (p.pull <= 0) return {T(0), T(1)};
+  const T origin = p.share * spring.force(state.deepest); // before any pull
+  const T half = T(0.5) * steep * origin, pull = p.pull * base::squareRoot(state.deepest * spring.effectiveRadius);
+  const T most = pull < half ? pull : half;
+  const T turn = origin - most / steep; // elastic force at x_min
+  if (elastic >= turn) return {most, T(0)};
+  // (x / x_min)^chi by the root of the ratio of forces that is the root of x / x_min.
+  const T ratio = elastic / turn;
+  T root = base::squareRoot(ratio), share = 1;
+  if (spring.hertz) root = base::cubeRoot(ratio);
+  for (int k = 0; k < p.exponent; ++k) share = share * root;
+  return {most * share, T(p.exponent) / T(spring.hertz ? 3 : 2)};
+}
+
+/// First loading: from where the steep line meets the elastic law to this overlap.
+template <class T> GROUSER_HD T yieldedByLoading(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring,
+                                                 T overlap, T elastic, T steepBefore,
+                                                 const BasicPlasticState<T>& before) {
+  if (p.fullDepth > 0) {
+    const T steep = steepness(p, overlap, spring.effectiveRadius), from = before.deepest;
+    return T(0.5) *
+           (elastic * overlap * (T(1) - T(1) / steep) - spring.force(from) * from * (T(1) - T(1) / steepBefore));
+  }
+  const T start = before.origin / p.share; // elastic force there
+  return p.lossShare * overlap * (elastic - start * spring.overlapRatio(start / elastic));
+}
+
+/// Luding: the greatest overlap from which a contact comes to -k_c x at this one.
+template <class T> GROUSER_HD T deepestBehind(const BasicPlasticity<T>& p, T overlap, T radius) {
+  const T most = T(1) / (T(1) - p.share), full = p.fullDepth * radius;
+  const T beyond = (most + p.adhesion) / (most - T(1)) * overlap;
+  if (beyond >= full) return beyond;
+  const T half = T(0.5) * overlap;
+  return half + base::squareRoot(half * half + (T(1) + p.adhesion) * overlap * full / (most - T(1)));
+}
+
+/// Luding: energy that goes while the greatest overlap comes back along the adhesive branch.
+template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T stiffness, T overlap, T steepBefore,
+                                                 T steep, const BasicPlasticState<T>& before) {
+  const T start = steepBefore * before.origin / (stiffness * (steepBefore + p.adhesion));
+  const auto part = [&](T x, T ratio) { return p.adhesion * stiffness * x * x * (T(1) + p.adhesion / ratio); };
+  return T(0.5) * (part(start, steepBefore) - part(overlap, steep));
+}
+
+} // namespace detail
+
+/// Force at `overlap` > 0 of a contact with p.share > 0, and its state taken there. What yields, by -dU/dx_p^m of the
+/// elastic energy U: on the first loading and of Luding's branch in closed form, along EEPA's adhesive branch by the
+/// trapezoid over the step.
+template <class T> GROUSER_HD BasicPlasticForce<T>
+plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T overlap, BasicPlasticState<T>& state) {
+  const T radius = spring.effectiveRadius, elastic = spring.force(overlap);
+  const BasicPlasticState<T> before = state;
+  const T steep = detail::steepness(p, before.deepest, radius), line = steep * (elastic - before.origin);
+  if (line >= elastic) {
+    const T yielded = detail::yieldedByLoading(p, spring, overlap, elastic, steep, before);
+    state.deepest = overlap;
+    state.origin =
+        p.fullDepth > 0 ? (T(1) - T(1) / detail::steepness(p, overlap, radius)) * elastic : p.share * elastic;
+    const T steepNow = detail::steepness(p, overlap, radius);
+    return {elastic, detail::adhesiveBranch(p, spring, elastic, steepNow, state).pull, yielded};
+  }
+  const detail::AdhesiveBranch<T> branch = detail::adhesiveBranch(p, spring, elastic, steep, before);
+  if (line >= -branch.pull) return {line, branch.pull, T(0)};
+  if (p.fullDepth > 0) {
+    state.deepest = detail::deepestBehind(p, overlap, radius);
+    const T steepNow = detail::steepness(p, state.deepest, radius);
+    state.origin = (T(1) - T(1) / steepNow) * spring.force(state.deepest);
+    return {-branch.pull, branch.pull, detail::yieldedByPulling(p, spring.stiffness, overlap, steep, steepNow, before)};
+  }
+  state.origin = elastic + branch.pull / steep;
+  // Where it left the steep line or was at the last step: one step of Newton's method from here.
+  T start = elastic - (line + branch.pull) / (steep + branch.slope * branch.pull / elastic);
+  start = start < before.origin ? start : before.origin;
+  const auto place = [&](T force) { return overlap * spring.overlapRatio(force / elastic); };
+  const T stretched = (place(before.origin) - place(start)) + (place(state.origin) - overlap);
+  return {-branch.pull, branch.pull, T(0.5) * steep * stretched * (before.origin - state.origin)};
+}
+
+/// Elastic energy of such a contact [J], and what would yield if it were taken to this overlap now: so the energy that
+/// it still has to give, whether or not a step has seen it here.
+template <class T> GROUSER_HD T plasticEnergy(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring,
+                                              T overlap, BasicPlasticState<T> state) {
+  const T yielded = plasticForce(p, spring, overlap, state).yielded;
+  const T elastic = spring.force(overlap), steep = detail::steepness(p, state.deepest, spring.effectiveRadius);
+  const T zero = overlap * spring.overlapRatio(state.origin / elastic); // x_p
+  const T share = spring.hertz ? T(0.4) : T(0.5);                       // 1 / (m + 1)
+  return steep * (share * (elastic * overlap - state.origin * zero) - state.origin * (overlap - zero)) + yielded;
+}
+
+} // namespace grouser::contact
