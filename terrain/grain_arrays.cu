@@ -37,13 +37,13 @@ template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&
 using AllFields = decltype(GrainFields::all(std::declval<GrainFields&>()));
 static_assert(sizeof(GrainFields) == sizeOf(static_cast<AllFields*>(nullptr)),
               "every field of the grains stands in GrainFields::all()");
-static_assert(std::tuple_size_v<AllFields> + 1 <= contact::Exchange::kMaxFields,
-              "all fields of the grains may migrate, and the rows of their neighbour lists with them");
+static_assert(
+    std::tuple_size_v<AllFields> + 2 <= contact::Exchange::kMaxFields,
+    "all fields of the grains may migrate, and with them the rows of neighbours and the springs of boundaries");
 
 } // namespace
 
 GrainFields::GrainFields(const GrainLayout& scene) {
-  boundaryHistory.width = static_cast<std::size_t>(scene.boundaries * scene.historyWidth());
   boundaryContactMask.width = boundaryOf.width = scene.boundaries > 0;
   crossings.width = scene.periodic > 0;
   formerMotion.width = rowOrigin.width = 0;
@@ -191,7 +191,7 @@ void GrainArrays::describe(GrainKernelData& d) {
   d.reference = f.reference.now.data();
   d.crossings = f.crossings.now.data();
   d.boundaryOf = f.boundaryOf.now.data();
-  d.boundaryHistory = f.boundaryHistory.now.data(), d.boundaryContactMask = f.boundaryContactMask.now.data();
+  d.boundaryContactMask = f.boundaryContactMask.now.data();
 }
 
 std::size_t GrainArrays::bytes() const {

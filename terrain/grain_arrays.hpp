@@ -20,8 +20,6 @@ struct GrainFields {
   GrainField<Motion> motion{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
   GrainField<Remainders> remainders{kSorted | kMigrates, &GrainState::remainders};
   GrainField<std::uint32_t> id{kSorted | kMigrates | kGhosted, &GrainState::id};
-  /// [slot][wall, floor or surface][numbers of history]
-  GrainField<float> boundaryHistory{kSorted | kMigrates};
   /// A bit for each wall, floor or surface in touch.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
@@ -30,14 +28,15 @@ struct GrainFields {
   GrainField<Motion> formerMotion{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
-  /// 1 + place in the list of grains near boundaries; 0 for all others.
-  GrainField<std::uint32_t> boundaryOf{0};
+  /// 1 + place in the list of grains near boundaries, and so of their springs there, until the next such list; 0 for
+  /// all others. Of ghosts it says nothing until then.
+  GrainField<std::uint32_t> boundaryOf{kSorted | kMigrates};
   /// On several ranks, from migration to list: see contact::RowOrigins. Of width 0 before the first migration.
   GrainField<std::uint32_t> rowOrigin{kSorted};
 
   template <class Self> static auto all(Self& f) {
-    return std::tie(f.position, f.motion, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask, f.crossings,
-                    f.formerMotion, f.reference, f.boundaryOf, f.rowOrigin);
+    return std::tie(f.position, f.motion, f.remainders, f.id, f.boundaryContactMask, f.crossings, f.formerMotion,
+                    f.reference, f.boundaryOf, f.rowOrigin);
   }
 
   /// On the device, of one grain.

@@ -45,7 +45,7 @@ void Grains::rebuild() {
   if (stepper_.boundariesBegun())
     throw std::logic_error("slots change while contacts with walls and floor are being computed for them");
   GrainSystem& s = system_;
-  if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.steps);
+  if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.boundaries, s.steps);
   const base::Array<base::Position>& position = s.arrays.fields().position.now;
   const auto& row = s.arrays.fields().rowOrigin;
   s.neighbours.sort(position.data(), s.arrays.slots(), row.width > 0 ? row.now.data() : nullptr);
