@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/loop_shares.hpp"
+#include "base/memory_held.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -175,6 +176,7 @@ void* allocateUnset(const Exec& exec, std::size_t bytes) {
     if (!memory)
       throw DeviceError("out of host memory: " + std::to_string(bytes) +
                         " bytes asked for; use larger or fewer grains, or more ranks on several hosts");
+    noteTaken(memory);
     return memory;
   }
 #if defined(__CUDACC__)
@@ -215,6 +217,7 @@ void releaseForMessages(const Exec& exec, void* memory) noexcept {
 
 void release(const Exec& exec, void* memory) noexcept {
   if (exec.onCpu()) {
+    noteGivenBack(memory);
     std::free(memory);
     return;
   }
@@ -262,10 +265,7 @@ void* allocatePinned(const Exec& exec, std::size_t bytes) {
 }
 
 void releasePinned(const Exec& exec, void* memory) noexcept {
-  if (exec.onCpu()) {
-    std::free(memory);
-    return;
-  }
+  if (exec.onCpu()) return release(exec, memory);
 #if defined(__CUDACC__)
   cudaFreeHost(memory);
 #endif
