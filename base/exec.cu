@@ -2,8 +2,8 @@
 #include "base/exec.hpp"
 
 #include "base/error.hpp"
+#include "base/host_memory.hpp"
 #include "base/loop_shares.hpp"
-#include "base/memory_held.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -2,10 +2,9 @@
 #include "base/memory_held.hpp"
 
 #include "base/error.hpp"
+#include "base/host_memory.hpp"
 
-#include <atomic>
 #include <cstdint>
-#include <malloc.h>
 
 #if defined(__CUDACC__)
 #include "base/cuda_check.cuh"
@@ -14,12 +13,6 @@
 namespace grouser::base {
 
 namespace {
-
-/// Of the process, as the system counts its memory too: no answer depends on it.
-struct HostCount {
-  std::atomic<std::size_t> now{0}, most{0};
-};
-HostCount onHost;
 
 #if defined(__CUDACC__)
 cudaMemPool_t currentPool() {
@@ -41,15 +34,8 @@ std::size_t countOf(cudaMemPoolAttr what) {
 
 } // namespace
 
-void noteTaken(void* memory) noexcept {
-  const std::size_t held = onHost.now += malloc_usable_size(memory);
-  for (std::size_t before = onHost.most; held > before && !onHost.most.compare_exchange_weak(before, held);) {}
-}
-
-void noteGivenBack(void* memory) noexcept { onHost.now -= malloc_usable_size(memory); }
-
 MemoryHeld memoryHeld(const Exec& exec) {
-  if (exec.onCpu()) return {onHost.now, onHost.most, onHost.most};
+  if (exec.onCpu()) return {heldOnHost(), mostHeldOnHost(), mostHeldOnHost()};
 #if defined(__CUDACC__)
   return {countOf(cudaMemPoolAttrUsedMemCurrent), countOf(cudaMemPoolAttrUsedMemHigh),
           countOf(cudaMemPoolAttrReservedMemHigh)};
@@ -59,10 +45,7 @@ MemoryHeld memoryHeld(const Exec& exec) {
 }
 
 void restartMemoryPeak(const Exec& exec) {
-  if (exec.onCpu()) {
-    onHost.most = onHost.now.load();
-    return;
-  }
+  if (exec.onCpu()) return restartHostPeak();
 #if defined(__CUDACC__)
   synchronize(exec);
   std::uint64_t none = 0; // the one value that CUDA takes: from what is held now

@@ -15,9 +15,4 @@ struct MemoryHeld {
 MemoryHeld memoryHeld(const Exec& exec);
 void restartMemoryPeak(const Exec& exec);
 
-/// For allocate() and release(): memory of the host that arrays have taken, or are about to give back; null does
-/// nothing.
-void noteTaken(void* memory) noexcept;
-void noteGivenBack(void* memory) noexcept;
-
 } // namespace grouser::base

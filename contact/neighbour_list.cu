@@ -18,7 +18,8 @@ namespace {
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
 constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
 constexpr std::uint32_t kWindow = 1024;     // spheres that are ordered among themselves
-constexpr std::size_t kSpare = 32;          // one place of so many is left free for longer lists
+constexpr std::size_t kSpare = 32;          // one place of so many is left free for longer lists,
+constexpr std::size_t kMostSpare = 1 << 22; // but no more than these
 constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
 
 void checkLength(std::uint32_t most, bool equal) {
@@ -77,7 +78,7 @@ void NeighbourList::sort(const Position* position, std::size_t count, const std:
 }
 
 /// A warp takes as long as its grain with the most contacts: grains that lie near each other change places, so that
-/// those in a warp have equally many. On a CPU each grain takes what it takes.
+/// those in a warp have equally many, and rows as long. On a CPU each grain takes what it takes.
 void NeighbourList::groupByContacts(const std::uint32_t* rowOf) {
   const auto n = static_cast<std::int64_t>(sorted_);
   base::Array<std::uint64_t> key(exec_, sorted_);
@@ -145,7 +146,8 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const std::size_t places = layRows() + kSlotsRead;
   // More than is needed now, so that not every rebuild allocates.
   const auto width = static_cast<std::size_t>(width_);
-  if (places > slot_.size()) slot_.resize(places + places / kSpare), history_.resize(slot_.size() * width);
+  if (places > slot_.size())
+    slot_.resize(places + std::min(places / kSpare, kMostSpare)), history_.resize(slot_.size() * width);
   base::forEach(exec_, "list neighbours", n, ListNear{near, id, {start_.data(), stride_}, slot_.data()});
   if (radii.sphere) {
     reach_.resize(slot_.size());
