@@ -62,11 +62,8 @@ bool hashesDiffer(const base::Exec& exec, const std::vector<Position>& position)
     const Position& p = position[i];
     hash[i] = base::hash(std::uint64_t{p.x} << 32 | p.y, kPurpose, std::uint64_t{p.z} << 32 | p.high);
   }
-  base::Array<std::uint64_t> key(exec, hash);
-  auto unused = base::Array<std::uint32_t>::unset(exec, hash.size());
-  base::iota(exec, unused.data(), hash.size());
-  base::sortByKey(exec, key.data(), unused.data(), hash.size());
-  base::copyToHost(exec, hash.data(), key.data(), hash.size() * sizeof(std::uint64_t));
+  std::vector<std::uint32_t> unused(position.size());
+  base::sortByKey(exec, hash.data(), unused.data(), hash.size());
   return std::adjacent_find(hash.begin(), hash.end()) == hash.end();
 }
 
@@ -74,7 +71,7 @@ bool hashesDiffer(const base::Exec& exec, const std::vector<Position>& position)
 
 void checkDistinct(const base::Exec& exec, const std::vector<Position>& position,
                    const std::vector<std::uint32_t>& id) {
-  if (hashesDiffer(exec, position)) return;
+  if (hashesDiffer(exec.onCpu() ? exec : base::cpuExec(), position)) return;
   std::vector<std::size_t> order(position.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {
