@@ -93,6 +93,14 @@ struct Maximum {
   }
 };
 
+struct Sum {
+  const std::uint32_t* values;
+  std::size_t count;
+  template <class Policy> std::uint64_t operator()(const Policy& policy) const {
+    return thrust::reduce(policy, values, values + count, std::uint64_t{0}, thrust::plus<std::uint64_t>());
+  }
+};
+
 struct Sequence {
   std::uint32_t* out;
   std::size_t count;
@@ -119,6 +127,10 @@ std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint
 
 std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count) {
   return count ? withPolicy(exec, Maximum{values, count}) : 0u;
+}
+
+std::uint64_t sum(const Exec& exec, const std::uint32_t* values, std::size_t count) {
+  return count ? withPolicy(exec, Sum{values, count}) : 0u;
 }
 
 void listMarked(const Exec& exec, const std::uint32_t* marks, std::size_t count, Array<std::uint32_t>& list) {

@@ -2,6 +2,7 @@
 #include "base/exec.hpp"
 
 #include "base/error.hpp"
+#include "base/host_memory.hpp"
 #include "base/loop_shares.hpp"
 
 #include <cstdint>
@@ -152,6 +153,16 @@ bool isBusy(const Exec& exec) {
 #if defined(__CUDACC__)
 namespace {
 
+/// Gives the system back what the pool of released memory keeps.
+void emptyPool(const Exec& exec) {
+  synchronize(exec);
+  int index = 0;
+  cudaMemPool_t pool = nullptr;
+  checkCuda(cudaGetDevice(&index), "cudaGetDevice");
+  checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
+  checkCuda(cudaMemPoolTrimTo(pool, 0), "cudaMemPoolTrimTo");
+}
+
 DeviceError outOfMemory(std::size_t bytes) {
   const auto inMiB = [](std::size_t count) { return std::to_string((count + (1u << 20) - 1) >> 20) + " MiB"; };
   std::size_t unused = 0, total = 0;
@@ -175,10 +186,17 @@ void* allocateUnset(const Exec& exec, std::size_t bytes) {
     if (!memory)
       throw DeviceError("out of host memory: " + std::to_string(bytes) +
                         " bytes asked for; use larger or fewer grains, or more ranks on several hosts");
+    noteTaken(memory);
     return memory;
   }
 #if defined(__CUDACC__)
-  const cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
+  cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
+  if (code == cudaErrorMemoryAllocation) {
+    // What the pool keeps may lie in pieces that are too small; given back, they make larger ones.
+    cudaGetLastError();
+    emptyPool(exec);
+    code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
+  }
   if (code == cudaErrorMemoryAllocation) throw outOfMemory(bytes);
   checkCuda(code, "cudaMallocAsync of " + std::to_string(bytes) + " bytes");
   return memory;
@@ -215,6 +233,7 @@ void releaseForMessages(const Exec& exec, void* memory) noexcept {
 
 void release(const Exec& exec, void* memory) noexcept {
   if (exec.onCpu()) {
+    noteGivenBack(memory);
     std::free(memory);
     return;
   }
@@ -262,10 +281,7 @@ void* allocatePinned(const Exec& exec, std::size_t bytes) {
 }
 
 void releasePinned(const Exec& exec, void* memory) noexcept {
-  if (exec.onCpu()) {
-    std::free(memory);
-    return;
-  }
+  if (exec.onCpu()) return release(exec, memory);
 #if defined(__CUDACC__)
   cudaFreeHost(memory);
 #endif

@@ -18,7 +18,26 @@ namespace {
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
 constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
 constexpr std::uint32_t kWindow = 1024;     // spheres that are ordered among themselves
+constexpr std::size_t kSpare = 32;          // one place of so many is left free for longer lists,
+constexpr std::size_t kMostSpare = 1 << 22; // but no more than these
 constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
+
+void checkLength(std::uint32_t most, bool equal) {
+  const std::uint32_t limit = equal ? kMostEqual : kMostOthers;
+  if (most > limit)
+    throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours within reach, more than " +
+                                std::to_string(limit) + ": the bed has collapsed into itself" +
+                                (equal ? "; use a smaller time step or stiffer grains"
+                                       : ", or its radii are too unlike; use stiffer grains, a smaller time "
+                                         "step, a smaller skin or larger small grains"));
+}
+
+/// Places are 32-bit numbers, also those that are read behind the last.
+void checkPlaces(std::uint64_t places, std::size_t grains) {
+  if (places + kSlotsRead >= std::uint64_t{1} << 32)
+    throw base::SimulationError("the neighbour lists of " + std::to_string(grains) + " grains have " +
+                                std::to_string(places) + " places, 2^32 or more; use more ranks, or a smaller skin");
+}
 
 } // namespace
 
@@ -59,7 +78,7 @@ void NeighbourList::sort(const Position* position, std::size_t count, const std:
 }
 
 /// A warp takes as long as its grain with the most contacts: grains that lie near each other change places, so that
-/// those in a warp have equally many. On a CPU each grain takes what it takes.
+/// those in a warp have equally many, and rows as long. On a CPU each grain takes what it takes.
 void NeighbourList::groupByContacts(const std::uint32_t* rowOf) {
   const auto n = static_cast<std::int64_t>(sorted_);
   base::Array<std::uint64_t> key(exec_, sorted_);
@@ -83,6 +102,7 @@ std::uint32_t NeighbourList::layRows() {
   start_.resize(n);
   if (exec_.onCpu()) {
     stride_ = 1;
+    checkPlaces(base::sum(exec_, count_.data(), n), n);
     return base::exclusiveScan(exec_, count_.data(), start_.data(), n);
   }
   stride_ = kSlice;
@@ -90,23 +110,10 @@ std::uint32_t NeighbourList::layRows() {
   base::Array<std::uint32_t> longest(exec_, slices);
   base::forEach(exec_, "measure slices", static_cast<std::int64_t>(slices),
                 LongestOfSlice{count_.data(), static_cast<std::int64_t>(n), longest.data()});
+  checkPlaces(base::sum(exec_, longest.data(), slices) * kSlice, n);
   const std::uint32_t places = base::exclusiveScan(exec_, longest.data(), longest.data(), slices);
   base::forEach(exec_, "lay rows", static_cast<std::int64_t>(n), StartInSlice{longest.data(), start_.data()});
   return places * kSlice;
-}
-
-void NeighbourList::checkLengths(std::uint32_t most, bool equal) const {
-  const std::uint32_t limit = equal ? kMostEqual : kMostOthers;
-  if (most > limit)
-    throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours within reach, more than " +
-                                std::to_string(limit) + ": the bed has collapsed into itself" +
-                                (equal ? "; use a smaller time step or stiffer grains"
-                                       : ", or its radii are too unlike; use stiffer grains, a smaller time "
-                                         "step, a smaller skin or larger small grains"));
-  // Places are 32-bit numbers; slices are as long as their longest row.
-  if (static_cast<double>(most) * static_cast<double>(count_.size() + kSlice) >= 4294967296.0)
-    throw base::SimulationError("the neighbour lists of " + std::to_string(count_.size()) + " grains, of up to " +
-                                std::to_string(most) + " neighbours, have more than 2^32 places; use more ranks");
 }
 
 void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
@@ -135,11 +142,12 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   count_.resize(sorted_);
   base::forEach(exec_, "count neighbours", n, CountNear{near, count_.data()});
   const std::uint32_t most = base::maximum(exec_, count_.data(), sorted_);
-  checkLengths(most, !radii.sphere);
+  checkLength(most, !radii.sphere);
   const std::size_t places = layRows() + kSlotsRead;
   // More than is needed now, so that not every rebuild allocates.
   const auto width = static_cast<std::size_t>(width_);
-  if (places > slot_.size()) slot_.resize(places + places / 16), history_.resize(slot_.size() * width);
+  if (places > slot_.size())
+    slot_.resize(places + std::min(places / kSpare, kMostSpare)), history_.resize(slot_.size() * width);
   base::forEach(exec_, "list neighbours", n, ListNear{near, id, {start_.data(), stride_}, slot_.data()});
   if (radii.sphere) {
     reach_.resize(slot_.size());
@@ -168,7 +176,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
                                  former,
                                  origins ? origins->arrived : TravellingRows{}});
   haveRows_ = true;
-  cellStart_ = base::Array<std::uint32_t>(exec_), slotAt_ = base::Array<std::uint32_t>(exec_);
+  for (base::Array<std::uint32_t>* array : {&cellStart_, &slotAt_, &order_}) *array = base::Array<std::uint32_t>(exec_);
 }
 
 std::uint32_t NeighbourList::mostTouching(const std::uint32_t* slots, std::size_t count) const {
@@ -183,6 +191,8 @@ void NeighbourList::exportRows(const std::uint32_t* slots, std::size_t count, co
   if (!haveRows_) return;
   base::forEach(exec_, "export rows", static_cast<std::int64_t>(count), ExportRow{contacts(), slots, travelling});
 }
+
+std::uint64_t NeighbourList::listed() const { return base::sum(exec_, count_.data(), rows()); }
 
 NeighbourView NeighbourList::view() {
   return {{start_.data(), stride_}, count_.data(),    slot_.data(), reach_.data(),

@@ -27,7 +27,7 @@ public:
   NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                 const base::Period& period = {});
 
-  /// Sorts `count` grains in space. Afterwards `order()[i]` is the old slot of the grain that belongs in slot i.
+  /// Sorts `count` grains in space. Until build(), `order()[i]` is the old slot of the grain that belongs in slot i.
   /// `rowOf`: by old slot, its row in the present list, or a higher number without one; null: that of the slot itself.
   void sort(const base::Position* position, std::size_t count, const std::uint32_t* rowOf = nullptr);
   const std::uint32_t* order() const { return order_.data(); }
@@ -47,6 +47,9 @@ public:
 
   /// The next list begins without history: other grains have taken the slots.
   void forget() { haveRows_ = false; }
+
+  /// Neighbours in all rows, each pair from both sides.
+  std::uint64_t listed() const;
 
   NeighbourView view();
   /// Between builds; a build needs more, for the contacts that it sets aside and for its grid of cells [B].
@@ -70,9 +73,9 @@ public:
 private:
   TouchingRows contacts() const;
   void groupByContacts(const std::uint32_t* rowOf);
-  /// Gives the rows of `count_` neighbours their starts. Returns the places of all of them.
+  /// Gives the rows of `count_` neighbours their starts. Returns the places of all of them. Throws SimulationError
+  /// where they are too many to be numbered.
   std::uint32_t layRows();
-  void checkLengths(std::uint32_t most, bool equal) const;
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;

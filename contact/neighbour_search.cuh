@@ -51,17 +51,20 @@ private:
   }
 };
 
-/// Orders spheres that lie near each other by their contacts.
+/// Orders spheres that lie near each other by their contacts, and among equally many by the length of their rows: rows
+/// that stand side by side are all as long as the longest of them.
 struct AssignContactKeys {
-  static constexpr std::uint64_t kMost = 255; ///< contacts told apart
+  static constexpr std::uint64_t kMost = 255; ///< contacts and neighbours told apart
   TouchingRows former;
   const std::uint32_t* order; ///< former slots, in the order of the cells
   const std::uint32_t* rowOf; ///< row of the former list by former slot; null: the slot's own
   std::uint32_t window;       ///< spheres that are ordered among themselves
   std::uint64_t* key;
   GROUSER_HD void operator()(int k) const {
-    const std::uint32_t slot = order[k], contacts = former.contactsOf(rowOf ? rowOf[slot] : slot);
-    key[k] = static_cast<std::uint64_t>(k) / window << 8 | (contacts < kMost ? contacts : kMost);
+    const std::uint32_t slot = order[k], row = rowOf ? rowOf[slot] : slot;
+    const std::uint32_t contacts = former.contactsOf(row), listed = row < former.rowCount ? former.count[row] : 0;
+    key[k] = static_cast<std::uint64_t>(k) / window << 16 | (contacts < kMost ? contacts : kMost) << 8 |
+             (listed < kMost ? listed : kMost);
   }
 };
 

@@ -17,7 +17,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
 
   /// One grain of the list.
   struct Grain {
-    int slot;
+    int place; ///< in the list
     base::Vec3d x;
     Vec v, w;
     GrainSize<Real> size;
@@ -43,7 +43,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     const Vec4f velocity = d.motion[i].velocity;
     const Vec v = velocity.xyz().template as<Real>(), w = d.motion[i].spin.xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
-    const Grain grain{i, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
+    const Grain grain{k, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
     // Only surfaces feel a grain that never moves: the ground holds it.
     const bool held = has(kSurfaces) && isFixed(velocity);
     const double radius = static_cast<double>(grain.size.radius);
@@ -151,7 +151,7 @@ private:
     const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + grain.size.material];
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory()
-                         ? d.boundaryHistory + (static_cast<std::int64_t>(grain.slot) * d.boundaryCount + boundary) *
+                         ? d.boundaryHistory + (static_cast<std::int64_t>(grain.place) * d.boundaryCount + boundary) *
                                                    Kernel::historyWidth()
                          : nullptr;
     Vec shear{};

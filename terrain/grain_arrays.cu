@@ -37,13 +37,13 @@ template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&
 using AllFields = decltype(GrainFields::all(std::declval<GrainFields&>()));
 static_assert(sizeof(GrainFields) == sizeOf(static_cast<AllFields*>(nullptr)),
               "every field of the grains stands in GrainFields::all()");
-static_assert(std::tuple_size_v<AllFields> + 1 <= contact::Exchange::kMaxFields,
-              "all fields of the grains may migrate, and the rows of their neighbour lists with them");
+static_assert(
+    std::tuple_size_v<AllFields> + 2 <= contact::Exchange::kMaxFields,
+    "all fields of the grains may migrate, and with them the rows of neighbours and the springs of boundaries");
 
 } // namespace
 
 GrainFields::GrainFields(const GrainLayout& scene) {
-  boundaryHistory.width = static_cast<std::size_t>(scene.boundaries * scene.historyWidth());
   boundaryContactMask.width = boundaryOf.width = scene.boundaries > 0;
   crossings.width = scene.periodic > 0;
   formerMotion.width = rowOrigin.width = 0;
@@ -53,6 +53,15 @@ std::size_t GrainFields::bytesPerGrain() const {
   std::size_t bytes = 0;
   const auto add = [&]<class T>(const GrainField<T>& field) {
     bytes += field.width * sizeof(T) * (field.has(kBuffered) ? 2 : 1);
+  };
+  std::apply([&](const auto&... field) { (add(field), ...); }, all(*this));
+  return bytes;
+}
+
+std::size_t GrainFields::bytesMadeAnew() const {
+  std::size_t bytes = reference.width * sizeof(base::Vec3<std::uint32_t>);
+  const auto add = [&]<class T>(const GrainField<T>& field) {
+    if (field.has(kBuffered)) bytes += field.width * sizeof(T);
   };
   std::apply([&](const auto&... field) { (add(field), ...); }, all(*this));
   return bytes;
@@ -100,7 +109,6 @@ template <class T> void GrainArrays::gather(const std::uint32_t* order, const Gr
 }
 
 void GrainArrays::permute(const std::uint32_t* order) {
-  hasFormer_ = false;
   std::size_t most = 0; // bytes of a field without a buffer
   forEach([&]<class T>(GrainField<T>& field) {
     if (!field.has(kSorted) || field.now.empty()) return;
@@ -108,9 +116,11 @@ void GrainArrays::permute(const std::uint32_t* order) {
       most = std::max(most, field.now.size() * sizeof(T));
       return;
     }
-    field.next.resizeInLeaps(field.now.size());
+    field.next = base::Array<T>::unset(exec_, field.now.bytes() / sizeof(T));
+    field.next.resize(field.now.size());
     gather(order, field, field.next.data());
     field.now.swap(field.next);
+    field.next = base::Array<T>(exec_);
   });
   // Through one temporary buffer for all of them and back, so that each array keeps its memory from rebuild to rebuild.
   base::Array<std::byte> place = base::Array<std::byte>::unset(exec_, most);
@@ -122,7 +132,18 @@ void GrainArrays::permute(const std::uint32_t* order) {
   });
 }
 
-void GrainArrays::setReference() {
+void GrainArrays::beginRebuild() {
+  hasFormer_ = false;
+  forEach([this]<class T>(GrainField<T>& field) {
+    if (field.has(kBuffered)) field.next = base::Array<T>(exec_);
+  });
+  fields_.reference.now = base::Array<base::Vec3<std::uint32_t>>(exec_);
+}
+
+void GrainArrays::endRebuild() {
+  forEach([this](auto& field) {
+    if (field.has(kBuffered)) field.next.resize(slots_ * field.width);
+  });
   fields_.reference.now.resize(slots_);
   base::forEach(exec_, "keep reference", static_cast<std::int64_t>(slots_),
                 KeepReference{fields_.position.now.data(), fields_.reference.now.data()});
@@ -155,7 +176,6 @@ void GrainArrays::resizeKeeping(std::size_t slots) {
   slots_ = slots;
   forEach([&](auto& field) {
     if (field.has(kMigrates)) field.now.resizeKeeping(slots * field.width);
-    if (field.has(kBuffered)) field.next.resizeInLeaps(slots * field.width);
   });
 }
 
@@ -191,7 +211,7 @@ void GrainArrays::describe(GrainKernelData& d) {
   d.reference = f.reference.now.data();
   d.crossings = f.crossings.now.data();
   d.boundaryOf = f.boundaryOf.now.data();
-  d.boundaryHistory = f.boundaryHistory.now.data(), d.boundaryContactMask = f.boundaryContactMask.now.data();
+  d.boundaryContactMask = f.boundaryContactMask.now.data();
 }
 
 std::size_t GrainArrays::bytes() const {

@@ -20,8 +20,6 @@ struct GrainFields {
   GrainField<Motion> motion{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
   GrainField<Remainders> remainders{kSorted | kMigrates, &GrainState::remainders};
   GrainField<std::uint32_t> id{kSorted | kMigrates | kGhosted, &GrainState::id};
-  /// [slot][wall, floor or surface][numbers of history]
-  GrainField<float> boundaryHistory{kSorted | kMigrates};
   /// A bit for each wall, floor or surface in touch.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
@@ -30,18 +28,21 @@ struct GrainFields {
   GrainField<Motion> formerMotion{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
-  /// 1 + place in the list of grains near boundaries; 0 for all others.
-  GrainField<std::uint32_t> boundaryOf{0};
+  /// 1 + place in the list of grains near boundaries, and so of their springs there, until the next such list; 0 for
+  /// all others. Of ghosts it says nothing until then.
+  GrainField<std::uint32_t> boundaryOf{kSorted | kMigrates};
   /// On several ranks, from migration to list: see contact::RowOrigins. Of width 0 before the first migration.
   GrainField<std::uint32_t> rowOrigin{kSorted};
 
   template <class Self> static auto all(Self& f) {
-    return std::tie(f.position, f.motion, f.remainders, f.id, f.boundaryHistory, f.boundaryContactMask, f.crossings,
-                    f.formerMotion, f.reference, f.boundaryOf, f.rowOrigin);
+    return std::tie(f.position, f.motion, f.remainders, f.id, f.boundaryContactMask, f.crossings, f.formerMotion,
+                    f.reference, f.boundaryOf, f.rowOrigin);
   }
 
   /// On the device, of one grain.
   std::size_t bytesPerGrain() const;
+  /// Those of them that are given back while grains are sorted and lists made anew.
+  std::size_t bytesMadeAnew() const;
 };
 
 /// Grains that enter on this rank, one an element.
@@ -72,10 +73,13 @@ public:
   void append(const EnteringGrains& grains);
   /// For a state that is loaded: its fields are the caller's to set.
   void setSlots(std::size_t slots);
-  /// Slot i takes what slot order[i] (device array) held.
+  /// Before grains migrate and are sorted: gives back the memory of what is made anew behind that (the `next` of
+  /// fields, references), so that lists may have it meanwhile. Between the two calls no step may be taken.
+  void beginRebuild();
+  /// The neighbours are listed where the grains are now; all has its memory again.
+  void endRebuild();
+  /// Slot i takes what slot order[i] (device array) held. Within a rebuild.
   void permute(const std::uint32_t* order);
-  /// The neighbours are listed where the grains are now.
-  void setReference();
   /// After a step: what it wrote to `next` becomes `now`; the state before it stays in `next`.
   void swapBuffers();
 
@@ -84,7 +88,7 @@ public:
   std::vector<contact::ExchangeField> exchanged(FieldUse use, bool written = false);
   /// Slot to[k] takes what slot from[k] held, for k < count (device arrays); nothing moves from any of `to`.
   void move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count);
-  /// Keeps what fits; further slots are undefined.
+  /// Keeps what fits; further slots are undefined. Within a rebuild.
   void resizeKeeping(std::size_t slots);
 
   /// Before the last step, on the device, by slot; null where something else than a step came last.

@@ -33,14 +33,13 @@ struct MarkNearBoundary {
     const double within = reach + (manyRadii ? fabs(static_cast<double>(d.motion[i].velocity.w)) : 0.0);
     // Walls and floor do nothing to a grain that never moves; surfaces feel it.
     const bool moves = !(d.features & kFixed) || !isFixed(d.motion[i].velocity);
-    bool near = moves && (d.features & kFloor) && !d.floor.clearOf(x, within);
+    // A grain in touch is listed wherever it is now: the next step takes the bits of contacts that have ended from it,
+    // and until then its springs have a place.
+    bool near = d.boundaryContactMask[i] != 0 || (moves && (d.features & kFloor) && !d.floor.clearOf(x, within));
     for (int b = 0; moves && b < d.wallCount; ++b)
       near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
     for (int s = 0; s < d.surfaceCount; ++s) near = near || nearSurface(s, x, within);
     mark[i] = near ? 1u : 0u;
-    // Grains off the list are not looked at in a step: the bit of a contact whose surface has jumped away would stay
-    // set, and its old spring would be taken up when the surface comes back.
-    if (d.surfaceCount > 0 && !near) d.boundaryContactMask[i] = 0;
   }
 
 private:
@@ -51,24 +50,55 @@ private:
   }
 };
 
-/// From the counts before each slot to places: the list, and the place of each slot in it.
+/// Row `to` of springs takes row `from` of others, counted from 1; 0: there was none.
+GROUSER_HD void copySprings(const float* source, std::uint32_t from, float* target, std::uint32_t to, int width) {
+  for (int w = 0; w < width; ++w)
+    target[std::int64_t{to} * width + w] = from > 0 ? source[(std::int64_t{from} - 1) * width + w] : 0.0f;
+}
+
+/// From the counts before each slot to places: the list, and the place of each slot in it. Springs go from the former
+/// places to the new ones.
 struct ListNearBoundary {
   const std::uint32_t* before;
   std::int64_t count;
   std::uint32_t total;
   std::uint32_t *list, *placeOf;
+  const float* formerSprings;
+  float* springs;
+  int width;
   GROUSER_HD void operator()(int i) const {
-    const std::uint32_t next = i + 1 < count ? before[i + 1] : total;
-    placeOf[i] = next > before[i] ? next : 0u;
-    if (next > before[i]) list[before[i]] = static_cast<std::uint32_t>(i);
+    const std::uint32_t next = i + 1 < count ? before[i + 1] : total, former = placeOf[i];
+    const bool listed = next > before[i];
+    placeOf[i] = listed ? next : 0u;
+    if (!listed) return;
+    list[before[i]] = static_cast<std::uint32_t>(i);
+    copySprings(formerSprings, former, springs, before[i], width);
   }
+};
+
+struct ExportSprings {
+  const std::uint32_t *slots, *placeOf;
+  const float* springs;
+  float* out;
+  int width;
+  GROUSER_HD void operator()(int k) const {
+    copySprings(springs, placeOf[slots[k]], out, static_cast<std::uint32_t>(k), width);
+  }
+};
+
+/// Grains that have arrived in a row of slots have their springs in a row of places.
+struct NumberArrived {
+  std::uint32_t place; ///< of the first
+  std::uint32_t* placeOf;
+  GROUSER_HD void operator()(int k) const { placeOf[k] = place + 1 + static_cast<std::uint32_t>(k); }
 };
 
 } // namespace
 
 GrainBoundaries::GrainBoundaries(const base::Exec& exec, const GrainConstants& c, const Boundaries& boundaries)
     : exec_(exec), count_(c.boundaryCount), room_(0.5 * c.smallestRadius), walls_(exec, boundaries.walls), near_(exec),
-      fromSurfaces_(exec), singleLoads_(exec), doubleLoads_(exec) {
+      springsWidth_(static_cast<std::size_t>(c.boundaryCount) * static_cast<std::size_t>(c.historyWidth)),
+      springs_(exec), fromSurfaces_(exec), singleLoads_(exec), doubleLoads_(exec) {
   if (boundaries.floor) makeFloor(*boundaries.floor);
   makeSurfaces(c.model, boundaries.surfaces);
 }
@@ -120,16 +150,14 @@ void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, Gr
                            const std::uint32_t* ghosts) {
   const std::size_t slots = arrays.slots();
   const auto n = static_cast<std::int64_t>(slots);
-  base::Array<std::uint32_t> mark(exec_, slots), before(exec_, slots);
-  base::Array<std::uint32_t>& boundaryOf = arrays.fields().boundaryOf.now;
-  boundaryOf.resize(slots);
+  auto before = base::Array<std::uint32_t>::unset(exec_, slots); // marks, then the marks before each
   // A list made between rebuilds, on account of surfaces, starts from grains that may be half the skin from their
   // reference already, and may end half the skin on its other side.
   const double skin = (hasSurfaces() ? 1.0 : 0.5) * c.model.skin * c.smallestRadius;
   const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + d.unitLength;
   base::forEach(exec_, "mark grains near boundaries", n,
-                MarkNearBoundary{d, reach, c.manyRadii(), room_, ghosts, mark.data()});
-  const std::uint32_t total = base::exclusiveScan(exec_, mark.data(), before.data(), slots);
+                MarkNearBoundary{d, reach, c.manyRadii(), room_, ghosts, before.data()});
+  const std::uint32_t total = base::exclusiveScan(exec_, before.data(), before.data(), slots);
   near_.resize(total);
   c.model.precision == Precision::single ? singleLoads_.resize(total) : doubleLoads_.resize(total);
   if (hasSurfaces()) {
@@ -137,8 +165,33 @@ void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, Gr
     listedAt_.assign(poses_.host(), poses_.host() + poses_.size());
     ++listings_;
   }
+  auto springs = base::Array<float>::unset(exec_, total * springsWidth_);
   base::forEach(exec_, "list grains near boundaries", n,
-                ListNearBoundary{before.data(), n, total, near_.data(), boundaryOf.data()});
+                ListNearBoundary{before.data(), n, total, near_.data(), arrays.fields().boundaryOf.now.data(),
+                                 springs_.data(), springs.data(), static_cast<int>(springsWidth_)});
+  springs_.swap(springs);
+}
+
+base::Array<float> GrainBoundaries::exportSprings(const GrainFields& fields, const std::uint32_t* slots,
+                                                  std::size_t count) const {
+  auto leaving = base::Array<float>::unset(exec_, count * springsWidth_);
+  base::forEach(exec_, "export springs of boundaries", leaving.empty() ? 0 : static_cast<std::int64_t>(count),
+                ExportSprings{slots, fields.boundaryOf.now.data(), springs_.data(), leaving.data(),
+                              static_cast<int>(springsWidth_)});
+  return leaving;
+}
+
+float* GrainBoundaries::makeRoomForSprings(std::size_t count) {
+  const std::size_t before = springs_.size();
+  springs_.resizeKeeping(before + count * springsWidth_);
+  return springs_.data() + before;
+}
+
+void GrainBoundaries::numberArrived(GrainFields& fields, std::size_t first, std::size_t count) const {
+  if (springsWidth_ == 0) return;
+  const std::size_t before = springs_.size() / springsWidth_ - count;
+  base::forEach(exec_, "number springs of boundaries", static_cast<std::int64_t>(count),
+                NumberArrived{static_cast<std::uint32_t>(before), fields.boundaryOf.now.data() + first});
 }
 
 void GrainBoundaries::clearSurfaceLoads() {
@@ -175,11 +228,11 @@ void GrainBoundaries::describe(GrainKernelData& d) {
   d.surfaces = surfaces_.data(), d.surfaceCount = static_cast<int>(geometries_.size());
   d.placements = poses_.device().data(), d.surfaceLoads = surfaceSums_.device().data();
   d.surfaceForce = surfaceForce_, d.surfaceTorque = surfaceTorque_, d.fromSurfaces = fromSurfaces_.data();
-  d.nearBoundary = near_.data();
+  d.nearBoundary = near_.data(), d.boundaryHistory = springs_.data();
 }
 
 std::size_t GrainBoundaries::bytes() const {
-  return near_.bytes() + fromSurfaces_.bytes() + singleLoads_.bytes() + doubleLoads_.bytes();
+  return near_.bytes() + springs_.bytes() + fromSurfaces_.bytes() + singleLoads_.bytes() + doubleLoads_.bytes();
 }
 
 } // namespace grouser::terrain

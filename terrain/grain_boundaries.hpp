@@ -28,11 +28,25 @@ public:
   /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so the same on all
   /// ranks.
   bool surfacesHaveLeft() const;
-  /// Lists the grains that may touch a boundary before the next list. `d`: of the grains in their present slots;
-  /// `ghosts`: not 0 for those that need no list, null where there are none.
+  /// Lists the grains that may touch a boundary before the next list, and those in touch with one; springs go along.
+  /// `d`: of the grains in their present slots; `ghosts`: not 0 for those that need no list, null where there are none.
   void list(const GrainConstants& constants, const GrainKernelData& d, GrainArrays& arrays,
             const std::uint32_t* ghosts);
   std::size_t grainsListed() const { return near_.size(); }
+
+  // Springs of walls, floor and surfaces: of the grains on the list alone, by their places there.
+
+  std::size_t springsWidth() const { return springsWidth_; } ///< numbers a grain; 0 without friction
+  const base::Array<float>& springs() const { return springs_; }
+  /// Of a state that is loaded: rows that the field boundaryOf counts from 1, until the next list.
+  void setSprings(const std::vector<float>& springs) { springs_.assign(springs); }
+  /// Copies the springs of the grains in `slots` (device array) for other ranks, one after the other.
+  base::Array<float> exportSprings(const GrainFields& fields, const std::uint32_t* slots, std::size_t count) const;
+  /// Room behind all springs for those of `count` grains that come from other ranks; null without friction.
+  float* makeRoomForSprings(std::size_t count);
+  /// They are there: those of the grains in `count` slots from `first` on.
+  void numberArrived(GrainFields& fields, std::size_t first, std::size_t count) const;
+
   std::int64_t listings() const { return listings_; } ///< made so far in scenes with surfaces
 
   // The loads of a step.
@@ -80,6 +94,8 @@ private:
   std::int64_t listings_{0};
 
   base::Array<std::uint32_t> near_; ///< slots
+  std::size_t springsWidth_;
+  base::Array<float> springs_; ///< [place in near_][boundary][numbers of history]
   base::Array<base::Vec3d> fromSurfaces_;
   base::Array<BoundaryLoad<float>> singleLoads_;
   base::Array<BoundaryLoad<double>> doubleLoads_;

@@ -96,11 +96,12 @@ void saveBoundarySprings(const GrainSystem& system, const std::vector<std::uint3
   const std::size_t width = static_cast<std::size_t>(system.constants.historyWidth),
                     boundaries = static_cast<std::size_t>(system.constants.boundaryCount);
   if (width == 0) return;
-  const std::vector<float> history = system.arrays.fields().boundaryHistory.now.toHost();
+  const std::vector<float> history = system.boundaries.springs().toHost();
+  const std::vector<std::uint32_t> placeOf = system.arrays.fields().boundaryOf.now.toHost();
   for (std::size_t k = 0; k < slots.size(); ++k)
     for (std::size_t b = 0; b < boundaries; ++b) {
       const bool held = s.wallBits[k] >> b & 1;
-      const std::size_t at = (slots[k] * boundaries + b) * width;
+      const std::size_t at = held ? ((placeOf[slots[k]] - std::size_t{1}) * boundaries + b) * width : 0;
       s.wallShear.push_back(held ? vectorAt(history, at) : Vec3f{});
       if (s.layout.rolling) s.wallRolling.push_back(held ? vectorAt(history, at + 3) : Vec3f{});
       if (s.layout.plastic) {
@@ -240,10 +241,28 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
     motion[k].spin = {w.x, w.y, w.z, own_.material.empty() ? 0.0f : static_cast<float>(own_.material[k])};
   }
   f.position.now.assign(position), f.motion.now.assign(motion);
-  f.boundaryHistory.now.assign(historyOf(own_.wallShear, own_.wallRolling, own_.wallDeepest, own_.wallOrigin));
+  loadBoundarySprings(system);
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
   system.books.restore(own_.books, system.comm);
+}
+
+/// Grains in touch get a place for their springs, which the next list of grains near boundaries begins with.
+void GrainCheckpoint::loadBoundarySprings(GrainSystem& system) const {
+  if (!system.boundaries.any()) return;
+  const std::vector<float> all = historyOf(own_.wallShear, own_.wallRolling, own_.wallDeepest, own_.wallOrigin);
+  const std::size_t width = system.boundaries.springsWidth();
+  std::vector<float> springs;
+  std::vector<std::uint32_t> placeOf(own_.rows());
+  std::uint32_t places = 0;
+  for (std::size_t k = 0; k < own_.rows(); ++k) {
+    if (own_.wallBits[k] == 0) continue;
+    placeOf[k] = ++places;
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * width);
+    springs.insert(springs.end(), first, first + static_cast<std::ptrdiff_t>(width));
+  }
+  system.arrays.fields().boundaryOf.now.assign(placeOf);
+  system.boundaries.setSprings(springs);
 }
 
 bool GrainCheckpoint::loadAsSaved(GrainSystem& system) const {

@@ -25,6 +25,7 @@ public:
 
 private:
   base::Position placeAtList(const GrainState& rows, std::size_t k) const;
+  void loadBoundarySprings(GrainSystem& system) const;
   bool loadPlaces(GrainSystem& system, const std::vector<std::uint32_t>& id) const;
   void loadContacts(GrainSystem& system, const std::vector<std::uint32_t>& id) const;
   std::size_t rowOf(std::uint32_t id) const;

@@ -95,7 +95,8 @@ void GrainDistribution::onMigrate(OnMigrate onMigrate) {
   onMigrate_ = std::move(onMigrate);
 }
 
-void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step) {
+void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, GrainBoundaries& boundaries,
+                                std::int64_t step) {
   finishGhostUpdate(exec_, arrays); // else it would be unpacked into slots that get other grains below
   if (rebalances_) rebalance(arrays, step);
   subdomain_.findLeaving(arrays.fields().position.now.data(), arrays.slots());
@@ -104,7 +105,7 @@ void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& nei
   base::Array<std::uint32_t> leavingRows(exec_);
   TravellingRows rows = exportRows(neighbours, leavingRows);
   arrivedRows_.resize(subdomain_.migration().importCount() * rows.words());
-  moveFields(arrays, rows);
+  moveFields(arrays, boundaries, rows);
   rows.data = arrivedRows_.data();
 
   const std::size_t owned = subdomain_.staying().kept + subdomain_.migration().importCount();
@@ -130,19 +131,28 @@ TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neigh
 
 /// Sends the grains that leave, closes the gaps, and puts those that come behind the rest. The gaps may be filled while
 /// the messages travel: start() returns when all that leaves has been packed into buffers of its own.
-void GrainDistribution::moveFields(GrainArrays& arrays, const TravellingRows& leaving) {
+void GrainDistribution::moveFields(GrainArrays& arrays, GrainBoundaries& boundaries, const TravellingRows& leaving) {
   Exchange& exchange = subdomain_.migration();
-  std::vector<ExchangeField> fields = arrays.exchanged(kMigrates);
-  fields.push_back({leaving.data, leaving.words(), true});
-  exchange.start(fields);
+  const auto springs = static_cast<std::uint32_t>(boundaries.springsWidth());
+  const auto withRows = [&](std::uint32_t* rows, float* atBoundaries) {
+    std::vector<ExchangeField> fields = arrays.exchanged(kMigrates);
+    fields.push_back({rows, leaving.words(), true});
+    if (springs > 0) fields.push_back({atBoundaries, springs, true});
+    return fields;
+  };
+  {
+    base::Array<float> out = boundaries.exportSprings(arrays.fields(), exchange.exportSlots(), exchange.exportCount());
+    exchange.start(withRows(leaving.data, out.data()));
+  }
   const Subdomain::Staying staying = subdomain_.staying();
   arrays.move(staying.from, staying.to, staying.moves);
   const std::size_t owned = staying.kept + exchange.importCount();
   arrays.resizeKeeping(std::max(arrays.slots(), owned));
-  fields = arrays.exchanged(kMigrates);
-  fields.push_back({arrivedRows_.data(), leaving.words(), true});
   exchange.setImportSlots(staying.kept);
-  exchange.finish(fields);
+  // The field boundaryOf comes with the others, from the list of another rank: it is numbered behind them.
+  float* const room = boundaries.makeRoomForSprings(exchange.importCount());
+  exchange.finish(withRows(arrivedRows_.data(), room));
+  boundaries.numberArrived(arrays.fields(), staying.kept, exchange.importCount());
 }
 
 void GrainDistribution::noteOrigins(std::uint32_t owned, std::uint32_t former, GrainArrays& arrays) {

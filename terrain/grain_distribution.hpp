@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/neighbour_list.hpp"
-#include "terrain/grain_arrays.hpp"
+#include "terrain/grain_boundaries.hpp"
 #include "terrain/subdomain.hpp"
 
 #include <chrono>
@@ -37,7 +37,7 @@ public:
 
   /// Sends every grain to the rank whose subdomain holds its centre, and makes ghosts of those near the borders.
   /// Afterwards the slots hold the grains that stayed, those that came, and the ghosts, in this order, not yet sorted.
-  void migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, std::int64_t step);
+  void migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, GrainBoundaries& boundaries, std::int64_t step);
   /// After migrate(), once the arrays are sorted by `order`: where the rows of the next neighbour list come from.
   const contact::RowOrigins* sorted(const std::uint32_t* order, GrainArrays& arrays);
 
@@ -56,7 +56,7 @@ public:
 private:
   void rebalance(const GrainArrays& arrays, std::int64_t step);
   contact::TravellingRows exportRows(const contact::NeighbourList& neighbours, base::Array<std::uint32_t>& leaving);
-  void moveFields(GrainArrays& arrays, const contact::TravellingRows& leaving);
+  void moveFields(GrainArrays& arrays, GrainBoundaries& boundaries, const contact::TravellingRows& leaving);
   void noteOrigins(std::uint32_t owned, std::uint32_t former, GrainArrays& arrays);
 
   using Clock = std::chrono::steady_clock;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/grain_entry.hpp"
 
+#include "base/algorithms.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +52,26 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
   return places;
 }
 
-void checkDistinct(const std::vector<Position>& position, const std::vector<std::uint32_t>& id) {
+namespace {
+
+/// Whether hashes of the places tell all of them apart. Equal ones are seldom, and then judged by the places.
+bool hashesDiffer(const base::Exec& exec, const std::vector<Position>& position) {
+  constexpr std::uint64_t kPurpose = base::purpose("terrain.places");
+  std::vector<std::uint64_t> hash(position.size());
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Position& p = position[i];
+    hash[i] = base::hash(std::uint64_t{p.x} << 32 | p.y, kPurpose, std::uint64_t{p.z} << 32 | p.high);
+  }
+  std::vector<std::uint32_t> unused(position.size());
+  base::sortByKey(exec, hash.data(), unused.data(), hash.size());
+  return std::adjacent_find(hash.begin(), hash.end()) == hash.end();
+}
+
+} // namespace
+
+void checkDistinct(const base::Exec& exec, const std::vector<Position>& position,
+                   const std::vector<std::uint32_t>& id) {
+  if (hashesDiffer(exec.onCpu() ? exec : base::cpuExec(), position)) return;
   std::vector<std::size_t> order(position.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {

@@ -18,8 +18,10 @@ std::size_t fixedAmong(const std::vector<GrainSpec>& grains);
 /// the integer positions or beyond periodic boundaries, or where a fixed one has a velocity.
 std::vector<base::Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c);
 
-/// Throws InputError when two grains have the same place: no direction would push them apart.
-void checkDistinct(const std::vector<base::Position>& position, const std::vector<std::uint32_t>& id);
+/// Throws InputError when two grains have the same place: no direction would push them apart. Takes the threads of
+/// `exec`, of a GPU those of its host.
+void checkDistinct(const base::Exec& exec, const std::vector<base::Position>& position,
+                   const std::vector<std::uint32_t>& id);
 
 /// What keeps a grain from entering: it would lie in another grain or in a surface, deeper than the model allows.
 struct InsertionOverlap {

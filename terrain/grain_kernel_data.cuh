@@ -51,7 +51,7 @@ struct GrainKernelData {
   contact::NeighbourView neighbours;
   const std::uint32_t* nearBoundary;  ///< slots of the grains that may touch walls or floor before the next rebuild
   const std::uint32_t* boundaryOf;    ///< by slot: 1 + place in that list, 0 for all others
-  float* boundaryHistory;             ///< [slot][boundary][width of the neighbours' history]
+  float* boundaryHistory;             ///< [place in that list][boundary][width of the neighbours' history]
   std::uint32_t* boundaryContactMask; ///< a bit for each boundary
   base::Vec3d* fromSurfaces;          ///< [N] forces of the surfaces, by place in the list of grains near boundaries
   contact::PartLoad* surfaceLoads;    ///< sums of this step

@@ -134,7 +134,7 @@ private:
       const bool touched = d.boundaryContactMask[i] >> b & 1;
       const float* history =
           touched && Kernel::hasHistory()
-              ? d.boundaryHistory + (static_cast<std::int64_t>(i) * d.boundaryCount + b) * Kernel::historyWidth()
+              ? d.boundaryHistory + ((std::int64_t{d.boundaryOf[i]} - 1) * d.boundaryCount + b) * Kernel::historyWidth()
               : nullptr;
       held.elastic += stored(f.boundaryLaws[b * d.materials + size.material], overlap, radius,
                              static_cast<double>(size.mass), history);

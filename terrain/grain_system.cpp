@@ -31,7 +31,7 @@ EnteringGrains GrainSystem::entering(const std::vector<GrainSpec>& grains,
         {{v.x, v.y, v.z, constants.storedRadius(grains[i])}, {w.x, w.y, w.z, static_cast<float>(grains[i].material)}});
     own.id.push_back(static_cast<std::uint32_t>(count + i));
   }
-  checkDistinct(own.position, own.id);
+  checkDistinct(exec, own.position, own.id);
   return own;
 }
 

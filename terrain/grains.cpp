@@ -45,7 +45,8 @@ void Grains::rebuild() {
   if (stepper_.boundariesBegun())
     throw std::logic_error("slots change while contacts with walls and floor are being computed for them");
   GrainSystem& s = system_;
-  if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.steps);
+  s.arrays.beginRebuild();
+  if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.boundaries, s.steps);
   const base::Array<base::Position>& position = s.arrays.fields().position.now;
   const auto& row = s.arrays.fields().rowOrigin;
   s.neighbours.sort(position.data(), s.arrays.slots(), row.width > 0 ? row.now.data() : nullptr);
@@ -54,7 +55,7 @@ void Grains::rebuild() {
       s.distribution ? s.distribution->sorted(s.neighbours.order(), s.arrays) : nullptr;
   s.neighbours.build(position.data(), s.arrays.fields().id.now.data(), origins, s.radii());
   if (s.boundaries.any()) listNearBoundaries();
-  s.arrays.setReference();
+  s.arrays.endRebuild();
   stepper_.forgetGraph();
   listEnded_ = false;
   slotsChanged_ = true;

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/memory_held.hpp"
 #include "base/random.hpp"
 #include "base/rounded.hpp"
 #include "contact/restitution.hpp"
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 
 namespace grouser::bench {
 
@@ -209,6 +209,7 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   if (!b.save.empty()) saveBed(grains, b.save);
   if (b.hash) f.stateHash = terrain::hashOf(grains.state(), comm).hex();
 
+  base::restartMemoryPeak(exec);
   std::vector<double> rebuild;
   for (int k = 0; k < kRebuildsTimed; ++k) {
     grains.invalidateNeighbours();
@@ -220,14 +221,18 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   }
   f.rebuildMicroseconds = median(rebuild);
   const double n = static_cast<double>(b.grains);
+  const auto perGrain = [&](std::uint64_t share) {
+    return static_cast<double>(comm.sumOf(static_cast<std::int64_t>(share))) / n;
+  };
+  const base::MemoryHeld held = base::memoryHeld(exec);
+  f.peakBytesPerGrain = perGrain(held.most), f.reservedPerGrain = perGrain(held.reserved);
   const terrain::GrainLedger ledger = grains.ledger();
   f.contactsPerGrain = static_cast<double>(ledger.contacts + ledger.boundaryContacts) / n;
   f.kineticPerGrain =
       (ledger.kinetic + ledger.rotational) / n / (base::sphereMass(b.density, b.radius) * kGravity * b.radius);
   f.features = terrain::featureText(grains.system().constants.features);
-  const std::vector<std::uint32_t> count = grains.system().neighbours.toHost().count;
-  f.listLength = static_cast<double>(comm.sumOf(std::accumulate(count.begin(), count.end(), std::int64_t{0}))) / n;
-  f.bytesPerGrain = static_cast<double>(comm.sumOf(static_cast<std::int64_t>(grains.system().deviceBytes()))) / n;
+  f.listLength = perGrain(grains.system().neighbours.listed());
+  f.bytesPerGrain = perGrain(grains.system().deviceBytes());
   return f;
 }
 

@@ -137,7 +137,8 @@ void printBed(const BedBench& b, const BedFigures& f, int ranks) {
              std::isfinite(f.stepsBetweenRebuilds)
                  ? fmt::format("one in {:.0f} steps: {:.2f} us a step", f.stepsBetweenRebuilds, share)
                  : std::string("none was needed while timing"));
-  fmt::print("memory    {:.0f} bytes a grain\n", f.bytesPerGrain);
+  fmt::print("memory    {:.0f} bytes a grain; {:.0f} at the peak of a rebuild, for which {:.0f} are reserved\n",
+             f.bytesPerGrain, f.peakBytesPerGrain, f.reservedPerGrain);
   if (ranks > 1)
     fmt::print(
         "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest ({}); waiting "
@@ -176,6 +177,8 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["steps_between_rebuilds"] = std::isfinite(f.stepsBetweenRebuilds) ? Json(f.stepsBetweenRebuilds) : Json(nullptr);
   json["rebuild_microseconds"] = f.rebuildMicroseconds;
   json["bytes_a_grain"] = f.bytesPerGrain;
+  json["peak_bytes_a_grain"] = f.peakBytesPerGrain;
+  json["reserved_bytes_a_grain"] = f.reservedPerGrain;
   json["steps_taken"] = f.stepsTaken;
   json["ranks"] = ranks;
   json["subdomains"] = f.subdomains;

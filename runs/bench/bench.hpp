@@ -60,7 +60,9 @@ struct BedFigures {
   std::string features;            ///< in words
   double stepsBetweenRebuilds = 0; ///< [-]; infinite where none was needed while timing
   double rebuildMicroseconds = 0;  ///< of one rebuild, median
-  double bytesPerGrain = 0;        ///< on the device [B]
+  double bytesPerGrain = 0;        ///< on the device, between rebuilds [B]
+  double peakBytesPerGrain = 0;    ///< the most while lists were made anew [B]
+  double reservedPerGrain = 0;     ///< ... that the system has given for that [B]
   double settleSeconds = 0;        ///< wall time of settling [s]
   double kineticPerGrain = 0;      ///< over m g radius [-]
   std::int64_t stepsTaken = 0;     ///< settling and all batches

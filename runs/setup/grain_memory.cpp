@@ -5,6 +5,8 @@
 #include "runs/setup/placement.hpp"
 #include "terrain/grains.hpp"
 
+#include <algorithm>
+
 namespace grouser::setup {
 
 namespace {
@@ -13,6 +15,7 @@ namespace {
 struct Traits {
   unsigned features; ///< of the laws, grains and boundaries
   terrain::GrainLayout layout;
+  terrain::Precision precision;
 };
 Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds) {
   const terrain::Rectangle area = terrainArea(scene).value_or(terrain::Rectangle{});
@@ -21,11 +24,32 @@ Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds) {
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, 0, surroundingsOf(scene, floor, area), boundaries);
   const unsigned features = terrain::featuresOf(model, boundaries, kinds.many());
-  return {features, terrain::layoutOf(features, boundaries.count(), model.materials.count())};
+  return {features, terrain::layoutOf(features, boundaries.count(), model.materials.count()), model.precision};
 }
 
 double fieldBytes(const terrain::GrainLayout& layout) {
   return static_cast<double>(terrain::GrainFields(layout).bytesPerGrain());
+}
+
+/// Of the grains of a bed those that lie at its floor or its walls: a layer of one diameter at each. All, where nothing
+/// is known of their places.
+double shareAtBoundaries(const scene::Scene& scene) {
+  if (!scene.terrain || !scene.terrain->granular()) return 1;
+  const scene::Terrain& t = *scene.terrain;
+  const double depth = t.depth ? *t.depth : t.layers.value_or(1) * *t.spacing * *t.grainRadius;
+  double layers = 1 / depth; // a unit of length
+  for (std::size_t a = 0; a < 2; ++a)
+    if (t.walls && !scene.run.periodic[a]) layers += 2 / t.size[a];
+  return std::min(1.0, 2 * *t.grainRadius * layers);
+}
+
+/// Of a grain that may touch a boundary: its place, what they do to it in a step, and springs.
+double bytesAtBoundaries(const Traits& traits) {
+  const auto springs = static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth());
+  const double load = traits.precision == terrain::Precision::single ? sizeof(terrain::BoundaryLoad<float>)
+                                                                     : sizeof(terrain::BoundaryLoad<double>);
+  return sizeof(std::uint32_t) + load + springs * sizeof(float) +
+         (traits.features & terrain::kSurfaces ? sizeof(base::Vec3d) : 0);
 }
 
 } // namespace
@@ -40,18 +64,22 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   // those of them that touch.
   constexpr double kPlaces = 8, kContacts = 4;
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
-  const terrain::GrainLayout layout = traitsOf(scene, grainKinds(scene)).layout;
+  const Traits traits = traitsOf(scene, grainKinds(scene));
+  const terrain::GrainLayout& layout = traits.layout;
   const double history = static_cast<double>(layout.historyWidth()) * sizeof(float);
   terrain::GrainLayout bare = layout; // without boundaries
   bare.boundaries = 0;
   GrainMemory m;
   m.state = fieldBytes(bare);
   m.boundaries = fieldBytes(layout) - fieldBytes(bare);
-  // Count, start, mask, id and order of a row.
-  m.lists = 4 * kWord + kMask + kPlaces * kWord * (layout.radii ? 2 : 1); // the slot, and the sum of radii
+  if (layout.boundaries > 0) m.boundaries += shareAtBoundaries(scene) * bytesAtBoundaries(traits);
+  // Count, start, mask and id of a row.
+  m.lists = 3 * kWord + kMask + kPlaces * kWord * (layout.radii ? 2 : 1); // the slot, and the sum of radii
   m.history = kPlaces * history;
-  // Contacts that are set aside, with a start, and one cell of the grid.
-  m.rebuild = kContacts * (kWord + history) + 3 * kWord; // and on a GPU what lies where in the cells
+  // Contacts that are set aside, with a start, the order of the grains, one cell of the grid and on a GPU what lies
+  // where in it; less the memory that is given back meanwhile.
+  const double rebuild = kContacts * (kWord + history) + 4 * kWord;
+  m.rebuild = std::max(0.0, rebuild - static_cast<double>(terrain::GrainFields(layout).bytesMadeAnew()));
   return m;
 }
 

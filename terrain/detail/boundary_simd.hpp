@@ -41,6 +41,7 @@ private:
   using Single = Simd<float, kLanes>;
 
   GROUSER_SIMD void block(int k, int grains) {
+    first_ = k;
     for (int g = 0; g < kGrains; ++g) {
       slot_[g] = data_.nearBoundary[k + (g < grains ? g : 0)], now_[g] = 0;
       before_[g] = static_cast<std::int32_t>(data_.boundaryContactMask[slot_[g]]);
@@ -106,7 +107,7 @@ private:
     Vec shear{};
     if (kWithFriction) {
       for (int l = 0; l < count; ++l)
-        spring_[l] = before_[grain_[c + l]] >> b & 1 ? base::load3(historyOf(slots[l], b)) : Float4{};
+        spring_[l] = before_[grain_[c + l]] >> b & 1 ? base::load3(historyOf(grain_[c + l], b)) : Float4{};
       base::gatherRows<kWidth>(spring_, kPlaces, bits);
       shear = three();
     }
@@ -129,12 +130,13 @@ private:
       const int g = grain_[c + l];
       now_[g] |= 1 << b;
       force_[g] += reacted_[l];
-      if (kWithFriction) torque_[g] += turned_[l], base::store3(historyOf(slots[l], b), spring_[l]);
+      if (kWithFriction) torque_[g] += turned_[l], base::store3(historyOf(g, b), spring_[l]);
       if (overlap_[c + l] > deepest_[g]) deepest_[g] = overlap_[c + l];
     }
   }
-  GROUSER_SIMD float* historyOf(std::uint32_t slot, int b) const {
-    return data_.boundaryHistory + (std::int64_t{slot} * data_.boundaryCount + b) * contact::historyWidth(kFeatures);
+  GROUSER_SIMD float* historyOf(std::int32_t grain, int b) const {
+    const std::int64_t place = std::int64_t{first_} + grain;
+    return data_.boundaryHistory + (place * data_.boundaryCount + b) * contact::historyWidth(kFeatures);
   }
   /// Components of things as rows, in the order of the lanes.
   GROUSER_SIMD static void storeAll(Float4* rows, Float (&in)[4]) {
@@ -176,6 +178,7 @@ private:
   const ForceData<float>& forces_;
   Long damped_{}, rubbed_{}, pushed_[3] = {}, twisted_[3] = {};
   // Of the block's grains.
+  int first_ = 0; ///< place of its first grain in the list
   std::uint32_t slot_[kGrains];
   std::int32_t now_[kGrains], before_[kGrains]; ///< walls that they touch, a bit each
   double x_[3][kGrains];

@@ -40,6 +40,12 @@ TEST(Algorithms, SortIsStableForAnyKeysAndThreads) {
       }
 }
 
+TEST(Algorithms, SumGoesBeyond32Bits) {
+  const Exec exec = testExec(2);
+  const Array<std::uint32_t> in(exec, std::vector<std::uint32_t>(5000, 4'000'000'000u));
+  EXPECT_EQ(sum(exec, in.data(), in.size()), 20'000'000'000'000u);
+}
+
 TEST(Algorithms, ScanMaximumListsAndNumbers) {
   for (const int threads : {1, 2, 3, 8})
     for (const std::size_t count : kSizes) {
@@ -54,6 +60,7 @@ TEST(Algorithms, ScanMaximumListsAndNumbers) {
       EXPECT_EQ(out.toHost(), expected);
       EXPECT_EQ(exclusiveScan(exec, inPlace.data(), inPlace.data(), count), total);
       EXPECT_EQ(inPlace.toHost(), expected);
+      EXPECT_EQ(sum(exec, in.data(), count), total);
       EXPECT_EQ(maximum(exec, in.data(), count), count ? *std::max_element(some.begin(), some.end()) : 0u);
       const std::vector<std::uint32_t> marks = numbers(count, 2);
       Array<std::uint32_t> list(exec);

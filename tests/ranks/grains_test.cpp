@@ -201,6 +201,35 @@ TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
   EXPECT_EQ(allWords(grains), expected());
 }
 
+TEST(GrainsOnRanks, SpringsOfWallsGoWithGrainsThatMigrate) {
+  const GrainModel m = gravel();
+  // A layer that slides along the floor and against a wall.
+  Grains grains(base::cpuExec(1), m, box(m), gravelBlock(14, 8, 1, {0.2, 0.3, -0.2}, {}, {0, 0, -0.004}), shared());
+  advance(grains, 300);
+  GrainDistribution* const ranks = grains.distribution();
+  if (!ranks) GTEST_SKIP() << "one rank has no migration";
+  const auto held = [&] {
+    std::int64_t some = 0;
+    for (const base::Vec3f& spring : grains.state().wallShear) some += norm(spring) > 0 ? 1 : 0;
+    return grains.system().comm.sumOf(some);
+  };
+  ASSERT_GT(held(), 20);
+  const std::vector<std::uint32_t> words = allWords(grains);
+  std::int64_t moved = 0;
+  for (int k = 0; k < 6; ++k) {
+    std::array<std::vector<std::int64_t>, 3> weights;
+    for (auto& w : weights) w.assign(kPartitionBins, 1), w[600 * static_cast<std::size_t>(k)] = 100000;
+    const auto u = [&](double metres) { return static_cast<std::int64_t>(metres * grains.scale().perMetre); };
+    ranks->setPartition(
+        {ranks->subdomain().partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});
+    grains.invalidateNeighbours();
+    grains.refreshNeighbours();
+    moved += grains.system().comm.sumOf(static_cast<std::int64_t>(ranks->subdomain().migration().importCount()));
+    ASSERT_EQ(allWords(grains), words) << "migration " << k;
+  }
+  EXPECT_GT(moved, 100);
+}
+
 TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
   const GrainModel m = gravel();
   Grains first(base::cpuExec(1), m, box(m), thrownBlock(), shared());

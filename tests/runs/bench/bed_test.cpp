@@ -75,6 +75,8 @@ TEST(BenchBed, SettlesAndCountsWhatItSays) {
   EXPECT_GT(f.listLength, f.contactsPerGrain);
   EXPECT_GT(f.rebuildMicroseconds, 0);
   EXPECT_GT(f.bytesPerGrain, 100);
+  EXPECT_GE(f.peakBytesPerGrain, f.bytesPerGrain);
+  EXPECT_GE(f.reservedPerGrain, f.peakBytesPerGrain);
 }
 
 TEST(BenchBed, IsOneBedForAllThreadsAndSkins) {
@@ -121,12 +123,13 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
                            "--json bed.json");
   ASSERT_EQ(bed.code, 0) << bed.errors;
   for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes a grain",
-                           "machine ", "commit ", "state-hash "})
+                           "at the peak", "machine ", "commit ", "state-hash "})
     EXPECT_NE(bed.out.find(part), std::string::npos) << part << "\n" << bed.out;
   const nlohmann::json b = nlohmann::json::parse(contents(folder_ / "bed.json"));
   for (const char* key :
        {"device", "machine", "commit", "grains", "microseconds_a_step", "particle_steps_per_second", "contacts_a_grain",
-        "neighbours_listed_a_grain", "steps_between_rebuilds", "rebuild_microseconds", "bytes_a_grain", "state_hash"})
+        "neighbours_listed_a_grain", "steps_between_rebuilds", "rebuild_microseconds", "bytes_a_grain",
+        "peak_bytes_a_grain", "reserved_bytes_a_grain", "state_hash"})
     EXPECT_TRUE(b.contains(key)) << key;
   EXPECT_EQ(b["microseconds_a_step"]["batches"].size(), 5u);
   EXPECT_NEAR(b["particle_steps_per_second"]["median"].get<double>() * b["microseconds_a_step"]["median"].get<double>(),
