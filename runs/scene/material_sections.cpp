@@ -22,6 +22,38 @@ std::string brief(double x) {
   return text;
 }
 
+/// Of elastic-plastic laws.
+void addPlasticity(Table<Material>& t) {
+  using S = Material;
+  t.add("plasticity", &S::plasticity, "-",
+        fmt::format(
+            "eepa, eepa_linear, luding: lambda = 1 - k1/k2, of the stiffnesses of loading and unloading; luding: "
+            "its greatest; {} where not given",
+            brief(S::kPlasticity)))
+      .atLeast(0)
+      .atMost(0.99);
+  t.add("surface_energy", &S::surfaceEnergy, "J/m2",
+        "eepa, eepa_linear: gamma of the pull-off force 1.5 pi gamma a, which grows with the radius a of the contact "
+        "that loading has left; 0 leaves adhesion out")
+      .atLeast(0)
+      .atMost(1e6);
+  t.add("adhesion_exponent", &S::adhesionExponent, "-",
+        "eepa, eepa_linear: chi, by which the pull falls with the overlap beyond pull-off, in halves; 1.5 for eepa, 1 "
+        "for eepa_linear where not given")
+      .atLeast(0.5)
+      .atMost(6);
+  t.add("plastic_depth", &S::plasticDepth, "-",
+        fmt::format("luding: phi_f; beyond an overlap of phi_f 2 R_eff / lambda the unloading stiffness grows no more; "
+                    "{} where not given",
+                    brief(S::kPlasticDepth)))
+      .above(0)
+      .atMost(1);
+  t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
+        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 leaves adhesion out")
+      .atLeast(0)
+      .atMost(1e12);
+}
+
 Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
@@ -79,33 +111,7 @@ Table<Material> materialTable() {
         "R_eff (DMT); 0 leaves it out")
       .atLeast(0)
       .atMost(1e6);
-  t.add("plasticity", &S::plasticity, "-",
-        fmt::format(
-            "eepa, eepa_linear, luding: lambda = 1 - k1/k2, of the stiffnesses of loading and unloading; luding: "
-            "its greatest; {} where not given",
-            brief(S::kPlasticity)))
-      .atLeast(0)
-      .atMost(0.99);
-  t.add("surface_energy", &S::surfaceEnergy, "J/m2",
-        "eepa, eepa_linear: gamma of the pull-off force 1.5 pi gamma a, which grows with the radius a of the contact "
-        "that loading has left; 0 leaves adhesion out")
-      .atLeast(0)
-      .atMost(1e6);
-  t.add("adhesion_exponent", &S::adhesionExponent, "-",
-        "eepa, eepa_linear: chi, by which the pull falls with the overlap beyond pull-off, in halves; 1.5 for eepa, 1 "
-        "for eepa_linear where not given")
-      .atLeast(0.5)
-      .atMost(6);
-  t.add("plastic_depth", &S::plasticDepth, "-",
-        fmt::format("luding: phi_f; beyond an overlap of phi_f 2 R_eff / lambda the unloading stiffness grows no more; "
-                    "{} where not given",
-                    brief(S::kPlasticDepth)))
-      .above(0)
-      .atMost(1);
-  t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
-        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 leaves adhesion out")
-      .atLeast(0)
-      .atMost(1e12);
+  addPlasticity(t);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
         "sigma_f of the grains: against parts of a vehicle and meshes their normal force is at most sigma_f d^2 (d: "
         "diameter), beyond which they crush (docs/crushing.md); without it they do not")
