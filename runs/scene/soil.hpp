@@ -103,7 +103,7 @@ struct SoilUse {
 };
 /// One for each material that is a soil, in the order of the materials.
 std::vector<SoilUse> soilUses(const Scene& scene);
-/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 x its own: cohesion 3 J/m2; uncalibrated".
+/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated".
 std::string soilLine(const SoilUse& use);
 
 /// What users of the scene's soils should know, a line each.

@@ -76,7 +76,7 @@ std::vector<SoilUse> soilUses(const Scene& scene) {
 std::string soilLine(const SoilUse& use) {
   std::string values;
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
-  return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} of its own{}; {}", use.material,
+  return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times its own{}; {}", use.material,
                      use.material == use.soil ? "" : fmt::format(" is {}", use.soil), use.file, use.hash,
                      millimetres(use.grainRadius), use.scale, values, use.calibrated ? "calibrated" : "uncalibrated");
 }
