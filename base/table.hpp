@@ -319,6 +319,10 @@ public:
   /// path of a section, whose entries are meant where it is a list, and with ".*" behind it all sections in it:
   /// "run", "grain", "material.*". Throws InputError where both names stand.
   void renameKeys(const std::string& where, const std::vector<FormerKey>& keys);
+  /// Has the table `section.name` say `key` = `text`, unless it says that key itself, and be at `origin` in messages;
+  /// where there is no such table, it is added. Throws InputError where one of the two is no table.
+  void supply(const std::string& section, const std::string& name, const std::string& key, const std::string& text,
+              const std::string& origin);
   /// One line for each key that was renamed, and where: what users should change in their files.
   const std::vector<std::string>& notes() const { return notes_; }
 

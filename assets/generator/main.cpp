@@ -1,30 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assets/generator/parts.hpp"
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
-/// grouser_assets FOLDER: writes the vehicle's meshes there as OBJ. Exit code 2 when a file cannot be written.
+namespace {
+
+constexpr const char* kUsage =
+    "usage: grouser_assets FOLDER\n"
+    "       grouser_assets --wheel FILE RADIUS WIDTH GROUSERS HEIGHT THICKNESS\n"
+    "Writes the meshes of the vehicle and of rigs into FOLDER as OBJ [m], or into FILE a wheel with GROUSERS [-]\n"
+    "straight blades of HEIGHT and THICKNESS on a drum of RADIUS and WIDTH, all [m].\n";
+
+/// Whether it could be written.
+bool write(const std::filesystem::path& path, const grouser::assets::NamedMesh& part) {
+  std::ofstream file(path, std::ios::binary);
+  const std::string text = grouser::assets::toObj(part);
+  file << text;
+  file.close();
+  if (!file) {
+    std::fprintf(stderr, "%s: cannot write; check that the folder exists and is writable\n", path.c_str());
+    return false;
+  }
+  std::printf("%s: %zu triangles, %zu bytes\n", path.c_str(), part.mesh.indices.size() / 3, text.size());
+  return true;
+}
+
+/// FILE RADIUS WIDTH GROUSERS HEIGHT THICKNESS
+int writeWheel(char** words) {
+  std::array<double, 5> value{};
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const char *text = words[k + 1], *end = text + std::strlen(text);
+    const auto [rest, error] = std::from_chars(text, end, value[k]);
+    if (error != std::errc() || rest != end || !(value[k] > 0) || !(value[k] < 1000)) {
+      std::fprintf(stderr, "grouser_assets --wheel: %s is no number in (0, 1000)\n%s", text, kUsage);
+      return 2;
+    }
+  }
+  try {
+    const grouser::assets::GrouserWheelDims dims{value[0], value[1], static_cast<int>(value[2]), value[3], value[4], 6};
+    const std::filesystem::path path = words[0];
+    return write(path, {path.stem().string(), grouser::assets::grouserWheel(dims)}) ? 0 : 2;
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "grouser_assets --wheel: %s\n", fault.what());
+    return 2;
+  }
+}
+
+} // namespace
+
+/// Exit code 2 for wrong words and when a file cannot be written.
 int main(int argc, char** argv) {
+  if (argc == 8 && std::string_view(argv[1]) == "--wheel") return writeWheel(argv + 2);
   if (argc != 2 || argv[1][0] == '-') {
-    std::printf("usage: grouser_assets FOLDER\nWrites the vehicle's meshes into FOLDER as OBJ [m].\n");
-    return argc == 2 ? 0 : 2;
+    std::printf("%s", kUsage);
+    return argc == 2 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h") ? 0 : 2;
   }
   const std::filesystem::path folder(argv[1]);
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  for (const auto& part : grouser::assets::vehicleParts()) {
-    const auto path = folder / (part.name + ".obj");
-    std::ofstream file(path, std::ios::binary);
-    const std::string text = grouser::assets::toObj(part);
-    file << text;
-    file.close();
-    if (!file) {
-      std::fprintf(stderr, "%s: cannot write; check that the folder exists and is writable\n", path.c_str());
-      return 2;
-    }
-    std::printf("%s: %zu triangles, %zu bytes\n", path.c_str(), part.mesh.indices.size() / 3, text.size());
-  }
+  for (const auto& parts : {grouser::assets::vehicleParts(), grouser::assets::rigParts()})
+    for (const auto& part : parts)
+      if (!write(folder / (part.name + ".obj"), part)) return 2;
   return 0;
 }

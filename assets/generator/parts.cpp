@@ -27,6 +27,8 @@ std::vector<NamedMesh> vehicleParts() {
           {"chassis", chassis()}};
 }
 
+std::vector<NamedMesh> rigParts() { return {{"grouser_wheel", grouserWheel()}}; }
+
 std::string toObj(const NamedMesh& part) {
   std::string text =
       "# " + part.name + ", made by grouser_assets [m]; x forward, y left, z up\n" + "o " + part.name + "\n";

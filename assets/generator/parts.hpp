@@ -70,6 +70,19 @@ struct SprocketDims {
 /// Gap k is centred at 360 k / teeth degrees in the x-z plane, measured from +x towards +z.
 TriangleMesh sprocket(const SprocketDims& dims = {});
 
+/// A rigid wheel with straight grousers, for rigs: a drum of facets between blades that stand radially on it. One
+/// shell.
+struct GrouserWheelDims {
+  double radius{0.225};           ///< of the drum, to the edges of its facets
+  double width{0.200};            ///< of drum and grousers
+  int grousers{24};               ///< blades, the first on the +x side
+  double grouserHeight{0.030};    ///< of the blades' tips over the drum
+  double grouserThickness{0.005}; ///< of a blade
+  int facets{6};                  ///< of the drum between two blades
+};
+/// Throws std::invalid_argument where the blades would overlap.
+TriangleMesh grouserWheel(const GrouserWheelDims& dims = {});
+
 /// Hull of the vehicle for pictures, not for contact. Origin: axle of the rear sprockets on the centre line.
 TriangleMesh chassis();
 
@@ -81,6 +94,9 @@ struct NamedMesh {
 
 /// The default vehicle's parts: shoe, road_wheel, roller, idler, sprocket, chassis.
 std::vector<NamedMesh> vehicleParts();
+
+/// Parts of rigs in runs/scenes: grouser_wheel.
+std::vector<NamedMesh> rigParts();
 
 /// OBJ text with nine significant digits; the same bytes on every machine.
 std::string toObj(const NamedMesh& part);

@@ -3,6 +3,9 @@
 #include "assets/generator/solids.hpp"
 #include "base/math.hpp"
 
+#include <cmath>
+#include <stdexcept>
+
 namespace grouser::assets {
 namespace {
 
@@ -87,6 +90,30 @@ TriangleMesh sprocket(const SprocketDims& dims) {
         ring(-dims.ringInner, hub), ring(dims.ringInner, hub), ring(dims.ringInner, 0), ring(dims.ringOuter, 0),
         ring(dims.ringOuter, hub), ring(end, hub)},
        {0, -end, 0}, {0, end, 0});
+  return mesh;
+}
+
+TriangleMesh grouserWheel(const GrouserWheelDims& dims) {
+  const double pitch = 2 * base::kPi / dims.grousers, half = 0.5 * dims.grouserThickness;
+  const double tip = dims.radius + dims.grouserHeight;
+  const double foot = base::atan2(half, dims.radius); // angle of a blade's half at its foot
+  if (dims.grousers < 3 || dims.facets < 1 || !(2 * foot < pitch))
+    throw std::invalid_argument("grousers leave no drum between them; take fewer or thinner ones");
+  std::vector<Polar> outline;
+  for (int k = 0; k < dims.grousers; ++k) {
+    const double middle = pitch * k, end = base::atan2(half, tip);
+    outline.push_back({middle - end, std::sqrt(tip * tip + half * half)});
+    outline.push_back({middle + end, std::sqrt(tip * tip + half * half)});
+    for (int i = 0; i <= dims.facets; ++i)
+      outline.push_back({middle + foot + (pitch - 2 * foot) * i / dims.facets, dims.radius});
+  }
+  const auto ring = [&](double y) {
+    Ring points;
+    for (const Polar& p : outline) points.push_back({p.radius * base::cos(p.angle), y, p.radius * base::sin(p.angle)});
+    return points;
+  };
+  TriangleMesh mesh;
+  loft(mesh, {ring(-0.5 * dims.width), ring(0.5 * dims.width)}, {0, -0.5 * dims.width, 0}, {0, 0.5 * dims.width, 0});
   return mesh;
 }
 

@@ -48,5 +48,6 @@ void addRender(CLI::App& app, const Invocation& invocation);
 void addSinkage(CLI::App& app, const Invocation& invocation);
 void addSpheres(CLI::App& app, const Invocation& invocation);
 void addFields(CLI::App& app, const Invocation& invocation);
+void addSoils(CLI::App& app, const Invocation& invocation);
 
 } // namespace grouser::commands

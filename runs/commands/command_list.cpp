@@ -14,7 +14,8 @@ std::vector<CommandEntry> allCommands() {
           {"sinkage", addSinkage},
           {"plan", addPlan},
           {"spheres", addSpheres},
-          {"fields", addFields}};
+          {"fields", addFields},
+          {"soils", addSoils}};
 }
 
 } // namespace grouser::commands

@@ -77,7 +77,14 @@ struct SpheresCommand {
 };
 void spheresCommand(const SpheresCommand& command);
 
+struct SoilsCommand {
+  std::string soil;      ///< name or path; empty: all of them, in short
+  bool markdown = false; ///< the table of docs/soils.md
+};
+void soilsCommand(const SoilsCommand& command);
+
 struct FieldsCommand {
+  bool soil = false;     ///< of a soil's file
   bool vehicle = false;  ///< the keys of a vehicle file, not of a scene
   bool markdown = false; ///< both, as docs/keys.md has them
 };

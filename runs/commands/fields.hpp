@@ -5,7 +5,7 @@
 
 namespace grouser::commands {
 
-/// All keys of scene and vehicle files: docs/keys.md, byte by byte.
+/// All keys of scene, vehicle and soil files: docs/keys.md, byte by byte.
 std::string keysDocument();
 
 } // namespace grouser::commands

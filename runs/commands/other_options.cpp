@@ -29,10 +29,22 @@ void addSpheres(CLI::App& app, const Invocation&) {
 void addFields(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<FieldsCommand>();
   CLI::App* fields = app.add_subcommand("fields", "All keys of a scene file with unit, default, range and meaning");
+  CLI::Option* soil = fields->add_flag("--soil", command->soil, "those of a soil's file instead");
   CLI::Option* vehicle = fields->add_flag("--vehicle", command->vehicle, "those of a vehicle file instead");
-  CLI::Option* markdown = fields->add_flag("--markdown", command->markdown, "of both files, as docs/keys.md has them");
-  markdown->excludes(vehicle);
+  CLI::Option* markdown =
+      fields->add_flag("--markdown", command->markdown, "of all three files, as docs/keys.md has them");
+  markdown->excludes(vehicle), markdown->excludes(soil), vehicle->excludes(soil);
   fields->callback([=] { fieldsCommand(*command); });
+}
+
+void addSoils(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<SoilsCommand>();
+  CLI::App* soils = app.add_subcommand(
+      "soils", "The soils that scenes can take by name: what is published of them, and whether they are calibrated");
+  CLI::Option* name = soils->add_option("soil", command->soil, "all of one: its name, or the path of its file");
+  CLI::Option* markdown = soils->add_flag("--markdown", command->markdown, "the table of docs/soils.md");
+  markdown->excludes(name);
+  soils->callback([=] { soilsCommand(*command); });
 }
 
 } // namespace grouser::commands

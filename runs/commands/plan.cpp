@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "base/rounded.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/scene/soil.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
@@ -191,6 +192,8 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   if (!scene.mechanism.empty())
     text += output::mechanismSize(simulation::Mechanism(setup::mechanismSetup(scene), step));
   text += bedHeightText(scene);
+  for (const scene::SoilUse& use : scene::soilUses(scene))
+    text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use));
   text += pairsText(scene);
   text += "\ntime\n";
   const double contact = setup::shortestContact(scene);

@@ -123,6 +123,8 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
+  for (const scene::SoilUse& use : simulation.setup().provenance.soils)
+    fmt::print("soil      {}\n", scene::soilLine(use));
   fmt::print("{}", bedText(simulation));
   describePlaced(simulation);
   if (kept.beds && !kept.beds->summary().empty()) fmt::print("bed       {}\n", kept.beds->summary());

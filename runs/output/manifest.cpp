@@ -35,12 +35,26 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
   return files;
 }
 
+/// What the materials have of soils, by material.
+std::string soilsOf(const setup::Provenance& provenance) {
+  nlohmann::ordered_json soils = nlohmann::ordered_json::object();
+  for (const auto& use : provenance.soils)
+    soils[use.material] = {{"soil", use.soil},
+                           {"file", use.file},
+                           {"hash", use.hash},
+                           {"calibrated", use.calibrated},
+                           {"grain_radius_m", use.grainRadius},
+                           {"scale", use.scale},
+                           {"scaled", use.scaled}};
+  return soils.dump();
+}
+
 } // namespace
 
 Manifest::Manifest(const fs::path& folder, const setup::Provenance& provenance,
                    const std::map<std::string, std::string>& metadata)
     : path_(folder / kName), scene_(fs::absolute(provenance.file).lexically_normal().string()), started_(now()),
-      overrides_(provenance.overrides), inputs_(provenance.inputs), notes_(metadata) {}
+      overrides_(provenance.overrides), inputs_(provenance.inputs), soils_(soilsOf(provenance)), notes_(metadata) {}
 
 void Manifest::write(RunStatus status) const {
   const support::BuildInfo build = support::buildInfo();
@@ -49,6 +63,7 @@ void Manifest::write(RunStatus status) const {
   json["scene"] = scene_;
   json["overrides"] = overrides_;
   json["inputs"] = inputs_;
+  if (auto soils = nlohmann::ordered_json::parse(soils_); !soils.empty()) json["soils"] = std::move(soils);
   json["program"] = {{"name", "grouser"},
                      {"version", build.version},
                      {"commit", build.commit},

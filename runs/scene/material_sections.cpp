@@ -3,6 +3,7 @@
 #include "runs/scene/detail/section_lists.hpp"
 
 #include "runs/scene/detail/section_checks.hpp"
+#include "runs/scene/detail/soil_materials.hpp"
 #include "runs/support/result_names.hpp"
 
 #include <cmath>
@@ -54,9 +55,29 @@ void addPlasticity(Table<Material>& t) {
       .atMost(1e12);
 }
 
+/// Which soil a material is of.
+void addSoil(Table<Material>& t) {
+  using S = Material;
+  t.leaveOutEmpty();
+  t.add("soil", &S::soil, "",
+        "soil that it is of (`grouser soils`): what its file says, scaled to the scene's grains, stands for the keys "
+        "below that are not given; a name, or the path of a file");
+  t.add(
+      "soil_hash", &S::soilHash, "",
+      "hash of that file, as a run leaves it in its resolved scene; where the file has changed since, a note says so");
+  t.add("grain_radius", &S::grainRadius, "m",
+        "of a soil: radius of grains that stiffness and cohesion are scaled to; where not given terrain.grain_radius "
+        "of a bed of it, else the one radius of the grains that are of it")
+      .above(0)
+      .atMost(10);
+}
+
+} // namespace
+
 Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "A material; NAME is what other sections call it");
+  addSoil(t);
   t.add("density", &S::density, "kg/m3", "of the solid").atLeast(1e-3).atMost(1e5);
   t.add("law", &S::law, "",
         "contact law: linear springs, or Hertz-Mindlin; elastic-plastic with adhesion: eepa (on Hertz' law), "
@@ -119,6 +140,8 @@ Table<Material> materialTable() {
       .atMost(1e13);
   return t;
 }
+
+namespace {
 
 Table<ContactPair> contactTable() {
   using S = ContactPair;
@@ -202,23 +225,28 @@ void completeLaw(const Section& section, Material& m) {
   }
 }
 
-/// A material with its name. Throws where that cannot be one.
-Material beginMaterial(const Section& section, const std::string& name) {
+/// A material with its name, and with what its soil says of it. Throws where the name cannot be one.
+Material beginMaterial(const Section& section, const std::string& name, Scene& scene) {
   if (name.find('|') != std::string::npos)
     section.fail("", "has a name with |, which separates the two of a pair; choose another name");
   if (const std::string fault = support::nameFault(name); !fault.empty()) section.fail("", fault);
-  Material m;
+  const Soil* soil = soilOf(section, name, scene);
+  Material m = soil ? materialOf(*soil, section) : Material{};
   m.name = name;
   return m;
 }
 
-void checkMaterial(const Section& section, Material& m, const Scene&) {
-  checkOneLoss(section, m);
-  completeLaw(section, m);
+void checkMaterial(const Section& section, Material& m, const Scene& scene) {
+  completeMaterial(section, m);
+  const auto soil = scene.soils.find(m.name);
+  for (const char* key : {"soil_hash", "grain_radius"})
+    if (soil == scene.soils.end() && section.has(key))
+      section.fail(key, "has no meaning without soil; remove it, or add soil = \"NAME\" (`grouser soils` lists them)");
+  if (soil != scene.soils.end()) m.soil = soil->second->file.string(), m.soilHash = soil->second->hash;
 }
 
 /// What two materials have against each other, with their names. Throws where there are not two.
-ContactPair beginContact(const Section& section, const std::string& name) {
+ContactPair beginContact(const Section& section, const std::string& name, Scene&) {
   const std::size_t bar = name.find('|');
   if (bar == std::string::npos || name.find('|', bar + 1) != std::string::npos)
     section.fail("", "is not of the form [contact.\"a|b\"] with two materials; write the pair that way");
@@ -243,6 +271,11 @@ void checkContact(const Section& section, ContactPair& pair, const Scene& scene)
 }
 
 } // namespace
+
+void completeMaterial(const Section& section, Material& m) {
+  checkOneLoss(section, m);
+  completeLaw(section, m);
+}
 
 SectionList materialSections() {
   return {named<Material>(

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ class Document;
 /// built. Units, ranges and meanings of all keys stand once, in the tables of *_section(s).cpp; `grouser fields` prints
 /// them.
 namespace grouser::scene {
+
+struct Soil; // soil.hpp
 
 /// A number that help shows as a fraction.
 struct Fraction {
@@ -75,6 +78,9 @@ struct Material {
   static constexpr double kPlasticity = 0.5, kPlasticDepth = 0.05;
 
   std::string name;
+  std::string soil;                  ///< absolute path of the soil's file after loading; empty: of no soil
+  std::string soilHash;              ///< of that file
+  std::optional<double> grainRadius; ///< [m] that it is scaled to; has a value after loading, of a soil
   double density = 2500;
   ContactLawKind law = ContactLawKind::linear; ///< what belongs to the law has a value after loading
   std::optional<double> stiffness;             ///< [N/m] linear
@@ -259,6 +265,7 @@ struct Scene {
   std::vector<std::string> overrides;
   RunSettings run;
   std::vector<Material> materials;
+  std::map<std::string, std::shared_ptr<const Soil>> soils; ///< by the materials that are of them
   std::vector<ContactPair> contacts;
   std::vector<Grain> grains;
   std::vector<GrainFill> fills;

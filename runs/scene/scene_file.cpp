@@ -4,6 +4,8 @@
 #include "base/table.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/scene/detail/section_lists.hpp"
+#include "runs/scene/detail/soil_materials.hpp"
+#include "runs/scene/soil.hpp"
 
 #include <fmt/format.h>
 
@@ -34,12 +36,14 @@ void allowOnlyKnown(const base::Section& root, const SectionList& sections) {
 Scene sceneOf(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const SectionList sections = allSections();
   for (const SectionEntry& entry : sections) entry.renameKeys(read);
+  detail::supplySoils(read, file);
   Scene scene;
   scene.file = file, scene.overrides = overrides;
   scene.document = std::make_shared<const base::Document>(std::move(read));
   const base::Section root = scene.document->root();
   allowOnlyKnown(root, sections);
   for (const SectionEntry& entry : sections) entry.read(root, scene);
+  detail::scaleSoils(scene);
   detail::checkTogether(scene);
   return scene;
 }
@@ -69,6 +73,7 @@ std::string unsettledWarning(const Scene& scene) {
 void printNotes(const Scene& scene) {
   if (!scene.document) return;
   for (const std::string& note : scene.document->notes()) fmt::print(stderr, "grouser: note: {}\n", note);
+  for (const std::string& note : soilNotes(scene)) fmt::print(stderr, "grouser: note: {}\n", note);
   if (const std::string warning = unsettledWarning(scene); !warning.empty())
     fmt::print(stderr, "grouser: warning: {}\n", warning);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/scene/detail/section_checks.hpp"
 
+#include "runs/scene/soil.hpp"
 #include "runs/support/locations.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +17,20 @@ void requireMaterial(const Scene& scene, const Section& section, const std::stri
   std::vector<std::string> names;
   for (const Material& m : scene.materials) names.push_back(m.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  const std::string known =
-      names.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, names));
-  section.fail(key, fmt::format("names no material of this scene{}; {}add a section [material.{}]",
-                                key.empty() ? fmt::format(" (\"{}\")", name) : "", known, name));
+  const std::string quoted = key.empty() ? fmt::format(" (\"{}\")", name) : "";
+  const auto soils = knownSoils(scene.file);
+  if (name.find('/') != std::string::npos || name.ends_with(".toml"))
+    section.fail(key, fmt::format("names no material of this scene{}; a soil's file is named by soil = \"{}\" in a "
+                                  "section [material.NAME], and here stands NAME",
+                                  quoted, name));
+  std::vector<std::string> known = names;
+  for (const auto& [soil, file] : soils) known.push_back(soil);
+  const std::string nearest =
+      known.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, known));
+  std::string list;
+  for (const auto& [soil, file] : soils) list += (list.empty() ? "" : ", ") + soil;
+  section.fail(key, fmt::format("names no material of this scene{}; {}add a section [material.{}]{}", quoted, nearest,
+                                name, list.empty() ? "" : fmt::format(" (soils by name: {})", list)));
 }
 
 void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {

@@ -5,6 +5,7 @@
 #include "base/rounded.hpp"
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/detail/section_checks.hpp"
+#include "runs/scene/soil.hpp"
 
 #include <fmt/format.h>
 
@@ -37,8 +38,8 @@ void addArrangement(Table<Terrain>& t) {
         "random: of the radii, by number; uniform where not given. lognormal: cut off at two standard deviations of "
         "ln r; sieve: by mass, sieve_size and sieve_passing");
   t.add("radius_spread", &S::radiusSpread, "-",
-        fmt::format("uniform: half the width over grain_radius; lognormal: standard deviation of ln r; {:g} where not "
-                    "given",
+        fmt::format("uniform: half the width over grain_radius; lognormal: standard deviation of ln r; where not given "
+                    "the soil's, of uniform radii of a bed of one, else {:g}",
                     S::kSpread))
       .above(0)
       .atMost(0.9);
@@ -48,7 +49,8 @@ void addArrangement(Table<Terrain>& t) {
       .atMost(1);
   t.add("porosity", &S::porosity, "-",
         "random: of the settled bed, reached by another friction while it settles, which is found by bisection on a "
-        "small bed and then taken back; as poured where not given")
+        "small bed and then taken back; where not given the soil's, where the bed is of one that has any, else as "
+        "poured")
       .atLeast(0.2)
       .atMost(0.7);
   t.add("fine_depth", &S::fineDepth, "m", "random: down to which radii are as distributed; coarser below")
@@ -204,8 +206,19 @@ void checkRandomDepth(const Section& section, const Terrain& t) {
                                          kLeastForPorosity, 2 * *t.grainRadius, *t.depth, least));
 }
 
-void checkBed(const Section& section, Terrain& t) {
+/// A bed at random of a soil lies as the soil does, unless the scene says otherwise.
+void takeFromSoil(const Section& section, Terrain& t, const Soil& soil) {
+  if (t.lattice()) return;
+  const bool uniform = t.radiusDistribution.value_or(terrain::RadiusLaw::uniform) == terrain::RadiusLaw::uniform;
+  if (uniform && !section.has("radius_spread")) t.radiusSpread = soil.grains.radiusSpread;
+  const bool deepEnough = t.depth && t.grainRadius && *t.depth >= (1 - 1e-9) * kLeastForPorosity * 2 * *t.grainRadius;
+  if (!section.has("porosity") && deepEnough && t.settleTimeLimit > 0) t.porosity = soil.grains.porosity;
+}
+
+void checkBed(const Section& section, Terrain& t, const Scene& scene) {
   completeArrangement(section, t);
+  if (const auto soil = scene.soils.find(t.material); soil != scene.soils.end())
+    takeFromSoil(section, t, *soil->second);
   if (!t.grainRadius)
     section.fail("grain_radius", "[m] is missing, which a granular bed needs; add it, or set kind = \"rigid\"");
   checkGrading(section, t);
@@ -230,7 +243,7 @@ void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
   if (t.heightRange[1] < t.heightRange[0])
     section.fail("height_range", "[m] has white below black; give the lower height first");
   if (t.granular()) {
-    checkBed(section, t);
+    checkBed(section, t, scene);
   } else {
     refuseSieves(section, t);
     for (const char* key : {"grain_radius", "layers", "depth", "tile", "radius_distribution", "radius_spread",

@@ -2,36 +2,23 @@
 #include "runs/setup/provenance.hpp"
 
 #include "base/error.hpp"
-#include "base/hash.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/file_hash.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <utility>
 
 namespace grouser::setup {
 
 namespace fs = std::filesystem;
+using support::hashOfFile;
 
 namespace {
-
-std::string hashOfFile(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
-  base::StateHash hash;
-  std::vector<char> block(std::size_t{1} << 20);
-  do {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(block[static_cast<std::size_t>(i)])));
-  } while (file);
-  return hash.hex();
-}
 
 /// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
 bool isOfBed(const scene::Scene& scene, const std::string& material) {
@@ -64,6 +51,7 @@ scene::Scene bedAlone(scene::Scene scene) {
   scene.run.skin = fresh.skin;                                        // of lists, which change no bit
   scene.run.timeStep.reset();                                         // the step itself is named
   std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
+  for (scene::Material& m : scene.materials) m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // values count
   std::erase_if(scene.contacts,
                 [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
   scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
@@ -77,11 +65,13 @@ scene::Scene bedAlone(scene::Scene scene) {
 } // namespace
 
 Provenance provenanceOf(const scene::Scene& scene) {
-  return {scene.file, scene.overrides, scene::resolvedToml(scene), inputsOf(scene)};
+  return {scene.file, scene.overrides, scene::resolvedToml(scene), inputsOf(scene), scene::soilUses(scene)};
 }
 
 std::string inputsOf(const scene::Scene& scene) {
   std::string text;
+  for (const scene::Material& m : scene.materials)
+    if (!m.soil.empty()) text += fmt::format("material.{}.soil {}\n", m.name, m.soilHash);
   if (scene.terrain) text += fmt::format("terrain.heightmap {}\n", hashOfFile(scene.terrain->heightmap));
   for (const scene::MeshSection& mesh : scene.meshes)
     text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
+#include "runs/scene/soil.hpp"
 
 #include <filesystem>
 #include <string>
@@ -15,6 +16,7 @@ struct Provenance {
   std::vector<std::string> overrides;
   std::string resolved; ///< the scene with every default filled in, as TOML
   std::string inputs;   ///< see inputsOf()
+  std::vector<scene::SoilUse> soils{};
 };
 Provenance provenanceOf(const scene::Scene& scene);
 

@@ -260,7 +260,8 @@ bool isFree(const std::string& key) {
       "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
       "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
       "terrain.heightmap", "terrain.cache",       "vehicle.spec"};
-  return key.rfind("output.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
+  const bool soil = key.rfind("material.", 0) == 0 && (key.ends_with("\".soil") || key.ends_with("\".soil_hash"));
+  return soil || key.rfind("output.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
          std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
 }
 

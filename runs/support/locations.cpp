@@ -20,14 +20,18 @@ fs::path shareFolder() {
   return GROUSER_SHARE_FOLDER;
 }
 
+std::vector<fs::path> inputFolders(const fs::path& scene) {
+  std::error_code error;
+  return {fs::absolute(scene, error).parent_path(), fs::current_path(error), shareFolder() / "assets"};
+}
+
 fs::path findInput(const std::string& name, const fs::path& scene, std::vector<fs::path>& tried) {
   tried.clear();
   if (name.empty()) return {};
   const fs::path wanted = name;
   std::error_code error;
   // An absolute path stands for itself under every folder.
-  for (const fs::path& folder :
-       {fs::absolute(scene, error).parent_path(), fs::current_path(error), shareFolder() / "assets"})
+  for (const fs::path& folder : inputFolders(scene))
     if (const fs::path place = (folder / wanted).lexically_normal();
         std::find(tried.begin(), tried.end(), place) == tried.end())
       tried.push_back(place);

@@ -11,6 +11,9 @@ namespace grouser::support {
 /// (../share/grouser), else the source folder that the program was built from.
 std::filesystem::path shareFolder();
 
+/// The folders that a scene's files are looked for in: its own, the current one, assets/.
+std::vector<std::filesystem::path> inputFolders(const std::filesystem::path& scene);
+
 /// The file that a scene means by `name`: an absolute path, or relative to one of the folder of `scene`, the current
 /// folder, assets/. Empty where there is none; `tried` then lists the places looked at, each once; none for an empty
 /// name.

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/table.hpp"
+#include "runs/scene/soil.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -176,8 +177,12 @@ private:
   void addSoilOf(double share, Overrides& overrides) const {
     const scene::Material& soil = scene_.material(scene_.terrain->material);
     const std::string section = fmt::format("material.{}.", keyWord(soil.name));
-    if (soil.stiffness) overrides.push_back(set(section + "stiffness", share * *soil.stiffness));
-    if (soil.cohesion > 0) overrides.push_back(set(section + "cohesion", share * soil.cohesion));
+    // What comes from a soil's file goes with the radius by itself.
+    const auto given = [&](const char* key) { return !scene::goesWithGrains(scene_, soil.name, key); };
+    if (!soil.soil.empty() && given("grain_radius"))
+      overrides.push_back(set(section + "grain_radius", share * *soil.grainRadius));
+    if (soil.stiffness && given("stiffness")) overrides.push_back(set(section + "stiffness", share * *soil.stiffness));
+    if (soil.cohesion > 0 && given("cohesion")) overrides.push_back(set(section + "cohesion", share * soil.cohesion));
     for (const scene::ContactPair& pair : scene_.contacts) {
       if (pair.first != soil.name && pair.second != soil.name) continue;
       const std::string of = fmt::format("contact.\"{}|{}\".", pair.first, pair.second);

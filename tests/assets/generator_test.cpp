@@ -11,8 +11,39 @@
 namespace grouser::assets {
 namespace {
 
+/// All that is committed: of the vehicle, and of rigs.
+std::vector<NamedMesh> allParts() {
+  std::vector<NamedMesh> parts = vehicleParts();
+  for (const NamedMesh& part : rigParts()) parts.push_back(part);
+  return parts;
+}
+
+/// Volume of a closed mesh, its triangles counter-clockwise from outside.
+double volumeOf(const TriangleMesh& mesh) {
+  double six = 0;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const auto &a = mesh.vertices[mesh.indices[t]], &b = mesh.vertices[mesh.indices[t + 1]],
+               &c = mesh.vertices[mesh.indices[t + 2]];
+    six += dot(a, cross(b, c));
+  }
+  return six / 6;
+}
+
+TEST(RigMeshes, GrouserWheel_HasTheVolumeOfDrumAndBlades) {
+  GrouserWheelDims dims;
+  dims.facets = 200; // as good as round
+  const double r = dims.radius, b = dims.width, t = dims.grouserThickness, h = dims.grouserHeight;
+  const double drum = 3.14159265358979 * r * r * b, blades = dims.grousers * t * h * b;
+  // A blade's foot cuts t^3 / 12 r off a drum's round: a part in a million of the drum.
+  EXPECT_NEAR(volumeOf(grouserWheel(dims)), drum + blades, 1e-5 * drum);
+  double tip = 0;
+  for (const auto& v : grouserWheel().vertices) tip = std::max(tip, v.x);
+  EXPECT_NEAR(tip, r + h, 1e-12) << "the first blade stands on the +x side, its end flat";
+  EXPECT_THROW(grouserWheel({0.1, 0.1, 100, 0.01, 0.01, 1}), std::invalid_argument);
+}
+
 TEST(VehicleMeshes, Generator_ReproducesCommittedFilesByteForByte) {
-  for (const NamedMesh& part : vehicleParts()) {
+  for (const NamedMesh& part : allParts()) {
     const std::string path = std::string(GROUSER_SOURCE_DIR) + "/assets/meshes/" + part.name + ".obj";
     std::ifstream file(path, std::ios::binary);
     ASSERT_TRUE(file) << path;
@@ -26,7 +57,7 @@ TEST(VehicleMeshes, Generator_ReproducesCommittedFilesByteForByte) {
 }
 
 TEST(VehicleMeshes, EveryEdge_HasExactlyTwoTrianglesInOppositeDirections) {
-  for (const NamedMesh& part : vehicleParts()) {
+  for (const NamedMesh& part : allParts()) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     const auto& index = part.mesh.indices;
     for (std::size_t t = 0; t < index.size(); t += 3)

@@ -72,6 +72,19 @@ Wheel read(const std::string& text, const std::vector<std::string>& overrides = 
   return doc.root().section("wheel").read(wheelTable());
 }
 
+TEST(Document, SuppliedKeysStandWhereNoneIsGiven) {
+  Document d = Document::parse("version = 1\n[wheel.a]\nkind = \"road\"\n[tyre]\nb = 3\n", "s.toml");
+  d.supply("wheel", "a", "kind", "idler", "s.toml:9");
+  d.supply("wheel", "b", "kind", "idler", "s.toml:9");
+  d.supply("axle", "c", "kind", "spare", "s.toml:7");
+  const Section root = d.root(), wheels = root.section("wheel");
+  EXPECT_EQ(std::get<std::string>(wheels.section("a").node().find("kind")->value), "road") << "the file's own";
+  EXPECT_EQ(std::get<std::string>(wheels.section("b").node().find("kind")->value), "idler");
+  EXPECT_EQ(wheels.section("b").origin(), "s.toml:9");
+  EXPECT_EQ(std::get<std::string>(root.section("axle").section("c").node().find("kind")->value), "spare");
+  EXPECT_THROW(d.supply("tyre", "b", "kind", "road", "s.toml:9"), InputError) << "b is a number";
+}
+
 TEST(Table, EveryTypeIsRead) {
   const Wheel w =
       read("radius = 1\ncount = 7\nsteered = true\nkind = \"idler\"\ncentre = [1, 2.5, -3]\nrange = [0, 2]\n"

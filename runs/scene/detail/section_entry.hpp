@@ -119,24 +119,26 @@ SectionEntry list(const std::string& name, Where where, const base::Table<S>& ta
           [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
 }
 
-/// [name.KEY], in the file's order. `begin` makes a section with its key, `keyOf` gives that back.
-template <class S, class Where> SectionEntry named(const std::string& name, Where where, const base::Table<S>& table,
-                                                   S (*begin)(const base::Section& section, const std::string& key),
-                                                   std::string (*keyOf)(const S&), CheckOf<S> check = {}) {
-  return {
-      name,
-      [=](const base::Section& root, Scene& scene) {
-        for (const auto& [key, section] : root.named(name))
-          std::invoke(where, scene).push_back(readChecked<S>(section, table, check, scene, {}, begin(section, key)));
-      },
-      [=](const Scene& scene) {
-        std::string text;
-        for (const S& s : std::invoke(where, scene)) // in quotes always, which is always allowed
-          text += written<S>(fmt::format("[{}.{}]", name, base::toToml(keyOf(s))), table, s);
-        return text;
-      },
-      [=] { return base::describe(table); },
-      [=](base::Document& document) { document.renameKeys(name + ".*", table.formerKeys()); }};
+/// [name.KEY], in the file's order. `begin` makes a section with its key and all that stands there before it is read,
+/// `keyOf` gives the key back.
+template <class S, class Where>
+SectionEntry named(const std::string& name, Where where, const base::Table<S>& table,
+                   S (*begin)(const base::Section& section, const std::string& key, Scene& scene),
+                   std::string (*keyOf)(const S&), CheckOf<S> check = {}) {
+  return {name,
+          [=](const base::Section& root, Scene& scene) {
+            for (const auto& [key, section] : root.named(name))
+              std::invoke(where, scene)
+                  .push_back(readChecked<S>(section, table, check, scene, {}, begin(section, key, scene)));
+          },
+          [=](const Scene& scene) {
+            std::string text;
+            for (const S& s : std::invoke(where, scene)) // in quotes always, which is always allowed
+              text += written<S>(fmt::format("[{}.{}]", name, base::toToml(keyOf(s))), table, s);
+            return text;
+          },
+          [=] { return base::describe(table); },
+          [=](base::Document& document) { document.renameKeys(name + ".*", table.formerKeys()); }};
 }
 
 } // namespace grouser::scene::detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys that follow from others, and are read as if they stood in the file.
+#include "base/table.hpp"
+
+#include <fmt/format.h>
+
+namespace grouser::base {
+
+namespace {
+
+/// The table `key` of `parent`, which is added where there is none.
+Node& tableAt(Node& parent, const std::string& key, const std::string& path, const std::string& origin) {
+  Node* child = parent.find(key);
+  if (!child) {
+    auto& map = std::get<Node::Map>(parent.value);
+    map.push_back({key, Node{origin, Node::Map{}}});
+    child = &map.back().node;
+  }
+  if (!child->isMap())
+    throw InputError(fmt::format("{}: {} has the wrong type; make it a table: [{}]", child->origin, path, path));
+  return *child;
+}
+
+} // namespace
+
+void Document::supply(const std::string& section, const std::string& name, const std::string& key,
+                      const std::string& text, const std::string& origin) {
+  Node& table = tableAt(tableAt(root_, section, section, origin), name, section + "." + name, origin);
+  table.origin = origin;
+  if (!table.find(key)) std::get<Node::Map>(table.value).push_back({key, Node{origin, text}});
+}
+
+} // namespace grouser::base

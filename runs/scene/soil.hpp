@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/enum_words.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Soils by name: files that say which contact parameters stand for a soil at one size of its grains, what has been
+/// published of the soil, and what virtual tests of these parameters have measured. docs/soils.md describes them.
+namespace grouser::scene {
+
+/// Constants of a soil: p = (k_c / b + k_phi) z^n under a plate of width b, tau = (c + p tan phi) (1 - exp(-j / K)).
+enum class SoilQuantity {
+  exponent,
+  cohesiveModulus,
+  frictionalModulus,
+  cohesion,
+  frictionAngle,
+  shearModulus,
+  bulkDensity,
+  grainDensity,
+  porosity,
+  reposeAngle,
+  unloadingModulus
+};
+/// In SI, as a file must say it: "N/m^(n+1)", "Pa", "deg".
+std::string unitOf(SoilQuantity quantity);
+
+/// [soil]
+struct SoilHead {
+  std::string title, description;
+  bool calibrated = false; ///< whether a bevameter run stands behind [material]
+};
+
+/// [bed]: the grains that [material] is meant for.
+struct SoilGrains {
+  double radius = 0;                       ///< [m] in the middle of their distribution
+  double radiusSpread = Terrain::kSpread;  ///< [-] uniform by number
+  std::optional<double> porosity;          ///< [-] of the bed; empty: as poured
+  std::array<double, 2> calibratedRadii{}; ///< [m] least and greatest that have been measured
+};
+
+/// [[published]]
+struct PublishedConstant {
+  SoilQuantity quantity{};
+  double value = 0;
+  std::string unit, source;
+  std::optional<double> low, high; ///< where sources differ
+};
+
+/// [[reached]]
+struct ReachedConstant {
+  SoilQuantity quantity{};
+  double value = 0, halfWidth = 0; ///< of the 95 % interval
+  std::string unit;
+  double grainRadius = 0; ///< [m]
+  std::string command;    ///< that measured it
+};
+
+/// A soil's file.
+struct Soil {
+  std::string name; ///< the file's, without .toml
+  std::filesystem::path file;
+  std::string hash; ///< of the file's bytes
+  SoilHead head;
+  SoilGrains grains;
+  Material material; ///< at grains.radius, with every default
+  std::vector<PublishedConstant> published;
+  std::vector<ReachedConstant> reached;
+  std::shared_ptr<const base::Document> document;
+};
+
+/// Reads a soil's file. Throws base::InputError with file, line, key, value, range and remedy.
+Soil readSoil(const std::filesystem::path& file);
+
+/// The file of the soil that a scene calls `word`: a name stands for soils/NAME.toml, a word with a slash or .toml for
+/// that path; both are looked for in the scene's folder, the current one and assets/. Empty where there is none, with
+/// the places that were looked at.
+std::filesystem::path findSoil(const std::string& word, const std::filesystem::path& scene,
+                               std::vector<std::filesystem::path>& tried);
+
+/// The files of all soils that a scene can take by name, by that name.
+std::map<std::string, std::filesystem::path> knownSoils(const std::filesystem::path& scene);
+
+/// "did you mean \"lete_sand\"? (soils: ...)", for a name that is none of them.
+std::string soilHint(const std::string& word, const std::filesystem::path& scene);
+
+/// What a scene's material has of a soil: for results and messages.
+struct SoilUse {
+  std::string material;
+  std::string soil, file, hash;
+  bool calibrated = false;
+  double grainRadius = 0;                 ///< [m] that it is scaled to
+  double scale = 1;                       ///< [-] over the radius of the soil's file
+  std::map<std::string, double> scaled{}; ///< what goes with the radius, by key and unit: "cohesion [J/m2]"
+};
+/// One for each material that is a soil, in the order of the materials.
+std::vector<SoilUse> soilUses(const Scene& scene);
+/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated".
+std::string soilLine(const SoilUse& use);
+
+/// What users of the scene's soils should know, a line each.
+std::vector<std::string> soilNotes(const Scene& scene);
+
+/// Whether material `name` is a soil whose `key` comes from the soil's file, so that it goes with the radius of the
+/// scene's grains by itself.
+bool goesWithGrains(const Scene& scene, const std::string& name, const std::string& key);
+
+/// All keys of a soil's file with unit, default, range and meaning, as Markdown.
+std::string soilFieldHelp();
+
+} // namespace grouser::scene
+
+namespace grouser::base {
+
+template <> struct EnumWords<scene::SoilQuantity> {
+  using E = scene::SoilQuantity;
+  static constexpr EnumWord<E> list[] = {{E::exponent, "n"},
+                                         {E::cohesiveModulus, "k_c"},
+                                         {E::frictionalModulus, "k_phi"},
+                                         {E::cohesion, "c"},
+                                         {E::frictionAngle, "phi"},
+                                         {E::shearModulus, "K"},
+                                         {E::bulkDensity, "bulk_density"},
+                                         {E::grainDensity, "grain_density"},
+                                         {E::porosity, "porosity"},
+                                         {E::reposeAngle, "repose"},
+                                         {E::unloadingModulus, "k_u"}};
+};
+
+} // namespace grouser::base

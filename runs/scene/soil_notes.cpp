@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene has of soils, for results and messages.
+#include "runs/scene/soil.hpp"
+
+#include "base/table.hpp"
+#include "runs/scene/detail/soil_materials.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grouser::scene {
+
+namespace {
+
+std::string millimetres(double radius) { return fmt::format("{:.4g} mm", 1000 * radius); }
+
+/// Of the material's own grains.
+void noteGrains(const Scene& scene, const Material& m, const Soil& soil, std::vector<std::string>& notes) {
+  const auto [least, greatest] = soil.grains.calibratedRadii;
+  const double radius = *m.grainRadius;
+  if (soil.head.calibrated && (radius < (1 - 1e-9) * least || radius > (1 + 1e-9) * greatest))
+    notes.push_back(fmt::format("material.{}: the soil {} is calibrated for grains of {} to {}, not of {}: measure it "
+                                "at that radius before you trust it",
+                                m.name, soil.name, millimetres(least), millimetres(greatest), millimetres(radius)));
+  const auto& t = scene.terrain;
+  if (t && t->granular() && t->material == m.name && std::fabs(*t->grainRadius - radius) > 1e-9 * radius)
+    notes.push_back(
+        fmt::format("material.{}: is scaled to grains of {}, as its grain_radius says, and the bed's are of "
+                    "{}",
+                    m.name, millimetres(radius), millimetres(*t->grainRadius)));
+}
+
+/// Of values that were written for another state of the soil's file.
+void noteChange(const Scene& scene, const Material& m, const Soil& soil, std::vector<std::string>& notes) {
+  for (const auto& [name, section] : scene.document->root().named("material")) {
+    const base::Node* hash = name == m.name ? section.node().find("soil_hash") : nullptr;
+    const auto* text = hash ? std::get_if<std::string>(&hash->value) : nullptr;
+    if (text && *text != soil.hash)
+      notes.push_back(
+          fmt::format("{}: material.{}.soil_hash = \"{}\" is not that of {}, {}: the soil has changed since, "
+                      "and what the scene says of it itself has not",
+                      hash->origin, m.name, *text, soil.file.string(), soil.hash));
+  }
+}
+
+/// Of a bed that would be prepared to the soil's porosity, were it deeper.
+void notePorosity(const Scene& scene, std::vector<std::string>& notes) {
+  const auto& t = scene.terrain;
+  if (!t || !t->granular() || t->lattice() || t->porosity || t->settleTimeLimit == 0) return;
+  const auto soil = scene.soils.find(t->material);
+  if (soil != scene.soils.end() && soil->second->grains.porosity)
+    notes.push_back(
+        fmt::format("terrain: the bed is too shallow to be prepared to the porosity of the soil {}, {:g}: it "
+                    "lies as it is poured",
+                    soil->second->name, *soil->second->grains.porosity));
+}
+
+} // namespace
+
+std::vector<SoilUse> soilUses(const Scene& scene) {
+  std::vector<SoilUse> uses;
+  for (const Material& m : scene.materials) {
+    if (m.soil.empty()) continue;
+    const Soil& soil = *scene.soils.at(m.name);
+    SoilUse use{m.name, soil.name, m.soil, m.soilHash, soil.head.calibrated, *m.grainRadius, 1, {}};
+    use.scale = use.grainRadius / soil.grains.radius;
+    detail::forEachScaled(m, [&](const char* key, const char* unit, const auto& value, int) {
+      if (detail::isGiven(value)) use.scaled[fmt::format("{} [{}]", key, unit)] = detail::numberOf(value);
+    });
+    uses.push_back(std::move(use));
+  }
+  return uses;
+}
+
+std::string soilLine(const SoilUse& use) {
+  std::string values;
+  for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
+  return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times its own{}; {}", use.material,
+                     use.material == use.soil ? "" : fmt::format(" is {}", use.soil), use.file, use.hash,
+                     millimetres(use.grainRadius), use.scale, values, use.calibrated ? "calibrated" : "uncalibrated");
+}
+
+std::vector<std::string> soilNotes(const Scene& scene) {
+  std::vector<std::string> notes;
+  const std::map<std::string, std::filesystem::path> known = knownSoils(scene.file);
+  for (const Material& m : scene.materials) {
+    if (m.soil.empty()) {
+      if (known.contains(m.name))
+        notes.push_back(fmt::format("material.{}: is the scene's own, not the soil of that name; with soil = \"{}\" in "
+                                    "it it would be that one",
+                                    m.name, m.name));
+      continue;
+    }
+    const Soil& soil = *scene.soils.at(m.name);
+    if (!soil.head.calibrated)
+      notes.push_back(
+          fmt::format("material.{}: the soil {} is uncalibrated: nobody has measured yet which constants its "
+                      "contact parameters give ({})",
+                      m.name, soil.name, m.soil));
+    noteGrains(scene, m, soil, notes);
+    noteChange(scene, m, soil, notes);
+  }
+  notePorosity(scene, notes);
+  return notes;
+}
+
+bool goesWithGrains(const Scene& scene, const std::string& name, const std::string& key) {
+  if (!scene.soils.contains(name) || !scene.document) return false;
+  for (const auto& [known, section] : scene.document->root().named("material"))
+    if (known == name) return !section.has(key);
+  return false;
+}
+
+} // namespace grouser::scene

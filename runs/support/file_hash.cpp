@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/file_hash.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <fstream>
+#include <vector>
+
+namespace grouser::support {
+
+std::string hashOfFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
+  base::StateHash hash;
+  std::vector<char> block(std::size_t{1} << 20);
+  do {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(block[static_cast<std::size_t>(i)])));
+  } while (file);
+  return hash.hex();
+}
+
+} // namespace grouser::support

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Soils on the command line, and in what runs leave.
+#include "runs/commands/soils.hpp"
+#include "tests/runs/program_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace grouser::commands {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class SoilsOfUser : public ProgramTest {
+protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    fs::create_directories(folder_ / "soils");
+    std::string own = contents(fs::path(GROUSER_SOURCE_DIR) / "assets/soils/reference_spheres.toml");
+    put(folder_ / "soils/mine.toml", own);
+    put(folder_ / "grain.toml",
+        "version = 1\n[run]\nduration = 1e-3\ntime_step = 1e-5\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.0135\n"
+        "material = \"mine\"\n[output]\nplots = false\npicture = false\n");
+  }
+};
+
+TEST(SoilsDocument, HasTheTableOfTheProgram) {
+  const std::string document = contents(fs::path(GROUSER_SOURCE_DIR) / "docs/soils.md");
+  EXPECT_NE(document.find("\n" + soilsTable()), std::string::npos)
+      << "build/bin/grouser soils --markdown prints the table that belongs there";
+}
+
+TEST_F(SoilsOfUser, AreListedBesideTheOthers) {
+  const Outcome list = call("soils");
+  EXPECT_EQ(list.code, 0) << list.errors;
+  EXPECT_NE(list.out.find("\nmine "), std::string::npos) << list.out;
+  EXPECT_NE(list.out.find("\nlete_sand "), std::string::npos) << list.out;
+  const Outcome table = call("soils --markdown");
+  EXPECT_EQ(table.out, soilsTable()) << "those of assets/soils alone";
+  EXPECT_EQ(table.out.find("mine"), std::string::npos);
+}
+
+TEST_F(SoilsOfUser, OneIsToldWithItsSources) {
+  const Outcome one = call("soils lete_sand");
+  EXPECT_EQ(one.code, 0) << one.errors;
+  EXPECT_NE(one.out.find("LETE sand, uncalibrated"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("Wong 2008"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("nothing measured yet"), std::string::npos) << one.out;
+  const Outcome none = call("soils lete_snad");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.error().find("did you mean \"lete_sand\"?"), std::string::npos) << none.errors;
+  EXPECT_EQ(call("soils lete_sand --markdown").code, 2);
+}
+
+TEST_F(SoilsOfUser, StandInWhatARunPrintsAndLeaves) {
+  const Outcome run = call("run grain.toml --out out");
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_NE(run.errors.find("note: material.mine: the soil mine is uncalibrated"), std::string::npos) << run.errors;
+  EXPECT_NE(run.out.find("soil      mine: "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("stiffness [N/m] 500000"), std::string::npos) << run.out;
+  const auto manifest = nlohmann::json::parse(contents(folder_ / "out/manifest.json"));
+  const auto& soil = manifest.at("soils").at("mine");
+  EXPECT_EQ(soil.at("file").get<std::string>(), fs::canonical(folder_ / "soils/mine.toml").string());
+  EXPECT_EQ(soil.at("scale").get<double>(), 0.5);
+  EXPECT_EQ(soil.at("scaled").at("stiffness [N/m]").get<double>(), 5e5);
+  EXPECT_NE(manifest.at("inputs").get<std::string>().find("material.mine.soil " + soil.at("hash").get<std::string>()),
+            std::string::npos);
+  EXPECT_NE(contents(folder_ / "out/scene.toml").find("soil_hash = " + soil.at("hash").dump()), std::string::npos);
+}
+
+TEST_F(SoilsOfUser, StandInThePlan) {
+  const Outcome plan = call("plan grain.toml --no-probe");
+  ASSERT_EQ(plan.code, 0) << plan.errors;
+  EXPECT_NE(plan.errors.find("is uncalibrated"), std::string::npos) << plan.errors;
+  EXPECT_NE(plan.out.find("mine: "), std::string::npos) << plan.out;
+}
+
+TEST_F(SoilsOfUser, WithAMistakeEndTheProgramWithTheLine) {
+  put(folder_ / "soils/mine.toml", "version = 1\n[soil]\ntitle = 3\n");
+  for (const char* words : {"run grain.toml", "plan grain.toml", "soils mine"}) {
+    const Outcome o = call(words);
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_NE(o.error().find("mine.toml:3: soil.title = 3"), std::string::npos) << o.errors;
+  }
+}
+
+} // namespace
+} // namespace grouser::commands

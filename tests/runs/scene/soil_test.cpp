@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Soils by name: what a scene takes from a soil's file, and how it is scaled to the scene's grains.
+#include "runs/scene/soil.hpp"
+
+#include "base/error.hpp"
+#include "runs/scene/scene_file.hpp"
+#include "runs/setup/grain_count.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/simulation/checkpoint.hpp"
+#include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::scene {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A linear soil of grains of 10 mm, with a damping that goes with the radius.
+const char* const kLoam = R"(version = 1
+[soil]
+title = "loam"
+description = "of tests"
+calibrated = true
+[material]
+density = 2600
+law = "linear"
+stiffness = 2e5
+damping = 50
+friction = 0.45
+rolling_friction = 0.1
+cohesion = 3
+[bed]
+grain_radius = 0.01
+radius_spread = 0.2
+porosity = 0.41
+calibrated_radii = [0.008, 0.02]
+[[published]]
+quantity = "phi"
+value = 30
+unit = "deg"
+low = 29
+source = "a book"
+[[reached]]
+quantity = "phi"
+value = 29.5
+half_width = 0.5
+unit = "deg"
+grain_radius = 0.01
+command = "a command"
+)";
+
+/// A lone grain of a material.
+std::string grainOf(const std::string& material, double radius, const std::string& more = "") {
+  return "version = 1\n[run]\nduration = 1\n" + more +
+         "[[grain]]\nposition = [0, 0, 1]\nradius = " + std::to_string(radius) + "\nmaterial = \"" + material + "\"\n";
+}
+
+/// A bed of a material.
+std::string bedOf(const std::string& material, const std::string& more = "") {
+  return "version = 1\n[run]\nduration = 1\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1, 1]\n"
+         "height_range = [0, 0]\ngrain_radius = 0.02\nmaterial = \"" +
+         material + "\"\n" + more;
+}
+
+class Soils : public FolderTest {
+protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    fs::create_directories(folder_ / "soils");
+    put(folder_ / "soils/loam.toml", kLoam);
+  }
+  Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    return setup::parseScene(text, folder_ / "scene.toml", overrides);
+  }
+  /// The error that a scene ends with.
+  std::string errorOf(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    try {
+      parse(text, overrides);
+    } catch (const base::InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "the scene was taken:\n" << text;
+    return "";
+  }
+  void expectError(const std::string& text, const std::vector<std::string>& parts) const {
+    const std::string error = errorOf(text);
+    for (const std::string& part : parts) EXPECT_NE(error.find(part), std::string::npos) << error << "\nlacks " << part;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+  /// The error of a soil's file that is right but for one line.
+  void expectFileError(const std::string& from, const std::string& to, const std::vector<std::string>& parts) const {
+    const std::string text = replaced(kLoam, from, to);
+    ASSERT_NE(text, "") << from;
+    put(folder_ / "soils/loam.toml", text);
+    expectError(grainOf("loam", 0.01), parts);
+  }
+};
+
+TEST_F(Soils, ANameTakesThePresetWhereverAMaterialStands) {
+  for (const std::string& section :
+       {grainOf("loam", 0.01), grainOf("other", 0.01, "[material.other]\n[[plane]]\nmaterial = \"loam\"\n"),
+        grainOf("other", 0.01, "[material.other]\nlaw = \"linear\"\n[contact.\"other|loam\"]\nfriction = 0.1\n")}) {
+    const bool needsRadius = section.find("other") != std::string::npos;
+    const Scene s = parse(section, needsRadius ? std::vector<std::string>{"material.loam.grain_radius=0.01"}
+                                               : std::vector<std::string>{});
+    const Material& m = s.material("loam");
+    EXPECT_EQ(m.stiffness, 2e5) << section;
+    EXPECT_EQ(m.density, 2600);
+    EXPECT_EQ(m.soil, fs::canonical(folder_ / "soils/loam.toml").string());
+    EXPECT_EQ(m.tangentialStiffnessRatio, 2.0 / 7) << "what the soil leaves out has its default";
+  }
+}
+
+TEST_F(Soils, StiffnessAndCohesionGoWithTheRadius) {
+  const Material& m = parse(grainOf("loam", 0.02)).material("loam");
+  EXPECT_DOUBLE_EQ(*m.stiffness, 4e5);
+  EXPECT_DOUBLE_EQ(m.cohesion, 6);
+  EXPECT_DOUBLE_EQ(*m.damping, 25) << "as sqrt(k / m)";
+  EXPECT_EQ(m.friction, 0.45);
+  EXPECT_EQ(m.rollingFriction, 0.1);
+  EXPECT_EQ(m.density, 2600);
+  EXPECT_EQ(m.grainRadius, 0.02);
+}
+
+TEST_F(Soils, YoungsModulusIsKept) {
+  put(folder_ / "soils/stone.toml",
+      replaced(replaced(kLoam, "law = \"linear\"\nstiffness = 2e5\ndamping = 50\n", "law = \"hertz\"\nyoung = 3e8\n"),
+               "title = \"loam\"", "title = \"stone\""));
+  const Material& m = parse(grainOf("stone", 0.03)).material("stone");
+  EXPECT_EQ(m.young, 3e8);
+  EXPECT_DOUBLE_EQ(m.cohesion, 9);
+}
+
+TEST_F(Soils, TheTimeStepGoesWithTheRadius) {
+  // Linear, without damping of its own: sqrt(m / k) with m as r^3 and k as r.
+  put(folder_ / "soils/loam.toml", replaced(kLoam, "damping = 50", "restitution = 0.4"));
+  const std::string plane = "[[plane]]\nmaterial = \"loam\"\n";
+  const double fine = setup::chooseTimeStep(parse(grainOf("loam", 0.01) + plane)),
+               coarse = setup::chooseTimeStep(parse(grainOf("loam", 0.02) + plane));
+  EXPECT_NEAR(coarse / fine, 2, 1e-3) << "steps are rounded";
+}
+
+TEST_F(Soils, KeysOfTheSceneOverrideAndAreNotScaled) {
+  const std::string own = "[material.ground]\nsoil = \"loam\"\nstiffness = 7e5\nfriction = 0.6\n";
+  const Scene s = parse(grainOf("ground", 0.02, own));
+  EXPECT_EQ(s.material("ground").stiffness, 7e5);
+  EXPECT_EQ(s.material("ground").friction, 0.6);
+  EXPECT_DOUBLE_EQ(s.material("ground").cohesion, 6);
+  EXPECT_EQ(s.materials.size(), 1u);
+}
+
+TEST_F(Soils, OverridesOfTheCommandLineWorkOnAPreset) {
+  const Scene s = parse(bedOf("loam", "depth = 0.3\n"), {"material.loam.friction=0.6", "terrain.grain_radius=0.015"});
+  EXPECT_EQ(s.material("loam").friction, 0.6);
+  EXPECT_DOUBLE_EQ(*s.material("loam").stiffness, 3e5) << "scaled to the radius that the override says";
+  const Scene named = parse(bedOf("clay", "depth = 0.3\n"), {"terrain.material=loam", "material.loam.cohesion=1"});
+  EXPECT_EQ(named.material("loam").cohesion, 1);
+  EXPECT_NE(errorOf(bedOf("loam", "depth = 0.3\n"), {"material.loan.friction=0.6"}).find("did you mean loam?"),
+            std::string::npos);
+}
+
+TEST_F(Soils, WhatContradictsTheSceneIsLeftOut) {
+  const Material lossy = parse(grainOf("g", 0.01, "[material.g]\nsoil = \"loam\"\nrestitution = 0.4\n")).material("g");
+  EXPECT_EQ(lossy.restitution, 0.4);
+  EXPECT_FALSE(lossy.damping);
+  const Material hertz =
+      parse(grainOf("g", 0.01, "[material.g]\nsoil = \"loam\"\nlaw = \"hertz\"\nyoung = 1e8\n")).material("g");
+  EXPECT_FALSE(hertz.stiffness);
+  EXPECT_FALSE(hertz.damping);
+  EXPECT_EQ(hertz.friction, 0.45);
+}
+
+TEST_F(Soils, AMaterialOfTheSceneGoesBeforeASoilOfThatName) {
+  const Scene s = parse(grainOf("loam", 0.01, "[material.loam]\ndensity = 1000\n"));
+  EXPECT_TRUE(s.material("loam").soil.empty());
+  EXPECT_EQ(s.material("loam").friction, Material{}.friction);
+  ASSERT_EQ(soilNotes(s).size(), 1u);
+  EXPECT_NE(soilNotes(s)[0].find("is the scene's own"), std::string::npos) << soilNotes(s)[0];
+}
+
+TEST_F(Soils, TheRadiusIsTheBedsThenThatOfTheGrains) {
+  const std::string more = "[[grain]]\nposition = [0.5, 0, 0]\nabove_bed = 0.01\nradius = 0.05\nmaterial = \"loam\"\n";
+  EXPECT_EQ(parse(bedOf("loam", "depth = 0.3\n" + more)).material("loam").grainRadius, 0.02);
+  const std::string fill = "[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nradius = 0.01\nradius_to = 0.03\n"
+                           "material = \"loam\"\n";
+  EXPECT_DOUBLE_EQ(*parse("version = 1\n[run]\nduration = 1\n" + fill).material("loam").grainRadius, 0.02);
+  const std::string two = grainOf("loam", 0.01) + fill;
+  expectError(two, {"material.loam.grain_radius [m] is missing", "from 10 mm to 20 mm", "add grain_radius = 0.01",
+                    "[material.loam]", "soil = \"loam\""});
+  EXPECT_DOUBLE_EQ(*parse(two, {"material.loam.grain_radius=0.03"}).material("loam").stiffness, 6e5);
+  expectError(grainOf("other", 0.01, "[material.other]\n[[plane]]\nmaterial = \"loam\"\n"),
+              {"scene.toml:6", "no grains are of this soil", "add grain_radius = 0.01"});
+  const std::string sieved = "depth = 0.3\nradius_distribution = \"sieve\"\nsieve_size = [0.02, 0.04]\n"
+                             "sieve_passing = [0, 1]\n";
+  const Scene s = parse(replaced(bedOf("loam", sieved), "grain_radius = 0.02\n", ""));
+  EXPECT_EQ(s.material("loam").grainRadius, s.terrain->grainRadius);
+}
+
+TEST_F(Soils, GrainRadiusNeedsASoil) {
+  expectError(grainOf("a", 0.01, "[material.a]\ngrain_radius = 0.01\n"),
+              {"material.a.grain_radius = 0.01", "has no meaning without soil"});
+}
+
+TEST_F(Soils, UnknownNamesAreAnsweredWithTheNearestAndAll) {
+  expectError(grainOf("lete_snad", 0.01), {"scene.toml:7: grain.0.material", "names no material of this scene",
+                                           "did you mean \"lete_sand\"?", "gravel", "loam"});
+  expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"laom\"\n"),
+              {"scene.toml:5", "material.a.soil = \"laom\" names no soil", "did you mean \"loam\"?", "looked for"});
+  expectError(grainOf("soils/loam.toml", 0.01), {"grain.0.material", "soil = \"soils/loam.toml\""});
+  expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"\"\n"), {"material.a.soil"});
+  expectError(grainOf("a", 0.01, "[material.a]\nsoil = 3\n"), {"material.a.soil = 3 has the wrong type"});
+}
+
+TEST_F(Soils, APathStandsForAFile) {
+  fs::create_directories(folder_ / "mine");
+  put(folder_ / "mine/wet.toml", replaced(kLoam, "density = 2600", "density = 2222"));
+  const Scene s = parse(grainOf("a", 0.01, "[material.a]\nsoil = \"mine/wet.toml\"\n"));
+  EXPECT_EQ(s.material("a").density, 2222);
+}
+
+TEST_F(Soils, MistakesInASoilsFileNameItsLine) {
+  expectFileError("friction = 0.45", "friction = 11", {"loam.toml:11: material.friction = 11", "[0, 10]"});
+  expectFileError("friction = 0.45", "fricton = 0.4", {"loam.toml:11", "did you mean friction?"});
+  expectFileError("radius_spread = 0.2", "radius_spread = 2", {"loam.toml:16: bed.radius_spread", "(0, 0.9]"});
+  expectFileError("[0.008, 0.02]", "[0.02, 0.008]", {"loam.toml:18", "descends"});
+  expectFileError("[0.008, 0.02]", "[0.015, 0.02]", {"does not hold grain_radius = 0.01"});
+  expectFileError("unit = \"deg\"", "unit = \"rad\"", {"loam.toml:22", "unit = \"rad\"", "unit = \"deg\""});
+  expectFileError("low = 29", "low = 31", {"published.0.low", "above value"});
+  expectFileError("quantity = \"phi\"", "quantity = \"ph\"", {"none of n, k_c", "did you mean \"phi\"?"});
+  expectFileError("title = \"loam\"\n", "", {"[soil] lacks the required key title"});
+  expectFileError("density = 2600", "soil = \"loam\"", {"loam.toml:7: material.soil", "belongs to a scene"});
+  expectFileError("stiffness = 2e5", "young = 2e5", {"loam.toml:9: material.young", "belongs to law = \"hertz\""});
+  const std::string text(kLoam);
+  put(folder_ / "soils/loam.toml", text.substr(0, text.find("[[reached]]")));
+  expectError(grainOf("loam", 0.01), {"loam.toml:5: soil.calibrated", "has nothing behind it"});
+}
+
+TEST_F(Soils, TheBedLiesAsTheSoilDoesUnlessTheSceneSaysOtherwise) {
+  EXPECT_EQ(parse(bedOf("loam", "depth = 0.3\n")).terrain->porosity, 0.41);
+  EXPECT_EQ(parse(bedOf("loam", "depth = 0.3\n")).terrain->radiusSpread, 0.2);
+  const Scene given = parse(bedOf("loam", "depth = 0.3\nporosity = 0.38\nradius_spread = 0.1\n"));
+  EXPECT_EQ(given.terrain->porosity, 0.38);
+  EXPECT_EQ(given.terrain->radiusSpread, 0.1);
+  const Scene shallow = parse(bedOf("loam", "depth = 0.1\n"));
+  EXPECT_FALSE(shallow.terrain->porosity) << "not measured in beds of less than three diameters";
+  ASSERT_EQ(soilNotes(shallow).size(), 1u);
+  EXPECT_NE(soilNotes(shallow)[0].find("too shallow"), std::string::npos);
+  EXPECT_FALSE(parse(bedOf("loam", "arrangement = \"lattice\"\nlayers = 3\n")).terrain->porosity);
+  EXPECT_FALSE(parse(bedOf("plain", "depth = 0.3\n[material.plain]\n")).terrain->porosity);
+}
+
+TEST_F(Soils, ResolvedSceneSaysWhereItsValuesComeFromAndLoadsToTheSame) {
+  const Scene first = parse(bedOf("loam", "depth = 0.3\n"), {"material.loam.friction=0.6"});
+  const std::string resolved = resolvedToml(first);
+  const std::string file = fs::canonical(folder_ / "soils/loam.toml").string();
+  EXPECT_NE(resolved.find("[material.\"loam\"]\nsoil = \"" + file + "\"\nsoil_hash = \"" +
+                          first.material("loam").soilHash + "\"\ngrain_radius = 0.02\n"),
+            std::string::npos)
+      << resolved;
+  EXPECT_NE(resolved.find("\nstiffness = 400000.0\n"), std::string::npos) << resolved;
+  const Scene second = setup::parseScene(resolved, folder_ / "out/scene.toml");
+  EXPECT_EQ(second.materials, first.materials) << "not scaled twice";
+  EXPECT_EQ(second.terrain, first.terrain);
+  EXPECT_EQ(resolvedToml(second), resolved);
+  // A soil that has changed since is told, and changes nothing.
+  put(folder_ / "soils/loam.toml", replaced(kLoam, "stiffness = 2e5", "stiffness = 3e5"));
+  const Scene later = setup::parseScene(resolved, folder_ / "out/scene.toml");
+  EXPECT_EQ(later.material("loam").stiffness, 4e5);
+  ASSERT_EQ(soilNotes(later).size(), 1u);
+  EXPECT_NE(soilNotes(later)[0].find("has changed since"), std::string::npos) << soilNotes(later)[0];
+}
+
+TEST_F(Soils, NotesTellWhatHasNotBeenMeasured) {
+  EXPECT_TRUE(soilNotes(parse(grainOf("loam", 0.02))).empty());
+  const std::vector<std::string> outside = soilNotes(parse(grainOf("loam", 0.021)));
+  ASSERT_EQ(outside.size(), 1u);
+  EXPECT_NE(outside[0].find("calibrated for grains of 8 mm to 20 mm, not of 21 mm"), std::string::npos) << outside[0];
+  const std::vector<std::string> other =
+      soilNotes(parse(bedOf("loam", "depth = 0.3\n"), {"material.loam.grain_radius=0.01"}));
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_NE(other[0].find("scaled to grains of 10 mm"), std::string::npos) << other[0];
+  put(folder_ / "soils/loam.toml", replaced(kLoam, "calibrated = true", "calibrated = false"));
+  const std::vector<std::string> unmeasured = soilNotes(parse(grainOf("loam", 0.021)));
+  ASSERT_EQ(unmeasured.size(), 1u);
+  EXPECT_NE(unmeasured[0].find("the soil loam is uncalibrated"), std::string::npos) << unmeasured[0];
+}
+
+TEST_F(Soils, UsesNameFileHashAndScaledValues) {
+  const std::vector<SoilUse> uses = soilUses(parse(grainOf("g", 0.02, "[material.g]\nsoil = \"loam\"\n")));
+  ASSERT_EQ(uses.size(), 1u);
+  EXPECT_EQ(uses[0].material, "g");
+  EXPECT_EQ(uses[0].soil, "loam");
+  EXPECT_EQ(uses[0].hash.size(), 16u);
+  EXPECT_EQ(uses[0].scale, 2);
+  EXPECT_DOUBLE_EQ(uses[0].scaled.at("stiffness [N/m]"), 4e5);
+  EXPECT_DOUBLE_EQ(uses[0].scaled.at("cohesion [J/m2]"), 6);
+  EXPECT_NE(soilLine(uses[0]).find("g is loam: "), std::string::npos) << soilLine(uses[0]);
+}
+
+TEST_F(Soils, ASettledBedIsKnownByItsValuesNotByTheSoilsName) {
+  const std::string values = "[material.plain]\ndensity = 2600\nstiffness = 4e5\ndamping = 25\nfriction = 0.45\n"
+                             "rolling_friction = 0.1\ncohesion = 6\n";
+  const std::string bed = "depth = 0.3\nporosity = 0.41\nradius_spread = 0.2\n";
+  std::string named = setup::bedOrigin(parse(bedOf("loam", bed)), 1e-5);
+  const std::string plain = setup::bedOrigin(parse(bedOf("plain", bed + values)), 1e-5);
+  for (std::size_t at = 0; (at = named.find("loam")) != std::string::npos;) named.replace(at, 4, "plain");
+  EXPECT_EQ(named, plain);
+}
+
+TEST_F(Soils, ResumedRunsNeedTheSameSoil) {
+  const std::string text = grainOf("a", 0.01, "[material.a]\nsoil = \"mine.toml\"\n");
+  put(folder_ / "mine.toml", kLoam);
+  simulation::Checkpoint c;
+  c.scene = resolvedToml(parse(text)), c.inputs = setup::inputsOf(parse(text));
+  put(folder_ / "copy.toml", kLoam);
+  const Scene copied = parse(text, {"material.a.soil=copy.toml"});
+  EXPECT_NO_THROW(simulation::checkSameScene(c, "c.h5", setup::provenanceOf(copied))) << "by its bytes";
+  put(folder_ / "mine.toml", std::string(kLoam) + "# a remark\n");
+  EXPECT_THROW(simulation::checkSameScene(c, "c.h5", setup::provenanceOf(parse(text))), base::InputError);
+}
+
+TEST(AssetSoils, AreReadAndSayTheirSources) {
+  const fs::path assets = fs::path(GROUSER_SOURCE_DIR) / "assets";
+  const auto known = knownSoils(assets / "scene.toml");
+  for (const char* name : {"dry_sand", "lete_sand", "sandy_loam", "gravel", "grc1", "reference_spheres"}) {
+    ASSERT_TRUE(known.contains(name)) << name;
+    const Soil soil = readSoil(known.at(name));
+    EXPECT_GT(soil.grains.radius, 0) << name;
+    for (const PublishedConstant& c : soil.published) EXPECT_GT(c.source.size(), 10u) << name;
+    EXPECT_EQ(soil.head.calibrated, !soil.reached.empty()) << name;
+    const Scene s = setup::parseScene(grainOf(name, 0.01), assets / "scene.toml");
+    EXPECT_EQ(s.material(name).density, soil.material.density);
+  }
+  EXPECT_GT(readSoil(known.at("sandy_loam")).material.cohesion, 0);
+}
+
+TEST(SoilScenes, AreLoadedAndOfTheSizeTheySay) {
+  const fs::path scenes = fs::path(GROUSER_SOURCE_DIR) / "runs/scenes";
+  const Scene full = setup::loadScene(scenes / "soil_full_size.toml");
+  EXPECT_GE(full.terrain->size[1], 4.6);
+  EXPECT_GE(*full.terrain->depth, 0.5);
+  EXPECT_LE(*full.terrain->grainRadius, 0.007);
+  EXPECT_LT(setup::plannedGrains(full), 3'000'000);
+  EXPECT_EQ(full.terrain->porosity, 0.40) << "the soil's";
+  const Scene coarse = setup::loadScene(scenes / "soil_coarse.toml");
+  EXPECT_EQ(coarse.material("lete_sand").young, full.material("lete_sand").young);
+  EXPECT_LT(setup::plannedGrains(coarse), 20'000);
+  const Scene wheel = setup::loadScene(scenes / "grc1_wheel.toml");
+  EXPECT_EQ(wheel.material("grc1").density, 2580);
+  EXPECT_EQ(wheel.meshes.at(0).mass, 17.5);
+}
+
+} // namespace
+} // namespace grouser::scene
