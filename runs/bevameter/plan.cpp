@@ -114,7 +114,8 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.grains.grains.radius = soil.grainRadius, plan.grains.grains.density = soil.density;
   plan.grains.grains.friction = soil.friction, plan.grains.grains.law = soil.law;
   plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
-  plan.grains.impactSpeed = impactLikePressure(soil, *std::max_element(options.loads.begin(), options.loads.end()));
+  plan.grains.impactSpeed = impactLikePressure(
+      soil, std::max(options.mostPressure, *std::max_element(options.loads.begin(), options.loads.end())));
   studies::PlateTest& small = plan.small.strip;
   small.breadth = options.plateGrains, small.bin = options.bin, small.depth = options.depth;
   small.thickness = options.thickness, small.inertialNumber = options.inertialNumber;

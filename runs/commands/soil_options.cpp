@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace grouser::commands {
@@ -26,7 +27,9 @@ public:
   template <class T> void add(CLI::App& app, const std::string& name, T PlanOptions::*member, CLI::Validator check,
                               const std::string& help) {
     const PlanOptions coarse = bevameter::coarsePlan();
-    const std::string quick = coarse.*member == plan_.*member ? "" : fmt::format("; with --quick {}", coarse.*member);
+    std::string quick;
+    if constexpr (std::is_arithmetic_v<T>)
+      if (coarse.*member != plan_.*member) quick = fmt::format("; with --quick {}", coarse.*member);
     CLI::Option* option =
         app.add_option(name, plan_.*member, help + quick)->check(std::move(check))->capture_default_str();
     given_.push_back([option, member](const PlanOptions& user, PlanOptions& taken) {
@@ -48,7 +51,7 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--seeds", &PlanOptions::seeds, support::wholeNumber(1, 1000),
            "beds of the small plate, and samples of each load");
   keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000), "beds of the large plate");
-  keys.add(soil, "--repose-seeds", &PlanOptions::reposeSeeds, support::wholeNumber(1, 1000), "beds that are tilted");
+  keys.add(soil, "--repose-seeds", &PlanOptions::reposeSeeds, support::wholeNumber(0, 1000), "beds that are tilted");
   keys.add(soil, "--plate-grains", &PlanOptions::plateGrains, support::between(4, 1000),
            "breadth of the small plate [mean grain diameters]");
   keys.add(soil, "--plate-ratio", &PlanOptions::plateRatio, support::between(1.2, 20),
@@ -61,6 +64,11 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
            "to which plates are pushed, unless they sink 0.3 breadths before [Pa]");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
            "of the plates: speed/breadth d sqrt(density/pressure) [-]");
+  keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
+           "of the shear: rate d sqrt(density/stress) [-]");
+  keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
+           "to which layers are sheared [-]");
+  keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7), "on sheared layers [Pa]");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
            "of the sheared layer, at least ten grains; K grows with it [m]");
 }
