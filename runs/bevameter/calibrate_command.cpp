@@ -224,6 +224,15 @@ private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+/// Those of a former call.
+void removeTrials(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> trials;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (std::filesystem::exists(entry.path() / "recipe.json")) trials.push_back(entry.path());
+  for (const std::filesystem::path& trial : trials) std::filesystem::remove_all(trial);
+}
+
 } // namespace
 
 std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
@@ -253,12 +262,7 @@ void calibrateCommand(const CalibrationCommand& command) {
                                            ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)
                                            : std::filesystem::path(command.place.folder);
   output::checkOutputFolder(folder, command.place.force || command.pieces.resume);
-  if (!command.pieces.resume) {
-    for (const auto& entry : std::filesystem::is_directory(folder) ? std::filesystem::directory_iterator(folder)
-                                                                   : std::filesystem::directory_iterator())
-      if (entry.is_directory() && std::filesystem::exists(entry.path() / "recipe.json"))
-        std::filesystem::remove_all(entry.path());
-  }
+  if (!command.pieces.resume) removeTrials(folder);
   const support::StopSignals signals;
   try {
     Calibration(command, std::move(targets), folder).run();

@@ -15,6 +15,7 @@ using studies::Table;
 using support::Estimate;
 
 constexpr double kFitFromGrains = 0.25; // [d] sinkage from which on points count
+constexpr double kFitFromShare = 0.2;   // of the least sinkage that a plate comes to, if that is less
 constexpr double kCompareFrom = 0.25;   // of the sinkage that two bins have in common: compared from here on
 
 /// Runs of one plate as their fits want them.
@@ -82,7 +83,7 @@ std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide
 void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vector<Table>, 2>& runs) {
   const std::array<PlateTests, 2> plates{plateTests(plan, runs[0], TestKind::small),
                                          plateTests(plan, runs[1], TestKind::large)};
-  const double from = fitFrom(plan);
+  const double from = fitFrom(plan.grains.grains.diameter(), plates);
   const auto statistic = [&](const TestCounts& counts) {
     const BekkerFit f = fitBekker(plates, from, counts);
     return std::vector<double>{
@@ -140,7 +141,13 @@ double toleranceOf(Quantity quantity, double value) {
 
 } // namespace
 
-double fitFrom(const TestPlan& plan) { return kFitFromGrains * plan.grains.grains.diameter(); }
+double fitFrom(double diameter, const std::array<PlateTests, 2>& plates) {
+  double from = kFitFromGrains * diameter;
+  for (const PlateTests& plate : plates)
+    for (const SinkageCurve& curve : plate.curves)
+      if (!curve.sinkage.empty()) from = std::min(from, kFitFromShare * curve.sinkage.back());
+  return from;
+}
 
 std::vector<Table> runsOf(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind) {
   std::vector<Table> runs;

@@ -43,8 +43,9 @@ struct SoilResults {
 std::vector<studies::Table> runsOf(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind);
 /// Curves of the seeds that were sheared under all loads: [seed][load].
 std::vector<std::vector<ShearCurve>> shearTests(const TestPlan& plan, const studies::Pieces& pieces);
-/// From which sinkage on points count [m]: below, a plate meets single grains.
-double fitFrom(const TestPlan& plan);
+/// From which sinkage on points count [m]: below a quarter of a grain a plate meets single grains. Of plates that sink
+/// little a fifth of what the least of them does.
+double fitFrom(double diameter, const std::array<PlateTests, 2>& plates);
 
 SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces);
 
