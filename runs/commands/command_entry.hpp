@@ -44,6 +44,7 @@ void addPlan(CLI::App& app, const Invocation& invocation);
 void addBench(CLI::App& app, const Invocation& invocation);
 void addHash(CLI::App& app, const Invocation& invocation);
 void addStudy(CLI::App& app, const Invocation& invocation);
+void addSoil(CLI::App& app, const Invocation& invocation);
 void addRender(CLI::App& app, const Invocation& invocation);
 void addSinkage(CLI::App& app, const Invocation& invocation);
 void addSpheres(CLI::App& app, const Invocation& invocation);

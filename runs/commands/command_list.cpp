@@ -10,6 +10,7 @@ std::vector<CommandEntry> allCommands() {
           {"bench", addBench, RankUse::shared},
           {"hash", addHash},
           {"study", addStudy, RankUse::refused},
+          {"soil", addSoil, RankUse::refused, "; --jobs lets several tests go at the same time"},
           {"render", addRender, RankUse::shared},
           {"sinkage", addSinkage},
           {"plan", addPlan},

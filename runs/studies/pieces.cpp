@@ -154,15 +154,19 @@ double Pieces::spent() const {
 bool Pieces::due(const std::string& run) {
   const int number = seen_++;
   if (has(run)) return false;
+  const bool mine = number % parts_ == part_ - 1 && inTime(run);
+  left_ += !mine;
+  return mine;
+}
+
+bool Pieces::inTime(const std::string& run) {
   double expected = 0; // the first run of a call is begun whatever it takes
   if (const auto known = took_.find(kindOf(run)); known != took_.end())
     expected = known->second;
   else
     for (const auto& [kind, took] : took_) expected = std::max(expected, took);
   began_ = spent();
-  const bool mine = number % parts_ == part_ - 1 && (seconds_ == 0 || began_ + expected < seconds_);
-  left_ += !mine;
-  return mine;
+  return seconds_ == 0 || began_ + expected < seconds_;
 }
 
 } // namespace grouser::studies

@@ -21,6 +21,8 @@ constexpr double kSlow = 0.1;         // [m/s] for the step of Hertz' contacts, 
 constexpr double kCoarsest = 2.0 / 7; // of the way between boundaries: the largest grain's diameter
 constexpr double kBedShare = 0.3;     // of a run's time, about
 
+} // namespace
+
 std::string plateSection(const Soil& soil, const PlateTest& test, double bottom, double speed) {
   const double d = soil.grains.diameter(), b = test.breadth * d, tall = 2 * (1 + test.sinkage) * b;
   const BedSize size = test.bed(soil);
@@ -34,7 +36,6 @@ std::string plateSection(const Soil& soil, const PlateTest& test, double bottom,
          fmt::format("axis = [0, 0, 1]\nradius = {:.17g}\nlength = {:.17g}\n", 0.5 * b, tall);
 }
 
-/// Highest top of the grains that the plate will meet first [m].
 double topUnder(const Soil& soil, const PlateTest& test, const BedGrains& bed) {
   const BedSize size = test.bed(soil);
   const double reach = 0.5 * test.breadth * soil.grains.diameter();
@@ -46,8 +47,6 @@ double topUnder(const Soil& soil, const PlateTest& test, const BedGrains& bed) {
   }
   return top;
 }
-
-} // namespace
 
 BedSize PlateTest::bed(const Soil& soil) const {
   const double d = soil.grains.diameter(), b = breadth * d;

@@ -29,6 +29,11 @@ struct PlateTest {
   double speed(const Soil& soil) const; ///< [m/s]
 };
 
+/// The section of a scene with the plate, "plate": its face at height `bottom` [m], going down at `speed` [m/s].
+std::string plateSection(const Soil& soil, const PlateTest& test, double bottom, double speed);
+/// Highest top of the grains that the plate will meet first [m].
+double topUnder(const Soil& soil, const PlateTest& test, const BedGrains& bed);
+
 /// Columns of a run's table; from the third on the same in all rows.
 inline const std::vector<std::string> kPlateColumns = {
     "sinkage [m]", "force [N]",           "porosity [-]",  "grains",

@@ -15,6 +15,8 @@ namespace grouser::studies {
 double SampleGrains::mass() const { return base::sphereMass(density, radius); }
 
 std::string SampleGrains::toml(const std::string& name) const {
+  if (!law.empty())
+    return fmt::format("[material.{}]\ndensity = {:.17g}\nfriction = {:.17g}\n{}", name, density, friction, law);
   const std::string spring = young > 0 ? fmt::format("law = \"hertz\"\nyoung = {:.17g}\n", young)
                                        : fmt::format("stiffness = {:.17g}\n", stiffness);
   return fmt::format("[material.{}]\ndensity = {:.17g}\n{}restitution = {:.17g}\nfriction = {:.17g}\n"

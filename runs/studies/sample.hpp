@@ -19,6 +19,9 @@ struct SampleGrains {
   double restitution = 0.5; ///< [-]
   double friction = 0.5;    ///< [-]
   double rollingFriction = 0;
+  /// Keys of a scene's [material], a line each, but for density and friction: any law that a scene may have, instead of
+  /// the springs, restitution and rolling friction above. Empty: those.
+  std::string law;
   double diameter() const { return 2 * radius; }
   double mass() const;
   std::string toml(const std::string& name) const; ///< [material.NAME]

@@ -173,7 +173,7 @@ Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int
     simulation.restartMeans();
     if (row == 0) consolidated = plates.height;
     const double low = kOffPlates * d, high = plates.height - kOffPlates * d;
-    const CoreStress core = coreStress(*simulation.ground().grains, size, low, high);
+    const CoreStress core = cell.core ? coreStress(*simulation.ground().grains, size, low, high) : CoreStress{};
     const double porosity = 1 - solidFraction(grainsOf(simulation, size), size, low, high);
     table.rows.push_back({rate * height * std::max(0.0, simulation.time() - start) / consolidated, plates.shear,
                           plates.normal, plates.height / d, core.xx, core.zz, -core.xz, -core.zx, porosity,

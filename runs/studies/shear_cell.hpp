@@ -13,6 +13,8 @@ struct ShearCell {
   double inertialNumber = 8e-4;              ///< [-] rate of shear times d sqrt(density / stress)
   double strain = 0.4;                       ///< [-] way of the upper plate over the height of the sample
   int rows = 200;                            ///< of a table
+  /// Whether the stress of the core is measured, which takes linear springs without cohesion; else its columns are 0.
+  bool core = true;
 };
 
 /// Columns of a run's table; compression is positive, and shear that the upper plate's way makes.

@@ -54,9 +54,12 @@ std::string Soil::toml(double friction) const {
 
 std::string Soil::scene(double duration, std::int64_t seed, double friction, const Vec3d& gravity,
                         const std::string& run) const {
+  const std::string speed = impactSpeed > 0 && run.find("impact_speed") == std::string::npos
+                                ? fmt::format("impact_speed = {:.17g}\n", impactSpeed)
+                                : "";
   return fmt::format("version = 1\n[run]\nduration = {:.17g}\nseed = {}\nsteps_per_contact = {}\ngravity = [{}, {}, "
-                     "{}]\n{}{}",
-                     duration, seed, stepsPerContact, gravity.x, gravity.y, gravity.z, run, toml(friction));
+                     "{}]\n{}{}{}",
+                     duration, seed, stepsPerContact, gravity.x, gravity.y, gravity.z, run, speed, toml(friction));
 }
 
 std::string BedSize::run() const {

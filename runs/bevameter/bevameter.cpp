@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser soil`: which tests, one after the other or side by side, and what is written of them.
+#include "runs/bevameter/bevameter.hpp"
+
+#include "runs/bevameter/preparation.hpp"
+#include "runs/bevameter/soil_report.hpp"
+#include "runs/support/device_choice.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/shared_work.hpp"
+#include "runs/support/stop_signals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+namespace grouser::bevameter {
+
+namespace {
+
+constexpr double kPorosityNoted = 0.01; // farther off, the user is told
+
+/// The device, chosen by the process that computes on it.
+class Device {
+public:
+  explicit Device(const studies::PieceOptions& options, int jobs) : options_(options), threads_(options.threads) {
+    if (jobs > 1) threads_ = std::max(1, options.threads / jobs);
+  }
+  const base::Exec& exec() {
+    if (!exec_) exec_ = support::chooseDevice(support::deviceChoice(options_.device), threads_, nullptr);
+    return *exec_;
+  }
+
+private:
+  studies::PieceOptions options_;
+  int threads_;
+  std::optional<base::Exec> exec_;
+};
+
+std::string preparationName(const TestPlan& plan) { return plan.options.coarse ? "coarse_preparation" : "preparation"; }
+
+/// Finds the preparation where no call has done so, and takes it.
+void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs) {
+  if (!plan.soil.porosity) return;
+  const std::string name = preparationName(plan);
+  if (!pieces.has(name)) {
+    support::Progress progress("preparing");
+    const auto work = [&](std::size_t) {
+      const auto folder = pieces.begin(name);
+      const studies::Table trials = findPreparation(plan, folder, device.exec(), [&](const std::string& what) {
+        if (jobs == 1) progress.update(0, what);
+      });
+      try {
+        pieces.keep(name, trials);
+      } catch (const std::runtime_error&) {
+        if (!pieces.has(name)) throw; // else another part was quicker, with the same answer
+      }
+      std::filesystem::remove_all(folder);
+    };
+    // In a process of its own where others shall follow: none may be started after threads have been.
+    support::shareWork(jobs > 1 ? 2 : 1, 1, work, [] {});
+    progress.finish("a friction for the porosity is found");
+  }
+  const std::vector<double> trial = nearestTrial(pieces.read(name).rows, *plan.soil.porosity);
+  plan.grains.preparationFriction = trial[0];
+  fmt::print("          beds settle with friction {:.4g} to a porosity of {:.4f}{}\n", trial[0], trial[1],
+             std::fabs(trial[1] - *plan.soil.porosity) > kPorosityNoted
+                 ? fmt::format(", the nearest to the soil's {:g} that these grains come to", *plan.soil.porosity)
+                 : "");
+}
+
+void printHead(const TestPlan& plan) {
+  const TestedSoil& s = plan.soil;
+  fmt::print("          {}{}\n", s.title.empty() ? s.name : s.title,
+             plan.options.coarse ? "; coarse: small plates of few grains, pushed fast" : "");
+  fmt::print("          grains of {:g} mm +- {:g} %, plates of {:g} and {:g} d ({:.3g} and {:.3g} m), shear under {} "
+             "loads; {} seeds, {} of the large plate\n",
+             2e3 * s.grainRadius, 100 * s.spread, plan.small.strip.breadth, plan.large.strip.breadth,
+             plan.breadth(TestKind::small), plan.breadth(TestKind::large), plan.options.loads.size(),
+             plan.options.seeds, plan.options.largeSeeds);
+  if (!s.isCalibrated())
+    fmt::print("          note: the file's numbers are scaled from grains of {:g} mm; it was tested with radii of {:g} "
+               "to {:g} mm\n",
+               2e3 * s.fileRadius, 1e3 * s.calibratedFrom, 1e3 * s.calibratedTo);
+  std::fflush(stdout);
+}
+
+} // namespace
+
+int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions& options, int jobs) {
+  Device device(options, jobs);
+  prepare(plan, pieces, device, jobs);
+  std::vector<const PlannedTest*> due;
+  double all = 0;
+  for (const PlannedTest& test : plan.tests) {
+    if (pieces.due(test.name)) due.push_back(&test);
+    all += test.cost;
+  }
+  support::Progress progress("testing");
+  const auto there = [&] {
+    double sum = 0;
+    for (const PlannedTest& test : plan.tests) sum += pieces.has(test.name) ? test.cost : 0;
+    return sum / all;
+  };
+  const double before = there();
+  // Of what this call does, so that the time left is that of what is left.
+  const auto share = [&](double now) { return before < 1 ? (now - before) / (1 - before) : 1; };
+  const auto work = [&](std::size_t i) {
+    const PlannedTest& test = *due[i];
+    if (!pieces.inTime(test.name)) return;
+    const auto folder = pieces.begin(test.name);
+    const double now = there();
+    const auto tell = [&](double done, const std::string& phase) {
+      if (jobs == 1) progress.update(share(now + done * test.cost / all), test.name + ", " + phase);
+    };
+    pieces.keep(test.name, doTest(plan, test, folder, device.exec(), tell));
+    std::filesystem::remove_all(folder);
+  };
+  support::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work,
+                     [&] { progress.update(share(there()), "several tests at a time"); });
+  int missing = 0;
+  for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
+  progress.finish(fmt::format("{} of {} tests are there", plan.tests.size() - static_cast<std::size_t>(missing),
+                              plan.tests.size()));
+  return missing;
+}
+
+void soilCommand(const SoilCommand& command) {
+  PlanOptions options = command.plan;
+  options.coarse = command.place.quick;
+  TestPlan plan = planOf(readTestedSoil(command.soil, command.grainRadius), options);
+  studies::StudyPlace place = command.place;
+  if (place.folder.empty()) place.folder = "out/soil_" + plan.soil.name;
+  studies::Pieces pieces("soil " + plan.soil.name, place, command.pieces, plan.recipe());
+  const support::StopSignals signals;
+  printHead(plan);
+  const int missing = doTests(plan, pieces, command.pieces, command.jobs);
+  if (!pieces.whole()) return;
+  reportSoil(plan, pieces, missing);
+}
+
+} // namespace grouser::bevameter

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found.
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/bevameter/calibration.hpp"
+#include "runs/bevameter/soil_report.hpp"
+#include "runs/output/output.hpp"
+#include "runs/studies/estimate.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/stop_signals.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace grouser::bevameter {
+
+namespace {
+
+using support::Estimate;
+
+constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin with
+constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
+constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
+constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
+constexpr double kBeds = 0.75;          // Rumpf: tensile strength over w / r, for beds of five contacts a grain
+
+/// Time is up before all tests of a trial are there.
+struct Unfinished {
+  int missing;
+};
+
+class Calibration {
+public:
+  Calibration(const CalibrationCommand& command, CalibrationTargets targets, std::filesystem::path folder)
+      : command_(command), targets_(std::move(targets)), folder_(std::move(folder)), soil_(targets_.start) {}
+
+  void run() {
+    seekStrength();
+    seekStiffness();
+    finish();
+  }
+
+private:
+  /// Does the tests of some kinds with the soil as it is, in a folder of their own.
+  TestPlan tested(const std::string& name, const std::function<bool(const PlannedTest&)>& wanted, SoilResults& results,
+                  const std::function<void(const TestPlan&, const studies::Pieces&)>& look = {}) {
+    PlanOptions options = command_.plan;
+    options.coarse = command_.place.quick, options.wide = false, options.reposeSeeds = 0;
+    TestPlan plan = planOf(soil_, options);
+    plan.tests.erase(std::remove_if(plan.tests.begin(), plan.tests.end(), [&](const auto& t) { return !wanted(t); }),
+                     plan.tests.end());
+    studies::PieceOptions pieceOptions = command_.pieces;
+    pieceOptions.resume = true;
+    if (command_.pieces.seconds > 0) {
+      pieceOptions.seconds = command_.pieces.seconds - spent();
+      if (pieceOptions.seconds <= 0) throw Unfinished{static_cast<int>(plan.tests.size())};
+    }
+    studies::StudyPlace place = command_.place;
+    place.folder = folder_ / name;
+    studies::Pieces pieces("soil " + soil_.name + ", " + name, place, pieceOptions, plan.recipe());
+    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) throw Unfinished{missing};
+    results = resultsOf(plan, pieces);
+    if (look) look(plan, pieces);
+    return plan;
+  }
+
+  /// Friction and rolling friction for phi, cohesion for c, both from each trial.
+  void seekStrength() {
+    const auto phi = targets_.wanted.find(Quantity::frictionAngle), c = targets_.wanted.find(Quantity::cohesion);
+    const bool seeksPhi = phi != targets_.wanted.end(), seeksC = c != targets_.wanted.end();
+    if (!seeksPhi && !seeksC) return;
+    const double mu = soil_.friction;
+    double way = wayOf(numberOf(soil_, "rolling_friction", 0)), pull = numberOf(soil_, pullKey(), 0);
+    std::vector<Trial> angles, cohesions;
+    for (int trial = 1;; ++trial) {
+      SoilResults r;
+      tested(
+          fmt::format("shear_{}", trial), [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
+      const Estimate angle = r.measured.at(Quantity::frictionAngle), cohesion = r.measured.at(Quantity::cohesion);
+      angles.push_back({way, angle.value}), cohesions.push_back({pull, cohesion.value});
+      fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa\n",
+                 soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), pull, studies::valueText(angle),
+                 studies::valueText(cohesion));
+      std::optional<double> nextWay, nextPull;
+      if (seeksPhi) nextWay = nextTrial(angles, phi->second, targets_.angleTolerance, -1, 2, kAngleSlope);
+      // Pascals of strength a J/m2 of the pull, by Rumpf.
+      const double slope = 1e-3 * kBeds / soil_.grainRadius * base::tan(angle.value * base::kPi / 180);
+      if (seeksC) nextPull = nextTrial(cohesions, c->second, targets_.cohesionTolerance, 0, 1e5, slope);
+      if (!nextWay && !nextPull) break;
+      way = nextWay.value_or(nearestOf(angles, seeksPhi, phi, way));
+      pull = nextPull.value_or(nearestOf(cohesions, seeksC, c, pull));
+      setStrength(way, mu, pull);
+    }
+    if (seeksPhi) way = nearestTrial(angles, phi->second).x;
+    if (seeksC) pull = nearestTrial(cohesions, c->second).x;
+    setStrength(way, mu, pull);
+  }
+
+  using Wanted = std::map<Quantity, double>::const_iterator;
+  static double nearestOf(const std::vector<Trial>& trials, bool sought, const Wanted& wanted, double otherwise) {
+    return sought ? nearestTrial(trials, wanted->second).x : otherwise;
+  }
+
+  void setStrength(double way, double mu, double pull) {
+    const Strength s = strengthAt(way, mu);
+    setNumber(soil_, "friction", s.friction), setNumber(soil_, "rolling_friction", s.rollingFriction);
+    if (pull > 0 || numberOf(soil_, pullKey(), -1) >= 0) setNumber(soil_, pullKey(), pull);
+  }
+
+  /// What pulls grains together: surface energy where the start names one, else the energy of adhesion.
+  std::string pullKey() const { return numberOf(soil_, "surface_energy", -1) >= 0 ? "surface_energy" : "cohesion"; }
+  std::string springKey() const { return soil_.young > 0 ? "young" : "stiffness"; }
+
+  /// The least stiffness whose contacts are not squeezed too far [N/m] or [Pa].
+  double softest() const {
+    const double d = 2 * soil_.grainRadius, p = command_.plan.mostPressure;
+    if (soil_.young == 0) return p * d / kDeepest;
+    // F = p d^2 = 4/3 E* sqrt(d / 4) overlap^(3/2), E* = E / 2 / (1 - nu^2).
+    const double overlap = kDeepest * d;
+    return 2 * (1 - soil_.poisson * soil_.poisson) * 0.75 * p * d * d / (std::sqrt(0.25 * d * overlap) * overlap);
+  }
+
+  /// Stiffness for the pressure of the small plate at the sinkage where it is to carry the track's.
+  void seekStiffness() {
+    if (!targets_.wantsSinkage()) return;
+    const double start = numberOf(soil_, springKey(), 0), least = std::min(start, softest());
+    double stiffness = start;
+    std::vector<Trial> trials;
+    const double wanted = base::log(kTrackPressure);
+    for (int trial = 1;; ++trial) {
+      SoilResults r;
+      Estimate pressure;
+      tested(
+          fmt::format("plate_{}", trial), [](const PlannedTest& t) { return t.kind == TestKind::small; }, r,
+          [&](const TestPlan& plan, const studies::Pieces& pieces) {
+            pressure = pressureThere(plan, pieces, TestKind::small);
+          });
+      trials.push_back({base::log(stiffness), base::log(pressure.value)});
+      fmt::print("          {} {:.4g}: {} kPa where {:g} are wanted\n", springKey(), stiffness,
+                 studies::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
+      const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
+                                                   base::log(least), base::log(kStiffer * start), kStiffnessSlope);
+      if (!next) break;
+      setNumber(soil_, springKey(), stiffness = base::exp(*next));
+    }
+    setNumber(soil_, springKey(), base::exp(nearestTrial(trials, wanted).x));
+  }
+
+  /// Mean pressure of a plate where it is to carry the track's [Pa]: a curve that ends before carries what it did then.
+  Estimate pressureThere(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind) const {
+    const double z = targets_.sinkageAt(targets_.breadth.value_or(plan.breadth(kind)));
+    const double window = std::max(0.05 * z, 2e-3 * plan.breadth(kind));
+    std::vector<double> pressures;
+    for (const studies::Table& run : runsOf(plan, pieces, kind)) {
+      const SinkageCurve curve = loadingCurve(run);
+      const double at = std::min(z, curve.sinkage.back() - window);
+      double sum = 0, count = 0;
+      for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
+        if (std::fabs(curve.sinkage[i] - at) <= window) sum += curve.pressure[i], ++count;
+      pressures.push_back(std::max(1.0, sum / std::max(1.0, count)));
+    }
+    return studies::interval95(pressures);
+  }
+
+  std::string line(const std::string& what, const Estimate& reached, const std::string& unit, double wanted,
+                   double tolerance) const {
+    const bool isThere = std::fabs(reached.value - wanted) <= tolerance;
+    return fmt::format("  {:<22} {:>20} {:<11} wanted {:g} +- {:g}: {}\n", what, studies::valueText(reached), unit,
+                       wanted, tolerance, isThere ? "reached" : "not reached, this is the nearest");
+  }
+
+  std::string verdicts(const SoilResults& r, const Estimate& small, const Estimate& large) const {
+    std::string text = fmt::format("\n{}targets and what is reached\n", command_.place.quick ? "coarse: " : "");
+    for (const auto& [q, wanted] : targets_.wanted) {
+      const auto found = r.measured.find(q);
+      if (found == r.measured.end()) continue;
+      if (q == Quantity::frictionAngle || q == Quantity::cohesion)
+        text += line(symbolOf(q), found->second, unitOf(q), wanted,
+                     q == Quantity::cohesion ? targets_.cohesionTolerance : targets_.angleTolerance);
+      else
+        text += fmt::format("  {:<22} {:>20} {:<11} wanted {:g}: not sought, it follows\n", symbolOf(q),
+                            studies::valueText(found->second), unitOf(q), wanted);
+    }
+    if (targets_.wantsSinkage()) {
+      const double p = 1e-3 * kTrackPressure;
+      text += line("pressure, small plate", {1e-3 * small.value, 1e-3 * small.halfWidth}, "kPa", p,
+                   targets_.stiffnessTolerance * p);
+      text += line("held back, large plate", {1e-3 * large.value, 1e-3 * large.halfWidth}, "kPa", p,
+                   targets_.stiffnessTolerance * p);
+    }
+    return text;
+  }
+
+  void finish() {
+    SoilResults r;
+    Estimate small, large;
+    const TestPlan plan = tested(
+        "final", [](const PlannedTest&) { return true; }, r,
+        [&](const TestPlan& all, const studies::Pieces& pieces) {
+          reportSoil(all, pieces, 0);
+          if (!targets_.wantsSinkage()) return;
+          small = pressureThere(all, pieces, TestKind::small), large = pressureThere(all, pieces, TestKind::large);
+        });
+    const std::string text = verdicts(r, small, large);
+    fmt::print("{}", text);
+    const std::string call = fmt::format("grouser soil --calibrate {}{}", targets_.start.file.filename().string(),
+                                         command_.place.quick ? " --quick" : "");
+    support::writeTextFile(folder_ / "calibration.txt", text, "--out");
+    support::replaceTextFile(folder_ / (soil_.name + ".toml"),
+                             soilFileText(soil_, fmt::format("calibrated by {} ({})", call, plan.care()), r, call));
+    fmt::print("soil      {}\n", (folder_ / (soil_.name + ".toml")).string());
+  }
+
+  double spent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+  const CalibrationCommand& command_;
+  CalibrationTargets targets_;
+  std::filesystem::path folder_;
+  TestedSoil soil_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Those of a former call.
+void removeTrials(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> trials;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (std::filesystem::exists(entry.path() / "recipe.json")) trials.push_back(entry.path());
+  for (const std::filesystem::path& trial : trials) std::filesystem::remove_all(trial);
+}
+
+} // namespace
+
+std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
+                         const std::string& command) {
+  std::string text = fmt::format("version = 1\n\n[soil]\ntitle = {}\ndescription = {}\n\n[material]\n",
+                                 base::toToml(soil.name), base::toToml(description));
+  for (const auto& [key, value] : soil.keys) text += key + " = " + value + "\n";
+  text += fmt::format("\n[bed]\ngrain_radius = {}\nradius_spread = {}\n", base::toToml(soil.grainRadius),
+                      base::toToml(soil.spread));
+  if (soil.porosity) text += "porosity = " + base::toToml(*soil.porosity) + "\n";
+  text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
+  for (const auto& [q, e] : reached.measured) {
+    if (!std::isfinite(e.value)) continue;
+    text += fmt::format("\n[[reached]]\nquantity = \"{}\"\nvalue = {}\n", symbolOf(q), base::toToml(e.value));
+    if (std::isfinite(e.halfWidth)) text += "half_width = " + base::toToml(e.halfWidth) + "\n";
+    text += fmt::format("unit = \"{}\"\ngrain_radius = {}\ncommand = {}\n", unitOf(q), base::toToml(soil.grainRadius),
+                        base::toToml(command));
+  }
+  return text;
+}
+
+void calibrateCommand(const CalibrationCommand& command) {
+  if (!command.pieces.part.empty())
+    throw base::InputError("--part does not go with --calibrate, whose trials follow each other; take --jobs");
+  CalibrationTargets targets = readTargets(command.targets, command.grainRadius);
+  const std::filesystem::path folder = command.place.folder.empty()
+                                           ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)
+                                           : std::filesystem::path(command.place.folder);
+  output::checkOutputFolder(folder, command.place.force || command.pieces.resume);
+  if (!command.pieces.resume) removeTrials(folder);
+  const support::StopSignals signals;
+  try {
+    Calibration(command, std::move(targets), folder).run();
+  } catch (const Unfinished& unfinished) {
+    fmt::print("{} tests of this trial are missing: call again with --resume\n", unfinished.missing);
+  }
+}
+
+} // namespace grouser::bevameter

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Targets, and the search for one number.
+#include "runs/bevameter/calibration.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::bevameter {
+
+namespace {
+
+constexpr double kMostRolling = 0.5, kMostFriction = 1, kLeastFriction = 0.01; // [-] of the way of Strength
+constexpr double kMiddle = 0.1; // a trial stays so far off the ends of its interval
+constexpr double kSame = 1e-3;  // of the range: nearer than that nothing new is learnt
+constexpr std::size_t kMostTrials = 8;
+
+struct TargetKeys {
+  std::optional<double> n, kc, kphi, k, b, c, phi, shearModulus;
+};
+
+struct ToleranceKeys {
+  double phi = 1, c = 0.5, k = 0.1;
+};
+
+base::Table<TargetKeys> targetTable() {
+  using T = TargetKeys;
+  base::Table<T> t("targets", "Constants that the soil is to have");
+  t.add("n", &T::n, "-", "exponent of sinkage").above(0).atMost(5);
+  t.add("k_c", &T::kc, "kN/m^(n+1)", "cohesive modulus; may be negative");
+  t.add("k_phi", &T::kphi, "kN/m^(n+2)", "frictional modulus");
+  t.add("k", &T::k, "kN/m^(n+2)", "k_c / b + k_phi at the breadth b, instead of both").above(0);
+  t.add("b", &T::b, "m", "breadth that k is meant at").above(0).atMost(100);
+  t.add("c", &T::c, "kPa", "cohesion").atLeast(0).atMost(1000);
+  t.add("phi", &T::phi, "deg", "angle of internal friction").above(0).atMost(60);
+  t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported only").above(0);
+  return t;
+}
+
+base::Table<ToleranceKeys> toleranceTable() {
+  using T = ToleranceKeys;
+  base::Table<T> t("tolerances", "Within which a target is reached");
+  t.add("phi", &T::phi, "deg", "of phi").above(0);
+  t.add("c", &T::c, "kPa", "of c").above(0);
+  t.add("k", &T::k, "-", "of the pressure at the sinkage wanted, a share").above(0).atMost(1);
+  return t;
+}
+
+void checkTogether(const base::Section& section, const TargetKeys& k) {
+  if (k.k.has_value() != k.b.has_value())
+    section.fail(k.k ? "k" : "b", "stands without the other of k and b; add it: k holds for one breadth");
+  if (k.kc.has_value() != k.kphi.has_value())
+    section.fail(k.kc ? "k_c" : "k_phi", "stands without the other of k_c and k_phi; add it, or give k and b");
+  if (k.k && k.kphi) section.fail("k", "stands beside k_c and k_phi; remove the one or the others");
+  if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing, which k, k_c and k_phi need: their units depend on it");
+  if (!k.phi && !k.c && !k.k && !k.kphi)
+    section.fail("", "asks for nothing that can be sought; give phi, c, k_c and k_phi, or k and b");
+}
+
+} // namespace
+
+bool CalibrationTargets::wantsSinkage() const { return k || wanted.count(Quantity::frictionModulus) > 0; }
+
+double CalibrationTargets::kAt(double b) const {
+  return k ? *k : wanted.at(Quantity::cohesionModulus) / b + wanted.at(Quantity::frictionModulus);
+}
+
+double CalibrationTargets::sinkageAt(double b) const {
+  return base::pow(1e-3 * kTrackPressure / kAt(b), 1 / wanted.at(Quantity::exponent));
+}
+
+CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius) {
+  const base::Document document = base::Document::load(file);
+  const base::Section root = document.root();
+  root.allowOnly({"version", "targets", "tolerances", "start", "bed"});
+  const base::Section section = root.section("targets");
+  const TargetKeys keys = section.read(targetTable());
+  checkTogether(section, keys);
+  CalibrationTargets t;
+  const auto take = [&](Quantity quantity, const std::optional<double>& value) {
+    if (value) t.wanted[quantity] = *value;
+  };
+  take(Quantity::exponent, keys.n), take(Quantity::cohesionModulus, keys.kc);
+  take(Quantity::frictionModulus, keys.kphi), take(Quantity::cohesion, keys.c);
+  take(Quantity::frictionAngle, keys.phi), take(Quantity::shearModulus, keys.shearModulus);
+  t.k = keys.k, t.breadth = keys.b;
+  if (root.has("tolerances")) {
+    const ToleranceKeys within = root.section("tolerances").read(toleranceTable());
+    t.angleTolerance = within.phi, t.cohesionTolerance = within.c, t.stiffnessTolerance = within.k;
+  }
+  t.start = readMaterial(root, "start", file, grainRadius);
+  return t;
+}
+
+std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
+                                double high, double slope) {
+  if (trials.empty() || trials.size() >= kMostTrials) return {};
+  const Trial *below = nullptr, *above = nullptr; // the nearest on each side
+  for (const Trial& t : trials) {
+    if (std::fabs(t.y - wanted) <= tolerance) return {};
+    if (t.y < wanted && (!below || t.x > below->x)) below = &t;
+    if (t.y > wanted && (!above || t.x < above->x)) above = &t;
+  }
+  double x = 0;
+  if (below && above && below->x < above->x) {
+    const double share = (wanted - below->y) / (above->y - below->y);
+    x = below->x + (above->x - below->x) * std::clamp(share, kMiddle, 1 - kMiddle);
+    return above->x - below->x < kSame * (high - low) ? std::nullopt : std::optional<double>(x);
+  }
+  // All on one side, or scatter has turned them round: from the outermost by the slope.
+  const Trial& from = below ? *below : *above;
+  x = std::clamp(from.x + (wanted - from.y) / slope, low, high);
+  if (std::fabs(x - from.x) < kSame * (high - low)) return {};
+  return x;
+}
+
+Trial nearestTrial(const std::vector<Trial>& trials, double wanted) {
+  return *std::min_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) {
+    return std::fabs(a.y - wanted) < std::fabs(b.y - wanted);
+  });
+}
+
+Strength strengthAt(double way, double startFriction) {
+  if (way < 0) return {std::max(kLeastFriction, startFriction * (1 + way)), 0};
+  if (way <= 1) return {startFriction, kMostRolling * way};
+  return {startFriction + std::max(0.0, kMostFriction - startFriction) * (way - 1), kMostRolling};
+}
+
+double wayOf(double rollingFriction) { return std::min(1.0, rollingFriction / kMostRolling); }
+
+} // namespace grouser::bevameter

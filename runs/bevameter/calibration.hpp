@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/bevameter/bevameter.hpp"
+#include "runs/bevameter/results.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+/// `grouser soil --calibrate`: contact parameters that give a soil wanted constants, at a grain size.
+namespace grouser::bevameter {
+
+/// What a file of targets says. See readTargets().
+struct CalibrationTargets {
+  std::map<Quantity, double> wanted; ///< in unitOf()
+  std::optional<double> k, breadth;  ///< [kN/m^(n+2)] at a breadth [m], instead of k_c and k_phi
+  double angleTolerance = 1;         ///< [deg]
+  double cohesionTolerance = 0.5;    ///< [kPa]
+  double stiffnessTolerance = 0.1;   ///< of the pressure at the sinkage wanted [-]
+  TestedSoil start;                  ///< the material that the search begins with
+
+  bool wantsSinkage() const;
+  /// k of Bekker's form for a breadth [kN/m^(n+2)].
+  double kAt(double breadth) const;
+  /// At which a plate of this breadth is to carry the track's pressure [m].
+  double sinkageAt(double breadth) const;
+};
+
+/// Reads [targets] (phi, c, K, n, k_c, k_phi, or k and b), [tolerances] (phi, c, k), [start], the keys of a scene's
+/// material, and [bed], as in a soil file. Throws base::InputError with file:line and key.
+CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius);
+
+/// One trial of a search for the x at which y, which rises with x, is wanted.
+struct Trial {
+  double x = 0, y = 0;
+};
+/// Where to try next, in [low, high]; empty where the nearest trial is within `tolerance` or none can be nearer.
+/// Between trials on both sides by the line through them, kept off their ends; else by `slope` from the nearest.
+std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
+                                double high, double slope);
+/// The trial whose y is nearest.
+Trial nearestTrial(const std::vector<Trial>& trials, double wanted);
+
+/// Friction and rolling friction on the way along which a soil grows stronger: from no friction to that of the start
+/// (-1 to 0), then rolling friction up to 0.5 (0 to 1), then friction up to 1 (1 to 2).
+struct Strength {
+  double friction = 0, rollingFriction = 0;
+};
+Strength strengthAt(double way, double startFriction);
+/// Where on it rolling friction is this much.
+double wayOf(double rollingFriction);
+
+struct CalibrationCommand {
+  std::filesystem::path targets;
+  double grainRadius = 0;    ///< [m]; 0: the file's
+  studies::StudyPlace place; ///< folder empty: out/calibrate_NAME
+  studies::PieceOptions pieces;
+  int jobs = 1;
+  PlanOptions plan;
+};
+void calibrateCommand(const CalibrationCommand& command);
+
+/// A soil file.
+std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
+                         const std::string& command);
+
+} // namespace grouser::bevameter

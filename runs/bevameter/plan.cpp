@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/bevameter/plan.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "base/sphere.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::bevameter {
+
+namespace {
+
+constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `grouser study plates` has compared them
+constexpr double kCellLength = 16, kCellWidth = 8, kCellHeight = 10; // [d]
+constexpr double kFall = 0.5;                                        // [s] simulated for a lift, for the time left only
+constexpr double kPressed = 70; // [d sqrt(density / stress)] before shearing begins, for the same
+
+/// An impact whose deepest overlap is that of a contact in the chains of a bed under `pressure`: so stiff are its
+/// contacts, and for that their step is chosen. A contact carries about pressure times d^2, in chains twice that.
+double impactLikePressure(const TestedSoil& soil, double pressure) {
+  if (soil.young == 0) return 0;
+  const double d = 2 * soil.grainRadius, force = 2 * pressure * d * d;
+  const double modulus = 0.5 * soil.young / (1 - soil.poisson * soil.poisson), radius = 0.5 * soil.grainRadius;
+  const double overlap = base::pow(0.5625 * force * force / (modulus * modulus * radius), 1.0 / 3);
+  // Energy of a Hertz contact: 2/5 F overlap = m_eff v^2 / 2.
+  return std::sqrt(0.8 * force * overlap / (0.5 * base::sphereMass(soil.density, soil.grainRadius)));
+}
+
+double volumeOf(const studies::Soil& soil, const PlateSinkage& plate) {
+  const studies::BedSize size = plate.strip.bed(soil);
+  return size.length * size.width * size.depth;
+}
+
+double plateCost(const studies::Soil& soil, const PlateSinkage& plate) {
+  const double lifts = plate.strip.depth * plate.strip.breadth / plate.lift;
+  const double push = 1.2 * plate.strip.sinkage * plate.strip.breadth * soil.grains.diameter() / plate.speed(soil);
+  return volumeOf(soil, plate) / soil.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0) *
+         (0.6 * kFall * std::max(1.0, lifts) + push);
+}
+
+double shearCost(const studies::Soil& soil, const studies::ShearCell& cell, double load) {
+  const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / load);
+  return cell.length * cell.width * cell.depth * (2 * kFall + unit * (kPressed + cell.strain / cell.inertialNumber));
+}
+
+double reposeCost(const studies::Soil& soil, const ReposeTest& test) {
+  constexpr double kStages = 30;
+  const double held = kStages * test.stage * std::sqrt(soil.grains.diameter() / 9.81);
+  return test.length * test.width * test.depth * (2 * kFall + held);
+}
+
+void addTests(TestPlan& plan) {
+  const PlanOptions& o = plan.options;
+  const auto add = [&](TestKind kind, const std::string& what, double load, int seed, double cost) {
+    plan.tests.push_back({fmt::format("{}{}_seed{}", o.coarse ? "coarse_" : "", what, seed), kind, load, seed, cost});
+  };
+  for (int seed = 1; seed <= std::max({o.seeds, o.largeSeeds, o.reposeSeeds}); ++seed) {
+    if (seed <= o.seeds) {
+      add(TestKind::small, "small", 0, seed, plateCost(plan.grains, plan.small));
+      for (const double load : o.loads)
+        add(TestKind::shear, fmt::format("shear{:g}kPa", 1e-3 * load), load, seed,
+            shearCost(plan.grains, plan.cell, load));
+    }
+    if (seed <= o.reposeSeeds) add(TestKind::repose, "repose", 0, seed, reposeCost(plan.grains, plan.repose));
+    if (seed <= o.largeSeeds) add(TestKind::large, "large", 0, seed, plateCost(plan.grains, plan.large));
+  }
+  for (int seed = 1; o.wide && seed <= o.seeds; ++seed)
+    add(TestKind::wide, "wide", 0, seed, plateCost(plan.grains, plan.wide));
+}
+
+/// Between periodic boundaries no grain may touch two images of another.
+void checkBeds(const TestPlan& plan) {
+  const double least = 3.5 * (1 + plan.soil.spread), d = 2 * plan.soil.grainRadius;
+  const PlanOptions& o = plan.options;
+  if (o.thickness < least)
+    throw base::InputError(fmt::format("--thickness {:g} [d] is too little: the largest grains need {:.3g} d between "
+                                       "periodic boundaries",
+                                       o.thickness, least));
+  if (o.bin * o.plateGrains < least)
+    throw base::InputError(fmt::format("--plate-grains {:g} [d]: the bin is {:g} d wide, where the largest grains need "
+                                       "{:.3g} d; give more",
+                                       o.plateGrains, o.bin * o.plateGrains, least));
+  const double most = (o.depth * o.plateGrains - 1 - plan.soil.spread) / o.plateGrains;
+  if (plan.small.strip.sinkage > most)
+    throw base::InputError(fmt::format("--plate-grains {:g} [d]: the plate would come within a grain of {:g} m of the "
+                                       "floor; give more",
+                                       o.plateGrains, d));
+}
+
+} // namespace
+
+PlanOptions coarsePlan() {
+  PlanOptions o;
+  o.coarse = true;
+  o.plateGrains = 8, o.bin = 4, o.depth = 1.5, o.thickness = 6, o.gradedThickness = 9;
+  o.inertialNumber = 5e-3, o.shearInertialNumber = 4e-3, o.shearStrain = 0.3;
+  o.seeds = 3, o.largeSeeds = 3, o.reposeSeeds = 2, o.wide = false;
+  return o;
+}
+
+const PlateSinkage& TestPlan::plate(TestKind kind) const {
+  return kind == TestKind::large ? large : kind == TestKind::wide ? wide : small;
+}
+
+double TestPlan::breadth(TestKind kind) const { return plate(kind).strip.breadth * grains.grains.diameter(); }
+
+TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
+  TestPlan plan;
+  plan.options = options, plan.soil = soil;
+  plan.grains.grains.radius = soil.grainRadius, plan.grains.grains.density = soil.density;
+  plan.grains.grains.friction = soil.friction, plan.grains.grains.law = soil.law;
+  plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
+  plan.grains.impactSpeed = impactLikePressure(
+      soil, std::max(options.mostPressure, *std::max_element(options.loads.begin(), options.loads.end())));
+  studies::PlateTest& small = plan.small.strip;
+  small.breadth = options.plateGrains, small.bin = options.bin, small.depth = options.depth;
+  small.thickness = options.thickness, small.inertialNumber = options.inertialNumber;
+  plan.small.mostPressure = options.mostPressure;
+  plan.wide = plan.large = plan.small;
+  plan.wide.strip.bin *= 2;
+  plan.large.strip.breadth *= options.plateRatio;
+  // Grains of other sizes need a law whose stiffness grows with them as that of a solid does.
+  if (soil.young > 0) {
+    plan.large.strip.fineDepth = kFineDepth, plan.large.strip.coarsening = kCoarsening;
+    plan.large.strip.thickness = options.gradedThickness;
+  }
+  const double d = 2 * soil.grainRadius;
+  plan.cell.length = kCellLength, plan.cell.width = kCellWidth;
+  plan.cell.depth = std::max(kCellHeight, options.shearHeight / d);
+  plan.cell.inertialNumber = options.shearInertialNumber, plan.cell.strain = options.shearStrain;
+  plan.cell.core = soil.isPlain;
+  checkBeds(plan);
+  addTests(plan);
+  return plan;
+}
+
+nlohmann::ordered_json TestPlan::recipe() const {
+  return {{"test", "soil"},
+          {"soil", soil.name},
+          {"care", care()},
+          {"law", soil.law},
+          {"density_kg_m3", soil.density},
+          {"friction", soil.friction},
+          {"grain_radius_m", soil.grainRadius},
+          {"radius_spread", soil.spread},
+          {"porosity", soil.porosity ? nlohmann::ordered_json(*soil.porosity) : nlohmann::ordered_json(nullptr)},
+          {"plate_grains", options.plateGrains},
+          {"plate_ratio", options.plateRatio},
+          {"bin", options.bin},
+          {"depth", options.depth},
+          {"thickness_d", options.thickness},
+          {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
+          {"most_pressure_Pa", options.mostPressure},
+          {"inertial_number", options.inertialNumber},
+          {"shear_height_d", cell.depth},
+          {"shear_strain", options.shearStrain},
+          {"shear_inertial_number", options.shearInertialNumber}};
+}
+
+studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
+                      const base::Exec& exec, const studies::PlateProgress& tell) {
+  if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
+  if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
+  tell(0, "shearing");
+  return studies::shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec);
+}
+
+ShearCurve shearCurve(const studies::Table& run, double diameter) {
+  ShearCurve curve;
+  curve.shear = run.values("shear stress [Pa]"), curve.normal = run.values("normal stress [Pa]");
+  const double height = run.values("height [d]").front() * diameter;
+  for (const double strain : run.values("strain [-]")) curve.displacement.push_back(strain * height);
+  return curve;
+}
+
+} // namespace grouser::bevameter

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/bevameter/plate_sinkage.hpp"
+#include "runs/bevameter/repose.hpp"
+#include "runs/bevameter/shear_strength.hpp"
+#include "runs/bevameter/tested_soil.hpp"
+#include "runs/studies/shear_cell.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+/// Which tests a bevameter does, with grains of which size.
+namespace grouser::bevameter {
+
+/// The track that pressures and breadths are meant for: pads 0.28 m broad, 47.5 kPa in the mean.
+inline constexpr double kTrackBreadth = 0.28, kTrackPressure = 47.5e3; ///< [m], [Pa]
+
+/// What a user may choose; the values are those of full care.
+struct PlanOptions {
+  bool coarse = false;                                        ///< --quick
+  double plateGrains = 20;                                    ///< [d] breadth of the small plate
+  double plateRatio = 3;                                      ///< breadth of the large one over that
+  double bin = 5, depth = 2;                                  ///< [breadths] between the boundaries, and of the bed
+  double thickness = 12;                                      ///< [d] of beds along the strips
+  double gradedThickness = 16;                                ///< [d] of graded beds
+  double inertialNumber = 1.8e-3, shearInertialNumber = 8e-4; ///< [-]
+  double shearStrain = 0.4;                                   ///< [-]
+  double shearHeight = 0.14;                                  ///< [m] of a sheared sample, at least ten grains
+  std::vector<double> loads = {10e3, 25e3, 50e3, 100e3};      ///< [Pa]
+  double mostPressure = 100e3;                                ///< [Pa]
+  int seeds = 8, largeSeeds = 3;
+  int reposeSeeds = 8;
+  bool wide = true; ///< the small plate on a bin of twice the width, too
+};
+/// What --quick takes instead.
+PlanOptions coarsePlan();
+
+enum class TestKind { small, large, wide, shear, repose };
+
+/// One test of the plan: a piece of its own.
+struct PlannedTest {
+  std::string name; ///< "small_seed1", "shear25kPa_seed3"; in coarse plans with "coarse_" before it
+  TestKind kind{};
+  double load = 0; ///< [Pa] of shear tests
+  int seed = 0;
+  double cost = 0; ///< grains times simulated time, for the time left only
+};
+
+struct TestPlan {
+  PlanOptions options;
+  TestedSoil soil;
+  studies::Soil grains; ///< preparationFriction is found by preparationFriction()
+  PlateSinkage small, large, wide;
+  studies::ShearCell cell;
+  ReposeTest repose;
+  std::vector<PlannedTest> tests; ///< seed by seed
+
+  const PlateSinkage& plate(TestKind kind) const;
+  double breadth(TestKind kind) const; ///< [m]
+  /// All that the tests depend on.
+  nlohmann::ordered_json recipe() const;
+  std::string care() const { return options.coarse ? "coarse" : "full"; }
+};
+/// Throws InputError where a bed cannot be.
+TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);
+
+/// Does a test. `folder`: for files on the way.
+studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
+                      const base::Exec& exec, const studies::PlateProgress& tell);
+
+/// The curve of a shear test.
+ShearCurve shearCurve(const studies::Table& run, double diameter);
+
+} // namespace grouser::bevameter

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/bevameter/pressure_sinkage.hpp"
+#include "runs/studies/plate_test.hpp"
+
+/// A rough strip pushed into a bed to a pressure or a sinkage, whichever comes first, lifted until it carries nothing,
+/// and pushed down again.
+namespace grouser::bevameter {
+
+struct PlateSinkage {
+  studies::PlateTest strip;
+  double mostPressure = 100e3; ///< [Pa] at which loading ends, if strip.sinkage does not come first
+  double lift = 12;            ///< [d] thickness in which beds are rained, alike for all breadths
+  double pace = 20e3;          ///< [Pa] pressure that strip.inertialNumber is meant at
+
+  double speed(const studies::Soil& soil) const; ///< [m/s]
+  studies::BedPreparation preparation(const studies::Soil& soil) const;
+};
+
+/// Columns of a run's table; from "porosity" on the same in all rows. Phases: 0 loading, 1 unloading, 2 reloading.
+inline const std::vector<std::string> kSinkageColumns = {
+    "phase",       "sinkage [m]",         "pressure [Pa]", "porosity [-]",         "grains",
+    "bed's steps", "bed's wall time [s]", "plate's steps", "plate's wall time [s]"};
+
+/// Prepares a bed and does all three. Sinkage counts from the mean surface of the bed. `folder`: for files on the way;
+/// its bed.txt is the bed, which is taken from there where an earlier call has left it.
+studies::Table pushStrip(const studies::Soil& soil, const PlateSinkage& test, std::int64_t seed,
+                         const std::filesystem::path& folder, const base::Exec& exec,
+                         const studies::PlateProgress& tell);
+
+/// The loading part of a run.
+SinkageCurve loadingCurve(const studies::Table& run);
+
+/// What unloading and reloading say of one run.
+struct Unloading {
+  double from = 0;      ///< [Pa] pressure where it begins
+  double stiffness = 0; ///< [Pa/m] k_u: slope of the pressure between 80 % and 20 % of that, by least squares
+  double reloading = 0; ///< [Pa/m] the same of the reloading
+};
+/// No numbers where a part has fewer than three points.
+Unloading unloadingOf(const studies::Table& run);
+
+} // namespace grouser::bevameter

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/bevameter/repose.hpp"
+
+#include "base/math.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/studies/common.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace grouser::bevameter {
+
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kLift = 12;    // [d] as the plates' beds
+constexpr double kImpact = 0.5; // [m/s] of grains that flow, for the step of Hertz' contacts
+
+/// A bed whose gravity turns.
+class Slope {
+public:
+  Slope(const studies::Soil& soil, const studies::BedPreparation& bed, std::int64_t seed,
+        const std::filesystem::path& folder, const base::Exec& exec)
+      : exec_(exec) {
+    const std::string text = soil.scene(1, seed, soil.grains.friction, {0, 0, -kGravity},
+                                        bed.size.run() + fmt::format("impact_speed = {}\n", kImpact)) +
+                             studies::floorSections(soil, bed, seed) +
+                             "[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n";
+    setup_ = setup::simulationSetup(setup::parseScene(text, folder / "tilt.toml"));
+    simulation_ = std::make_unique<simulation::Simulation>(setup_, exec_, [](double, double) {});
+    for (const studies::BedGrain& g : studies::grainsOf(*simulation_, bed.size))
+      mass_ += soil.grains.density * 4 * base::kPi / 3 * g.radius * g.radius * g.radius;
+  }
+
+  /// Holds a tilt [deg] for `time` [s]; returns the root mean square speed at its end [m/s].
+  double hold(double tilt, double time) {
+    const double angle = tilt * base::kPi / 180;
+    const base::Vec3d gravity{kGravity * base::sin(angle), 0, -kGravity * base::cos(angle)};
+    const simulation::SimulationState state = simulation_->save();
+    setup_.gravity = gravity;
+    setup_.ground.grains->model.gravity = gravity;
+    simulation_.reset();
+    simulation_ = std::make_unique<simulation::Simulation>(setup_, exec_, state);
+    const std::int64_t until = simulation_->steps() + std::llround(time / simulation_->timeStep());
+    while (simulation_->steps() < until) {
+      studies::stopStudyIfAsked();
+      simulation_->advance(std::min<std::int64_t>(until - simulation_->steps(), 2000));
+    }
+    return std::sqrt(2 * simulation_->ground().grains->ledger().kinetic / mass_);
+  }
+
+private:
+  base::Exec exec_;
+  double mass_ = 0; ///< [kg] with the floor's grains, which rest
+  setup::SimulationSetup setup_;
+  std::unique_ptr<simulation::Simulation> simulation_;
+};
+
+} // namespace
+
+studies::Table tiltBed(const studies::Soil& soil, const ReposeTest& test, std::int64_t seed,
+                       const std::filesystem::path& folder, const base::Exec& exec,
+                       const studies::PlateProgress& tell) {
+  const double d = soil.grains.diameter();
+  studies::BedPreparation bed;
+  bed.size = {test.length * d, test.width * d, test.depth * d};
+  bed.lift = kLift * d;
+  const studies::PreparedBed prepared =
+      studies::keptBed(soil, bed, seed, folder, exec, [&](const std::string& phase) { tell(0, phase); });
+  const double surface = studies::surfaceHeight(prepared.grains, bed.size, d);
+  const double off = studies::PlateTest::kOffEnds * d;
+  const double porosity = 1 - studies::solidFraction(prepared.grains, bed.size, off, surface - off);
+  Slope slope(soil, bed, seed, folder, exec);
+  const double time = test.stage * std::sqrt(d / kGravity), unit = std::sqrt(kGravity * d);
+  studies::Table table;
+  table.names = kReposeColumns;
+  bool flowing = false;
+  for (double tilt = test.from; tilt <= test.most && tilt > 0; tilt += flowing ? -test.down : test.up) {
+    const double speed = slope.hold(tilt, time) / unit;
+    table.rows.push_back({tilt, speed, porosity});
+    tell(std::min(0.9, 0.3 + 0.6 * tilt / test.most), flowing ? "tilting back" : "tilting");
+    flowing = flowing || speed > test.flows;
+    if (flowing && speed < test.rests) break;
+  }
+  return table;
+}
+
+ReposeAngles reposeAngles(const studies::Table& run, const ReposeTest& test) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  ReposeAngles angles{kNone, kNone};
+  for (const std::vector<double>& row : run.rows) {
+    if (std::isnan(angles.starts) && row[1] > test.flows) angles.starts = row[0];
+    if (!std::isnan(angles.starts) && row[1] < test.rests) angles.repose = row[0];
+  }
+  return angles;
+}
+
+} // namespace grouser::bevameter

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/bevameter/results.hpp"
+
+#include "runs/bevameter/resampling.hpp"
+#include "runs/studies/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::bevameter {
+
+namespace {
+
+using studies::Table;
+using support::Estimate;
+
+constexpr double kFitFromGrains = 0.25; // [d] sinkage from which on points count
+constexpr double kFitFromShare = 0.2;   // of the least sinkage that a plate comes to, if that is less
+constexpr double kCompareFrom = 0.25;   // of the sinkage that two bins have in common: compared from here on
+
+/// Runs of one plate as their fits want them.
+PlateTests plateTests(const TestPlan& plan, const std::vector<Table>& runs, TestKind kind) {
+  PlateTests tests{plan.breadth(kind), {}};
+  for (const Table& run : runs) tests.curves.push_back(loadingCurve(run));
+  return tests;
+}
+
+std::vector<double> firstOf(const std::vector<Table>& runs, const std::string& column) {
+  std::vector<double> values;
+  for (const Table& run : runs) values.push_back(run.rows.front()[run.column(column)]);
+  return values;
+}
+
+double meanOf(const std::vector<double>& values) { return studies::meanOf(values).mean; }
+
+TestCosts costsOf(const std::string& name, const std::vector<Table>& runs) {
+  TestCosts c;
+  c.name = name, c.tests = static_cast<int>(runs.size());
+  const bool isPlate = !runs.empty() && runs.front().names == kSinkageColumns;
+  const Estimate porosity = studies::interval95(firstOf(runs, "porosity [-]"));
+  c.porosity = porosity.value, c.porosityHalfWidth = porosity.halfWidth;
+  if (!isPlate) return c;
+  c.grains = meanOf(firstOf(runs, "grains"));
+  c.steps = meanOf(firstOf(runs, "bed's steps")) + meanOf(firstOf(runs, "plate's steps"));
+  c.seconds = meanOf(firstOf(runs, "bed's wall time [s]")) + meanOf(firstOf(runs, "plate's wall time [s]"));
+  return c;
+}
+
+void addUnloading(SoilResults& r, std::size_t i, const std::vector<Table>& runs) {
+  std::vector<double> stiffness, reloading, from;
+  for (const Table& run : runs) {
+    const Unloading u = unloadingOf(run);
+    if (std::isfinite(u.stiffness)) stiffness.push_back(1e-3 * u.stiffness);
+    if (std::isfinite(u.reloading)) reloading.push_back(1e-3 * u.reloading);
+    from.push_back(1e-3 * u.from);
+  }
+  const auto over = [](const std::vector<double>& values) {
+    return values.empty() ? Estimate{std::nan(""), INFINITY} : studies::interval95(values);
+  };
+  r.unloading[i] = over(stiffness), r.reloading[i] = over(reloading), r.unloadedFrom[i] = over(from);
+}
+
+/// Mean pressure of a loading between two sinkages.
+double pressureBetween(const SinkageCurve& curve, double from, double to) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
+    if (curve.sinkage[i] > from && curve.sinkage[i] <= to) sum += curve.pressure[i], ++count;
+  return sum / count;
+}
+
+/// The small plate on a bin of twice the width against the other, over the sinkages that all of them reach.
+std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide) {
+  if (small.curves.size() < 2 || wide.curves.size() < 2) return {};
+  double common = INFINITY;
+  for (const PlateTests* tests : {&small, &wide})
+    for (const SinkageCurve& curve : tests->curves) common = std::min(common, curve.sinkage.back());
+  std::vector<double> a, b;
+  for (const SinkageCurve& c : small.curves) a.push_back(pressureBetween(c, kCompareFrom * common, common));
+  for (const SinkageCurve& c : wide.curves) b.push_back(pressureBetween(c, kCompareFrom * common, common));
+  return studies::relativeDifference(a, b);
+}
+
+void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vector<Table>, 2>& runs) {
+  const std::array<PlateTests, 2> plates{plateTests(plan, runs[0], TestKind::small),
+                                         plateTests(plan, runs[1], TestKind::large)};
+  const double from = fitFrom(plan.grains.grains.diameter(), plates);
+  const auto statistic = [&](const TestCounts& counts) {
+    const BekkerFit f = fitBekker(plates, from, counts);
+    return std::vector<double>{
+        f.n,           1e-3 * f.kc,  1e-3 * f.kphi, 1e-3 * f.k[0],
+        1e-3 * f.k[1], f.ownN[0],    f.ownN[1],     1e3 * f.sinkageAt(kTrackPressure, kTrackBreadth),
+        f.goodness[0], f.goodness[1]};
+  };
+  const std::vector<Estimate> e =
+      intervalsOfTests({static_cast<int>(runs[0].size()), static_cast<int>(runs[1].size())}, statistic);
+  r.measured[Quantity::exponent] = e[0], r.measured[Quantity::cohesionModulus] = e[1];
+  r.measured[Quantity::frictionModulus] = e[2];
+  r.k = {e[3], e[4]}, r.ownN = {e[5], e[6]}, r.sinkage = e[7], r.goodness = {e[8], e[9]};
+}
+
+void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests) {
+  const auto statistic = [&](const TestCounts& counts) {
+    const ShearFit f = fitShear(tests, counts[0]);
+    return std::vector<double>{
+        1e-3 * f.cohesion, f.angle, 1e3 * f.shearModulus, 1e-3 * f.peakCohesion, f.peakAngle, f.hump, f.misfit};
+  };
+  const std::vector<Estimate> e = intervalsOfTests({static_cast<int>(tests.size())}, statistic);
+  r.measured[Quantity::cohesion] = e[0], r.measured[Quantity::frictionAngle] = e[1];
+  r.measured[Quantity::shearModulus] = e[2];
+  r.peakCohesion = e[3], r.peakAngle = e[4], r.hump = e[5], r.misfit = e[6];
+}
+
+void addRepose(SoilResults& r, const TestPlan& plan, const std::vector<Table>& runs) {
+  std::vector<double> starts, repose;
+  for (const Table& run : runs) {
+    const ReposeAngles a = reposeAngles(run, plan.repose);
+    if (std::isfinite(a.starts)) starts.push_back(a.starts);
+    if (std::isfinite(a.repose)) repose.push_back(a.repose);
+  }
+  r.reposeTests = static_cast<int>(repose.size());
+  if (starts.empty() || repose.empty()) return; // it holds at any tilt
+  r.stability = studies::interval95(starts), r.measured[Quantity::repose] = studies::interval95(repose);
+}
+
+/// What a table of soils is good for: a share of the value, or so much of it.
+double toleranceOf(Quantity quantity, double value) {
+  switch (quantity) {
+  case Quantity::exponent:
+    return 0.15 * std::fabs(value);
+  case Quantity::cohesionModulus:
+  case Quantity::frictionModulus:
+    return 0.40 * std::fabs(value);
+  case Quantity::cohesion:
+    return 1;
+  case Quantity::shearModulus:
+    return 0.30 * std::fabs(value);
+  default:
+    return 2;
+  }
+}
+
+} // namespace
+
+double fitFrom(double diameter, const std::array<PlateTests, 2>& plates) {
+  double from = kFitFromGrains * diameter;
+  for (const PlateTests& plate : plates)
+    for (const SinkageCurve& curve : plate.curves)
+      if (!curve.sinkage.empty()) from = std::min(from, kFitFromShare * curve.sinkage.back());
+  return from;
+}
+
+std::vector<Table> runsOf(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind) {
+  std::vector<Table> runs;
+  for (const PlannedTest& test : plan.tests)
+    if (test.kind == kind && pieces.has(test.name)) runs.push_back(pieces.read(test.name));
+  return runs;
+}
+
+std::vector<std::vector<ShearCurve>> shearTests(const TestPlan& plan, const studies::Pieces& pieces) {
+  std::map<int, std::vector<ShearCurve>> bySeed;
+  for (const PlannedTest& test : plan.tests)
+    if (test.kind == TestKind::shear && pieces.has(test.name))
+      bySeed[test.seed].push_back(shearCurve(pieces.read(test.name), plan.grains.grains.diameter()));
+  std::vector<std::vector<ShearCurve>> tests;
+  for (auto& [seed, curves] : bySeed)
+    if (curves.size() == plan.options.loads.size()) tests.push_back(std::move(curves));
+  return tests;
+}
+
+SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
+  SoilResults r;
+  const std::array<std::vector<Table>, 2> plates{runsOf(plan, pieces, TestKind::small),
+                                                 runsOf(plan, pieces, TestKind::large)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    r.plates[i] = static_cast<int>(plates[i].size());
+    if (plates[i].empty()) continue;
+    addUnloading(r, i, plates[i]);
+    r.costs.push_back(costsOf(i == 0 ? "small" : "large", plates[i]));
+  }
+  if (r.hasPlates()) addPlates(r, plan, plates);
+  if (const std::vector<Table> wide = runsOf(plan, pieces, TestKind::wide); !wide.empty()) {
+    r.wider = widerBin(plateTests(plan, plates[0], TestKind::small), plateTests(plan, wide, TestKind::wide));
+    r.costs.push_back(costsOf("wide", wide));
+  }
+  if (const auto tests = shearTests(plan, pieces); !tests.empty()) {
+    r.shearTests = static_cast<int>(tests.size());
+    addShear(r, tests);
+  }
+  if (const std::vector<Table> tilted = runsOf(plan, pieces, TestKind::repose); !tilted.empty()) {
+    r.costs.push_back(costsOf("repose", tilted));
+    addRepose(r, plan, tilted);
+  }
+  if (const std::vector<Table> sheared = runsOf(plan, pieces, TestKind::shear); !sheared.empty())
+    r.costs.push_back(costsOf("shear", sheared));
+  return r;
+}
+
+std::optional<PublishedSpan> publishedSpan(const TestedSoil& soil, Quantity quantity) {
+  std::optional<PublishedSpan> span;
+  int values = 0;
+  bool hasSpan = false;
+  for (const PublishedValue& p : soil.published) {
+    if (p.quantity != quantity) continue;
+    const double low = p.low.value_or(p.value), high = p.high.value_or(p.value);
+    hasSpan = hasSpan || p.low || p.high;
+    span = span ? PublishedSpan{std::min(span->low, low), std::max(span->high, high)} : PublishedSpan{low, high};
+    ++values;
+  }
+  if (span && !hasSpan && (values < 2 || span->low == span->high)) {
+    const double tolerance = toleranceOf(quantity, span->low);
+    span = PublishedSpan{span->low - tolerance, span->high + tolerance, true};
+  }
+  return span;
+}
+
+std::string verdictOf(const support::Estimate& measured, const PublishedSpan& span) {
+  const double low = measured.value - measured.halfWidth, high = measured.value + measured.halfWidth;
+  if (!std::isfinite(measured.value)) return "-";
+  if (measured.value >= span.low && measured.value <= span.high)
+    return low >= span.low && high <= span.high ? "inside" : "inside, interval is wider";
+  return high >= span.low && low <= span.high ? "outside, interval reaches in" : "outside";
+}
+
+} // namespace grouser::bevameter

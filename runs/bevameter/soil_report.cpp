@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/bevameter/soil_report.hpp"
+
+#include "runs/output/plots.hpp"
+#include "runs/studies/estimate.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/csv_cell.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grouser::bevameter {
+
+namespace {
+
+using support::Estimate;
+
+std::string spanText(const PublishedSpan& span) {
+  return fmt::format("{:.4g} to {:.4g}{}", span.low, span.high, span.isTolerance ? " (one source, widened)" : "");
+}
+
+/// A number as JSON has it: null where it is none.
+nlohmann::ordered_json number(double x) {
+  return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json estimateJson(const Estimate& e, const std::string& unit) {
+  return {{"value", number(e.value)}, {"half_width", number(e.halfWidth)}, {"unit", unit}};
+}
+
+nlohmann::ordered_json publishedJson(const TestedSoil& soil, Quantity quantity) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const PublishedValue& p : soil.published) {
+    if (p.quantity != quantity) continue;
+    nlohmann::ordered_json one{{"value", p.value}, {"source", p.source}};
+    if (p.low) one["low"] = *p.low;
+    if (p.high) one["high"] = *p.high;
+    all.push_back(one);
+  }
+  return all;
+}
+
+/// Sinkage that Bekker's form gives under the track with the numbers of each source that has all three [mm].
+std::vector<PublishedValue> publishedSinkages(const TestedSoil& soil) {
+  std::vector<PublishedValue> found;
+  for (const PublishedValue& n : soil.published) {
+    if (n.quantity != Quantity::exponent) continue;
+    BekkerFit fit;
+    fit.n = n.value;
+    int parts = 0;
+    for (const PublishedValue& p : soil.published) {
+      if (p.source != n.source) continue;
+      if (p.quantity == Quantity::cohesionModulus) fit.kc = 1e3 * p.value, ++parts;
+      if (p.quantity == Quantity::frictionModulus) fit.kphi = 1e3 * p.value, ++parts;
+    }
+    if (parts == 2) found.push_back({{}, 1e3 * fit.sinkageAt(kTrackPressure, kTrackBreadth), {}, {}, n.source});
+  }
+  return found;
+}
+
+std::string row(const std::string& name, const Estimate& e, const std::string& unit, const std::string& rest) {
+  return fmt::format("  {:<8} {:>20} {:<11} {}\n", name, studies::valueText(e), unit, rest);
+}
+
+bool isPlate(TestKind kind) { return kind != TestKind::shear && kind != TestKind::repose; }
+
+std::string pad() { return std::string(43, ' '); }
+
+} // namespace
+
+std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
+  std::string text =
+      fmt::format("\n{}soil {}, +- half of the 95 % interval\n  {:<8} {:>20} {:<11} {}\n",
+                  plan.options.coarse ? "coarse: " : "", plan.soil.name, "", "measured", "", "published");
+  for (const Quantity q : kQuantities) {
+    const auto measured = r.measured.find(q);
+    if (measured == r.measured.end()) continue;
+    const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
+    text += row(symbolOf(q), measured->second, unitOf(q),
+                span ? spanText(*span) + ": " + verdictOf(measured->second, *span) : "-");
+    for (const PublishedValue& p : plan.soil.published)
+      if (p.quantity == q) text += pad() + fmt::format("{:g}  {}\n", p.value, p.source);
+  }
+  if (r.hasPlates()) {
+    text += row("z", r.sinkage, "mm",
+                fmt::format("by Bekker's form at {:g} kPa under {:g} m", 1e-3 * kTrackPressure, kTrackBreadth));
+    for (const PublishedValue& p : publishedSinkages(plan.soil))
+      text += pad() + fmt::format("{:.3g}  {}\n", p.value, p.source);
+  }
+  return text;
+}
+
+std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
+  std::string text;
+  const double d = plan.grains.grains.diameter();
+  text += fmt::format("\n{}grains of {:g} mm; plates of {:g} and {:g} grains\n", plan.options.coarse ? "coarse: " : "",
+                      1e3 * d, plan.small.strip.breadth, plan.large.strip.breadth);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (r.plates[i] == 0) continue;
+    const double b = plan.breadth(i == 0 ? TestKind::small : TestKind::large);
+    text += fmt::format("  plate {:.3g} m, {} seeds: ", b, r.plates[i]);
+    if (r.hasPlates())
+      text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
+                          studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
+    text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded\n", studies::valueText(r.unloading[i]),
+                        studies::valueText(r.unloadedFrom[i]), studies::valueText(r.reloading[i]));
+  }
+  if (r.wider)
+    text +=
+        fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
+                    100 * r.wider->halfWidth, studies::verdictText(studies::judge(*r.wider, 0.05)));
+  if (r.hasShear())
+    text += fmt::format("  shear, {} seeds, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
+                        "misfit of 1 - exp(-j/K) {}\n",
+                        r.shearTests, plan.cell.depth * d, studies::valueText(r.peakAngle),
+                        studies::valueText(r.peakCohesion), studies::valueText(r.hump), studies::valueText(r.misfit));
+  if (r.reposeTests > 0)
+    text += fmt::format("  repose, {} seeds: a bed that is tilted begins to flow at {} deg\n", r.reposeTests,
+                        studies::valueText(r.stability));
+  for (const TestCosts& c : r.costs) {
+    text += fmt::format("  {:<6} {:>3} tests, porosity {}", c.name, c.tests,
+                        studies::plusMinus({c.porosity, c.porosityHalfWidth}, 4));
+    text += c.grains > 0 ? fmt::format(", {:.0f} grains, {:.0f} steps, {:.0f} s each\n", c.grains, c.steps, c.seconds)
+                         : std::string("\n");
+  }
+  return text;
+}
+
+std::string constantsCsv(const TestPlan& plan, const SoilResults& r) {
+  std::string text = "care,quantity,measured,half width,unit,published low,published high,verdict\n";
+  for (const auto& [q, e] : r.measured) {
+    const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
+    text += fmt::format("{},{},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), e.value, e.halfWidth, unitOf(q));
+    text += span ? fmt::format("{:.6g},{:.6g},{}\n", span->low, span->high, support::csvCell(verdictOf(e, *span)))
+                 : std::string(",,\n");
+  }
+  return text;
+}
+
+std::string platesCsv(const TestPlan& plan, const studies::Pieces& pieces) {
+  std::string text = "care,plate,breadth [m],seed,phase,sinkage [m],pressure [Pa]\n";
+  for (const PlannedTest& test : plan.tests) {
+    if (!isPlate(test.kind) || !pieces.has(test.name)) continue;
+    const char* plate = test.kind == TestKind::small ? "small" : test.kind == TestKind::large ? "large" : "wide";
+    for (const std::vector<double>& row : pieces.read(test.name).rows)
+      text += fmt::format("{},{},{:.6g},{},{:g},{:.6g},{:.6g}\n", plan.care(), plate, plan.breadth(test.kind),
+                          test.seed, row[0], row[1], row[2]);
+  }
+  return text;
+}
+
+std::string shearCsv(const TestPlan& plan, const studies::Pieces& pieces) {
+  std::string text = "care,load [Pa],seed,displacement [m],shear stress [Pa],normal stress [Pa]\n";
+  for (const PlannedTest& test : plan.tests) {
+    if (test.kind != TestKind::shear || !pieces.has(test.name)) continue;
+    const ShearCurve curve = shearCurve(pieces.read(test.name), plan.grains.grains.diameter());
+    for (std::size_t i = 0; i < curve.shear.size(); ++i)
+      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.6g}\n", plan.care(), test.load, test.seed, curve.displacement[i],
+                          curve.shear[i], curve.normal[i]);
+  }
+  return text;
+}
+
+nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, int missing) {
+  const support::BuildInfo build = support::buildInfo();
+  nlohmann::ordered_json json{{"soil", plan.soil.name}, {"title", plan.soil.title}, {"care", plan.care()}};
+  json["file"] = plan.soil.file.string();
+  json["grain_radius_m"] = plan.soil.grainRadius;
+  json["plate_over_grain"] = {plan.small.strip.breadth, plan.large.strip.breadth};
+  json["breadth_m"] = {plan.breadth(TestKind::small), plan.breadth(TestKind::large)};
+  json["seeds"] = {{"small", r.plates[0]}, {"large", r.plates[1]}, {"shear", r.shearTests}, {"repose", r.reposeTests}};
+  json["missing_tests"] = missing;
+  for (const auto& [q, e] : r.measured) {
+    nlohmann::ordered_json one = estimateJson(e, unitOf(q));
+    one["published"] = publishedJson(plan.soil, q);
+    if (const auto span = publishedSpan(plan.soil, q))
+      one["span"] = {span->low, span->high}, one["verdict"] = verdictOf(e, *span);
+    json["constants"][symbolOf(q)] = one;
+  }
+  if (r.hasPlates()) {
+    json["track_sinkage"] = estimateJson(r.sinkage, "mm");
+    for (std::size_t i = 0; i < 2; ++i)
+      json["plates"].push_back({{"k", estimateJson(r.k[i], "kN/m^(n+2)")},
+                                {"n_alone", estimateJson(r.ownN[i], "-")},
+                                {"goodness", estimateJson(r.goodness[i], "-")},
+                                {"k_u", estimateJson(r.unloading[i], "kN/m3")},
+                                {"k_reloading", estimateJson(r.reloading[i], "kN/m3")},
+                                {"unloaded_from", estimateJson(r.unloadedFrom[i], "kPa")}});
+  }
+  if (r.wider) json["wide_over_small_less_one"] = estimateJson(*r.wider, "-");
+  if (r.hasShear())
+    json["shear"] = {{"layer_m", plan.cell.depth * plan.grains.grains.diameter()},
+                     {"peak_phi", estimateJson(r.peakAngle, "deg")},
+                     {"peak_c", estimateJson(r.peakCohesion, "kPa")},
+                     {"peak_over_residual", estimateJson(r.hump, "-")},
+                     {"janosi_misfit", estimateJson(r.misfit, "-")}};
+  if (r.reposeTests > 0) json["flow_begins_at"] = estimateJson(r.stability, "deg");
+  for (const TestCosts& c : r.costs)
+    json["tests"].push_back({{"name", c.name},
+                             {"tests", c.tests},
+                             {"porosity", estimateJson({c.porosity, c.porosityHalfWidth}, "-")},
+                             {"grains", c.grains},
+                             {"steps", c.steps},
+                             {"seconds", c.seconds}});
+  json["recipe"] = plan.recipe();
+  json["machine"] = support::machineText();
+  json["version"] = build.version, json["commit"] = build.commit;
+  return json;
+}
+
+void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing) {
+  const SoilResults results = resultsOf(plan, pieces);
+  const std::string text = constantsTable(plan, results) + detailsTable(plan, results);
+  fmt::print("{}", text);
+  if (missing > 0) fmt::print("{} tests are missing: call again with --resume\n", missing);
+  const auto& folder = pieces.folder();
+  support::writeTextFile(folder / "soil.txt", text, "--out");
+  support::writeTextFile(folder / "constants.csv", constantsCsv(plan, results), "--out");
+  support::writeTextFile(folder / "plates.csv", platesCsv(plan, pieces), "--out");
+  support::writeTextFile(folder / "shear.csv", shearCsv(plan, pieces), "--out");
+  support::replaceTextFile(folder / "soil.json", resultsJson(plan, results, missing).dump(2) + "\n");
+  output::drawPicture("soil.py", {folder / "plates.csv", folder / "shear.csv", folder / "soil.json"},
+                      folder / "soil.png");
+  fmt::print("tables    {}\n", folder.string());
+}
+
+} // namespace grouser::bevameter

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/bevameter/results.hpp"
+
+/// What is printed and written of a soil's tests.
+namespace grouser::bevameter {
+
+/// The table of constants: measured, published, and whether the one lies in the other.
+std::string constantsTable(const TestPlan& plan, const SoilResults& results);
+/// Plates, unloading, curves of shear, costs.
+std::string detailsTable(const TestPlan& plan, const SoilResults& results);
+
+std::string constantsCsv(const TestPlan& plan, const SoilResults& results);
+std::string platesCsv(const TestPlan& plan, const studies::Pieces& pieces);
+std::string shearCsv(const TestPlan& plan, const studies::Pieces& pieces);
+nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& results, int missing);
+
+/// Prints the tables, writes soil.json, soil.txt, constants.csv, plates.csv and shear.csv, and draws.
+void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing);
+
+} // namespace grouser::bevameter

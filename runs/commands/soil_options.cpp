@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.hpp"
+#include "runs/bevameter/bevameter.hpp"
+#include "runs/bevameter/calibration.hpp"
+#include "runs/commands/command_entry.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <functional>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+namespace grouser::commands {
+
+namespace {
+
+using bevameter::PlanOptions;
+
+/// Options of the plan: one that the user gives keeps its value with --quick.
+class PlanKeys {
+public:
+  explicit PlanKeys(PlanOptions& plan) : plan_(plan) {}
+
+  template <class T> void add(CLI::App& app, const std::string& name, T PlanOptions::*member, CLI::Validator check,
+                              const std::string& help) {
+    const PlanOptions coarse = bevameter::coarsePlan();
+    std::string quick;
+    if constexpr (std::is_arithmetic_v<T>)
+      if (coarse.*member != plan_.*member) quick = fmt::format("; with --quick {}", coarse.*member);
+    CLI::Option* option =
+        app.add_option(name, plan_.*member, help + quick)->check(std::move(check))->capture_default_str();
+    given_.push_back([option, member](const PlanOptions& user, PlanOptions& taken) {
+      if (option->count() > 0) taken.*member = user.*member;
+    });
+  }
+  void takeQuick() {
+    PlanOptions taken = bevameter::coarsePlan();
+    for (const auto& given : given_) given(plan_, taken);
+    plan_ = taken;
+  }
+
+private:
+  PlanOptions& plan_;
+  std::vector<std::function<void(const PlanOptions&, PlanOptions&)>> given_;
+};
+
+void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
+  keys.add(soil, "--seeds", &PlanOptions::seeds, support::wholeNumber(1, 1000),
+           "beds of the small plate, and samples of each load");
+  keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000), "beds of the large plate");
+  keys.add(soil, "--repose-seeds", &PlanOptions::reposeSeeds, support::wholeNumber(0, 1000), "beds that are tilted");
+  keys.add(soil, "--plate-grains", &PlanOptions::plateGrains, support::between(4, 1000),
+           "breadth of the small plate [mean grain diameters]");
+  keys.add(soil, "--plate-ratio", &PlanOptions::plateRatio, support::between(1.2, 20),
+           "breadth of the large plate over that of the small one [-]");
+  keys.add(soil, "--bin", &PlanOptions::bin, support::between(2, 100), "width of a bed beside the plate [breadths]");
+  keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "of a bed [breadths]");
+  keys.add(soil, "--thickness", &PlanOptions::thickness, support::between(3.5, 1000),
+           "of a bed along the strip [mean grain diameters]");
+  keys.add(soil, "--pressure", &PlanOptions::mostPressure, support::between(1e3, 1e7),
+           "to which plates are pushed, unless they sink 0.3 breadths before [Pa]");
+  keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
+           "of the plates: speed/breadth d sqrt(density/pressure) [-]");
+  keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
+           "of the shear: rate d sqrt(density/stress) [-]");
+  keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
+           "to which layers are sheared [-]");
+  keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7), "on sheared layers [Pa]");
+  keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
+           "of the sheared layer, at least ten grains; K grows with it [m]");
+}
+
+void doSoil(const bevameter::SoilCommand& c, const std::string& targets) {
+  if (c.soil.empty() == targets.empty())
+    throw base::InputError("soil: give either a soil to test or --calibrate with a file of targets");
+  if (targets.empty())
+    bevameter::soilCommand(c);
+  else
+    bevameter::calibrateCommand({targets, c.grainRadius, c.place, c.pieces, c.jobs, c.plan});
+}
+
+} // namespace
+
+void addSoil(CLI::App& app, const Invocation&) {
+  const auto command = std::make_shared<bevameter::SoilCommand>();
+  bevameter::SoilCommand& c = *command;
+  const auto targets = std::make_shared<std::string>();
+  CLI::App* soil = app.add_subcommand(
+      "soil", "A soil's constants (Bekker, Mohr-Coulomb, Janosi) measured in a virtual bevameter, with intervals");
+  soil->add_option("soil", c.soil, "name of a soil, or a soil file that ends in .toml");
+  soil->add_option("--calibrate", *targets,
+                   "instead: a file of targets; finds contact parameters for wanted constants, and writes a soil file");
+  soil->add_option("--grain-radius", c.grainRadius,
+                   "mean radius of the grains tested [m]; stiffness and cohesion grow with it; default: the file's")
+      ->check(support::positive("a length in metres"));
+  const auto keys = std::make_shared<PlanKeys>(c.plan);
+  addPlanOptions(*soil, *keys);
+  studies::addPieceOptions(*soil, c.pieces);
+  soil->add_option("--jobs", c.jobs, "tests at the same time, each a process on its share of --threads")
+      ->check(support::wholeNumber(1, 256))
+      ->capture_default_str();
+  soil->add_flag("--quick", c.place.quick, "a coarse pass in minutes: small plates of few grains, pushed fast");
+  soil->add_option("--out,--output", c.place.folder,
+                   "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
+  soil->add_flag("--force", c.place.force, "overwrite what is in that folder");
+  soil->callback([command, keys, targets] {
+    if (command->place.quick) keys->takeQuick();
+    doSoil(*command, *targets);
+  });
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser soil` as a user calls it: tables, files, slices, and errors that leave nothing.
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace grouser::bevameter {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Soft grains of 20 mm: the fewest steps.
+constexpr const char* kSand = "version = 1\n[soil]\ntitle = \"a trial\"\n[material]\nstiffness = 2e4\nrestitution = "
+                              "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
+                              "value = 25\nunit = \"deg\"\nsource = \"a book\"\n";
+/// The smallest tests that are tests.
+constexpr const char* kSmall = " --quick --seeds 2 --large-seeds 2 --repose-seeds 0 --plate-grains 5 --plate-ratio 1.5 "
+                               "--thickness 4.5 --bin 3 --pressure 2000 --inertial-number 0.05 --shear-loads 2000 "
+                               "--shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
+
+class SoilCommandTest : public ProgramTest {};
+
+TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
+  put(folder_ / "sand.toml", kSand);
+  const std::string words = std::string("soil sand.toml --out results") + kSmall;
+  const Outcome part = call(words + " --part 2/3");
+  ASSERT_EQ(part.code, 0) << part.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "results" / "soil.json")) << "a part writes no tables";
+  const Outcome o = call(words + " --resume --jobs 2");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* word : {"coarse", "k_phi", "phi", "25  a book", "K", "porosity", "k_u"})
+    EXPECT_NE(o.out.find(word), std::string::npos) << word << "\n" << o.out;
+  const auto json = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
+  EXPECT_EQ(json.at("care"), "coarse");
+  EXPECT_EQ(json.at("missing_tests"), 0);
+  EXPECT_EQ(json.at("seeds").at("small"), 2);
+  EXPECT_EQ(json.at("grain_radius_m"), 0.01);
+  EXPECT_GT(json.at("constants").at("phi").at("value").get<double>(), 5);
+  EXPECT_LT(json.at("constants").at("phi").at("value").get<double>(), 50);
+  EXPECT_TRUE(json.at("constants").at("n").at("half_width").is_number());
+  EXPECT_EQ(json.at("constants").at("phi").at("published").at(0).at("source"), "a book");
+  for (const char* file : {"soil.txt", "constants.csv", "plates.csv", "shear.csv"}) {
+    const std::string text = contents(folder_ / "results" / file);
+    EXPECT_NE(text.find("coarse"), std::string::npos) << file;
+  }
+  const std::string before = contents(folder_ / "results" / "constants.csv");
+  const Outcome again = call(words + " --resume");
+  ASSERT_EQ(again.code, 0) << again.errors;
+  EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests, the same numbers";
+  EXPECT_EQ(call(words).code, 2) << "there are results in it";
+  const Outcome other = call(words + " --resume --grain-radius 0.012");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
+}
+
+TEST_F(SoilCommandTest, WrongWordsEndWithTwoAndWriteNothing) {
+  put(folder_ / "sand.toml", kSand);
+  put(folder_ / "wrong.toml", std::string(kSand) + "colour = 1\n");
+  const Outcome unknown = call("soil no_such_soil");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.error().find("no_such_soil"), std::string::npos) << unknown.errors;
+  const Outcome key = call("soil wrong.toml --quick");
+  EXPECT_EQ(key.code, 2);
+  EXPECT_NE(key.error().find("wrong.toml:15"), std::string::npos) << key.errors;
+  EXPECT_EQ(call("soil").code, 2);
+  EXPECT_EQ(call("soil sand.toml --calibrate sand.toml").code, 2);
+  EXPECT_EQ(call("soil sand.toml --quick --thickness 3.6").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(SoilCommandTest, TargetsThatCannotBeAreNamed) {
+  const std::string rest = "[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n";
+  const auto error = [&](const std::string& targets) {
+    put(folder_ / "targets.toml", "version = 1\n[targets]\n" + targets + rest);
+    const Outcome o = call("soil --calibrate targets.toml --quick");
+    EXPECT_EQ(o.code, 2) << targets;
+    return o.error();
+  };
+  EXPECT_NE(error("k = 3000\n").find("targets.toml:3"), std::string::npos);
+  EXPECT_NE(error("k_c = 10\nn = 1\n").find("k_phi"), std::string::npos);
+  EXPECT_NE(error("k_c = 10\nk_phi = 1000\n").find("targets.n"), std::string::npos);
+  EXPECT_NE(error("phy = 30\n").find("phi"), std::string::npos) << "the nearest";
+  EXPECT_NE(error("K = 12\n").find("targets"), std::string::npos) << "nothing to seek";
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+} // namespace
+} // namespace grouser::bevameter
