@@ -237,19 +237,20 @@ void removeTrials(const std::filesystem::path& folder) {
 
 std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
                          const std::string& command) {
-  std::string text = fmt::format("version = 1\n\n[soil]\ntitle = {}\ndescription = {}\n\n[material]\n",
-                                 base::toToml(soil.name), base::toToml(description));
+  std::string text =
+      fmt::format("version = 1\n\n[soil]\ntitle = {}\ndescription = {}\ncalibrated = true\n\n[material]\n",
+                  base::toToml(soil.name), base::toToml(description));
   for (const auto& [key, value] : soil.keys) text += key + " = " + value + "\n";
   text += fmt::format("\n[bed]\ngrain_radius = {}\nradius_spread = {}\n", base::toToml(soil.grainRadius),
                       base::toToml(soil.spread));
   if (soil.porosity) text += "porosity = " + base::toToml(*soil.porosity) + "\n";
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
-    if (!std::isfinite(e.value)) continue;
-    text += fmt::format("\n[[reached]]\nquantity = \"{}\"\nvalue = {}\n", symbolOf(q), base::toToml(e.value));
-    if (std::isfinite(e.halfWidth)) text += "half_width = " + base::toToml(e.halfWidth) + "\n";
-    text += fmt::format("unit = \"{}\"\ngrain_radius = {}\ncommand = {}\n", unitOf(q), base::toToml(soil.grainRadius),
-                        base::toToml(command));
+    if (!std::isfinite(e.value) || !std::isfinite(e.halfWidth)) continue;
+    text +=
+        fmt::format("\n[[reached]]\nquantity = \"{}\"\nvalue = {}\nhalf_width = {}\nunit = \"{}\"\n", symbolOf(q),
+                    base::toToml(inSoilFile(q, e.value)), base::toToml(inSoilFile(q, e.halfWidth)), soilFileUnitOf(q));
+    text += fmt::format("grain_radius = {}\ncommand = {}\n", base::toToml(soil.grainRadius), base::toToml(command));
   }
   return text;
 }

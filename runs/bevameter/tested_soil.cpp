@@ -3,7 +3,7 @@
 
 #include "base/table.hpp"
 #include "runs/scene/scene_file.hpp"
-#include "runs/support/locations.hpp"
+#include "runs/scene/soil.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,48 +20,25 @@ namespace {
 struct QuantityName {
   Quantity quantity;
   const char *symbol, *unit;
-  const char* otherUnit; ///< that a file may also use
-  double factor;         ///< from the other unit
+  double perUnit; ///< of `unit` in the SI unit of soils' files
 };
-constexpr std::array kNames = {QuantityName{Quantity::exponent, "n", "-", "", 1},
-                               QuantityName{Quantity::cohesionModulus, "k_c", "kN/m^(n+1)", "N/m^(n+1)", 1e-3},
-                               QuantityName{Quantity::frictionModulus, "k_phi", "kN/m^(n+2)", "N/m^(n+2)", 1e-3},
-                               QuantityName{Quantity::cohesion, "c", "kPa", "Pa", 1e-3},
-                               QuantityName{Quantity::frictionAngle, "phi", "deg", "rad", 57.29577951308232},
-                               QuantityName{Quantity::shearModulus, "K", "mm", "m", 1e3},
-                               QuantityName{Quantity::repose, "repose", "deg", "rad", 57.29577951308232}};
+constexpr std::array kNames = {QuantityName{Quantity::exponent, "n", "-", 1},
+                               QuantityName{Quantity::cohesionModulus, "k_c", "kN/m^(n+1)", 1e-3},
+                               QuantityName{Quantity::frictionModulus, "k_phi", "kN/m^(n+2)", 1e-3},
+                               QuantityName{Quantity::cohesion, "c", "kPa", 1e-3},
+                               QuantityName{Quantity::frictionAngle, "phi", "deg", 1},
+                               QuantityName{Quantity::shearModulus, "K", "mm", 1e3},
+                               QuantityName{Quantity::repose, "repose", "deg", 1}};
 
 const QuantityName& nameOf(Quantity quantity) {
   return *std::find_if(kNames.begin(), kNames.end(), [&](const QuantityName& n) { return n.quantity == quantity; });
 }
-
-struct SoilText {
-  std::string title, description;
-};
 
 struct BedKeys {
   double grainRadius = 0, spread = 0.25;
   std::optional<double> porosity;
   std::optional<std::array<double, 2>> calibrated;
 };
-
-struct PublishedKeys {
-  std::string quantity, unit, source;
-  double value = 0;
-  std::optional<double> low, high;
-};
-
-struct ReachedKeys {
-  std::string quantity, unit, command;
-  double value = 0, halfWidth = 0, grainRadius = 0;
-};
-
-base::Table<SoilText> soilTable() {
-  base::Table<SoilText> t("soil", "What it is");
-  t.add("title", &SoilText::title, "", "in a few words");
-  t.add("description", &SoilText::description, "", "in a few lines");
-  return t;
-}
 
 base::Table<BedKeys> bedTable() {
   base::Table<BedKeys> t("bed", "Its grains as they lie");
@@ -77,55 +54,21 @@ base::Table<BedKeys> bedTable() {
   return t;
 }
 
-base::Table<PublishedKeys> publishedTable() {
-  base::Table<PublishedKeys> t("published", "A number of a source");
-  t.add("quantity", &PublishedKeys::quantity, "", "n, k_c, k_phi, c, phi, K or repose").required();
-  t.add("value", &PublishedKeys::value, "", "in `unit`").required();
-  t.add("unit", &PublishedKeys::unit, "", "of the value").required();
-  t.add("source", &PublishedKeys::source, "", "where it stands").required();
-  t.add("low", &PublishedKeys::low, "", "of the span");
-  t.add("high", &PublishedKeys::high, "", "of the span");
-  return t;
-}
-
-base::Table<ReachedKeys> reachedTable() {
-  base::Table<ReachedKeys> t("reached", "A number that was measured here");
-  t.add("quantity", &ReachedKeys::quantity, "", "what").required();
-  t.add("value", &ReachedKeys::value, "", "in `unit`").required();
-  t.add("half_width", &ReachedKeys::halfWidth, "", "of its 95 % interval");
-  t.add("unit", &ReachedKeys::unit, "", "of the value").required();
-  t.add("grain_radius", &ReachedKeys::grainRadius, "m", "it was measured with");
-  t.add("command", &ReachedKeys::command, "", "that measured it");
-  return t;
-}
-
-PublishedValue publishedValue(const base::Section& section) {
-  const PublishedKeys k = section.read(publishedTable());
-  const std::optional<Quantity> quantity = quantityOf(k.quantity);
-  std::vector<std::string> symbols;
-  for (const QuantityName& n : kNames) symbols.emplace_back(n.symbol);
-  if (!quantity)
-    section.fail("quantity", fmt::format("is no quantity of a bevameter; nearest is {}, all are {}",
-                                         base::nearestWord(k.quantity, symbols), fmt::join(symbols, ", ")));
-  const QuantityName& name = nameOf(*quantity);
-  double factor = 1;
-  if (k.unit == name.otherUnit)
-    factor = name.factor;
-  else if (k.unit != name.unit)
-    section.fail("unit", fmt::format("is no unit of {}; write \"{}\"{}", k.quantity, name.unit,
-                                     *name.otherUnit ? fmt::format(" or \"{}\"", name.otherUnit) : ""));
-  if (k.low && k.high && *k.low > *k.high) section.fail("low", "is above high; exchange the two");
-  PublishedValue value{*quantity, factor * k.value, {}, {}, k.source};
-  if (k.low) value.low = factor * *k.low;
-  if (k.high) value.high = factor * *k.high;
+/// What a soil's file says in SI, as the bevameter says it; empty where that measures no such thing.
+std::optional<PublishedValue> publishedValue(const scene::PublishedConstant& c) {
+  const std::optional<Quantity> quantity = quantityOf(std::string(base::wordOf(c.quantity)));
+  if (!quantity) return {};
+  const double factor = nameOf(*quantity).perUnit;
+  PublishedValue value{*quantity, factor * c.value, {}, {}, c.source};
+  if (c.low) value.low = factor * *c.low;
+  if (c.high) value.high = factor * *c.high;
   return value;
 }
 
 /// How a number of [material] changes with the ratio of radii.
 double scaled(const std::string& key, double value, double ratio) {
-  for (const char* grows : {"stiffness", "cohesion", "surface_energy"})
-    if (key == grows) return value * ratio;
-  return key == "damping" ? value / ratio : value;
+  const int power = scene::radiusPowerOf(key);
+  return power > 0 ? value * ratio : power < 0 ? value / ratio : value;
 }
 
 std::string tomlOf(const std::string& key, const base::Section& section, const base::Node& node, double ratio) {
@@ -160,21 +103,34 @@ scene::Material checkedMaterial(const base::Section& section, const std::string&
 }
 
 fs::path fileOf(const std::string& nameOrFile) {
-  if (fs::path(nameOrFile).extension() == ".toml") return nameOrFile;
-  const std::vector<std::string> names = soilNames();
-  if (std::find(names.begin(), names.end(), nameOrFile) != names.end())
-    return support::shareFolder() / "assets" / "soils" / (nameOrFile + ".toml");
-  const std::string all =
-      names.empty() ? fmt::format("there are none in {}", (support::shareFolder() / "assets" / "soils").string())
-                    : fmt::format("the nearest is {}; there are {}", base::nearestWord(nameOrFile, names),
-                                  fmt::join(names, ", "));
-  throw base::InputError(fmt::format("soil {} is not known: {}; or give a file that ends in .toml", nameOrFile, all));
+  std::vector<fs::path> tried;
+  const fs::path file = scene::findSoil(nameOrFile, "", tried);
+  if (!file.empty()) return file;
+  throw base::InputError(fmt::format("soil {} is not known; {}; or give a file that ends in .toml", nameOrFile,
+                                     scene::soilHint(nameOrFile, "")));
+}
+
+/// Keys of a material that has been checked, and what follows from them.
+void takeMaterial(const base::Section& section, const scene::Material& m, TestedSoil& soil) {
+  if (m.hertzian()) soil.young = *m.young, soil.poisson = m.poisson.value_or(scene::Material::kPoisson);
+  soil.isPlain = m.law == scene::ContactLawKind::linear && m.cohesion == 0;
+  const double ratio = soil.grainRadius / soil.fileRadius;
+  for (const base::Node::Entry& e : std::get<base::Node::Map>(section.node().value))
+    soil.keys.emplace_back(e.key, tomlOf(e.key, section, e.node, ratio));
+  // What is left to its default is written down: a stiffness would not scale.
+  if (!m.hertzian() && !section.has("stiffness")) setNumber(soil, "stiffness", ratio * *m.stiffness);
+  setNumber(soil, "density", m.density), setNumber(soil, "friction", m.friction);
 }
 
 } // namespace
 
 std::string symbolOf(Quantity quantity) { return nameOf(quantity).symbol; }
 std::string unitOf(Quantity quantity) { return nameOf(quantity).unit; }
+
+double inSoilFile(Quantity quantity, double value) { return value / nameOf(quantity).perUnit; }
+std::string soilFileUnitOf(Quantity quantity) {
+  return scene::unitOf(*base::valueOf<scene::SoilQuantity>(symbolOf(quantity)));
+}
 
 std::optional<Quantity> quantityOf(const std::string& symbol) {
   for (const QuantityName& n : kNames)
@@ -184,11 +140,7 @@ std::optional<Quantity> quantityOf(const std::string& symbol) {
 
 std::vector<std::string> soilNames() {
   std::vector<std::string> names;
-  const fs::path folder = support::shareFolder() / "assets" / "soils";
-  if (!fs::is_directory(folder)) return names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
-  std::sort(names.begin(), names.end());
+  for (const auto& [name, file] : scene::knownSoils("")) names.push_back(name);
   return names;
 }
 
@@ -222,32 +174,20 @@ TestedSoil readMaterial(const base::Section& root, const std::string& key, const
   if (soil.calibratedFrom > soil.calibratedTo)
     root.section("bed").fail("calibrated_radii", "begins above its end; exchange the two");
   const base::Section material = root.section(key);
-  const scene::Material m = checkedMaterial(material, file.string());
-  if (m.law == scene::ContactLawKind::hertz)
-    soil.young = *m.young, soil.poisson = m.poisson.value_or(scene::Material::kPoisson);
-  soil.isPlain = m.law == scene::ContactLawKind::linear && m.cohesion == 0;
-  const double ratio = soil.grainRadius / soil.fileRadius;
-  for (const base::Node::Entry& e : std::get<base::Node::Map>(material.node().value))
-    soil.keys.emplace_back(e.key, tomlOf(e.key, material, e.node, ratio));
-  // What is left to its default is written down: a stiffness would not scale.
-  if (m.law == scene::ContactLawKind::linear && !material.has("stiffness"))
-    setNumber(soil, "stiffness", ratio * *m.stiffness);
-  setNumber(soil, "density", m.density), setNumber(soil, "friction", m.friction);
+  takeMaterial(material, checkedMaterial(material, file.string()), soil);
   return soil;
 }
 
 TestedSoil readTestedSoil(const std::string& nameOrFile, double grainRadius) {
-  const fs::path file = fileOf(nameOrFile);
-  const base::Document document = base::Document::load(file);
-  const base::Section root = document.root();
-  root.allowOnly({"version", "soil", "material", "bed", "published", "reached"});
-  TestedSoil soil = readMaterial(root, "material", file, grainRadius);
-  if (root.has("soil")) {
-    const SoilText text = root.section("soil").read(soilTable());
-    soil.title = text.title, soil.description = text.description;
-  }
-  for (const base::Section& p : root.list("published")) soil.published.push_back(publishedValue(p));
-  for (const base::Section& r : root.list("reached")) r.read(reachedTable());
+  const scene::Soil read = scene::readSoil(fileOf(nameOrFile));
+  TestedSoil soil;
+  soil.name = read.name, soil.file = read.file, soil.title = read.head.title, soil.description = read.head.description;
+  soil.fileRadius = read.grains.radius, soil.grainRadius = grainRadius > 0 ? grainRadius : read.grains.radius;
+  soil.spread = read.grains.radiusSpread, soil.porosity = read.grains.porosity;
+  soil.calibratedFrom = read.grains.calibratedRadii[0], soil.calibratedTo = read.grains.calibratedRadii[1];
+  takeMaterial(read.document->root().section("material"), read.material, soil);
+  for (const scene::PublishedConstant& c : read.published)
+    if (const std::optional<PublishedValue> value = publishedValue(c)) soil.published.push_back(*value);
   return soil;
 }
 

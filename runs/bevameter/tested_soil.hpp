@@ -20,6 +20,9 @@ inline constexpr Quantity kQuantities[] = {Quantity::exponent, Quantity::cohesio
 std::string symbolOf(Quantity quantity); ///< "n", "k_c", "k_phi", "c", "phi", "K", "repose", as in soil files
 std::string unitOf(Quantity quantity);   ///< "-", "kN/m^(n+1)", "kN/m^(n+2)", "kPa", "deg", "mm", "deg"
 std::optional<Quantity> quantityOf(const std::string& symbol);
+/// A number in unitOf(quantity) as soils' files have it, and its unit there: SI.
+double inSoilFile(Quantity quantity, double value);
+std::string soilFileUnitOf(Quantity quantity);
 
 /// A number of a source, in unitOf(quantity).
 struct PublishedValue {

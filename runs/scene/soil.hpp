@@ -113,6 +113,9 @@ std::vector<std::string> soilNotes(const Scene& scene);
 /// scene's grains by itself.
 bool goesWithGrains(const Scene& scene, const std::string& name, const std::string& key);
 
+/// With which power of the grains' radius a key of a soil's [material] goes.
+int radiusPowerOf(const std::string& key);
+
 /// All keys of a soil's file with unit, default, range and meaning, as Markdown.
 std::string soilFieldHelp();
 

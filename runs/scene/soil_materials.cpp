@@ -156,3 +156,15 @@ void scaleSoils(Scene& scene) {
 }
 
 } // namespace grouser::scene::detail
+
+namespace grouser::scene {
+
+int radiusPowerOf(const std::string& key) {
+  int power = 0;
+  detail::forEachScaled(Material{}, [&](const char* name, const char*, const auto&, int exponent) {
+    if (key == name) power = exponent;
+  });
+  return power;
+}
+
+} // namespace grouser::scene

