@@ -5,6 +5,7 @@
 #include "contact/plastic_law.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace grouser::contact {
 
@@ -174,7 +175,8 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   const T approach = dot(touch.velocity, n);
   const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
   T elastic = c.elastic, least = zero, adhesion{}, yielded{};
-  if constexpr ((kFeatures & (kPlastic | kGeneral)) != 0)
+  constexpr bool kMayYield = (kFeatures & (kPlastic | kGeneral)) != 0 && std::is_floating_point_v<T>; // no lanes
+  if constexpr (kMayYield)
     if (state && law.plastic.share > 0) {
       const BasicElasticSpring<T> spring{law.stiffness, touch.effectiveRadius, law.hertz};
       const BasicPlasticForce<T> bent = plasticForce(law.plastic, spring, touch.overlap, *state);
@@ -186,7 +188,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   if (!law.attraction) dashpot = elastic + dashpot < least ? least - elastic : dashpot;
   T normalForce = elastic + dashpot;
   T pressing = normalForce;
-  if constexpr ((kFeatures & (kPlastic | kGeneral)) != 0) pressing += adhesion;
+  if constexpr (kMayYield) pressing += adhesion;
   if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pullPerRadius * touch.effectiveRadius;
   const T halfStepPerMass = Scalar(0.5) * dt / touch.effectiveMass;
   BasicReaction<T> reaction{
