@@ -30,7 +30,7 @@ protected:
 
 TEST(SoilsDocument, HasTheTableOfTheProgram) {
   const std::string document = contents(fs::path(GROUSER_SOURCE_DIR) / "docs/soils.md");
-  EXPECT_NE(document.find("\n" + soilsTable()), std::string::npos)
+  EXPECT_NE(document.find(fmt::format("\n{}", soilsTable())), std::string::npos)
       << "build/bin/grouser soils --markdown prints the table that belongs there";
 }
 
