@@ -3,6 +3,7 @@
 #include "runs/commands/soils.hpp"
 #include "tests/runs/program_fixture.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <string>
