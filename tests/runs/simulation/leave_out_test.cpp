@@ -111,8 +111,8 @@ TEST(LeaveOut, OneRankHasNoSubdomainAndNoGhosts) {
 
 TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
   for (const char* friction : {"material.soil.friction=0.5", "material.soil.friction=0"}) {
-    const scene::Scene scene =
-        bed({friction, "terrain.size=[1.2, 1.2]", "terrain.layers=6", "terrain.settle_time_limit=0.4"});
+    const scene::Scene scene = bed({friction, "terrain.size=[1.2, 1.2]", "terrain.layers=6",
+                                    "terrain.settle_time_limit=0.6", "terrain.settle_kinetic_energy=0.01"});
     Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
     terrain::Grains& grains = *simulation.ground().grains;
     grains.refreshNeighbours();
