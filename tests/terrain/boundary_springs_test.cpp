@@ -76,9 +76,12 @@ TEST(BoundarySprings, OfAGrainThatLeavesTheListAndComesBackAreNew) {
 
 TEST(BoundarySprings, AreKeptForGrainsOnTheListAlone) {
   const GrainModel m = gravel();
-  std::vector<Wall> walls{floorPlane(m.law)};
-  for (const Vec3d& n : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}})
-    walls.push_back({n, n.x + n.y > 0 ? -0.03 : -0.55, m.law});
+  // Each about 3 mm from the outermost grains.
+  const std::vector<Wall> walls{floorPlane(m.law),
+                                {{1, 0, 0}, -0.03, m.law},
+                                {{-1, 0, 0}, -0.562, m.law},
+                                {{0, 1, 0}, -0.041, m.law},
+                                {{0, -1, 0}, -0.548, m.law}};
   const std::vector<GrainSpec> block = gravelBlock(10, 10, 10, {});
   Grains grains(testExec(1), m, {walls, {}}, block), free(testExec(1), m, {}, block);
   advance(grains, 300), advance(free, 1);
