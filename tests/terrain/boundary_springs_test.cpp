@@ -76,17 +76,20 @@ TEST(BoundarySprings, OfAGrainThatLeavesTheListAndComesBackAreNew) {
 
 TEST(BoundarySprings, AreKeptForGrainsOnTheListAlone) {
   const GrainModel m = gravel();
-  std::vector<Wall> walls{floorPlane(m.law)};
-  for (const Vec3d& n : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}})
-    walls.push_back({n, n.x + n.y > 0 ? -0.05 : -0.65, m.law});
+  // Each about 3 mm from the outermost grains.
+  const std::vector<Wall> walls{floorPlane(m.law),
+                                {{1, 0, 0}, -0.03, m.law},
+                                {{-1, 0, 0}, -0.562, m.law},
+                                {{0, 1, 0}, -0.041, m.law},
+                                {{0, -1, 0}, -0.548, m.law}};
   const std::vector<GrainSpec> block = gravelBlock(10, 10, 10, {});
   Grains grains(testExec(1), m, {walls, {}}, block), free(testExec(1), m, {}, block);
   advance(grains, 300), advance(free, 1);
   grains.invalidateNeighbours();
   grains.refreshNeighbours();
   const std::size_t listed = grains.system().boundaries.grainsListed();
-  EXPECT_GT(listed, 300u);
-  EXPECT_LT(listed, 600u);
+  EXPECT_GT(listed, 150u) << "a layer of 100 on the floor, and some at the walls";
+  EXPECT_LT(listed, 500u);
   EXPECT_EQ(springsKept(grains), listed * 5 * kNumbers);
   // For every grain a mask and a place; for one on the list its slot, a load and five springs.
   EXPECT_EQ(grains.system().constants.layout().boundaries, 5);
@@ -109,8 +112,8 @@ TEST(Rebuild, TakesNoMoreMemoryThanStandsBetweenRebuilds) {
     grains.refreshNeighbours();
     base::synchronize(exec);
   }
+  const base::MemoryHeld held = base::memoryHeld(exec); // before the ledger takes some
   ASSERT_LT(grains.ledger().contacts, 8000) << "two for each grain";
-  const base::MemoryHeld held = base::memoryHeld(exec);
   EXPECT_GE(held.now, grains.system().deviceBytes());
   EXPECT_LE(held.most, held.now + 4096) << "allocators round up";
 }
