@@ -37,7 +37,7 @@ template <class T> struct BasicPlasticity {
   T adhesion{};    ///< Luding: k_c / k1 [-], >= 0
   int exponent{2}; ///< EEPA: 2 chi
 
-  template <class U> BasicPlasticity<U> as() const {
+  template <class U> GROUSER_HD_MEMBER BasicPlasticity<U> as() const {
     const auto u = [](T value) { return static_cast<U>(value); };
     return {u(share), u(depthShare), u(lossShare), u(pull), u(fullDepth), u(adhesion), exponent};
   }

@@ -35,7 +35,7 @@ void addPlasticity(Table<Material>& t) {
       .atMost(0.99);
   t.add("surface_energy", &S::surfaceEnergy, "J/m2",
         "eepa, eepa_linear: gamma of the pull-off force 1.5 pi gamma a, which grows with the radius a of the contact "
-        "that loading has left; 0 leaves adhesion out")
+        "that loading has left; 0 where not given: no adhesion")
       .atLeast(0)
       .atMost(1e6);
   t.add("adhesion_exponent", &S::adhesionExponent, "-",
@@ -50,7 +50,7 @@ void addPlasticity(Table<Material>& t) {
       .above(0)
       .atMost(1);
   t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
-        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 leaves adhesion out")
+        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 where not given: no adhesion")
       .atLeast(0)
       .atMost(1e12);
 }
@@ -189,8 +189,10 @@ void completePlasticity(const Section& section, Material& m) {
   m.plasticity = m.plasticity.value_or(Material::kPlasticity);
   if (luding) {
     m.plasticDepth = m.plasticDepth.value_or(Material::kPlasticDepth);
+    m.adhesionStiffness = m.adhesionStiffness.value_or(0);
     return;
   }
+  m.surfaceEnergy = m.surfaceEnergy.value_or(0);
   m.adhesionExponent = m.adhesionExponent.value_or(m.hertzian() ? 1.5 : 1);
   const double halves = 2 * *m.adhesionExponent;
   if (halves != std::floor(halves))

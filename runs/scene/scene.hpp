@@ -93,13 +93,13 @@ struct Material {
   std::optional<double> tangentialDampingRatio;
   double rollingFriction = 0;
   double rollingDampingRatio = 0.3;
-  double cohesion = 0;                    ///< [J/m2] energy of adhesion
-  std::optional<double> plasticity;       ///< [-] eepa, eepa_linear, luding: 1 - k1/k2, the greatest
-  double surfaceEnergy = 0;               ///< [J/m2] eepa, eepa_linear: gamma of the pull-off force
-  std::optional<double> adhesionExponent; ///< [-] eepa, eepa_linear: chi of the adhesive branch
-  std::optional<double> plasticDepth;     ///< [-] luding: of the smaller radius' overlap where k2 is greatest
-  double adhesionStiffness = 0;           ///< [N/m] luding: k_c of the adhesive branch
-  std::optional<double> crushingStrength; ///< [Pa] of its grains against parts; empty: they do not crush
+  double cohesion = 0;                     ///< [J/m2] energy of adhesion
+  std::optional<double> plasticity;        ///< [-] eepa, eepa_linear, luding: 1 - k1/k2, the greatest
+  std::optional<double> surfaceEnergy;     ///< [J/m2] eepa, eepa_linear: gamma of the pull-off force
+  std::optional<double> adhesionExponent;  ///< [-] eepa, eepa_linear: chi of the adhesive branch
+  std::optional<double> plasticDepth;      ///< [-] luding: of the smaller radius' overlap where k2 is greatest
+  std::optional<double> adhesionStiffness; ///< [N/m] luding: k_c of the adhesive branch
+  std::optional<double> crushingStrength;  ///< [Pa] of its grains against parts; empty: they do not crush
   bool operator==(const Material&) const = default;
   /// Whether its elastic law is Hertz'; else linear springs.
   bool hertzian() const { return law == ContactLawKind::hertz || law == ContactLawKind::eepa; }

@@ -48,10 +48,9 @@ Table<SoilGrains> grainsTable() {
       .atMost(0.9);
   t.add("porosity", &S::porosity, "-", "of a bed at random; as poured where not given").atLeast(0.2).atMost(0.7);
   t.add("calibrated_radii", &S::calibratedRadii, "m",
-        "least and greatest grain_radius at which it has been measured; of a soil that is not calibrated its own")
+        "least and greatest grain_radius at which it has been measured; its own where not given")
       .above(0)
-      .atMost(10)
-      .required();
+      .atMost(10);
   return t;
 }
 
@@ -142,6 +141,7 @@ Soil readSoil(const fs::path& file) {
   soil.material = readMaterial(root.section("material"));
   const Section bed = root.section("bed");
   soil.grains = bed.read(grainsTable());
+  if (!bed.has("calibrated_radii")) soil.grains.calibratedRadii = {soil.grains.radius, soil.grains.radius};
   const auto [least, greatest] = soil.grains.calibratedRadii;
   if (least > greatest) bed.fail("calibrated_radii", "[m] descends; give the least first");
   if (soil.grains.radius < least || soil.grains.radius > greatest)

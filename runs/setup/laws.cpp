@@ -84,15 +84,15 @@ contact::BasicPlasticity<double> plasticityOf(const scene::Material& a, const sc
   if (a.law == scene::ContactLawKind::luding) {
     // x* = k2 / (k2 - k1) phi_f 2 R_i R_j / (R_i + R_j) (Luding 2008)
     p.fullDepth = 2 * std::max(*a.plasticDepth, *b.plasticDepth) / p.share;
-    p.adhesion = std::min(a.adhesionStiffness, b.adhesionStiffness) / law.stiffness;
+    p.adhesion = std::min(*a.adhesionStiffness, *b.adhesionStiffness) / law.stiffness;
     return p;
   }
   const double exponent = law.hertz ? 1.5 : 1;
   p.depthShare = law.hertz ? base::pow(p.share, 1 / exponent) : p.share;
   p.lossShare = p.share / (1 - p.share) * (1 - p.depthShare) * exponent / (exponent + 1);
   const double energy = pair && pair->surfaceEnergy ? *pair->surfaceEnergy
-                        : &a == &b                  ? a.surfaceEnergy
-                                                    : std::sqrt(a.surfaceEnergy * b.surfaceEnergy);
+                        : &a == &b                  ? *a.surfaceEnergy
+                                                    : std::sqrt(*a.surfaceEnergy * *b.surfaceEnergy);
   p.pull = 1.5 * base::kPi * energy * std::sqrt(2 * p.depthShare);
   p.exponent = static_cast<int>(2 * std::max(*a.adhesionExponent, *b.adhesionExponent) + 0.5);
   return p;

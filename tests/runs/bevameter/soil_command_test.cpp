@@ -17,9 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Soft grains of 20 mm: the fewest steps.
-constexpr const char* kSand = "version = 1\n[soil]\ntitle = \"a trial\"\n[material]\nstiffness = 2e4\nrestitution = "
-                              "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
-                              "value = 25\nunit = \"deg\"\nsource = \"a book\"\n";
+constexpr const char* kSand =
+    "version = 1\n[soil]\ntitle = \"a trial\"\ndescription = \"soft\"\n[material]\nstiffness = 2e4\nrestitution = "
+    "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
+    "value = 25\nunit = \"deg\"\nsource = \"a book\"\n";
 /// The smallest tests that are tests.
 constexpr const char* kSmall = " --quick --seeds 2 --large-seeds 2 --repose-seeds 0 --plate-grains 5 --plate-ratio 1.5 "
                                "--thickness 4.5 --bin 3 --pressure 2000 --inertial-number 0.05 --shear-loads 2000 "
@@ -68,7 +69,7 @@ TEST_F(SoilCommandTest, WrongWordsEndWithTwoAndWriteNothing) {
   EXPECT_NE(unknown.error().find("no_such_soil"), std::string::npos) << unknown.errors;
   const Outcome key = call("soil wrong.toml --quick");
   EXPECT_EQ(key.code, 2);
-  EXPECT_NE(key.error().find("wrong.toml:15"), std::string::npos) << key.errors;
+  EXPECT_NE(key.error().find("wrong.toml:16"), std::string::npos) << key.errors;
   EXPECT_EQ(call("soil").code, 2);
   EXPECT_EQ(call("soil sand.toml --calibrate sand.toml").code, 2);
   EXPECT_EQ(call("soil sand.toml --quick --thickness 3.6").code, 2);

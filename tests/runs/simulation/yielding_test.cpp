@@ -35,7 +35,7 @@ void expectLoss(const std::string& law, const std::string& more, double share, c
     EXPECT_NEAR(l.dissipated.damping, 0, 1e-6 * energy);
     EXPECT_NEAR(-l.kinetic / energy, l.dissipated.yielding / energy, 20 * step / 5e-4) << law << ": they have parted";
     EXPECT_NEAR(l.elastic / energy, 0, 1e-12);
-    EXPECT_LT(std::fabs(l.residual), 1e-12 * energy);
+    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
     errors.push_back(std::fabs(l.dissipated.yielding / energy - share));
   }
   EXPECT_LT(errors.back(), 2e-3) << law;
@@ -63,7 +63,7 @@ TEST(Yielding, StickyBallsStayTogether) {
         .grainContacts;
   };
   EXPECT_EQ(contacts("0"), 0);
-  EXPECT_EQ(contacts("20"), 1);
+  EXPECT_EQ(contacts("2000"), 1);
 }
 
 TEST(Yielding, BoxOfSoilClosesAtEveryStep) {
@@ -110,9 +110,9 @@ void expectRefused(const std::string& material, const std::string& message) {
 
 TEST(Yielding, KeysOfOtherLawsAreRefused) {
   const std::string begin = "[material.soil]\n";
-  expectRefused(begin + "law = \"linear\"\nplasticity = 0.5\n", "plasticity belongs to law");
-  expectRefused(begin + "law = \"luding\"\nsurface_energy = 1\n", "surface_energy belongs to law");
-  expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nplastic_depth = 0.1\n", "plastic_depth belongs to law");
+  expectRefused(begin + "law = \"linear\"\nplasticity = 0.5\n", "plasticity = 0.5 belongs to law");
+  expectRefused(begin + "law = \"luding\"\nsurface_energy = 1\n", "surface_energy = 1 belongs to law");
+  expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nplastic_depth = 0.1\n", "plastic_depth = 0.1 belongs to law");
   expectRefused(begin + "law = \"eepa\"\n", "young");
   expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nstiffness = 1e5\n", "stiffness");
   expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nadhesion_exponent = 1.7\n", "whole number of halves");
