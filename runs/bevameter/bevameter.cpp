@@ -51,7 +51,7 @@ void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs) 
     const auto work = [&](std::size_t) {
       const auto folder = pieces.begin(name);
       const studies::Table trials = findPreparation(plan, folder, device.exec(), [&](const std::string& what) {
-        if (jobs == 1) progress.update(0, what);
+        progress.update(0, what); // one process works, this one or a child
       });
       try {
         pieces.keep(name, trials);
