@@ -51,7 +51,7 @@ void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs) 
     const auto work = [&](std::size_t) {
       const auto folder = pieces.begin(name);
       const studies::Table trials = findPreparation(plan, folder, device.exec(), [&](const std::string& what) {
-        if (jobs == 1) progress.update(0, what);
+        progress.update(0, what); // one process works, this one or a child
       });
       try {
         pieces.keep(name, trials);
@@ -119,8 +119,9 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
     pieces.keep(test.name, doTest(plan, test, folder, device.exec(), tell));
     std::filesystem::remove_all(folder);
   };
-  support::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work,
-                     [&] { progress.update(share(there()), "several tests at a time"); });
+  support::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work, [&] {
+    progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended");
+  });
   int missing = 0;
   for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
   progress.finish(fmt::format("{} of {} tests are there", plan.tests.size() - static_cast<std::size_t>(missing),

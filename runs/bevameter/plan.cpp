@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `grouser study plates` has compared them
 constexpr double kCellLength = 16, kCellWidth = 8, kCellHeight = 10; // [d]
+constexpr double kCoarseLength = 12, kCoarseWidth = 6;               // [d]
 constexpr double kFall = 0.5;                                        // [s] simulated for a lift, for the time left only
 constexpr double kPressed = 70; // [d sqrt(density / stress)] before shearing begins, for the same
 
@@ -129,7 +130,9 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
     plan.large.strip.thickness = options.gradedThickness;
   }
   const double d = 2 * soil.grainRadius;
-  plan.cell.length = kCellLength, plan.cell.width = kCellWidth;
+  plan.cell.length = options.coarse ? kCoarseLength : kCellLength;
+  plan.cell.width = options.coarse ? kCoarseWidth : kCellWidth;
+  if (options.coarse) plan.repose.length = 10, plan.repose.width = 6, plan.repose.depth = 12, plan.repose.stage = 8;
   plan.cell.depth = std::max(kCellHeight, options.shearHeight / d);
   plan.cell.inertialNumber = options.shearInertialNumber, plan.cell.strain = options.shearStrain;
   plan.cell.core = soil.isPlain;
@@ -156,9 +159,14 @@ nlohmann::ordered_json TestPlan::recipe() const {
           {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
           {"most_pressure_Pa", options.mostPressure},
           {"inertial_number", options.inertialNumber},
+          {"shear_length_d", cell.length},
+          {"shear_width_d", cell.width},
           {"shear_height_d", cell.depth},
           {"shear_strain", options.shearStrain},
-          {"shear_inertial_number", options.shearInertialNumber}};
+          {"shear_inertial_number", options.shearInertialNumber},
+          {"repose_length_d", repose.length},
+          {"repose_depth_d", repose.depth},
+          {"repose_stage", repose.stage}};
 }
 
 studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,

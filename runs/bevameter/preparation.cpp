@@ -17,8 +17,8 @@ constexpr double kFirst = 0.2; // friction that is tried first
 constexpr std::size_t kMostTrials = 14;
 constexpr double kWider = 4; // by which the search goes on to where it has no bound yet
 constexpr double kTolerance = 0.002, kCoarseTolerance = 0.004;
-constexpr double kWidth = 12, kCoarseWidth = 9; // [d] of the small bed
-constexpr double kLifts = 2;
+constexpr double kWidth = 12, kCoarseWidth = 8; // [d] of the small bed
+constexpr double kLifts = 2, kCoarseLifts = 1;
 constexpr double kMiddle = 0.1; // a trial stays so far off the ends of its interval
 
 double porosityWith(const TestPlan& plan, double friction, const std::filesystem::path& folder, const base::Exec& exec,
@@ -27,7 +27,7 @@ double porosityWith(const TestPlan& plan, double friction, const std::filesystem
   soil.preparationFriction = friction;
   const double d = soil.grains.diameter(), width = (plan.options.coarse ? kCoarseWidth : kWidth) * d;
   studies::BedPreparation bed;
-  bed.size = {width, width, kLifts * plan.small.lift * d};
+  bed.size = {width, width, (plan.options.coarse ? kCoarseLifts : kLifts) * plan.small.lift * d};
   bed.lift = plan.small.lift * d;
   const studies::BedGrains grains = studies::prepareBed(soil, bed, 1, folder, exec, tell).grains;
   const double surface = studies::surfaceHeight(grains, bed.size, d), off = studies::PlateTest::kOffEnds * d;

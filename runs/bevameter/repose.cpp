@@ -40,10 +40,16 @@ public:
   double hold(double tilt, double time) {
     const double angle = tilt * base::kPi / 180;
     const base::Vec3d gravity{kGravity * base::sin(angle), 0, -kGravity * base::cos(angle)};
-    const simulation::SimulationState state = simulation_->save();
+    simulation::SimulationState state = simulation_->save();
     setup_.gravity = gravity;
     setup_.ground.grains->model.gravity = gravity;
-    simulation_.reset();
+    const double before = potential();
+    simulation_ = std::make_unique<simulation::Simulation>(setup_, exec_, state);
+    // Gravity has turned without work: what the grains' potential energy jumps by stands in the start of the ledger.
+    simulation::Ledger start;
+    start.setCounted(state.ledgerAtStart);
+    start.potential += potential() - before;
+    state.ledgerAtStart = start.counted();
     simulation_ = std::make_unique<simulation::Simulation>(setup_, exec_, state);
     const std::int64_t until = simulation_->steps() + std::llround(time / simulation_->timeStep());
     while (simulation_->steps() < until) {
@@ -54,6 +60,8 @@ public:
   }
 
 private:
+  double potential() const { return simulation_->ground().grains->ledger().potential; } ///< [J]
+
   base::Exec exec_;
   double mass_ = 0; ///< [kg] with the floor's grains, which rest
   setup::SimulationSetup setup_;

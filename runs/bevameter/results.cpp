@@ -146,7 +146,7 @@ double fitFrom(double diameter, const std::array<PlateTests, 2>& plates) {
   for (const PlateTests& plate : plates)
     for (const SinkageCurve& curve : plate.curves)
       if (!curve.sinkage.empty()) from = std::min(from, kFitFromShare * curve.sinkage.back());
-  return from;
+  return std::max(0.0, from);
 }
 
 std::vector<Table> runsOf(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind) {

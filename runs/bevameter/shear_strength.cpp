@@ -29,7 +29,7 @@ struct Line {
   }
   void solve(double& cohesion, double& angle) const {
     const double spread = xx - x * x / n;
-    const bool isOne = !(spread > 1e-6 * xx); // one load only
+    const bool isOne = !(spread > 0.01 * xx); // one load only, but for scatter
     const double slope = isOne ? xy / xx : (xy - x * y / n) / spread;
     cohesion = isOne ? 0 : (y - slope * x) / n;
     angle = std::atan(slope) * 180 / base::kPi;

@@ -18,13 +18,14 @@ namespace fs = std::filesystem;
 
 /// Soft grains of 20 mm: the fewest steps.
 constexpr const char* kSand =
-    "version = 1\n[soil]\ntitle = \"a trial\"\ndescription = \"soft\"\n[material]\nstiffness = 2e4\nrestitution = "
+    "version = 1\n[soil]\ntitle = \"a trial\"\ndescription = \"soft\"\n[material]\nstiffness = 5e3\nrestitution = "
     "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
     "value = 25\nunit = \"deg\"\nsource = \"a book\"\n";
 /// The smallest tests that are tests.
-constexpr const char* kSmall = " --quick --seeds 2 --large-seeds 2 --repose-seeds 0 --plate-grains 5 --plate-ratio 1.5 "
-                               "--thickness 4.5 --bin 3 --pressure 2000 --inertial-number 0.05 --shear-loads 2000 "
-                               "--shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
+constexpr const char* kSmall =
+    " --quick --seeds 2 --large-seeds 2 --repose-seeds 0 --plate-grains 5 --plate-ratio 1.5 "
+    "--thickness 4.5 --bin 3 --pressure 20000 --inertial-number 0.05 --shear-loads 2000 5000 "
+    "--shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
 
 class SoilCommandTest : public ProgramTest {};
 
