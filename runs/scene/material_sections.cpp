@@ -50,7 +50,8 @@ void addPlasticity(Table<Material>& t) {
       .above(0)
       .atMost(1);
   t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
-        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 where not given: no adhesion")
+        "luding: k_c, with which an unloaded contact pulls at an overlap x: k_c x at most; 0 where not given: no "
+        "adhesion")
       .atLeast(0)
       .atMost(1e12);
 }
