@@ -99,7 +99,7 @@ PlanOptions coarsePlan() {
   o.coarse = true;
   o.plateGrains = 8, o.bin = 4, o.depth = 1.5, o.thickness = 6, o.gradedThickness = 9;
   o.inertialNumber = 5e-3, o.shearInertialNumber = 4e-3, o.shearStrain = 0.3;
-  o.seeds = 3, o.largeSeeds = 3, o.reposeSeeds = 2, o.wide = false;
+  o.seeds = 3, o.largeSeeds = 3, o.wide = false;
   return o;
 }
 

@@ -32,8 +32,8 @@ struct PlanOptions {
   std::vector<double> loads = {10e3, 25e3, 50e3, 100e3};      ///< [Pa]
   double mostPressure = 100e3;                                ///< [Pa]
   int seeds = 8, largeSeeds = 3;
-  int reposeSeeds = 8;
-  bool wide = true; ///< the small plate on a bin of twice the width, too
+  int reposeSeeds = 0; ///< beds that are tilted; no command sets it yet
+  bool wide = true;    ///< the small plate on a bin of twice the width, too
 };
 /// What --quick takes instead.
 PlanOptions coarsePlan();

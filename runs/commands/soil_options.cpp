@@ -51,7 +51,6 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--seeds", &PlanOptions::seeds, support::wholeNumber(1, 1000),
            "beds of the small plate, and samples of each load");
   keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000), "beds of the large plate");
-  keys.add(soil, "--repose-seeds", &PlanOptions::reposeSeeds, support::wholeNumber(0, 1000), "beds that are tilted");
   keys.add(soil, "--plate-grains", &PlanOptions::plateGrains, support::between(4, 1000),
            "breadth of the small plate [mean grain diameters]");
   keys.add(soil, "--plate-ratio", &PlanOptions::plateRatio, support::between(1.2, 20),
