@@ -165,7 +165,7 @@ std::vector<Mistake> stepsAndSizes() {
           {"scene.toml:9: plane.0.normal", "leans along x", "set that entry to 0"}),
       badScene("LawsThatDoNotMeet", "[material.glass]",
                "[material.stone]\nlaw = \"hertz\"\nyoung = 1e7\n[material.glass]\n[[plane]]\nmaterial = \"stone\"",
-               {"scene.toml:6: material.stone.law", "same law", "give both one of the two"}),
+               {"scene.toml:6: material.stone.law", "surfaces that touch", "give both one of the two"}),
       badScene("FolderWithControlCharacter", "[output]", "[output]\nfolder = \"a\\u0000b\"",
                {"scene.toml:17: output.folder", "control character"}),
       badScene(

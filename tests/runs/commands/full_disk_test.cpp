@@ -81,7 +81,7 @@ TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   // What grows fastest meets the limit first: leaving that away, another does. Many grains have a large checkpoint.
   const std::string csv = " --set output.grains_csv=false",
                     frames = csv + " --set output.frames=false --set output.picture_width=2400",
-                    picture = frames + " --set output.picture=false", many = picture + " --set 'terrain.size=[2, 2]'";
+                    picture = frames + " --set output.picture=false", many = picture + " --set 'terrain.size=[3, 3]'";
   for (const std::string& more : {std::string(), csv, frames, picture, many}) {
     const Outcome free = run("--hash --out free --force" + more);
     ASSERT_EQ(free.code, 0) << free.errors;
