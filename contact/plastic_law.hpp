@@ -135,12 +135,13 @@ template <class T> GROUSER_HD T deepestBehind(const BasicPlasticity<T>& p, T ove
   return half + base::squareRoot(half * half + (T(1) + p.adhesion) * overlap * full / (most - T(1)));
 }
 
-/// Luding: energy that goes while the greatest overlap comes back along the adhesive branch.
-template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T stiffness, T overlap, T steepBefore,
-                                                 T steep, const BasicPlasticState<T>& before) {
-  const T start = steepBefore * before.origin / (stiffness * (steepBefore + p.adhesion));
+/// Luding: energy that goes while the greatest overlap comes back along the adhesive branch. `former`, `present`:
+/// k2 / k1 before and after.
+template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T stiffness, T overlap,
+                                                 const BasicPlasticState<T>& before, T former, T present) {
+  const T start = former * before.origin / (stiffness * (former + p.adhesion));
   const auto part = [&](T x, T ratio) { return p.adhesion * stiffness * x * x * (T(1) + p.adhesion / ratio); };
-  return T(0.5) * (part(start, steepBefore) - part(overlap, steep));
+  return T(0.5) * (part(start, former) - part(overlap, present));
 }
 
 } // namespace detail
@@ -167,7 +168,7 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
     state.deepest = detail::deepestBehind(p, overlap, radius);
     const T steepNow = detail::steepness(p, state.deepest, radius);
     state.origin = (T(1) - T(1) / steepNow) * spring.force(state.deepest);
-    return {-branch.pull, branch.pull, detail::yieldedByPulling(p, spring.stiffness, overlap, steep, steepNow, before)};
+    return {-branch.pull, branch.pull, detail::yieldedByPulling(p, spring.stiffness, overlap, before, steep, steepNow)};
   }
   state.origin = elastic + branch.pull / steep;
   // Where it left the steep line or was at the last step: one step of Newton's method from here.

@@ -2,18 +2,22 @@
 // `grouser soil`: which tests, one after the other or side by side, and what is written of them.
 #include "runs/bevameter/bevameter.hpp"
 
+#include "base/error.hpp"
 #include "runs/bevameter/preparation.hpp"
 #include "runs/bevameter/soil_report.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/shared_work.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
@@ -88,6 +92,20 @@ void printHead(const TestPlan& plan) {
   std::fflush(stdout);
 }
 
+/// Where a test leaves why it has ended unsoundly.
+std::filesystem::path noteOf(const studies::Pieces& pieces, const PlannedTest& test) {
+  return pieces.folder() / "runs" / (test.name + ".unsound.txt");
+}
+
+/// What the tests say that have ended unsoundly, a line each.
+std::string unsoundTests(const TestPlan& plan, const studies::Pieces& pieces) {
+  std::string text;
+  for (const PlannedTest& test : plan.tests)
+    if (std::ifstream note(noteOf(pieces, test)); note)
+      text += fmt::format("\n  {}: {}", test.name, std::string(std::istreambuf_iterator<char>(note), {}));
+  return text;
+}
+
 } // namespace
 
 int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions& options, int jobs) {
@@ -116,8 +134,13 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
     const auto tell = [&](double done, const std::string& phase) {
       if (jobs == 1) progress.update(share(now + done * test.cost / all), test.name + ", " + phase);
     };
-    pieces.keep(test.name, doTest(plan, test, folder, device.exec(), tell));
-    std::filesystem::remove_all(folder);
+    try {
+      pieces.keep(test.name, doTest(plan, test, folder, device.exec(), tell));
+    } catch (const base::SimulationError& e) {
+      support::replaceTextFile(noteOf(pieces, test), e.what()); // the others go on
+      return;
+    }
+    std::filesystem::remove_all(folder), std::filesystem::remove(noteOf(pieces, test));
   };
   support::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work, [&] {
     progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended");
@@ -141,6 +164,9 @@ void soilCommand(const SoilCommand& command) {
   const int missing = doTests(plan, pieces, command.pieces, command.jobs);
   if (!pieces.whole()) return;
   reportSoil(plan, pieces, missing);
+  if (const std::string unsound = unsoundTests(plan, pieces); !unsound.empty())
+    throw base::SimulationError(
+        "tests have ended unsoundly and are left out of the tables; take more --steps-per-contact:" + unsound);
 }
 
 } // namespace grouser::bevameter

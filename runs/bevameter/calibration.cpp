@@ -63,7 +63,7 @@ void checkTogether(const base::Section& section, const TargetKeys& k) {
 
 } // namespace
 
-bool CalibrationTargets::wantsSinkage() const { return k || wanted.count(Quantity::frictionModulus) > 0; }
+bool CalibrationTargets::wantsSinkage() const { return k || wanted.contains(Quantity::frictionModulus); }
 
 double CalibrationTargets::kAt(double b) const {
   return k ? *k : wanted.at(Quantity::cohesionModulus) / b + wanted.at(Quantity::frictionModulus);

@@ -115,6 +115,7 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.grains.grains.radius = soil.grainRadius, plan.grains.grains.density = soil.density;
   plan.grains.grains.friction = soil.friction, plan.grains.grains.law = soil.law;
   plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
+  plan.grains.stepsPerContact = options.stepsPerContact;
   plan.grains.impactSpeed = impactLikePressure(
       soil, std::max(options.mostPressure, *std::max_element(options.loads.begin(), options.loads.end())));
   studies::PlateTest& small = plan.small.strip;
@@ -159,6 +160,7 @@ nlohmann::ordered_json TestPlan::recipe() const {
           {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
           {"most_pressure_Pa", options.mostPressure},
           {"inertial_number", options.inertialNumber},
+          {"steps_per_contact", options.stepsPerContact},
           {"shear_length_d", cell.length},
           {"shear_width_d", cell.width},
           {"shear_height_d", cell.depth},

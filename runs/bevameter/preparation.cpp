@@ -66,7 +66,8 @@ studies::Table findPreparation(const TestPlan& plan, const std::filesystem::path
   trials.names = kPreparationColumns;
   if (!plan.soil.porosity) return trials;
   const double tolerance = plan.options.coarse ? kCoarseTolerance : kTolerance;
-  while (const double friction = nextFriction(trials.rows, *plan.soil.porosity, tolerance)) {
+  double friction = 0;
+  while ((friction = nextFriction(trials.rows, *plan.soil.porosity, tolerance)) > 0) {
     const auto say = [&](const std::string& phase) {
       tell(fmt::format("bed with friction {:.3g} for a porosity of {:g}, {}", friction, *plan.soil.porosity, phase));
     };

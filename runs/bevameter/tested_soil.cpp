@@ -104,7 +104,7 @@ scene::Material checkedMaterial(const base::Section& section, const std::string&
 
 fs::path fileOf(const std::string& nameOrFile) {
   std::vector<fs::path> tried;
-  const fs::path file = scene::findSoil(nameOrFile, "", tried);
+  fs::path file = scene::findSoil(nameOrFile, "", tried);
   if (!file.empty()) return file;
   throw base::InputError(fmt::format("soil {} is not known; {}; or give a file that ends in .toml", nameOrFile,
                                      scene::soilHint(nameOrFile, "")));

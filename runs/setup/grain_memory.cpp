@@ -48,8 +48,8 @@ double bytesAtBoundaries(const Traits& traits) {
   const auto springs = static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth());
   const double load = traits.precision == terrain::Precision::single ? sizeof(terrain::BoundaryLoad<float>)
                                                                      : sizeof(terrain::BoundaryLoad<double>);
-  return sizeof(std::uint32_t) + load + springs * sizeof(float) +
-         (traits.features & terrain::kSurfaces ? sizeof(base::Vec3d) : 0);
+  const double fromSurfaces = traits.features & terrain::kSurfaces ? sizeof(base::Vec3d) : 0;
+  return sizeof(std::uint32_t) + load + springs * sizeof(float) + fromSurfaces;
 }
 
 } // namespace

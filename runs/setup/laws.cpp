@@ -94,7 +94,7 @@ contact::BasicPlasticity<double> plasticityOf(const scene::Material& a, const sc
                         : &a == &b                  ? *a.surfaceEnergy
                                                     : std::sqrt(*a.surfaceEnergy * *b.surfaceEnergy);
   p.pull = 1.5 * base::kPi * energy * std::sqrt(2 * p.depthShare);
-  p.exponent = static_cast<int>(2 * std::max(*a.adhesionExponent, *b.adhesionExponent) + 0.5);
+  p.exponent = static_cast<int>(2 * std::max(*a.adhesionExponent, *b.adhesionExponent));
   return p;
 }
 

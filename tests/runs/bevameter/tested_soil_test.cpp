@@ -161,16 +161,17 @@ TEST(SoilPlan, LayersAreOfOneHeightWhereGrainsAreFine) {
 
 TEST(SoilPreparation, FrictionsAreTriedUntilThePorosityIsThere) {
   // Porosity as beds of spheres have it, about even in the logarithm of the friction.
-  const auto porosity = [](double friction) { return 0.40 + 0.012 * std::log(friction / 0.3); };
+  const auto porosity = [](double tried) { return 0.40 + 0.012 * std::log(tried / 0.3); };
   std::vector<std::vector<double>> trials;
-  while (const double friction = nextFriction(trials, 0.385, 0.002)) trials.push_back({friction, porosity(friction)});
+  double friction = 0;
+  while ((friction = nextFriction(trials, 0.385, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
   EXPECT_NEAR(nearestTrial(trials, 0.385)[1], 0.385, 0.002);
   EXPECT_LE(trials.size(), 5u);
   trials.clear();
-  while (const double friction = nextFriction(trials, 0.5, 0.002)) trials.push_back({friction, porosity(friction)});
+  while ((friction = nextFriction(trials, 0.5, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
   EXPECT_EQ(nearestTrial(trials, 0.5)[0], kMostFriction) << "out of reach: the loosest";
   trials.clear();
-  while (const double friction = nextFriction(trials, 0.2, 0.002)) trials.push_back({friction, porosity(friction)});
+  while ((friction = nextFriction(trials, 0.2, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
   EXPECT_EQ(nearestTrial(trials, 0.2)[0], kLeastFriction) << "out of reach: the densest";
 }
 
