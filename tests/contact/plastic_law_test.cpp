@@ -24,7 +24,7 @@ Plasticity eepa(bool hertz, double share, double surfaceEnergy, double exponent)
   p.share = share, p.depthShare = std::pow(share, 1 / m);
   p.lossShare = share / (1 - share) * (1 - p.depthShare) * m / (m + 1);
   p.pull = 1.5 * M_PI * surfaceEnergy * std::sqrt(2 * p.depthShare);
-  p.exponent = static_cast<int>(2 * exponent + 0.5);
+  p.exponent = static_cast<int>(2 * exponent);
   return p;
 }
 /// `fullDepth`: phi_f.
