@@ -166,7 +166,8 @@ void soilCommand(const SoilCommand& command) {
   reportSoil(plan, pieces, missing);
   if (const std::string unsound = unsoundTests(plan, pieces); !unsound.empty())
     throw base::SimulationError(
-        "tests have ended unsoundly and are left out of the tables; take more --steps-per-contact:" + unsound);
+        "tests have ended unsoundly and are left out of the tables (--steps-per-contact makes a step smaller):" +
+        unsound);
 }
 
 } // namespace grouser::bevameter
