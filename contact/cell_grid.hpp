@@ -39,6 +39,37 @@ struct CellGrid {
     return c;
   }
   GROUSER_HD Cell local(const base::Position& p) const { return cellOf(p) - low; }
+
+  /// Cells in use along an axis, from `first` on; across periodic boundaries they go on at the other end.
+  struct Span {
+    std::uint32_t first, count;
+  };
+  /// Those that hold all within `range` [units] of a place in a cell in use.
+  GROUSER_HD Span within(int axis, std::int64_t u, std::int64_t range) const {
+    constexpr std::int64_t kBias = std::int64_t{1} << 41;
+    const std::int64_t all = cells[axis];
+    if (!period.along(axis)) {
+      const std::int64_t from = (u + kBias - range) / edge[axis] - low[axis];
+      const std::int64_t to = (u + kBias + range) / edge[axis] - low[axis];
+      const std::int64_t first = from > 0 ? from : 0, last = to < all ? to : all - 1;
+      return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1)};
+    }
+    // The last cell holds what the division leaves over, too: downwards that brings what lies there nearer, upwards
+    // farther away than counted here.
+    const std::int64_t inside = u + period.periodsBack(axis, u) * period.length[axis] - period.low[axis];
+    const std::int64_t own = inside / edge[axis] < all ? inside / edge[axis] : all - 1;
+    const std::int64_t below = inside - own * edge[axis];
+    const std::int64_t down = below < range ? (range - below + edge[axis] - 1) / edge[axis] : 0;
+    const std::int64_t up = (below + range) / edge[axis];
+    if (down + up + 1 >= all) return {0, cells[axis]};
+    const std::int64_t first = own >= down ? own - down : own - down + all;
+    return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(down + up + 1)};
+  }
+  /// The k-th cell of a span.
+  GROUSER_HD std::uint32_t at(int axis, const Span& span, std::uint32_t k) const {
+    const std::uint32_t c = span.first + k;
+    return c < cells[axis] ? c : c - cells[axis];
+  }
 };
 
 } // namespace grouser::contact

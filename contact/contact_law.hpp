@@ -66,6 +66,7 @@ template <class T> struct BasicLaw {
   T rollingFriction{};       ///< [-], >= 0; 0 switches rolling resistance off
   T rollingDamping{};        ///< [-], >= 0: of the rolling spring's critical damping
   T pullPerRadius{};         ///< cohesion: 2 pi w [N/m], >= 0
+  T pullPerArea{};           ///< of one that grows with the radius: 2 pi dw / dR_eff [Pa], >= 0
   BasicPlasticity<T> plastic{};
 
   template <class U> BasicLaw<U> as() const {
@@ -82,6 +83,7 @@ template <class T> struct BasicLaw {
             u(rollingFriction),
             u(rollingDamping),
             u(pullPerRadius),
+            u(pullPerArea),
             plastic.template as<U>()};
   }
   /// The same with elastic contacts.
@@ -90,10 +92,23 @@ template <class T> struct BasicLaw {
     law.plastic = {};
     return law;
   }
+  /// The same with so much [-] of what holds surfaces together; of the same features where that is above 0.
+  BasicLaw pulling(T share) const {
+    BasicLaw law = *this;
+    for (T* pull :
+         {&law.pullPerRadius, &law.pullPerArea, &law.plastic.pull, &law.plastic.pullGrowth, &law.plastic.adhesion})
+      *pull *= share;
+    return law;
+  }
+  bool coheres() const { return pullPerRadius > 0 || pullPerArea > 0; }
+  /// Constant pull of cohesion [N] at an effective radius [m].
+  template <class R> GROUSER_HD R pull(R effectiveRadius) const {
+    return pullPerRadius * effectiveRadius + pullPerArea * effectiveRadius * effectiveRadius;
+  }
   /// Features that a kernel needs for this law; kManyMasses is the scene's affair.
   unsigned features() const {
     return (hertz ? kHertz : 0u) | (friction > 0 ? kFriction : 0u) | (rollingFriction > 0 ? kRollingFriction : 0u) |
-           (pullPerRadius > 0 ? kCohesion : 0u) | (plastic.share > 0 ? kPlastic : 0u);
+           (coheres() ? kCohesion : 0u) | (plastic.share > 0 ? kPlastic : 0u);
   }
 };
 
@@ -189,7 +204,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   T normalForce = elastic + dashpot;
   T pressing = normalForce;
   if constexpr (kMayYield) pressing += adhesion;
-  if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pullPerRadius * touch.effectiveRadius;
+  if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pull(touch.effectiveRadius);
   const T halfStepPerMass = Scalar(0.5) * dt / touch.effectiveMass;
   BasicReaction<T> reaction{
       n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, zero, pressing, c.normalStiffness,
@@ -244,7 +259,8 @@ template <class T> GROUSER_HD double storedEnergy(const BasicLaw<T>& law, double
                                                   const BasicPlasticState<double>* state = nullptr) {
   const double s2 = static_cast<double>(dot(shear, shear));
   const double k = static_cast<double>(law.stiffness), kt = static_cast<double>(law.tangentialStiffness);
-  const double pull = static_cast<double>(law.pullPerRadius) * effectiveRadius * overlap;
+  const double perRadius = static_cast<double>(law.pullPerRadius), perArea = static_cast<double>(law.pullPerArea);
+  const double pull = (perRadius * effectiveRadius + perArea * effectiveRadius * effectiveRadius) * overlap;
   if (state && law.plastic.share > 0) {
     const BasicElasticSpring<double> spring{k, effectiveRadius, law.hertz};
     const double sticks = law.hertz ? sqrt(effectiveRadius * overlap) : 1; // of k_t

@@ -54,7 +54,7 @@ template <unsigned kFeatures> GROUSER_HD Yielded yieldContact(const Crushing& cr
     y.overlap = most, y.capped = true;
     // Where the contact has gone over from one place of the part to another it is deeper at once, without any work.
     const float way = approach > 0 ? approach * dt : 0;
-    y.dissipated = (cap - law.pullPerRadius * radius) * (growth > 1.5f * way ? way : growth);
+    y.dissipated = (cap - law.pull(radius)) * (growth > 1.5f * way ? way : growth);
     y.cut = coefficientsOf<kFeatures>(law, overlap, mass, radius).elastic - cap;
   }
   if (y.overlap <= 0 || approach <= 0) return y;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 namespace grouser::contact {
 
@@ -32,6 +33,15 @@ void checkLength(std::uint32_t most, bool equal) {
                                          "step, a smaller skin or larger small grains"));
 }
 
+/// Cells about as wide as a grain where these are small; as wide as the largest reach while all are nearly alike.
+int timesFiner(std::int64_t diameter, std::int64_t smallest) {
+  constexpr double kTypical = 1.4; // of the smallest diameter
+  constexpr int kMost = 4;
+  if (smallest <= 0) return 1;
+  const double ratio = static_cast<double>(diameter) / (kTypical * static_cast<double>(smallest));
+  return std::clamp(static_cast<int>(std::min<double>(ratio, kMost)), 1, kMost);
+}
+
 /// Places are 32-bit numbers, also those that are read behind the last.
 void checkPlaces(std::uint64_t places, std::size_t grains) {
   if (places + kSlotsRead >= std::uint64_t{1} << 32)
@@ -42,10 +52,10 @@ void checkPlaces(std::uint64_t places, std::size_t grains) {
 } // namespace
 
 NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
-                             const base::Period& period)
-    : exec_(exec), diameter_(diameter), skin_(skin), period_(period), width_(width), count_(exec), start_(exec),
-      slot_(exec), reach_(exec), history_(exec), touching_(exec), id_(exec), order_(exec), cellStart_(exec),
-      slotAt_(exec), bounds_(exec, 6) {}
+                             const base::Period& period, std::int64_t smallest)
+    : exec_(exec), diameter_(diameter), skin_(skin), finer_(timesFiner(diameter, smallest)), period_(period),
+      width_(width), count_(exec), start_(exec), slot_(exec), reach_(exec), history_(exec), touching_(exec), id_(exec),
+      order_(exec), cellStart_(exec), slotAt_(exec), bounds_(exec, 6) {}
 
 void NeighbourList::sort(const Position* position, std::size_t count, const std::uint32_t* rowOf) {
   sorted_ = count;
@@ -55,7 +65,7 @@ void NeighbourList::sort(const Position* position, std::size_t count, const std:
   // A few grains far away must not make the grid huge: widen its cells until it fits.
   const double most = 16.0 * static_cast<double>(count) + 1e6;
   grid_.period = period_;
-  for (std::int64_t edge = diameter_ + skin_;; edge *= 2) {
+  for (std::int64_t edge = (diameter_ + skin_ + finer_ - 1) / finer_;; edge *= 2) {
     grid_.setEdge(edge);
     bounds_.zero();
     base::forEach(exec_, "find grid bounds", sharesOf(n), FindBounds<CellGrid>{grid_, position, n, bounds_.data()});
@@ -97,6 +107,19 @@ TouchingRows NeighbourList::contacts() const {
           touching_.data(),         maskWords_,    rows(),       width_};
 }
 
+base::Array<std::uint32_t> NeighbourList::largestNear(const RadiiInW& radii) const {
+  const std::size_t cells = cellStart_.size() - 1;
+  const auto n = static_cast<std::int64_t>(cells);
+  base::Array<std::uint32_t> largest(exec_, cells), further(exec_, cells);
+  base::forEach(exec_, "find largest in cells", n,
+                LargestInCell{radii, cellStart_.data(), slotAt_.empty() ? nullptr : slotAt_.data(), largest.data()});
+  for (int axis = 0; axis < 3; ++axis) {
+    base::forEach(exec_, "spread largest", n, LargestAlong{grid_, axis, finer_, largest.data(), further.data()});
+    std::swap(largest, further);
+  }
+  return largest;
+}
+
 std::uint32_t NeighbourList::layRows() {
   const std::size_t n = count_.size();
   start_.resize(n);
@@ -131,6 +154,8 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const ContactCache kept{keptStart.data(), keptId.data(), keptHistory.data()};
   if (former > 0) base::forEach(exec_, "keep contacts", former, KeepRow{contacts(), kept});
 
+  if (finer_ > 1 && !radii.sphere) throw std::logic_error("spheres of many sizes without their radii");
+  const base::Array<std::uint32_t> largest = finer_ > 1 ? largestNear(radii) : base::Array<std::uint32_t>(exec_);
   const NearSpheres near{grid_,
                          position,
                          cellStart_.data(),
@@ -138,7 +163,8 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
                          (diameter_ + skin_) * (diameter_ + skin_),
                          radii,
                          skin_,
-                         origins ? origins->ghost : nullptr};
+                         origins ? origins->ghost : nullptr,
+                         largest.empty() ? nullptr : largest.data()};
   count_.resize(sorted_);
   base::forEach(exec_, "count neighbours", n, CountNear{near, count_.data()});
   const std::uint32_t most = base::maximum(exec_, count_.data(), sorted_);

@@ -23,9 +23,10 @@ struct TouchingRows;
 class NeighbourList {
 public:
   /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: numbers of history
-  /// that each contact has, 0 for none. `period`: periodic boundaries, at least three diameters and skins apart.
+  /// that each contact has, 0 for none. `period`: periodic boundaries, at least three diameters and skins apart, none
+  /// along z. `smallest`: diameter of the smallest sphere, about; 0: they are all alike.
   NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
-                const base::Period& period = {});
+                const base::Period& period = {}, std::int64_t smallest = 0);
 
   /// Sorts `count` grains in space. Until build(), `order()[i]` is the old slot of the grain that belongs in slot i.
   /// `rowOf`: by old slot, its row in the present list, or a higher number without one; null: that of the slot itself.
@@ -72,6 +73,8 @@ public:
 
 private:
   TouchingRows contacts() const;
+  /// The largest radius near each cell of a fine grid.
+  base::Array<std::uint32_t> largestNear(const RadiiInW& radii) const;
   void groupByContacts(const std::uint32_t* rowOf);
   /// Gives the rows of `count_` neighbours their starts. Returns the places of all of them. Throws SimulationError
   /// where they are too many to be numbered.
@@ -79,6 +82,7 @@ private:
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
+  int finer_; ///< cells are so many times finer than the largest reach
   base::Period period_;
   int width_;
   std::size_t sorted_{0}; ///< grains of the next list

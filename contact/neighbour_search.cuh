@@ -6,7 +6,9 @@
 #include "contact/neighbour_rows.cuh"
 #include "contact/neighbour_view.hpp"
 
-/// How neighbours are found: spheres sorted by the cells of a grid, and a look into the 27 cells around each.
+/// How neighbours are found: spheres are sorted by the cells of a grid. Cells as wide as the largest reach have each
+/// look into the 27 around its own; where small spheres are much smaller than the largest, cells are finer, and each
+/// looks as far as the largest one that is near it.
 namespace grouser::contact {
 
 /// The spheres near one: those whose surfaces are closer than the skin.
@@ -19,35 +21,90 @@ struct NearSpheres {
   RadiiInW radii;
   std::int64_t skin;
   const std::uint32_t* ghost; ///< by slot: not 0 for one that needs no row; null where all have rows
+  /// By cell: the largest radius of a sphere that may reach into it [units]; null where cells are as wide as that.
+  const std::uint32_t* largest;
 
   /// Calls `visit(j)` for the slots near slot i, in the order of the cells.
   template <class Visit> GROUSER_HD void each(int i, const Visit& visit) const {
     if ((ghost && ghost[i]) || radii.isFixed(i)) return;
-    const base::Position p = position[i];
-    const Cell c = grid.local(p);
-    const std::int64_t own = radii.sphere ? radii.units(i) + skin : 0;
+    if (largest) return eachOfFine(i, visit);
+    const Cell c = grid.local(position[i]);
     for (int column = 0; column < 9; ++column) {
       std::uint32_t x = c.x + static_cast<std::uint32_t>(column / 3) - 1,
                     y = c.y + static_cast<std::uint32_t>(column % 3) - 1;
       if (!besides(0, x) || !besides(1, y)) continue;
       const ColumnOfThree near(grid, cellStart, x, y, c.z);
-      for (std::uint32_t k = near.first; k < near.last; ++k) {
-        const std::uint32_t j = slotAt ? slotAt[k] : k;
-        if (static_cast<int>(j) == i) continue;
-        const base::Vec3l apart = grid.period.apart(p, position[j]);
-        if (!differencesHold(apart)) continue;
-        const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
-        if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
-      }
+      eachBetween(i, near.first, near.last, visit);
     }
   }
 
 private:
+  template <class Visit> GROUSER_HD void eachOfFine(int i, const Visit& visit) const {
+    const base::Vec3l u = base::toUnits(position[i]);
+    const std::int64_t range = radii.units(i) + skin + largest[grid.key(grid.local(position[i]))];
+    const CellGrid::Span x = grid.within(0, u.x, range), y = grid.within(1, u.y, range), z = grid.within(2, u.z, range);
+    for (std::uint32_t a = 0; a < x.count; ++a)
+      for (std::uint32_t b = 0; b < y.count; ++b) {
+        const std::uint64_t row = grid.key({grid.at(0, x, a), grid.at(1, y, b), z.first});
+        eachBetween(i, cellStart[row], cellStart[row + z.count], visit); // never periodic along z
+      }
+  }
+  /// Those among the places first to last - 1 in the cells.
+  template <class Visit>
+  GROUSER_HD void eachBetween(int i, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
+    const base::Position p = position[i];
+    const std::int64_t own = radii.sphere ? radii.units(i) + skin : 0;
+    for (std::uint32_t k = first; k < last; ++k) {
+      const std::uint32_t j = slotAt ? slotAt[k] : k;
+      if (static_cast<int>(j) == i) continue;
+      const base::Vec3l apart = grid.period.apart(p, position[j]);
+      if (!differencesHold(apart)) continue;
+      const std::int64_t reach = radii.sphere ? own + radii.units(static_cast<int>(j)) : 0;
+      if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
+    }
+  }
   /// Whether there is such a cell beside one in use along x or y; across periodic boundaries it is at the other end.
   GROUSER_HD bool besides(int axis, std::uint32_t& c) const {
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;
     return c < cells;
+  }
+};
+
+/// The largest radius in each cell [units].
+struct LargestInCell {
+  RadiiInW radii;
+  const std::uint32_t *cellStart, *slotAt;
+  std::uint32_t* largest;
+  GROUSER_HD void operator()(int c) const {
+    std::int64_t most = 0;
+    for (std::uint32_t k = cellStart[c]; k < cellStart[c + 1]; ++k) {
+      const std::int64_t radius = radii.units(static_cast<int>(slotAt ? slotAt[k] : k));
+      most = radius > most ? radius : most;
+    }
+    largest[c] = static_cast<std::uint32_t>(most);
+  }
+};
+
+/// The largest number of the cells at most `reach` away along one axis.
+struct LargestAlong {
+  CellGrid grid;
+  int axis, reach;
+  const std::uint32_t* from;
+  std::uint32_t* largest;
+  GROUSER_HD void operator()(int key) const {
+    std::int64_t stride = 1;
+    for (int a = 2; a > axis; --a) stride *= grid.cells[a];
+    const std::int64_t cells = grid.cells[axis], own = key / stride % cells;
+    std::uint32_t most = 0;
+    for (std::int64_t k = own - reach; k <= own + reach; ++k) {
+      std::int64_t there = k;
+      if (grid.period.along(axis)) there = k < 0 ? k + cells : k >= cells ? k - cells : k;
+      if (there < 0 || there >= cells) continue;
+      const std::uint32_t value = from[key + (there - own) * stride];
+      most = value > most ? value : most;
+    }
+    largest[key] = most;
   }
 };
 

@@ -33,13 +33,14 @@ template <class T> struct BasicPlasticity {
   T depthShare{};  ///< x_p / x_m on the first loading: lambda^(1/m) [-] (EEPA)
   T lossShare{};   ///< of F x on the first loading that is dissipated since x = 0 [-] (EEPA)
   T pull{};        ///< EEPA: P over sqrt(x_m R_eff) [N/m], >= 0
+  T pullGrowth{};  ///< EEPA: of one that grows with the radius: P over sqrt(x_m R_eff) R_eff [Pa], >= 0
   T fullDepth{};   ///< Luding: x* / R_eff [-], > 0; 0: EEPA
   T adhesion{};    ///< Luding: k_c / k1 [-], >= 0
   int exponent{2}; ///< EEPA: 2 chi
 
-  template <class U> GROUSER_HD_MEMBER BasicPlasticity<U> as() const {
+  template <class U> GROUSER_HD BasicPlasticity<U> as() const {
     const auto u = [](T value) { return static_cast<U>(value); };
-    return {u(share), u(depthShare), u(lossShare), u(pull), u(fullDepth), u(adhesion), exponent};
+    return {u(share), u(depthShare), u(lossShare), u(pull), u(pullGrowth), u(fullDepth), u(adhesion), exponent};
   }
 };
 
@@ -99,9 +100,11 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
     const T most = steep * state.origin / (steep + p.adhesion);
     return {p.adhesion * (elastic < most ? elastic : most), T(1)};
   }
-  if (p.pull <= 0) return {T(0), T(1)};
+  const T pullPerRoot = p.pull + p.pullGrowth * spring.effectiveRadius;
+  if (pullPerRoot <= 0) return {T(0), T(1)};
   const T origin = p.share * spring.force(state.deepest); // before any pull
-  const T half = T(0.5) * steep * origin, pull = p.pull * base::squareRoot(state.deepest * spring.effectiveRadius);
+  const T half = T(0.5) * steep * origin;
+  const T pull = pullPerRoot * base::squareRoot(state.deepest * spring.effectiveRadius);
   const T most = pull < half ? pull : half;
   const T turn = origin - most / steep; // elastic force at x_min
   if (elastic >= turn) return {most, T(0)};

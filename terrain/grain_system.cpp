@@ -11,7 +11,8 @@ GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, cons
     : exec(device), comm(partition.comm), constants(model, around, start),
       laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), books(exec, constants),
       boundaries(exec, constants, around),
-      neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period),
+      neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period,
+                 static_cast<std::int64_t>(2 * constants.smallestRadius / constants.scale.unit)),
       count(0) {
   const std::vector<base::Position> places = placesOf(start, 0, constants);
   if (!comm.alone()) distribution = std::make_unique<GrainDistribution>(exec, partition, constants, places);

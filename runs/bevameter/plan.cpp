@@ -15,9 +15,9 @@ namespace grouser::bevameter {
 namespace {
 
 constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `grouser study plates` has compared them
-constexpr double kCellLength = 16, kCellWidth = 8, kCellHeight = 10; // [d]
-constexpr double kCoarseLength = 12, kCoarseWidth = 6;               // [d]
-constexpr double kFall = 0.5;                                        // [s] simulated for a lift, for the time left only
+constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by a tenth
+constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
+constexpr double kFall = 0.5;   // [s] simulated for a lift, for the time left only
 constexpr double kPressed = 70; // [d sqrt(density / stress)] before shearing begins, for the same
 
 /// An impact whose deepest overlap is that of a contact in the chains of a bed under `pressure`: so stiff are its
@@ -114,6 +114,7 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.options = options, plan.soil = soil;
   plan.grains.grains.radius = soil.grainRadius, plan.grains.grains.density = soil.density;
   plan.grains.grains.friction = soil.friction, plan.grains.grains.law = soil.law;
+  plan.grains.preparationLaw = soil.lawWithoutPull;
   plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
   plan.grains.stepsPerContact = options.stepsPerContact;
   plan.grains.impactSpeed = impactLikePressure(
@@ -125,8 +126,7 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.wide = plan.large = plan.small;
   plan.wide.strip.bin *= 2;
   plan.large.strip.breadth *= options.plateRatio;
-  // Grains of other sizes need a law whose stiffness grows with them as that of a solid does.
-  if (soil.young > 0) {
+  if (soil.isOneAtAllSizes) {
     plan.large.strip.fineDepth = kFineDepth, plan.large.strip.coarsening = kCoarsening;
     plan.large.strip.thickness = options.gradedThickness;
   }

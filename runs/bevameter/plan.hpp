@@ -27,7 +27,7 @@ struct PlanOptions {
   double thickness = 12;                                      ///< [d] of beds along the strips
   double gradedThickness = 16;                                ///< [d] of graded beds
   double inertialNumber = 1.8e-3, shearInertialNumber = 8e-4; ///< [-]
-  double stepsPerContact = 14;                                ///< of the shortest contact
+  double stepsPerContact = 20;                                ///< of the shortest contact
   double shearStrain = 0.4;                                   ///< [-]
   double shearHeight = 0.14;                                  ///< [m] of a sheared sample, at least ten grains
   std::vector<double> loads = {10e3, 25e3, 50e3, 100e3};      ///< [Pa]

@@ -92,20 +92,22 @@ ShearFit fitShear(const std::vector<std::vector<ShearCurve>>& tests, const std::
   ShearFit fit{kNone, kNone, kNone, kNone, kNone, kNone, kNone};
   Line residual, peak;
   std::vector<Normalised> curves;
-  double humps = 0;
+  double humps = 0, all = 0;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const double times = counts.empty() ? 1 : counts[t];
     if (times == 0) continue;
     for (const ShearCurve& curve : tests[t]) {
       const CurveStrength s = strengthOf(curve);
-      residual.add(s.residualNormal, s.residualShear, times), peak.add(s.peakNormal, s.peakShear, times);
+      // Strengths scatter in proportion to the load: a weak sample under little load says most about c.
+      residual.add(s.residualNormal, s.residualShear, times / (s.residualNormal * s.residualNormal));
+      peak.add(s.peakNormal, s.peakShear, times / (s.peakNormal * s.peakNormal));
       curves.push_back({&curve, s.residualShear, times});
-      humps += times * s.hump();
+      humps += times * s.hump(), all += times;
     }
   }
   if (curves.empty()) return fit;
   residual.solve(fit.cohesion, fit.angle), peak.solve(fit.peakCohesion, fit.peakAngle);
-  fit.hump = humps / residual.n;
+  fit.hump = humps / all;
   fit.shearModulus = bestModulus(curves);
   fit.misfit = std::sqrt(misfitOf(curves, fit.shearModulus));
   return fit;

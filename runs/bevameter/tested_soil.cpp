@@ -159,9 +159,16 @@ void setNumber(TestedSoil& soil, const std::string& key, double value) {
   soil.density = numberOf(soil, "density", soil.density), soil.friction = numberOf(soil, "friction", soil.friction);
   if (soil.young > 0) soil.young = numberOf(soil, "young", soil.young);
   if (key == "cohesion") soil.isPlain = soil.isPlain && value == 0;
-  soil.law.clear();
-  for (const auto& [name, text] : soil.keys)
-    if (name != "density" && name != "friction") soil.law += name + " = " + text + "\n";
+  soil.law.clear(), soil.lawWithoutPull.clear();
+  bool holds = false, grows = false;
+  for (const auto& [name, text] : soil.keys) {
+    if (name == "density" || name == "friction") continue;
+    const bool pulls = name == "cohesion" || name == "surface_energy" || name == "adhesion_stiffness";
+    soil.law += name + " = " + text + "\n";
+    if (!pulls) soil.lawWithoutPull += name + " = " + text + "\n";
+    holds = holds || (pulls && numberOf(soil, name, 0) > 0), grows = grows || name == "adhesion_radius";
+  }
+  soil.isOneAtAllSizes = soil.young > 0 && (!holds || grows);
 }
 
 TestedSoil readMaterial(const base::Section& root, const std::string& key, const fs::path& file, double grainRadius) {

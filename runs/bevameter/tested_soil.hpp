@@ -40,6 +40,7 @@ struct TestedSoil {
   std::vector<std::pair<std::string, std::string>> keys;
   /// Those but for density and friction, a line each.
   std::string law;
+  std::string lawWithoutPull;                  ///< the same without cohesion and adhesion
   double density = 0;                          ///< [kg/m3] of the solid
   double friction = 0;                         ///< [-]
   double young = 0;                            ///< [Pa] of Hertz' contacts; 0: of another law
@@ -51,6 +52,10 @@ struct TestedSoil {
   std::optional<double> porosity;              ///< [-] of the bed; empty: as it falls with the soil's own friction
   double calibratedFrom = 0, calibratedTo = 0; ///< [m] radii; both 0 where the file names none
   std::vector<PublishedValue> published;
+
+  /// Whether the stiffness of contacts grows with their grains as that of a solid does, and adhesion, if there is any,
+  /// as the stress that it stands for: then grains of many sizes are one soil.
+  bool isOneAtAllSizes = false;
 
   bool isCalibrated() const {
     return calibratedTo == 0 ||

@@ -133,6 +133,12 @@ Table<Material> materialTable() {
         "R_eff (DMT); 0 leaves it out")
       .atLeast(0)
       .atMost(1e6);
+  t.add("adhesion_radius", &S::adhesionRadius, "m",
+        "radius of the grains that cohesion and surface_energy are of: in other contacts these grow in proportion to "
+        "R_eff, so that grains of all sizes hold together under the same stress; not given: one energy at all sizes, "
+        "and coarse grains hold together less")
+      .above(0)
+      .atMost(10);
   addPlasticity(t);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
         "sigma_f of the grains: against parts of a vehicle and meshes their normal force is at most sigma_f d^2 (d: "

@@ -94,6 +94,7 @@ struct Material {
   double rollingFriction = 0;
   double rollingDampingRatio = 0.3;
   double cohesion = 0;                     ///< [J/m2] energy of adhesion
+  std::optional<double> adhesionRadius;    ///< [m] of grains that cohesion and surfaceEnergy are of; empty: of all
   std::optional<double> plasticity;        ///< [-] eepa, eepa_linear, luding: 1 - k1/k2, the greatest
   std::optional<double> surfaceEnergy;     ///< [J/m2] eepa, eepa_linear: gamma of the pull-off force
   std::optional<double> adhesionExponent;  ///< [-] eepa, eepa_linear: chi of the adhesive branch

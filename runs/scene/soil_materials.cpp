@@ -47,8 +47,9 @@ std::vector<Mention> mentionedMaterials(const Section& root) {
 
 /// The keys of a material that mean the same in every law.
 bool isOfAnyLaw(const std::string& key) {
-  constexpr const char* kAny[] = {"density",          "restitution",           "attraction", "friction",
-                                  "rolling_friction", "rolling_damping_ratio", "cohesion",   "crushing_strength"};
+  constexpr const char* kAny[] = {"density",  "restitution",      "attraction",
+                                  "friction", "rolling_friction", "rolling_damping_ratio",
+                                  "cohesion", "adhesion_radius",  "crushing_strength"};
   return std::find(std::begin(kAny), std::end(kAny), key) != std::end(kAny);
 }
 

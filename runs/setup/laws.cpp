@@ -74,6 +74,12 @@ void setHertz(const scene::Material& a, const scene::Material& b, const scene::C
       2 * beta * std::min(*a.tangentialDampingRatio, *b.tangentialDampingRatio) * std::sqrt(law.tangentialStiffness);
 }
 
+/// Radius of equal grains that the energies of adhesion of a pair are meant for, if they grow with it.
+std::optional<double> adhesionRadius(const scene::Material& a, const scene::Material& b) {
+  if (!a.adhesionRadius || !b.adhesionRadius) return {};
+  return &a == &b ? *a.adhesionRadius : std::sqrt(*a.adhesionRadius * *b.adhesionRadius);
+}
+
 /// The smaller plasticity and adhesion stiffness, the geometric mean of the surface energies, the larger exponent and
 /// plastic depth.
 contact::BasicPlasticity<double> plasticityOf(const scene::Material& a, const scene::Material& b,
@@ -93,7 +99,11 @@ contact::BasicPlasticity<double> plasticityOf(const scene::Material& a, const sc
   const double energy = pair && pair->surfaceEnergy ? *pair->surfaceEnergy
                         : &a == &b                  ? *a.surfaceEnergy
                                                     : std::sqrt(*a.surfaceEnergy * *b.surfaceEnergy);
-  p.pull = 1.5 * base::kPi * energy * std::sqrt(2 * p.depthShare);
+  const double pull = 1.5 * base::kPi * energy * std::sqrt(2 * p.depthShare);
+  if (const std::optional<double> radius = adhesionRadius(a, b))
+    p.pullGrowth = pull / (0.5 * *radius);
+  else
+    p.pull = pull;
   p.exponent = static_cast<int>(2 * std::max(*a.adhesionExponent, *b.adhesionExponent));
   return p;
 }
@@ -119,7 +129,10 @@ ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA, const st
   const double cohesion = pair && pair->cohesion ? *pair->cohesion
                           : &a == &b             ? a.cohesion
                                                  : std::sqrt(a.cohesion * b.cohesion);
-  law.pullPerRadius = 2 * base::kPi * cohesion;
+  if (const std::optional<double> radius = adhesionRadius(a, b))
+    law.pullPerArea = 2 * base::kPi * cohesion / (0.5 * *radius);
+  else
+    law.pullPerRadius = 2 * base::kPi * cohesion;
   if (a.hertzian())
     setHertz(a, b, pair, law);
   else

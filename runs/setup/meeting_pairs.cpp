@@ -41,7 +41,7 @@ std::vector<std::string> switchedOff(const scene::Material& a, const scene::Mate
   };
   say("friction", "the smaller", a.friction, b.friction, law.friction);
   say("rolling_friction", "the smaller", a.rollingFriction, b.rollingFriction, law.rollingFriction);
-  say("cohesion", "the geometric mean", a.cohesion, b.cohesion, law.pullPerRadius);
+  say("cohesion", "the geometric mean", a.cohesion, b.cohesion, law.coheres() ? 1 : 0);
   return sentences;
 }
 
@@ -70,7 +70,8 @@ private:
     if (friction) pair.law.friction = *friction;
     pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
     pair.restitution = restitutionOf(pair.law, mass);
-    pair.cohesion = pair.law.pullPerRadius / (2 * base::kPi);
+    const double effectiveRadius = share * kind.smallest;
+    pair.cohesion = pair.law.pull(effectiveRadius) / (2 * base::kPi * effectiveRadius);
     pair.off = switchedOff(scene_.material(kind.material), scene_.material(partner), pair.law);
     pairs_.push_back(std::move(pair));
   }

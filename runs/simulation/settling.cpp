@@ -15,6 +15,7 @@ namespace grouser::simulation {
 namespace {
 
 constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
+constexpr double kPreparedPull = 1e-4;                     // of cohesion and adhesion [-]; 0 would be another law
 constexpr double kClose = 0.002;                           // of porosities [-]
 constexpr double kOff = 0.01;                              // of the ends, that are as far as bisection goes [-]
 constexpr int kTrials = 10;
@@ -102,9 +103,13 @@ void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, dou
                         const SettleProgress& progress, SettleReport& report) {
   const terrain::GrainModel own = grains.model();
   terrain::GrainModel prepared = own;
-  prepared.law.friction = friction;
-  for (contact::ContactLaw& law : prepared.materials.grains)
+  // What sticks while it falls lies as loosely as no soil that machines have passed over.
+  const auto prepare = [friction](contact::ContactLaw& law) {
+    law = law.pulling(kPreparedPull);
     if (law.friction > 0) law.friction = friction;
+  };
+  prepare(prepared.law);
+  for (contact::ContactLaw& law : prepared.materials.grains) prepare(law);
   grains.replaceLaws(prepared);
   setup::SettleSetup nearly = bed.settle;
   nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();

@@ -46,6 +46,13 @@ double Soil::meanVolume() const {
   return base::kPi / 6 * grains.diameter() * grains.diameter() * grains.diameter() * (1 + spread * spread);
 }
 
+Soil Soil::prepared() const {
+  Soil soil = *this;
+  soil.grains.friction = preparationFriction;
+  if (!preparationLaw.empty()) soil.grains.law = preparationLaw;
+  return soil;
+}
+
 std::string Soil::toml(double friction) const {
   SampleGrains g = grains;
   g.friction = friction;
@@ -75,7 +82,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
   const double cloud =
       static_cast<double>(number) * soil.meanVolume() / (kCloud * (size.length - largest) * (size.width - largest));
   const std::string text =
-      soil.scene(1, seed, soil.preparationFriction, {0, 0, -9.81}, size.run()) + below +
+      soil.prepared().scene(1, seed, soil.preparationFriction, {0, 0, -9.81}, size.run()) + below +
       fmt::format("[[grains]]\nform = \"random\"\nlow = [0, 0, {0:.17g}]\nhigh = [{1:.17g}, {2:.17g}, {3:.17g}]\n"
                   "number = {4}\nradius = {5:.17g}\nradius_to = {6:.17g}\nmaterial = \"grain\"\n",
                   d, size.length, size.width, d + cloud, number, r * (1 - soil.spread), r * (1 + soil.spread));

@@ -18,9 +18,11 @@ struct Soil {
   SampleGrains grains;
   double spread = 0.25;                    ///< radii are uniform, by number, within this share of the mean
   double preparationFriction = 0.5;        ///< [-] between grains while they come to rest: the less, the denser
+  std::string preparationLaw;              ///< grains.law while they come to rest; empty: the same
   double stepsPerContact = 14;             ///< of the shortest contact
   double impactSpeed = 0;                  ///< [m/s] above 0: that steps of Hertz' contacts are chosen for
   double meanVolume() const;               ///< of a grain [m3]
+  Soil prepared() const;                   ///< with friction and law of the preparation
   std::string toml(double friction) const; ///< [material.grain]
   /// The start of a scene: [run] with these, and the material. Keys of [run] in `run` come first.
   std::string scene(double duration, std::int64_t seed, double friction, const base::Vec3d& gravity,

@@ -91,5 +91,21 @@ TEST(ContactLaw, FrictionOfStickySurfacesIsLimitedByWhatPresses) {
   EXPECT_NEAR(r.force.x, -0.5 * 1, 1e-12) << "friction x k overlap";
 }
 
+TEST(ContactLaw, PullThatGrowsWithTheRadiusGoesWithItsSquare) {
+  auto law = linear<double>();
+  law.damping = law.tangentialDamping = law.friction = 0, law.pullPerArea = 2000;
+  EXPECT_EQ(law.features() & kCohesion, kCohesion);
+  for (const double radius : {0.01, 0.02, 0.05}) {
+    base::Vec3d shear;
+    const BasicContactGeometry<double> touch{{0, 0, 1}, 1e-5, {}, 0.1, radius};
+    const double pull = contactForce<kCohesion>(law, touch, 1e-6, shear).force.z + law.stiffness * 1e-5;
+    EXPECT_NEAR(pull, 2000 * radius * radius, 1e-12);
+    EXPECT_NEAR(storedEnergy(law, 1e-5, radius, shear), 0.5 * law.stiffness * 1e-10 - 1e-5 * pull, 1e-16);
+  }
+  const auto less = law.pulling(0.25);
+  EXPECT_EQ(less.pullPerArea, 500);
+  EXPECT_EQ(less.stiffness, law.stiffness);
+}
+
 } // namespace
 } // namespace grouser::contact

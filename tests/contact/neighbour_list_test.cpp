@@ -26,8 +26,9 @@ double randomNumber(int sphere, int axis, const char* what) {
 
 /// Spheres and their list, as the grains keep them: sorted in space at every build. Spheres are known by their ids.
 struct Bed {
-  explicit Bed(std::vector<Vec3l> places, int width = 0, const base::Period& period = {}, std::vector<float> radii = {})
-      : place(std::move(places)), radius(std::move(radii)), list(exec, kDiameter, kSkin, width, period) {}
+  explicit Bed(std::vector<Vec3l> places, int width = 0, const base::Period& period = {}, std::vector<float> radii = {},
+               std::int64_t smallest = 0)
+      : place(std::move(places)), radius(std::move(radii)), list(exec, kDiameter, kSkin, width, period, smallest) {}
 
   void build() {
     std::vector<Position> positions;
@@ -148,6 +149,35 @@ TEST(NeighbourList, SpheresOfSeveralSizesReachAsFarAsTheirRadii) {
   Bed bed(randomPlaces(1200, 6), 0, {}, radius);
   bed.build();
   EXPECT_EQ(bed.rows(), bruteForce(bed.place, {}, radius));
+}
+
+TEST(NeighbourList, FineCellsHoldTheSamePairs) {
+  // Coarse below, fine above, a few coarse ones among the fine; periods that no cell divides.
+  std::vector<Vec3l> place = randomPlaces(4000, 9);
+  const auto radiusOf = [&](std::size_t i) {
+    const double height = static_cast<double>(place[i].z) / (9.0 * kDiameter) + 0.5; // 0 to 1
+    const double share = i % 97 == 0 ? 1 : std::max(0.2, 1 - 1.2 * height);
+    return static_cast<float>(static_cast<std::int64_t>(share * kDiameter / 2) & ~std::int64_t{0xFF});
+  };
+  std::vector<float> radius;
+  for (std::size_t i = 0; i < place.size(); ++i) radius.push_back(radiusOf(i));
+  for (const std::int64_t smallest : {kDiameter / 2, kDiameter / 3, kDiameter / 5, kDiameter / 30}) {
+    Bed bed(place, 0, {}, radius, smallest);
+    bed.build();
+    EXPECT_EQ(bed.rows(), bruteForce(place, {}, radius)) << smallest;
+    base::Period period;
+    period.low = {-4 * kDiameter, -5 * kDiameter, 0};
+    period.length = {8 * kDiameter + 12'345'678, 9 * kDiameter + 77'000'001, 0};
+    std::vector<Vec3l> inside = place;
+    for (Vec3l& u : inside) u = period.wrapped(u);
+    Bed ring(inside, 0, period, radius, smallest);
+    ring.build();
+    EXPECT_EQ(ring.rows(), bruteForce(inside, period, radius)) << smallest;
+  }
+  place[7] = {std::int64_t{1} << 40, 0, 0}; // one far away widens all cells
+  Bed wide(place, 0, {}, radius, kDiameter / 5);
+  wide.build();
+  EXPECT_EQ(wide.rows(), bruteForce(place, {}, radius));
 }
 
 TEST(NeighbourList, PairsAcrossPeriodicBoundariesAreListed) {

@@ -48,6 +48,16 @@ protected:
   double round = 1e-13 * k1 * std::pow(deepest, m); ///< of the forces here
 };
 
+TEST_P(Eepa, EnergyThatGrowsWithTheRadiusPullsLikeAConstantOneOfThatRadius) {
+  const Plasticity constant = eepa(hertz, 0.6, 20, m);
+  Plasticity growing = constant;
+  growing.pull = 0, growing.pullGrowth = constant.pull / kRadius;
+  State a, b;
+  for (const double x : {0.5 * deepest, deepest, 0.9 * deepest, 0.7 * deepest, 0.4 * deepest, 0.6 * deepest})
+    EXPECT_NEAR(forceAt(growing, spring, x, a), forceAt(constant, spring, x, b), round) << x;
+  EXPECT_LT(forceAt(growing, spring, 0.3 * deepest, a), 0) << "pulls";
+}
+
 TEST_P(Eepa, IsLoadedByTheElasticLawAndUnloadedAlongASteeperLine) {
   const Plasticity p = eepa(hertz, 0.6, 0, m);
   State s;

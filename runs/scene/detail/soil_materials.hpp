@@ -39,6 +39,7 @@ template <class M, class F> void forEachScaled(M&& m, F f) {
   f("damping", "1/s", m.damping, -1);
   f("cohesion", "J/m2", m.cohesion, 1);
   f("surface_energy", "J/m2", m.surfaceEnergy, 1);
+  f("adhesion_radius", "m", m.adhesionRadius, 1);
   f("adhesion_stiffness", "N/m", m.adhesionStiffness, 1);
 }
 inline bool isGiven(const std::optional<double>& value) { return value.has_value(); }

@@ -235,7 +235,7 @@ TEST(TestIntervals, HoldMohrCoulombsConstantsAsOftenAsTheySay) {
         for (std::size_t k = 0; k < tests.size(); ++k)
           for (const ShearCurve& curve : tests[k]) {
             const CurveStrength s = strengthOf(curve);
-            const double w = counts[0][k];
+            const double w = counts[0][k] / (s.residualNormal * s.residualNormal);
             n += w, x += w * s.residualNormal, y += w * s.residualShear;
             xx += w * s.residualNormal * s.residualNormal, xy += w * s.residualNormal * s.residualShear;
           }

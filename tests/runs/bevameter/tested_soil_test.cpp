@@ -56,6 +56,26 @@ protected:
   }
 };
 
+TEST_F(SoilFile, IsGradedWhereStiffnessAndPullKnowTheRadius) {
+  std::string hertz = kSoil;
+  hertz.replace(hertz.find("stiffness = 2e5"), 15, "law = \"hertz\"\nyoung = 2e8");
+  const auto graded = [this](const std::string& text) {
+    put(folder_ / "soil.toml", text);
+    return planOf(readTestedSoil(folder_ / "soil.toml", 0), {}).large.strip.coarsening > 0;
+  };
+  EXPECT_FALSE(graded(kSoil)) << "one stiffness at all sizes";
+  EXPECT_FALSE(graded(hertz)) << "one energy of adhesion at all sizes";
+  std::string grows = hertz, dry = hertz;
+  grows.replace(grows.find("cohesion = 0.5"), 14, "cohesion = 0.5\nadhesion_radius = 0.007");
+  dry.replace(dry.find("cohesion = 0.5"), 14, "cohesion = 0");
+  EXPECT_TRUE(graded(grows));
+  EXPECT_TRUE(graded(dry));
+  const TestedSoil soil = readTestedSoil(folder_ / "soil.toml", 0.014);
+  EXPECT_EQ(soil.lawWithoutPull.find("cohesion"), std::string::npos);
+  put(folder_ / "soil.toml", grows);
+  EXPECT_EQ(numberOf(readTestedSoil(folder_ / "soil.toml", 0.014), "adhesion_radius", 0), 0.014);
+}
+
 TEST_F(SoilFile, StiffnessAndCohesionGrowWithTheGrains) {
   put(folder_ / "soil.toml", kSoil);
   const TestedSoil as = readTestedSoil(folder_ / "soil.toml", 0), twice = readTestedSoil(folder_ / "soil.toml", 0.014);
@@ -110,7 +130,7 @@ TestedSoil sand(bool hertz) {
   TestedSoil soil;
   soil.name = "sand", soil.density = 2500, soil.friction = 0.5, soil.grainRadius = soil.fileRadius = 0.01;
   soil.spread = 0.25, soil.isPlain = !hertz;
-  if (hertz) soil.young = 2e8, soil.poisson = 0.25;
+  if (hertz) soil.young = 2e8, soil.poisson = 0.25, soil.isOneAtAllSizes = true;
   soil.law = hertz ? "law = \"hertz\"\nyoung = 2e8\n" : "stiffness = 1e5\n";
   return soil;
 }

@@ -51,6 +51,31 @@ TEST(PairLawValues, OfAPairAreThoseOfItsSection) {
   EXPECT_EQ(pairLaw(scene, "soft", "soft", 0.1).friction, 0.3) << "of the pair alone";
 }
 
+TEST(PairLawValues, EnergiesOfAdhesionGrowWithTheRadiusWhereBothMaterialsSaySo) {
+  const auto of = [](const std::string& first, const std::string& second) {
+    return parseScene(
+        "version = 1\n[run]\nduration = 1\n"
+        "[material.fine]\nlaw = \"eepa\"\nyoung = 1e8\nsurface_energy = 3\ncohesion = 0.4\n" +
+            first + "[material.coarse]\nlaw = \"eepa\"\nyoung = 1e8\nsurface_energy = 12\ncohesion = 0.9\n" + second +
+            "[[grain]]\nposition = [0, 0, 0]\nradius = 0.01\nmaterial = \"fine\"\n"
+            "[[grain]]\nposition = [1, 0, 0]\nradius = 0.01\nmaterial = \"coarse\"\n",
+        "two.toml");
+  };
+  const scene::Scene one = of("adhesion_radius = 0.01\n", "");
+  const contact::ContactLaw constant = pairLaw(one, "coarse", "coarse", {}), grown = pairLaw(one, "fine", "fine", {});
+  EXPECT_NEAR(constant.pull(0.01), 2 * base::kPi * 0.9 * 0.01, 1e-14);
+  EXPECT_NEAR(grown.pull(0.005), 2 * base::kPi * 0.4 * 0.005, 1e-14) << "two grains of that radius";
+  EXPECT_NEAR(grown.pull(0.010), 4 * 2 * base::kPi * 0.4 * 0.005, 1e-14) << "as the square";
+  EXPECT_EQ(grown.plastic.pull, 0);
+  EXPECT_NEAR(4 * 0.005 * grown.plastic.pullGrowth, constant.plastic.pull, 1e-12) << "3 J/m2 there, a quarter of 12";
+  const contact::ContactLaw mixed = pairLaw(one, "fine", "coarse", {});
+  EXPECT_NEAR(mixed.pull(0.01), 2 * base::kPi * 0.6 * 0.01, 1e-14) << "only one says so";
+  const contact::ContactLaw both =
+      pairLaw(of("adhesion_radius = 0.01\n", "adhesion_radius = 0.04\n"), "fine", "coarse", {});
+  EXPECT_NEAR(both.pull(0.01), 2 * base::kPi * 0.6 * 0.01, 1e-14) << "of equal grains of 20 mm, the geometric mean";
+  EXPECT_NEAR(both.pull(0.02), 8 * base::kPi * 0.6 * 0.01, 1e-14);
+}
+
 TEST(PlacementValues, HeadingIsInDegreesAndTheTerrainReachesToBothSides) {
   const scene::Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
                                        {"vehicle.heading=30", "vehicle.position=[4, -0.5]", "terrain.size=[9, 8]"});

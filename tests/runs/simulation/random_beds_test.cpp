@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random beds: prepared to a porosity, graded, on rough floors, the same on all threads, after a resume and in tiles.
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -46,6 +47,20 @@ TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
     // The grains rub with their own friction again.
     EXPECT_EQ((*s)->ground().grains->model().law.friction, 0.5);
   }
+}
+
+TEST(BedPreparation, GrainsStickOnlyOnceTheyLie) {
+  const std::vector<std::string> wanted = {"terrain.porosity=0.38"};
+  std::vector<std::string> sticky = wanted;
+  sticky.emplace_back("material.soil.cohesion=100"); // 8 N, five times the weight of a grain
+  const auto dry = simulated(bed(wanted)), moist = simulated(bed(sticky));
+  EXPECT_NEAR(structure(*moist).porosity, 0.38, 0.012);
+  // What sticks again packs a little more closely; falling as it sticks it would need a fifth of this friction.
+  EXPECT_NEAR(moist->settled().friction / dry->settled().friction, 1, 0.3);
+  EXPECT_NEAR(moist->ground().grains->model().law.pull(0.0125), 2 * base::kPi * 100 * 0.0125, 1e-9) << "and stick then";
+  // Fallen as they stick they would lie far more loosely.
+  const auto fallen = simulated(bed({"material.soil.cohesion=100", "terrain.settle_kinetic_energy=1e-2"}));
+  EXPECT_GT(structure(*fallen).porosity, 0.42);
 }
 
 TEST(BedPreparation, PorosityOutOfReachIsRefusedWithWhatCanBeReached) {
