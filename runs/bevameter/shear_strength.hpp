@@ -29,8 +29,9 @@ struct ShearFit {
 };
 
 /// Fits all curves together: lines by least squares through residual and peak stresses of all of them, with
-/// weights 1 / sigma^2; K by least squares of tau / tau_residual over all their points. `tests`: [test][load], a test is a seed under all loads.
-/// `counts`: how often each test counts; empty: once. Where all loads are alike the lines go through the origin.
+/// weights 1 / sigma^2; K by least squares of tau / tau_residual over all their points. `tests`: [test][load], a test
+/// is a seed under all loads. `counts`: how often each test counts; empty: once. Where all loads are alike the lines go
+/// through the origin.
 ShearFit fitShear(const std::vector<std::vector<ShearCurve>>& tests, const std::vector<int>& counts = {});
 
 } // namespace grouser::bevameter

@@ -45,7 +45,7 @@ double weightTimesRadius(const Soil& soil, const BedGrains& grains) {
 /// A scene of the bed so far, with the soil's preparation friction.
 std::string sceneOf(const Soil& soil, const BedPreparation& bed, const std::string& below, std::int64_t seed) {
   return soil.prepared().scene(1, seed, soil.preparationFriction, {0, 0, -kGravity},
-                    bed.size.run() + fmt::format("impact_speed = {}\n", kFall)) +
+                               bed.size.run() + fmt::format("impact_speed = {}\n", kFall)) +
          below;
 }
 

@@ -55,7 +55,7 @@ TEST(BedPreparation, GrainsStickOnlyOnceTheyLie) {
   sticky.emplace_back("material.soil.cohesion=100"); // 8 N, five times the weight of a grain
   const auto dry = simulated(bed(wanted)), moist = simulated(bed(sticky));
   EXPECT_NEAR(structure(*moist).porosity, 0.38, 0.012);
-  // What sticks again packs a little more closely; falling as it sticks it would need a fifth of this friction.
+  // What sticks again packs a little more closely; falling as it sticks it needs a third of this friction.
   EXPECT_NEAR(moist->settled().friction / dry->settled().friction, 1, 0.3);
   EXPECT_NEAR(moist->ground().grains->model().law.pull(0.0125), 2 * base::kPi * 100 * 0.0125, 1e-9) << "and stick then";
   // Fallen as they stick they would lie far more loosely.
