@@ -38,8 +38,9 @@ def main(folder: str = "out/error_bars") -> tuple[grouser.Sweep, grouser.Check, 
               f"{mean.difference.unit}")
     check = scene.check(place / "check", axes=["step"], seeds=3, jobs=2, threads=1)
     force = check["ground force z"]
+    step = force.errors["step"]
     print(f"scene as it is: {force.bar}; seeds alone +- {force.by_seeds.half_width:.2g} {force.bar.unit}; "
-          f"half the step changes {force.errors['step'].change.value:.2g} {force.bar.unit}: {force.errors['step'].verdict}")
+          f"half the step changes {step.change.value:.2g} {step.change.unit}: {step.verdict}")
     bed = sweep.runs[0].open().bed()
     print(f"{len(bed)} grains at the end: the highest centre at {numpy.max(bed.position[:, 2]):.3f} m, "
           f"{numpy.mean(bed.contacts):.2f} contacts a grain")

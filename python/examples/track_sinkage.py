@@ -4,7 +4,8 @@
 
     python/examples/track_sinkage.py [FOLDER]       # of the results; default: out/track_sinkage
 
-The bed is shallow and coarse and the drive short, so that it ends within a minute: leave `coarsen()` away for the real one.
+The bed is shallow and coarse and the drive short, so that it ends within a minute: leave `coarsen()` away for the real
+one.
 """
 from __future__ import annotations
 
@@ -51,8 +52,9 @@ def main(folder: str = "out/track_sinkage") -> grouser.Run:
     print(run)
     for side, means in sinkage_by_shoe(run).items():
         shoes = numpy.flatnonzero(numpy.isfinite(means))
-        print(f"{side:5}: {len(shoes)} of {len(means)} shoes carried; mean sinkage {1e3 * numpy.nanmean(means):.0f} mm, "
-              f"deepest shoe {shoes[numpy.argmax(means[shoes])]} with {1e3 * numpy.nanmax(means):.0f} mm")
+        deepest = shoes[numpy.argmax(means[shoes])]
+        print(f"{side:5}: {len(shoes)} of {len(means)} shoes carried; mean sinkage {1e3 * means[shoes].mean():.0f} mm, "
+              f"deepest shoe {deepest} with {1e3 * means[deepest]:.0f} mm")
     surface = run.surface
     print(f"undisturbed surface: {surface.height.shape[0]} x {surface.height.shape[1]} nodes, "
           f"{surface.height.min():.3f} to {surface.height.max():.3f} m")

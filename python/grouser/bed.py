@@ -16,7 +16,8 @@ _TOP_BITS, _LOW_BITS = 10, 32  # of a coordinate of 42: base/position.hpp
 
 
 def metres_of(words: numpy.ndarray, unit: float) -> numpy.ndarray:
-    """[n, 3] [m] of integer positions [n, 4]: the low 32 bits of x, y and z, then three times 10 high bits; `unit` [m]."""
+    """[n, 3] [m] of integer positions [n, 4]: the low 32 bits of x, y and z, then three times 10 high bits; `unit`
+    [m]."""
     low, high = words[:, :3].astype(numpy.int64), words[:, 3].astype(numpy.int64)
     top = numpy.stack([high >> (_TOP_BITS * axis) for axis in range(3)], axis=1) & (1 << _TOP_BITS) - 1
     top -= (top >> (_TOP_BITS - 1)) << _TOP_BITS  # the highest bit is the sign
@@ -63,8 +64,8 @@ def _quantities(group: h5py.Group | None) -> dict[str, Quantity]:
 
 
 def open_bed(path: str | os.PathLike) -> Bed:
-    """Opens a settled bed that was kept (bed-*.h5 in the cache, which a run names in its line "bed"), a checkpoint.h5, or
-    that of a run's folder. FileError where it is none, or is one of before commits that tell the length of a unit."""
+    """Opens a settled bed that was kept (bed-*.h5 in the cache, which a run names in its line "bed"), a checkpoint.h5,
+    or that of a run's folder. FileError where it is none, or is of a program that did not tell the length of a unit."""
     path = Path(path)
     path = path / "checkpoint.h5" if path.is_dir() else path
     try:
@@ -76,7 +77,7 @@ def open_bed(path: str | os.PathLike) -> Bed:
             raise FileError(f"{path}: holds no grains")
         grains = file["grains"]
         if "unit" not in grains.attrs:
-            raise FileError(f"{path}: does not say what its positions count in: it is of an older program; make it anew")
+            raise FileError(f"{path}: does not say what its positions count in: it is of before; make it anew")
 
         def column(name: str, missing: float) -> numpy.ndarray:
             values = grains[name][:, 0]

@@ -15,7 +15,8 @@ from .errors import FileError
 from .series import Series
 
 #: Units of what frames hold of grains.
-UNITS = {"position": "m", "radius": "m", "speed": "m/s", "velocity": "m/s", "contact_force": "N", "fixed": "-", "id": "-"}
+UNITS = {"id": "-", "position": "m", "radius": "m", "speed": "m/s", "velocity": "m/s", "contact_force": "N",
+         "fixed": "-"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +42,7 @@ class Frame:
         return len(self._group["grains/id"]) if "grains" in self._group else 0
 
     def grains(self, name: str) -> numpy.ndarray:
-        """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.frames.UNITS`. KeyError where frames lack it."""
+        """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.UNITS`. KeyError where frames lack it."""
         if "grains" not in self._group:
             raise KeyError(f"{self._group.file.filename}: this frame has no grains")
         grains = self._group["grains"]
@@ -155,8 +156,8 @@ class Frames:
                       ("x", "y", "z", "qw", "qx", "qy", "qz"))
 
     def grain(self, id: int, name: str = "position") -> Series:
-        """A quantity of one grain over time: [frames] or [frames, 3]; NaN in frames that it is not in. KeyError where no
-        frame has it."""
+        """A quantity of one grain over time: [frames] or [frames, 3]; NaN in frames that it is not in. KeyError where
+        no frame has it."""
         rows: list[numpy.ndarray | None] = []
         for frame in self:
             at = numpy.flatnonzero(frame.id == id) if len(frame) else ()

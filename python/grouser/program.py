@@ -17,7 +17,8 @@ from pathlib import Path
 from .errors import KINDS, GrouserError
 
 #: "settling:  12.3 %, t 0.10 s, 4 s left", as runs/support/progress.cpp writes it
-_PROGRESS = re.compile(r"(?P<what>.+?): +(?P<percent>[\d.]+) %, (?P<detail>.*), (?P<left>[^,]+ left|time left unknown yet)")
+_PROGRESS = re.compile(r"(?P<what>.+?): +(?P<percent>[\d.]+) %, (?P<detail>.*), "
+                       r"(?P<left>[^,]+ left|time left unknown yet)")
 _ERASE = "\x1b[K"  # what a terminal is told before a line is written anew
 _ERROR = "grouser: error: "
 
@@ -36,9 +37,9 @@ class Progress:
 
 
 def find_program() -> Path:
-    """The program: GROUSER_PROGRAM of the environment, else build/bin/grouser of the checkout that this package lies in,
-    else the one that was installed with it, else `grouser` of the PATH. FileNotFoundError says what to do where there
-    is none."""
+    """The program: GROUSER_PROGRAM of the environment, else build/bin/grouser of the checkout that this package lies
+    in, else the one that was installed with it, else `grouser` of the PATH. FileNotFoundError says what to do where
+    there is none."""
     given = os.environ.get("GROUSER_PROGRAM")
     here = Path(__file__).resolve().parent
     installed = [up / "bin" / "grouser" for up in here.parents]  # PREFIX/lib/python3/dist-packages/grouser
@@ -57,7 +58,8 @@ class Job:
     """A running call of the program. Several may run at the same time.
 
     words: the command line behind the program's name. folder: that it is started in. progress: called with a Progress
-    for each line of progress, from another thread; None: nobody is. environment: variables beside those of this process.
+    for each line of progress, from another thread; None: nobody is. environment: variables beside those of this
+    process.
     """
 
     def __init__(self, words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,

@@ -47,7 +47,8 @@ class Run:
     """What a run has left in its folder. Everything is read when it is asked for; a run that is still going on can be
     opened, and opened again later.
 
-    `run["vehicle.left.slip"]` is a Series; `run.names()` lists them; `run.constants` has the numbers that do not change.
+    `run["vehicle.left.slip"]` is a Series; `run.names()` lists them; `run.constants` has the numbers that do not
+    change.
     """
 
     def __init__(self, path: str | os.PathLike):
@@ -104,7 +105,7 @@ class Run:
         """A series by its name, with dots (or slashes). KeyError where the run has none such."""
         group = self._groups.get(name.replace("/", "."))
         if group is None:
-            raise KeyError(f"{self.folder}: there is no series {name!r}; names() lists the {len(self._groups)} there are")
+            raise KeyError(f"{self.folder}: there is no series {name!r}; names() lists all {len(self._groups)}")
         value, rows = group["value"], self._rows
         return Series(value[:rows], text_of(value.attrs["unit"]), text_of(value.attrs["help"]), name.replace("/", "."),
                       self.time, self.step, tuple(text_of(label) for label in value.attrs.get("labels", ())))

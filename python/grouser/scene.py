@@ -32,8 +32,8 @@ def _path_of(key: str) -> list[str]:
 
 
 class Scene:
-    """A scene as a document of TOML: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys; the program judges them
-    when the scene is run, planned or checked.
+    """A scene as a document of TOML: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys; the program judges
+    them when the scene is run, planned or checked.
 
     document: nested dicts, as tomllib reads them; without it an empty scene of version 1. folder: that its files are
     named from. name: of its results.
@@ -70,8 +70,8 @@ class Scene:
         return table
 
     def __setitem__(self, key: str, value: Any) -> None:
-        """Sets "section.key", or a whole section to a dict. KeyError where something on the way is no section, such as a
-        list ([[grains]], [[plane]]...), which `add()` and `scene["grains"][0]` are for."""
+        """Sets "section.key", or a whole section to a dict. KeyError where something on the way is no section, such as
+        a list ([[grains]], [[plane]]...), which `add()` and `scene["grains"][0]` are for."""
         *sections, last = _path_of(key)
         table: Any = self.document
         for word in sections:
@@ -119,9 +119,9 @@ class Scene:
         """Starts `grouser run` and returns at once; `Run(out)` opens what is there already.
 
         out: folder of the results. force: overwrite what is in it. resume: go on from its checkpoint. device: "auto",
-        "cpu" or "cuda"; threads: of the CPU, 0 for all; else as the scene says. hash: print the hash of the final state.
-        cache: take and keep settled beds and cut parts. progress: called with each line of progress, from another thread.
-        environment: variables beside those of this process.
+        "cpu" or "cuda"; threads: of the CPU, 0 for all; else as the scene says. hash: print the hash of the final
+        state. cache: take and keep settled beds and cut parts. progress: called with each line of progress, from
+        another thread. environment: variables beside those of this process.
         """
         words = ["run", self._written(out), "--out", Path(out).resolve()]
         words += [flag for flag, given in (("--force", force), ("--resume", resume), ("--hash", hash),
@@ -141,13 +141,14 @@ class Scene:
             return call(["plan", file, *([] if probe else ["--no-probe"])], self.folder)
 
     def sweep(self, out: str | os.PathLike, values: Mapping[str, Iterable[Any]] | None = None, *, seeds: int = 0,
-              cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False, device: str = "",
-              threads: int | None = None, progress: Tell = None, environment: dict[str, str] | None = None) -> Sweep:
+              cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False,
+              device: str = "", threads: int | None = None, progress: Tell = None,
+              environment: dict[str, str] | None = None) -> Sweep:
         """Runs `grouser sweep`: all combinations, which goes on where it stopped.
 
-        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}. cases: {name: {key: value}}, keys that change
-        together. seeds: each combination with run.seed 1 to so many. jobs: runs at the same time. SimulationError names
-        the runs that failed; `Sweep(out)` opens the others.
+        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}. cases: {name: {key: value}}, keys that
+        change together. seeds: each combination with run.seed 1 to so many. jobs: runs at the same time.
+        SimulationError names the runs that failed; `Sweep(out)` opens the others.
         """
         words = ["sweep", self._written(out), "--out", Path(out).resolve(), "--jobs", str(jobs)]
         for key, several in (values or {}).items():
@@ -159,8 +160,8 @@ class Scene:
         call(words, self.folder, progress, environment)
         return Sweep(out)
 
-    def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "", jobs: int = 1,
-              force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
+    def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
+              jobs: int = 1, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
               environment: dict[str, str] | None = None) -> Check:
         """Runs `grouser check`: error bars of all figures, which goes on where it stopped.
 

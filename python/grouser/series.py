@@ -38,7 +38,7 @@ class Series(Quantity):
         """A column by its label: `run["vehicle.position"]["x"]`, as a series of the shape [rows]. KeyError names those
         that there are."""
         if label not in self.labels:
-            raise KeyError(f"{self.name} has no column {label!r}; it has {', '.join(self.labels) or 'no named columns'}")
+            raise KeyError(f"{self.name} has no column {label!r}; it has {', '.join(self.labels) or 'none by name'}")
         column = self.value[:, self.labels.index(label)]
         return Series(column, self.unit, self.help, f"{self.name}.{label}", self.time, self.step)
 

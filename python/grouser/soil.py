@@ -80,8 +80,9 @@ class SoilTest:
     def shear(self) -> list[ShearCurve]:
         """Stress over displacement, a curve a sample. FileError where there are none."""
         groups = _grouped(read_csv(self.folder / "shear.csv"), ("load [Pa]", "seed"))
-        return [ShearCurve(float(load), int(seed), _column(rows, "displacement [m]"), _column(rows, "shear stress [Pa]"),
-                           _column(rows, "normal stress [Pa]")) for (load, seed), rows in groups.items()]
+        return [ShearCurve(float(load), int(seed), _column(rows, "displacement [m]"),
+                           _column(rows, "shear stress [Pa]"), _column(rows, "normal stress [Pa]"))
+                for (load, seed), rows in groups.items()]
 
 
 def _grouped(rows: list[dict[str, str]], keys: tuple[str, ...]) -> dict[tuple[str, ...], list[dict[str, str]]]:

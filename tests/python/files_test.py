@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/files.md names all that files of results hold, with type, shape, unit and help, and nothing that none of them does."""
+"""docs/files.md names all that files of results hold, with type, shape, unit and help, and nothing that none does."""
 import re
 import unittest
 

@@ -172,8 +172,9 @@ class Files(FolderTest):
 
     def test_positions_of_both_signs_and_all_bits_are_decoded(self):
         whole = [(0, 0, 0), (-1, 1, -2), (2**41 - 1, -2**41, 12345678901), (-2**32, 2**32, -2**32 - 1)]
-        words = [[c & 0xFFFFFFFF for c in p] + [sum((c >> 32 & 0x3FF) << 10 * k for k, c in enumerate(p))] for p in whole]
-        numpy.testing.assert_array_equal(metres_of(numpy.array(words, dtype=numpy.uint32), 0.5), 0.5 * numpy.array(whole))
+        words = numpy.array([[c & 0xFFFFFFFF for c in p] + [sum((c >> 32 & 0x3FF) << 10 * k for k, c in enumerate(p))]
+                             for p in whole], dtype=numpy.uint32)
+        numpy.testing.assert_array_equal(metres_of(words, 0.5), 0.5 * numpy.array(whole))
 
     def test_kept_beds_are_found_and_opened(self):
         scene = grouser.Scene.read(ROOT / "tests/scenes/bed.toml")
@@ -195,12 +196,12 @@ class Files(FolderTest):
 class SoilTests(FolderTest):
     def test_are_measured_and_opened(self):
         (self.folder / "sand.toml").write_text(
-            'version = 1\n[soil]\ntitle = "a trial"\ndescription = "soft"\n[material]\nstiffness = 5e3\nrestitution = 0.3\n'
-            'friction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = "phi"\nvalue = 25\nunit = "deg"\n'
-            'source = "a book"\n')
-        options = ("--quick --seeds 1 --large-seeds 1 --plate-grains 5 --plate-ratio 1.5 --thickness 4.5 --bin 3 --pressure "
-                   "20000 --inertial-number 0.05 --shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu "
-                   "--jobs 2 --shear-loads 2000 5000").split()
+            'version = 1\n[soil]\ntitle = "a trial"\ndescription = "soft"\n[material]\nstiffness = 5e3\n'
+            'restitution = 0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = "phi"\n'
+            'value = 25\nunit = "deg"\nsource = "a book"\n')
+        options = ("--quick --seeds 1 --large-seeds 1 --plate-grains 5 --plate-ratio 1.5 --thickness 4.5 --bin 3 "
+                   "--pressure 20000 --inertial-number 0.05 --shear-strain 0.1 --shear-inertial-number 0.05 "
+                   "--threads 1 --device cpu --jobs 2 --shear-loads 2000 5000").split()
         told = []
         soil = grouser.measure_soil("sand.toml", "soil", options, progress=told.append)
         self.assertTrue(soil.coarse)
