@@ -2,13 +2,24 @@
 # Compiler flags that keep bits equal between machines and backends, warnings, and the two helpers every room uses.
 
 add_library(grouser_flags INTERFACE)
-target_include_directories(grouser_flags INTERFACE ${PROJECT_SOURCE_DIR})
+# Installed headers include each other from include/grouser; who uses them may write <grouser/terrain/grains.hpp>.
+target_include_directories(grouser_flags INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/grouser>)
 # No fused multiply-add unless written, no fast-math, no -march=native: one scene, one answer. x86-64-v2 (SSE4.2, every
 # processor since 2009) has no fused multiply-add and rounds in one instruction.
 target_compile_options(grouser_flags INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Werror -ffp-contract=off -march=x86-64-v2>
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Werror>>
+  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-march=x86-64-v2>
   # SIMD numbers (base/simd.hpp) are passed between inlined functions only, so it does not matter how calls pass them.
   $<$<COMPILE_LANGUAGE:CXX>:-Wno-psabi>)
+
+# What `grouser --version` tells.
+string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+set(GROUSER_FLAGS "${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off -march=x86-64-v2")
+if(GROUSER_SANITIZE)
+  string(APPEND GROUSER_FLAGS " -fsanitize=${GROUSER_SANITIZE}")
+endif()
+string(REGEX REPLACE " +" " " GROUSER_FLAGS "${GROUSER_FLAGS}")
 
 if(GROUSER_SANITIZE)
   target_compile_options(grouser_flags INTERFACE

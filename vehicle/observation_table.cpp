@@ -68,18 +68,28 @@ constexpr ShoeField kShoeFields[] = {
 
 std::string firstQuantity() { return std::string("vehicle/") + kVectorFields[0].name; }
 
-std::vector<Quantity> quantities(const Assembly& vehicle) {
+std::vector<Quantity> quantitiesOfHull() {
   std::vector<Quantity> list;
   for (const VectorField& f : kVectorFields)
     list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 3, {f.columns.begin(), f.columns.end()}});
   for (const VehicleField& f : kVehicleFields)
     list.push_back({std::string("vehicle/") + f.name, f.unit, f.help, 1, {}});
-  for (const Track& track : vehicle.tracks) {
-    const std::string folder = std::string("vehicle/") + sideName(track.side) + "/";
-    for (const ScalarField& f : kTrackFields) list.push_back({folder + f.name, f.unit, f.help, 1, {}});
-    for (const ShoeField& f : kShoeFields)
-      list.push_back({folder + f.name, f.unit, f.help, static_cast<int>(track.shoes.size()), {}});
-  }
+  return list;
+}
+
+std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes) {
+  std::vector<Quantity> list;
+  const std::string folder = "vehicle/" + side + "/";
+  for (const ScalarField& f : kTrackFields) list.push_back({folder + f.name, f.unit, f.help, 1, {}});
+  for (const ShoeField& f : kShoeFields) list.push_back({folder + f.name, f.unit, f.help, shoes, {}});
+  return list;
+}
+
+std::vector<Quantity> quantities(const Assembly& vehicle) {
+  std::vector<Quantity> list = quantitiesOfHull();
+  for (const Track& track : vehicle.tracks)
+    for (Quantity& q : quantitiesOfTrack(sideName(track.side), static_cast<int>(track.shoes.size())))
+      list.push_back(std::move(q));
   return list;
 }
 

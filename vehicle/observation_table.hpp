@@ -19,6 +19,9 @@ struct Quantity {
 
 /// What an observation of this vehicle holds, in the order of flatten().
 std::vector<Quantity> quantities(const Assembly& vehicle);
+/// The same in parts: of the whole vehicle, and of each track; `side` is "left" or "right".
+std::vector<Quantity> quantitiesOfHull();
+std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes);
 /// Path of the first of them.
 std::string firstQuantity();
 

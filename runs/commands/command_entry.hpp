@@ -50,5 +50,6 @@ void addSinkage(CLI::App& app, const Invocation& invocation);
 void addSpheres(CLI::App& app, const Invocation& invocation);
 void addFields(CLI::App& app, const Invocation& invocation);
 void addSoils(CLI::App& app, const Invocation& invocation);
+void addManual(CLI::App& app, const Invocation& invocation);
 
 } // namespace grouser::commands

@@ -16,7 +16,8 @@ std::vector<CommandEntry> allCommands() {
           {"plan", addPlan},
           {"spheres", addSpheres},
           {"fields", addFields},
-          {"soils", addSoils}};
+          {"soils", addSoils},
+          {"manual", addManual}};
 }
 
 } // namespace grouser::commands

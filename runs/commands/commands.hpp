@@ -86,6 +86,7 @@ void soilsCommand(const SoilsCommand& command);
 struct FieldsCommand {
   bool soil = false;     ///< of a soil's file
   bool vehicle = false;  ///< the keys of a vehicle file, not of a scene
+  bool files = false;    ///< what files of results hold, as docs/files.md has it
   bool markdown = false; ///< both, as docs/keys.md has them
 };
 void fieldsCommand(const FieldsCommand& command);

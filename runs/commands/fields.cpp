@@ -18,6 +18,7 @@ std::string keysDocument() {
 
 void fieldsCommand(const FieldsCommand& command) {
   fmt::print("{}", command.markdown  ? keysDocument()
+                   : command.files   ? filesDocument()
                    : command.vehicle ? vehicle::specFieldHelp()
                    : command.soil    ? scene::soilFieldHelp()
                                      : scene::fieldHelp());

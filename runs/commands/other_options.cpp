@@ -33,7 +33,10 @@ void addFields(CLI::App& app, const Invocation&) {
   CLI::Option* vehicle = fields->add_flag("--vehicle", command->vehicle, "those of a vehicle file instead");
   CLI::Option* markdown =
       fields->add_flag("--markdown", command->markdown, "of all three files, as docs/keys.md has them");
+  CLI::Option* files = fields->add_flag("--files", command->files,
+                                        "what results.h5, frames.h5 and checkpoint.h5 hold, as docs/files.md has it");
   markdown->excludes(vehicle), markdown->excludes(soil), vehicle->excludes(soil);
+  files->excludes(markdown), files->excludes(vehicle), files->excludes(soil);
   fields->callback([=] { fieldsCommand(*command); });
 }
 

@@ -74,6 +74,7 @@ forecast::OutputTimes timeOutput(simulation::Simulation& simulation, const base:
     const setup::Provenance& from = simulation.setup().provenance;
     checkpoint.scene = from.resolved, checkpoint.inputs = from.inputs;
     checkpoint.commit = support::buildInfo().commit, checkpoint.timeStep = simulation.timeStep();
+    if (const auto& grains = simulation.ground().grains) checkpoint.lengths = simulation::lengthsOf(*grains);
     checkpoint.state = simulation.save();
     simulation::writeCheckpoint(files / simulation::kCheckpointName, checkpoint);
     times.checkpoint = saving.seconds(), times.checkpointBytes = files.bytesOf(simulation::kCheckpointName);

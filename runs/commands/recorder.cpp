@@ -166,8 +166,8 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
   if (const simulation::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
     if (simulation_.ground().grains) writer_.fact("soil_meets", setup.vehicle->soilMeetsShoesAlone ? "shoes" : "all");
-    writer_.constant("vehicle/pitch_radius", "m", rig->assembly().spec.pitchRadius());
-    writer_.constant("vehicle/mass", "kg", rig->assembly().mass);
+    writer_.constant(output::kPitchRadius, rig->assembly().spec.pitchRadius());
+    writer_.constant(output::kVehicleMass, rig->assembly().mass);
     if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);
   }
   if (const auto& bed = simulation_.ground().structure) writer_.bed(*bed);

@@ -157,8 +157,7 @@ public:
   void write(const simulation::Simulation& simulation, output::RunWriter& writer) {
     if (writtenAt_ == simulation.steps()) return;
     writer.sync();
-    checkpoint_.timeStep = simulation.timeStep();
-    checkpoint_.rows = writer.rows(), checkpoint_.frames = writer.frames();
+    describe(simulation, writer.rows(), writer.frames());
     checkpoint_.state = simulation.save();
     simulation::writeCheckpoint(path_, checkpoint_, simulation.comm());
     checkpoint_.state = {};
@@ -179,8 +178,7 @@ public:
   void writeRemembered(const simulation::Simulation& simulation, output::RunWriter& writer) {
     if (!good_ || good_->steps <= writtenAt_) return;
     writer.sync();
-    checkpoint_.timeStep = simulation.timeStep();
-    checkpoint_.rows = goodRows_, checkpoint_.frames = goodFrames_;
+    describe(simulation, goodRows_, goodFrames_);
     checkpoint_.state = std::move(*good_);
     good_.reset();
     simulation::writeCheckpoint(path_, checkpoint_, simulation.comm());
@@ -192,6 +190,10 @@ public:
   void begunAt(std::int64_t step) { writtenAt_ = step; }
 
 private:
+  void describe(const simulation::Simulation& simulation, std::int64_t rows, std::int64_t frames) {
+    checkpoint_.timeStep = simulation.timeStep(), checkpoint_.rows = rows, checkpoint_.frames = frames;
+    if (const auto& grains = simulation.ground().grains) checkpoint_.lengths = simulation::lengthsOf(*grains);
+  }
   static constexpr int kRememberPause = 200;                ///< of what it takes: half a percent of a run's time
   static constexpr std::size_t kMostRemembered = 2'000'000; ///< grains: half a gigabyte
 

@@ -75,15 +75,17 @@ struct GrainDataset {
   const char* name;                           ///< in the file and in ParaView
   std::uint64_t width;                        ///< numbers a grain
   std::vector<float> (*values)(const Frame&); ///< all grains of this rank; none where the frame does not have it
+  const char *unit, *help;
 };
 constexpr const char* kPosition = "position"; // the points themselves, in ParaView
 const GrainDataset kGrainDatasets[] = {
-    {kPosition, 3, [](const Frame& f) { return flat(f.positions); }},           // [m]
-    {"radius", 1, [](const Frame& f) { return f.radii; }},                      // [m]
-    {"speed", 1, speedsOf},                                                     // [m/s]
-    {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }},         // [m/s]
-    {"contact_force", 3, [](const Frame& f) { return flat(f.contactForces); }}, // [N]
-    {"fixed", 1, [](const Frame& f) { return f.fixed; }},                       // 1: never moves
+    {kPosition, 3, [](const Frame& f) { return flat(f.positions); }, "m", "of the centre"},
+    {"radius", 1, [](const Frame& f) { return f.radii; }, "m", ""},
+    {"speed", 1, speedsOf, "m/s", "of the centre"},
+    {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }, "m/s", "of the centre"},
+    {"contact_force", 3, [](const Frame& f) { return flat(f.contactForces); }, "N",
+     "resultant of all that touches it; NaN before the first step, 0 of fixed grains"},
+    {"fixed", 1, [](const Frame& f) { return f.fixed; }, "-", "1 for a grain that never moves"},
 };
 
 /// Whether frames like this one have it, on all ranks: some may have no grains.
@@ -297,6 +299,35 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
   steps_ += fmt::format("    <Grid Name=\"step {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n      <Time "
                         "Value=\"{}\"/>\n{}    </Grid>\n",
                         step, time, grids);
+}
+
+std::vector<support::FileField> frameFields() {
+  const std::string frame = "FRAME/", grains = frame + "grains/";
+  std::vector<support::FileField> fields{
+      {"FRAME@time", "float64", "", "s", "of the frame; FRAME is its number, with six digits or more"},
+      {"FRAME@step", "float64", "", "-", "number of its step"},
+      {grains + "id", "uint32", "[grains]", "-", "who each grain is, for all of the run"}};
+  for (const GrainDataset& d : kGrainDatasets)
+    fields.push_back(
+        {grains + d.name, "float32", d.width == 1 ? "[grains]" : fmt::format("[grains, {}]", d.width), d.unit, d.help});
+  const char* corners = "places of the corners of each triangle among the vertices";
+  const std::vector<support::FileField> others{
+      {frame + "parts/pose", "float64", "[parts, 7]", "m, -",
+       "place of every part's frame in the world, and its orientation as a quaternion, scalar first"},
+      {frame + "parts/pose@columns", "texts", "[7]", "", "names of these seven"},
+      {frame + "parts/position", "float32", "[vertices, 3]", "m", "of the vertices of all parts in the world"},
+      {frame + "partition/AXIS", "float64", "[borders]", "m",
+       "where borders between the subdomains of several ranks cross the x, y and z axis"},
+      {"parts/triangles", "uint32", "[triangles, 3]", "-", corners},
+      {"parts/part", "uint32", "[triangles]", "-", "place of each triangle's part among the names"},
+      {"parts/part@names", "texts", "[parts]", "", "of the parts"},
+      {"parts/kind", "uint32", "[triangles]", "-", "place of the kind of each triangle's part among the names"},
+      {"parts/kind@names", "texts", "[kinds]", "", "of the kinds"},
+      {"ground/position", "float32", "[vertices, 3]", "m", "of rigid ground and planes"},
+      {"ground/triangles", "uint32", "[triangles, 3]", "-", corners},
+      {"vertices/NUMBER", "uint32", "[NUMBER, 1]", "-", "0, 1, 2... for frames of as many grains; ParaView wants it"}};
+  fields.insert(fields.end(), others.begin(), others.end());
+  return fields;
 }
 
 void FramesFile::writeXdmf() const {

@@ -3,6 +3,7 @@
 
 #include "base/comm.hpp"
 #include "runs/output/records.hpp"
+#include "runs/support/file_field.hpp"
 #include "runs/support/hdf5_file.hpp"
 
 #include <filesystem>
@@ -53,5 +54,8 @@ private:
   std::string steps_; ///< the frames so far, as XML
   std::int64_t count_ = 0;
 };
+
+/// All that frames.h5 may hold.
+std::vector<support::FileField> frameFields();
 
 } // namespace grouser::output

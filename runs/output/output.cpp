@@ -179,6 +179,14 @@ struct RunWriter::Series {
     results.flush();
   }
 
+  /// What is no series.
+  void array(const ResultConstant& what, const std::vector<double>& numbers, const std::vector<std::uint64_t>& shape) {
+    const std::string path = std::string("/") + what.path;
+    results.write(path, numbers, shape);
+    results.attribute(path, "unit", std::string(what.unit));
+    results.attribute(path, "help", std::string(what.help));
+  }
+
   void writeHeader() {
     csv << "step,time [s]";
     for (const Channel& c : channels) {
@@ -260,10 +268,8 @@ RunWriter::~RunWriter() = default;
 
 const fs::path& RunWriter::folder() const { return impl_->folder; }
 
-void RunWriter::constant(const std::string& path, const std::string& unit, double value) {
-  if (!impl_->series) return;
-  impl_->series->results.write("/" + path, std::vector<double>{value}, {1});
-  impl_->series->results.attribute("/" + path, "unit", unit);
+void RunWriter::constant(const ResultConstant& constant, double value) {
+  if (impl_->series) impl_->series->array(constant, {value}, {1});
 }
 
 void RunWriter::fact(const std::string& key, const std::string& text) {
@@ -282,39 +288,17 @@ std::vector<Row> RunWriter::formerRows() const {
 
 void RunWriter::surface(const UndisturbedSurface& surface) {
   if (!impl_->series) return;
-  support::Hdf5File& file = impl_->series->results;
-  const std::string group = "/terrain/surface/";
-  const auto write = [&](const char* name, const std::vector<double>& values, const std::vector<std::uint64_t>& shape,
-                         const char* help) {
-    file.write(group + name, values, shape);
-    file.attribute(group + name, "unit", "m");
-    file.attribute(group + name, "help", help);
-  };
-  write("x", surface.x, {surface.x.size()}, "of the nodes");
-  write("y", surface.y, {surface.y.size()}, "of the nodes");
-  write("height", surface.height, {surface.y.size(), surface.x.size()},
-        "of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], column i at x[i]");
-  file.attribute(group + "height", "interpolation", surface.interpolation);
+  Series& series = *impl_->series;
+  series.array(kSurfaceX, surface.x, {surface.x.size()});
+  series.array(kSurfaceY, surface.y, {surface.y.size()});
+  series.array(kSurfaceHeight, surface.height, {surface.y.size(), surface.x.size()});
+  series.results.attribute(std::string("/") + kSurfaceHeight.path, "interpolation", surface.interpolation);
 }
 
 void RunWriter::bed(const terrain::BedStructure& bed) {
   if (!impl_->series) return;
-  const std::string group = "terrain/bed/";
-  constant(group + "porosity", "-", bed.porosity), constant(group + "porosity_error", "-", bed.porosityError);
-  constant(group + "coordination", "-", bed.coordination), constant(group + "rattlers", "-", bed.rattlers);
-  constant(group + "order", "-", bed.order), constant(group + "mean_diameter", "m", bed.meanDiameter);
-  constant(group + "settled_height", "m", bed.settledHeight), constant(group + "thickness", "m", bed.thickness);
-  support::Hdf5File& file = impl_->series->results;
-  const auto write = [&](const char* name, const std::vector<double>& values, const char* unit, const char* help) {
-    const std::string path = "/" + group + name;
-    file.write(path, values, {values.size()});
-    file.attribute(path, "unit", unit);
-    file.attribute(path, "help", help);
-  };
-  write("distance", bed.distance, "mean diameters", "between the centres of two grains");
-  write("radial_distribution", bed.radialDistribution, "-", "how many more grains lie at that distance than by chance");
-  write("depth", bed.depth, "m", "below the undisturbed surface");
-  write("porosity_at_depth", bed.porosityAtDepth, "-", "at that depth");
+  for (const BedConstant& c : kBedConstants) constant(c.constant, bed.*c.member);
+  for (const BedCurve& c : kBedCurves) impl_->series->array(c.curve, bed.*c.member, {(bed.*c.member).size()});
 }
 
 void RunWriter::setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground) {

@@ -4,6 +4,7 @@
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
 #include "runs/output/records.hpp"
+#include "runs/output/result_fields.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/file_lock.hpp"
 #include "terrain/bed_structure.hpp"
@@ -53,8 +54,8 @@ public:
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;
 
-  /// A constant of the run in results.h5, e.g. "vehicle/pitch_radius" [m].
-  void constant(const std::string& path, const std::string& unit, double value);
+  /// A constant of the run in results.h5, e.g. kPitchRadius [m].
+  void constant(const ResultConstant& constant, double value);
 
   /// A fact of the run, in manifest.json and as an attribute of results.h5.
   void fact(const std::string& key, const std::string& text);

@@ -137,6 +137,7 @@ bool BedCache::keep(const fs::path& file, const std::string& origin, const terra
                     const SettleReport& report, const base::Comm& comm) const {
   Checkpoint bed;
   bed.scene = origin, bed.timeStep = grains.model().timeStep;
+  bed.lengths = lengthsOf(grains);
   bed.state.settled = report, bed.state.ledgerAtStart = Ledger{}.counted();
   bed.state.guard = EnergyGuard{}.save();
   bed.state.grains = grains.state();

@@ -247,6 +247,35 @@ private:
   base::Comm comm_;
 };
 
+template <class Number> constexpr const char* typeName() {
+  if constexpr (std::is_same_v<Number, double>) return "float64";
+  if constexpr (std::is_same_v<Number, float>) return "float32";
+  if constexpr (std::is_same_v<Number, std::int64_t>) return "int64";
+  if constexpr (std::is_same_v<Number, std::int32_t>) return "int32";
+  if constexpr (std::is_same_v<Number, std::uint32_t>) return "uint32";
+}
+
+/// Names all that may be there.
+class Lister {
+public:
+  template <class T> bool present(const char*, std::optional<T>& part) {
+    part.emplace();
+    return true;
+  }
+  template <class T> void operator()(const char* name, const std::vector<T>&) { add<T>(name, "n"); }
+  template <class T> void operator()(const char* name, const T&) { add<T>(name, "1"); }
+  template <class T> void perGrain(const char* name, const std::vector<T>&, std::int64_t) { add<T>(name, "grains"); }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>&, const Counts&) {
+    add<T>(name, "contacts");
+  }
+  std::vector<StoredField> fields;
+
+private:
+  template <class T> void add(const char* name, const char* rows) {
+    fields.push_back({name + 1, typeName<typename Layout<T>::Number>(), rows, widthOf<T>()});
+  }
+};
+
 std::vector<std::string> linesOf(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -286,6 +315,8 @@ std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& re
 
 } // namespace
 
+GrainLengths lengthsOf(const terrain::Grains& grains) { return {grains.scale().unit, grains.model().radius}; }
+
 void writeState(const fs::path& path, const char* kind, const Checkpoint& checkpoint, const base::Comm& comm) {
   const auto write = [&](const fs::path& part) {
     RowCounter counter(comm);
@@ -300,6 +331,10 @@ void writeState(const fs::path& path, const char* kind, const Checkpoint& checkp
       writer("/rows", checkpoint.rows);
       writer("/frames", checkpoint.frames);
       exchange(writer, checkpoint.state);
+      if (checkpoint.lengths && checkpoint.state.grains) {
+        file.attribute("/grains", "unit", checkpoint.lengths->unit);
+        file.attribute("/grains", "radius", checkpoint.lengths->radius);
+      }
       file.flush();
     }
     if (!checkpoint.state.grains) return;
@@ -331,10 +366,22 @@ Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
   reader("/rows", checkpoint.rows);
   reader("/frames", checkpoint.frames);
   exchange(reader, checkpoint.state);
+  if (const double unit = checkpoint.state.grains ? file.number("/grains", "unit") : 0; unit > 0)
+    checkpoint.lengths = GrainLengths{unit, file.number("/grains", "radius")};
   if (auto& grains = checkpoint.state.grains) {
     grains->id = terrain::idsFrom(grains->gone, terrain::blockStart(comm, grains->total, comm.rank()), grains->rows());
   }
   return checkpoint;
+}
+
+std::vector<StoredField> storedFields() {
+  Lister lister;
+  Checkpoint checkpoint;
+  lister("/time_step", checkpoint.timeStep);
+  lister("/rows", checkpoint.rows);
+  lister("/frames", checkpoint.frames);
+  exchange(lister, checkpoint.state);
+  return lister.fields;
 }
 
 void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const base::Comm& comm) {

@@ -6,6 +6,7 @@
 #include "runs/support/hdf5_file.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace grouser::simulation {
@@ -16,6 +17,13 @@ inline constexpr const char* kCheckpointName = "checkpoint.h5";
 inline constexpr const char* kCheckpointFile = "checkpoint";
 inline constexpr const char* kBedFile = "settled bed";
 
+/// What the numbers of a file of grains are in, for who reads it without its scene.
+struct GrainLengths {
+  double unit{};   ///< of positions [m]
+  double radius{}; ///< of the largest grain [m]; of all where they are alike
+};
+GrainLengths lengthsOf(const terrain::Grains& grains);
+
 /// A stopped run: all that is needed to go on as if it had not been stopped.
 struct Checkpoint {
   std::string scene;   ///< resolved
@@ -24,6 +32,7 @@ struct Checkpoint {
   double timeStep{};   ///< [s]
   std::int64_t rows{}; ///< written by then
   std::int64_t frames{};
+  std::optional<GrainLengths> lengths; ///< where there are grains; none in files of before
   SimulationState state;
 };
 
@@ -43,6 +52,16 @@ void writeState(const std::filesystem::path& path, const char* kind, const Check
 void checkStateFile(const std::filesystem::path& path, const char* kind);
 Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
 SettleReport readSettled(const support::Hdf5File& file); ///< of it, how the bed came to rest
+
+/// A dataset of such a file: [rows, width] numbers.
+struct StoredField {
+  std::string path;  ///< "grains/spin"
+  std::string type;  ///< "float32"
+  std::string rows;  ///< "1"; "n" of a list; "grains", "contacts"
+  std::size_t width; ///< numbers a row
+};
+/// All that a file may hold; what they mean is said in checkpoint_fields.hpp.
+std::vector<StoredField> storedFields();
 
 /// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
 /// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by

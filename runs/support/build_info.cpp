@@ -36,7 +36,7 @@ std::string processorText() {
 
 } // namespace
 
-BuildInfo buildInfo() { return {GROUSER_VERSION, kCommit, compilerText(), GROUSER_CUDA_VERSION}; }
+BuildInfo buildInfo() { return {GROUSER_VERSION, kCommit, compilerText(), GROUSER_CUDA_VERSION, GROUSER_FLAGS}; }
 
 /// Eight bytes a word: a program of 100 MB takes 0.05 s.
 std::string programHash() {
@@ -60,7 +60,7 @@ std::string programHash() {
 
 std::string versionText() {
   const BuildInfo b = buildInfo();
-  return fmt::format("grouser {}\ncommit {}\ncompiler {}\nCUDA {}", b.version, b.commit, b.compiler,
+  return fmt::format("grouser {}\ncommit {}\ncompiler {}\nflags {}\nCUDA {}", b.version, b.commit, b.compiler, b.flags,
                      b.cuda.empty() ? "not built in" : b.cuda);
 }
 

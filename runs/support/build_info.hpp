@@ -11,6 +11,7 @@ struct BuildInfo {
   std::string commit;   ///< short hash, "-dirty" behind it where the sources were changed; "unknown" outside git
   std::string compiler; ///< "GCC 12.2.0"
   std::string cuda;     ///< toolkit version; empty where built without
+  std::string flags;    ///< "Release -O3 -DNDEBUG ...": build type and options of the compiler
 };
 BuildInfo buildInfo();
 

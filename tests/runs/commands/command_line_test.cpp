@@ -44,12 +44,13 @@ protected:
 TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
   const Outcome o = call("--version");
   EXPECT_EQ(o.code, 0);
-  for (const char* part : {"grouser ", "commit ", "compiler ", "CUDA "}) EXPECT_NE(o.out.find(part), std::string::npos);
+  for (const char* part : {"grouser ", "commit ", "compiler ", "flags ", "CUDA "})
+    EXPECT_NE(o.out.find(part), std::string::npos);
 }
 
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
   for (const char* command : {"", "run", "sweep", "bench", "bench bed", "bench step", "bench contacts", "hash",
-                              "sinkage", "plan", "spheres", "render", "fields", "soil"}) {
+                              "sinkage", "plan", "spheres", "render", "fields", "soil", "manual"}) {
     const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;

@@ -41,6 +41,13 @@ TEST_F(Documents, KeysAreThoseOfTheProgram) {
       << "build/bin/grouser fields --markdown > docs/keys.md makes it anew";
 }
 
+TEST_F(Documents, FilesOfResultsAreThoseOfTheProgram) {
+  EXPECT_EQ(contents(kDocuments / "files.md"), filesDocument())
+      << "build/bin/grouser fields --files > docs/files.md makes it anew";
+  EXPECT_EQ(call("fields --files").out, filesDocument());
+  EXPECT_EQ(call("fields --files --soil").code, 2);
+}
+
 TEST_F(Documents, FieldsPrintWhatIsAskedFor) {
   EXPECT_EQ(call("fields --markdown").out, keysDocument());
   const Outcome vehicle = call("fields --vehicle");

@@ -85,7 +85,7 @@ protected:
 TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
   {
     RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
-    writer.constant("vehicle/pitch_radius", "m", 0.245);
+    writer.constant(output::kPitchRadius, 0.245);
     for (int r = 0; r < 100; ++r) writer.row(numbered(r));
     writer.finish({});
   }

@@ -37,7 +37,7 @@ protected:
     RunWriter writer(
         folder_, setup::provenanceOf(setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
         channels, {});
-    writer.constant("vehicle/pitch_radius", "m", 0.245);
+    writer.constant(output::kPitchRadius, 0.245);
     writer.surface({{0, 1, 2}, {-1, 1}, {0, 0.1, 0.2, 0.1, 0.2, 0.3}, "bilinear"});
     terrain::BedStructure bed;
     bed.porosity = 0.4, bed.depth = {0.1, 0.3}, bed.porosityAtDepth = {0.5, 0.4};

@@ -44,6 +44,7 @@ TEST_F(CheckpointFields, AreAllReadBackAsTheyWereWritten) {
   Checkpoint c;
   c.scene = "scene", c.inputs = "inputs", c.commit = "commit";
   c.timeStep = 0.125, c.rows = 7, c.frames = 5;
+  c.lengths = GrainLengths{0.25, 3};
   c.state = filled();
   const auto written = numbersOf(c.state);
   ASSERT_GT(written.size(), 200u);
@@ -63,6 +64,9 @@ TEST_F(CheckpointFields, AreAllReadBackAsTheyWereWritten) {
   EXPECT_EQ(read.timeStep, 0.125);
   EXPECT_EQ(read.rows, 7);
   EXPECT_EQ(read.frames, 5);
+  ASSERT_TRUE(read.lengths);
+  EXPECT_EQ(read.lengths->unit, 0.25);
+  EXPECT_EQ(read.lengths->radius, 3);
 }
 
 TEST_F(CheckpointFields, OfPartsThatASceneLacksAreNotMadeUp) {

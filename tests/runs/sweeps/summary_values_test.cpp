@@ -52,7 +52,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 3, {}});
   }
   output::RunWriter writer(folder_ / "seed=1", setup::provenanceOf(scene), channels, {});
-  writer.constant("vehicle/pitch_radius", "m", 0.25);
+  writer.constant(output::kPitchRadius, 0.25);
   output::RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
     // Before 2 s all is far off; then u goes from -1 to 1 in 11 rows.

@@ -387,7 +387,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
   }
   output::RunWriter writer(folder_ / "sprocket_speed=2", setup::provenanceOf(scene), channels, {});
-  writer.constant("vehicle/pitch_radius", "m", 0.25);
+  writer.constant(output::kPitchRadius, 0.25);
   output::RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
     const bool isSteady = r >= 20;

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# `cmake --install`: programs, assets, headers, exported targets, Python package, manual; and the .deb by CPack.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(GROUSER_PYTHON_DIR "lib/python3/dist-packages" CACHE STRING "Where the Python package goes, below the prefix")
+
+# The program and what it reads, which it finds from its own place: ../share/grouser (runs/support/locations.hpp).
+set(share ${CMAKE_INSTALL_DATADIR}/grouser)
+install(TARGETS grouser RUNTIME COMPONENT program)
+install(DIRECTORY assets/meshes assets/heightmaps assets/vehicles assets/soils DESTINATION ${share}/assets COMPONENT program)
+install(DIRECTORY runs/plots DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY runs/scenes DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY runs/mechanisms DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv")
+install(DIRECTORY python/grouser DESTINATION ${GROUSER_PYTHON_DIR} COMPONENT program FILES_MATCHING PATTERN "*.py")
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# Manual and completion, from the tables of --help.
+set(manual ${CMAKE_CURRENT_BINARY_DIR}/manual)
+add_custom_command(OUTPUT ${manual}/man/man1/grouser.1
+  COMMAND grouser manual --folder ${manual} DEPENDS grouser COMMENT "Writing the manual" VERBATIM)
+add_custom_target(grouser_manual ALL DEPENDS ${manual}/man/man1/grouser.1)
+install(DIRECTORY ${manual}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+install(DIRECTORY ${manual}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
+
+# The libraries: `find_package(grouser)` and the target grouser::grouser; all rooms up to the output of runs.
+set(rooms base contact spheredecomp multibody terrain vehicle)
+set(program_rooms support scene setup simulation output)
+set(targets grouser_flags)
+foreach(room ${rooms} ${program_rooms})
+  list(APPEND targets grouser_${room})
+  set_target_properties(grouser_${room} PROPERTIES EXPORT_NAME ${room})
+endforeach()
+set_target_properties(grouser_flags PROPERTIES EXPORT_NAME flags)
+add_library(grouser_all INTERFACE)
+set_target_properties(grouser_all PROPERTIES EXPORT_NAME grouser)
+target_link_libraries(grouser_all INTERFACE grouser_output)
+add_library(grouser::grouser ALIAS grouser_all)
+install(TARGETS grouser_all ${targets} EXPORT grouser_targets ARCHIVE COMPONENT development)
+# Sources include each other from the top folder ("terrain/grains.hpp"): include/grouser stands in its place.
+foreach(room ${rooms})
+  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grouser COMPONENT development
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.cuh" PATTERN detail EXCLUDE)
+endforeach()
+foreach(room ${program_rooms})
+  install(DIRECTORY runs/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grouser/runs COMPONENT development
+    FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
+endforeach()
+set(config ${CMAKE_INSTALL_LIBDIR}/cmake/grouser)
+install(EXPORT grouser_targets NAMESPACE grouser:: DESTINATION ${config} COMPONENT development)
+set(GROUSER_CONFIG_CUDA "")
+if(GROUSER_CUDA)
+  set(GROUSER_CONFIG_CUDA "find_dependency(CUDAToolkit)")
+endif()
+configure_package_config_file(cmake/package_config.cmake grouser-config.cmake INSTALL_DESTINATION ${config})
+write_basic_package_version_file(grouser-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/grouser-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/grouser-config-version.cmake
+  DESTINATION ${config} COMPONENT development)
+
+# cpack -G DEB: grouser, and grouser-dev with headers and libraries. With CUDA the package has another name.
+set(CPACK_PACKAGE_NAME grouser)
+set(CPACK_PACKAGE_VENDOR "grouser")
+set(CPACK_PACKAGE_CONTACT "grouser <grouser@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grouser)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, openmpi-bin, fonts-dejavu-core")
+if(GROUSER_CUDA)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grouser-cuda)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_PROVIDES grouser)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONFLICTS grouser)
+endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME grouser-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, libassimp-dev, libcli11-dev, libeigen3-dev, libfmt-dev, \
+libhdf5-openmpi-dev, libopenmpi-dev, libpng-dev, libtomlplusplus-dev, nlohmann-json3-dev")
+include(CPack)

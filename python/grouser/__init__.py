@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""grouser from Python: build, change and start scenes; read runs, sweeps, checks, soil tests and settled beds.
+
+    import grouser
+    scene = grouser.Scene.read("runs/scenes/quickstart.toml")
+    scene["driver.sprocket_speed"] = 1.0
+    run = scene.run("out/slow", progress=print)
+    run["vehicle.left.slip"].value          # [rows]; .time [s], .unit, .help
+    run.sinkage()["left"].value             # [rows, shoes] [m]
+
+SI units and radians throughout. docs/python.md is the guide; python/examples/ has three worked examples.
+"""
+from .bed import Bed, kept_beds, open_bed
+from .check import AxisError, BarredSeries, Check, CheckFigure, open_check
+from .errors import DeviceError, FileError, GrouserError, InputError, SimulationError, StoppedError
+from .frames import UNITS, Frame, Frames, Mesh, open_frames, rotation
+from .program import Job, Progress, call, find_program
+from .run import Run, Surface, open_run
+from .scene import Scene, measure_soil
+from .series import Estimate, Quantity, Series
+from .soil import Constant, PlateCurve, ShearCurve, SoilTest, open_soil
+from .sweep import Sweep, SweepMean, SweepRun, open_sweep
+
+__all__ = [
+    "UNITS", "AxisError", "BarredSeries", "Bed", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate",
+    "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job", "Mesh", "PlateCurve", "Progress", "Quantity",
+    "Run", "Scene", "Series", "ShearCurve", "SimulationError", "SoilTest", "StoppedError", "Surface", "Sweep",
+    "SweepMean", "SweepRun", "call", "find_program", "kept_beds", "measure_soil", "open_bed", "open_check",
+    "open_frames", "open_run", "open_soil", "open_sweep", "rotation",
+]

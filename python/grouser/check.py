@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The results of a check: figures and series with their error bars, and what each case cost."""
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy
+
+from .errors import FileError
+from .series import Estimate, Series, number, split_unit
+from .sweep import read_csv, value_of
+
+
+def read_json(file: Path, what: str) -> dict:
+    """FileError where the file is missing or broken."""
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FileError(f"{file}: cannot be read as {what}: {error.strerror}") from error
+    except ValueError as error:
+        raise FileError(f"{file}: cannot be read as {what}: {error}") from error
+
+
+@dataclass(frozen=True, eq=False)
+class AxisError:
+    """What another step, extent, grain size... makes of a figure."""
+
+    axis: str
+    change: Estimate  #: from the scene as it is, in the figure's unit
+    verdict: str  #: "equal", "differs" or "not shown"
+    order: float  #: of the step, where one was seen; NaN elsewhere
+
+
+@dataclass(frozen=True, eq=False)
+class CheckFigure:
+    """A figure with its error bar."""
+
+    name: str
+    bar: Estimate  #: value and the bar of all that was run
+    by_seeds: Estimate  #: value and the half of the seeds' 95 % interval
+    seeds: int
+    errors: dict[str, AxisError]  #: by axis
+
+
+@dataclass(frozen=True, eq=False)
+class BarredSeries(Series):
+    """A series with half widths, each of the shape [rows]; NaN where unknown."""
+
+    by_seeds: numpy.ndarray = None  #: of the seeds' 95 % interval
+    by_step: numpy.ndarray = None  #: of the step
+    bar: numpy.ndarray = None  #: of both together
+
+
+class Check:
+    """A check's folder: `check["speed"]` is a CheckFigure; `for figure in check` goes through all."""
+
+    def __init__(self, folder: str | os.PathLike):
+        self.folder: Path = Path(folder)
+        self.json: dict = read_json(self.folder / "check.json", "a check")  #: all of check.json
+        if "figures" not in self.json or "cases" not in self.json:
+            raise FileError(f"{self.folder / 'check.json'}: is no file of a check")
+        self.figures: dict[str, CheckFigure] = {}
+        for one in self.json["figures"]:
+            figure = self._figure(one)
+            self.figures[figure.name] = figure
+
+    @staticmethod
+    def _figure(one: dict) -> CheckFigure:
+        name, unit = split_unit(one["name"])
+        errors = {e["axis"]: AxisError(e["axis"], Estimate(number(e["change"]), number(e["half_width"]), unit, name),
+                                       e["verdict"], number(e.get("order"))) for e in one["errors"]}
+        value = number(one["value"])
+        return CheckFigure(name, Estimate(value, number(one["bar"]), unit, name),
+                           Estimate(value, number(one["seeds_half_width"]), unit, name), one["seeds"], errors)
+
+    def __getitem__(self, name: str) -> CheckFigure:
+        """KeyError names the figures that there are."""
+        if name not in self.figures:
+            raise KeyError(f"{self.folder}: there is no figure {name!r}; there are {', '.join(self.figures)}")
+        return self.figures[name]
+
+    def __iter__(self) -> Iterator[CheckFigure]:
+        return iter(self.figures.values())
+
+    def __len__(self) -> int:
+        return len(self.figures)
+
+    @property
+    def not_run(self) -> dict[str, str]:
+        """{axis: why it was not asked}"""
+        return {omitted["axis"]: omitted["why"] for omitted in self.json["not_asked"]}
+
+    @property
+    def costs(self) -> dict[str, dict]:
+        """{case: wall_s, cpu_s [s], steps} of one of its runs, medians."""
+        return {case["name"]: case for case in read_json(self.folder / "costs.json", "costs of a check")["cases"]}
+
+    @cached_property
+    def series(self) -> dict[str, BarredSeries]:
+        """{name: series with bars} of series.csv."""
+        rows = read_csv(self.folder / "series.csv")
+        columns = {name: numpy.array([value_of(row[name]) for row in rows]) for name in (rows[0] if rows else ())}
+        time = columns.get("time [s]", numpy.array([]))
+        series: dict[str, BarredSeries] = {}
+        for heading, values in columns.items():
+            if f"{heading} both +-" not in columns:
+                continue
+            name, unit = split_unit(heading)
+            bars = [columns[f"{heading} {what} +-"] for what in ("seeds", "step", "both")]
+            series[name] = BarredSeries(values, unit, "", name, time, None, (), *bars)
+        return series
+
+
+def open_check(folder: str | os.PathLike) -> Check:
+    """Opens the folder of a check. FileError where it has no check.json."""
+    return Check(folder)

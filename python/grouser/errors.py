@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What goes wrong, as exceptions."""
+from __future__ import annotations
+
+
+class GrouserError(RuntimeError):
+    """A call of the program that did not end with 0. `str()` is the program's own message."""
+
+    def __init__(self, message: str, exit_code: int, command: list[str], output: str):
+        super().__init__(message)
+        self.exit_code = exit_code  #: of the program: docs/commands.md lists them; negative: killed by that signal
+        self.command = command  #: its words
+        self.output = output  #: what it had printed by then
+
+
+class InputError(GrouserError):
+    """Exit code 2: a scene, an option or a file is wrong; the message names file, line, key, range and remedy."""
+
+
+class SimulationError(GrouserError):
+    """Exit code 3: the run became unsound, or its results could not be written."""
+
+
+class DeviceError(GrouserError):
+    """Exit code 4: the device failed, or memory ran out."""
+
+
+class StoppedError(GrouserError):
+    """Exit codes 130 and 143: stopped by SIGINT or SIGTERM; `resume=True` goes on."""
+
+
+KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 130: StoppedError,
+                                        143: StoppedError}
+
+
+class FileError(ValueError):
+    """A file or folder that is not what it was opened as."""

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Grains and parts over time, from frames.h5."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import h5py
+import numpy
+
+from .errors import FileError
+from .series import Series
+
+#: Units of what frames hold of grains.
+UNITS = {"id": "-", "position": "m", "radius": "m", "speed": "m/s", "velocity": "m/s", "contact_force": "N",
+         "fixed": "-"}
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles of the parts, or of the ground."""
+
+    vertices: numpy.ndarray  #: [v, 3] in the world [m]
+    triangles: numpy.ndarray  #: [t, 3] places of their corners among the vertices
+    part: numpy.ndarray | None  #: [t] place of the part among Frames.parts; None for the ground
+
+
+class Frame:
+    """One instant. Grains are read when they are asked for; `frame.position` and the like have one row a grain, in the
+    order of `frame.id`."""
+
+    def __init__(self, group: h5py.Group, frames: Frames):
+        self._group, self._frames = group, frames
+        self.time: float = float(group.attrs["time"])  #: [s]
+        self.step: int = int(group.attrs["step"])
+
+    def __len__(self) -> int:
+        """Number of grains."""
+        return len(self._group["grains/id"]) if "grains" in self._group else 0
+
+    def grains(self, name: str) -> numpy.ndarray:
+        """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.UNITS`. KeyError where frames lack it."""
+        if "grains" not in self._group:
+            raise KeyError(f"{self._group.file.filename}: this frame has no grains")
+        grains = self._group["grains"]
+        if name not in grains:
+            raise KeyError(f"{self._group.file.filename}: grains have no {name!r}, but {', '.join(grains)}")
+        return grains[name][:]
+
+    @property
+    def id(self) -> numpy.ndarray:
+        """[n]: who each grain is, for all of the run."""
+        return self.grains("id")
+
+    @property
+    def position(self) -> numpy.ndarray:
+        """[n, 3] [m]"""
+        return self.grains("position")
+
+    @property
+    def radius(self) -> numpy.ndarray:
+        """[n] [m]"""
+        return self.grains("radius")
+
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """[n, 3] [m/s]"""
+        return self.grains("velocity")
+
+    @property
+    def contact_force(self) -> numpy.ndarray:
+        """[n, 3] resultant of all contacts of a grain [N]; NaN in the first frame. KeyError where frames lack it."""
+        return self.grains("contact_force")
+
+    @property
+    def poses(self) -> numpy.ndarray:
+        """[parts, 7]: place [m] and orientation (quaternion, scalar first) of every part's frame in the world, in the
+        order of Frames.parts."""
+        return self._group["parts/pose"][:] if "parts" in self._group else numpy.empty((0, 7))
+
+    def pose(self, part: str) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """Place [3] [m] and rotation [3, 3] of a part: a point p of its frame lies at `place + rotation @ p`."""
+        row = self._group["parts/pose"][self._frames.place_of(part)]
+        return row[:3], rotation(row[3:])
+
+    @property
+    def parts(self) -> Mesh:
+        """The parts as drawn."""
+        fixed = self._frames._file["parts"]
+        return Mesh(self._group["parts/position"][:], fixed["triangles"][:], fixed["part"][:])
+
+
+def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
+    """[..., 3, 3] of quaternions [..., 4], scalar first: turns a vector of the part's frame into the world's."""
+    w, x, y, z = numpy.moveaxis(numpy.asarray(quaternion, dtype=float), -1, 0)
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    return numpy.moveaxis(numpy.array(rows), (0, 1), (-2, -1))
+
+
+class Frames:
+    """All frames of a run: `len(frames)`, `frames[0]`, `for frame in frames`."""
+
+    def __init__(self, path: str | os.PathLike):
+        path = Path(path)
+        path = path / "frames.h5" if path.is_dir() else path
+        try:
+            self._file = h5py.File(path, "r", locking=False)
+        except OSError as error:
+            raise FileError(f"{path}: cannot be read as the frames of a run: {error}") from error
+        self._names = sorted(name for name in self._file if name.isdigit())
+        self.time = numpy.array([self._file[name].attrs["time"] for name in self._names])  #: [frames] [s]
+        self.step = numpy.array([self._file[name].attrs["step"] for name in self._names], dtype=int)  #: [frames]
+
+    def close(self) -> None:
+        self._file.close()
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __getitem__(self, index: int) -> Frame:
+        return Frame(self._file[self._names[index]], self)
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[i] for i in range(len(self)))
+
+    def at(self, time: float) -> Frame:
+        """The frame nearest to `time` [s]. ValueError where there are none."""
+        if not self._names:
+            raise ValueError(f"{self._file.filename}: has no frames")
+        return self[int(numpy.argmin(numpy.abs(self.time - time)))]
+
+    @cached_property
+    def parts(self) -> list[str]:
+        """Names of the rigid parts: "chassis", "left shoe 12"."""
+        if "parts/part" not in self._file:
+            return []
+        names = self._file["parts/part"].attrs["names"]
+        return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
+
+    def place_of(self, part: str) -> int:
+        """Place of a part among `parts`. KeyError names some where there is none such."""
+        if part not in self.parts:
+            raise KeyError(f"there is no part {part!r}; parts are {', '.join(self.parts[:6])}...")
+        return self.parts.index(part)
+
+    def part(self, name: str) -> Series:
+        """A part over time: [frames, 7], place [m] and orientation (quaternion, scalar first) of its frame."""
+        place = self.place_of(name)
+        poses = numpy.array([self._file[frame]["parts/pose"][place] for frame in self._names])
+        return Series(poses, "m, -", "place and orientation of a part", name, self.time, self.step,
+                      ("x", "y", "z", "qw", "qx", "qy", "qz"))
+
+    def grain(self, id: int, name: str = "position") -> Series:
+        """A quantity of one grain over time: [frames] or [frames, 3]; NaN in frames that it is not in. KeyError where
+        no frame has it."""
+        rows: list[numpy.ndarray | None] = []
+        for frame in self:
+            at = numpy.flatnonzero(frame.id == id) if len(frame) else ()
+            rows.append(frame.grains(name)[at[0]] if len(at) else None)
+        there = next((row for row in rows if row is not None), None)
+        if there is None:
+            raise KeyError(f"{self._file.filename}: no frame has a grain {id}")
+        values = numpy.array([numpy.full_like(there, numpy.nan, dtype=float) if row is None else row for row in rows])
+        return Series(values, UNITS.get(name, ""), "", f"grain {id} {name}", self.time, self.step,
+                      ("x", "y", "z") if values.ndim == 2 else ())
+
+    @property
+    def ground(self) -> Mesh | None:
+        """Rigid ground as drawn; None without."""
+        if "ground" not in self._file:
+            return None
+        return Mesh(self._file["ground/position"][:], self._file["ground/triangles"][:], None)
+
+
+def open_frames(path: str | os.PathLike) -> Frames:
+    """Opens frames.h5, or that of a run's folder. FileError where it cannot be read."""
+    return Frames(path)

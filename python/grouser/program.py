@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calls the program `grouser`: its progress as it comes, its errors as exceptions."""
+from __future__ import annotations
+
+import codecs
+import os
+import pty
+import re
+import shutil
+import signal
+import subprocess
+import threading
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from .errors import KINDS, GrouserError
+
+#: "settling:  12.3 %, t 0.10 s, 4 s left", as runs/support/progress.cpp writes it
+_PROGRESS = re.compile(r"(?P<what>.+?): +(?P<percent>[\d.]+) %, (?P<detail>.*), "
+                       r"(?P<left>[^,]+ left|time left unknown yet)")
+_ERASE = "\x1b[K"  # what a terminal is told before a line is written anew
+_ERROR = "grouser: error: "
+
+
+@dataclass(frozen=True, eq=False)
+class Progress:
+    """A line of progress of a running program."""
+
+    what: str  #: what it is at: "settling", "driving"
+    fraction: float  #: of that, 0 to 1
+    detail: str  #: "t 1.20 s"
+    left: str  #: "42 s left"
+
+    def __str__(self) -> str:
+        return f"{self.what}: {100 * self.fraction:5.1f} %, {self.detail}, {self.left}"
+
+
+def find_program() -> Path:
+    """The program: GROUSER_PROGRAM of the environment, else build/bin/grouser of the checkout that this package lies
+    in, else the one that was installed with it, else `grouser` of the PATH. FileNotFoundError says what to do where
+    there is none."""
+    given = os.environ.get("GROUSER_PROGRAM")
+    here = Path(__file__).resolve().parent
+    installed = [up / "bin" / "grouser" for up in here.parents]  # PREFIX/lib/python3/dist-packages/grouser
+    found = shutil.which("grouser")
+    candidates = [Path(given)] if given else [here.parents[1] / "build/bin/grouser", *installed]
+    for candidate in candidates + ([Path(found)] if found and not given else []):
+        if candidate.is_file() and os.access(candidate, os.X_OK):
+            return candidate
+    raise FileNotFoundError(
+        f"GROUSER_PROGRAM: {given} is no program" if given else
+        "the program grouser was not found: build it (cmake --build build --target grouser), install it, or name it in "
+        "the environment as GROUSER_PROGRAM")
+
+
+class Job:
+    """A running call of the program. Several may run at the same time.
+
+    words: the command line behind the program's name. folder: that it is started in. progress: called with a Progress
+    for each line of progress, from another thread; None: nobody is. environment: variables beside those of this
+    process.
+    """
+
+    def __init__(self, words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
+                 progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None):
+        self.command = [str(find_program()), *(os.fspath(word) for word in words)]
+        self.progress: Progress | None = None  #: the last line of progress
+        self._tell = progress
+        self._lines: list[str] = []
+        self._errors: list[str] = []
+        # On a terminal the program tells its progress five times a second, else every five seconds.
+        reader, writer = pty.openpty()
+        try:
+            self._process = subprocess.Popen(
+                self.command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=writer, text=True,
+                errors="replace", env={**os.environ, **(environment or {})}, start_new_session=True)
+        except BaseException:
+            os.close(reader)
+            raise
+        finally:
+            os.close(writer)
+        self._threads = [threading.Thread(target=self._read_output, daemon=True),
+                         threading.Thread(target=self._read_errors, args=(reader,), daemon=True)]
+        for thread in self._threads:
+            thread.start()
+
+    @property
+    def running(self) -> bool:
+        return self._process.poll() is None
+
+    @property
+    def output(self) -> str:
+        """What the program has printed as results so far."""
+        return "".join(self._lines)
+
+    @property
+    def messages(self) -> list[str]:
+        """Its lines beside results and progress so far: warnings and errors."""
+        return list(self._errors)
+
+    def stop(self) -> None:
+        """Asks it to stop; a run leaves a checkpoint, and `wait()` then raises StoppedError."""
+        if self.running:
+            self._process.send_signal(signal.SIGINT)
+
+    def wait(self) -> str:
+        """Waits for its end and returns what it printed. Raises InputError, SimulationError, DeviceError, StoppedError
+        or GrouserError with the program's message and exit code. An exception here, such as Ctrl-C, stops it first."""
+        try:
+            code = self._process.wait()
+        except BaseException:
+            self.stop()
+            self._process.wait()
+            raise
+        for thread in self._threads:
+            thread.join()
+        if code != 0:
+            raise KINDS.get(code, GrouserError)(self._message(code), code, self.command, self.output)
+        return self.output
+
+    def _message(self, code: int) -> str:
+        for k, line in enumerate(self._errors):
+            if line.startswith(_ERROR):
+                return "\n".join(self._errors[k:])[len(_ERROR):]
+        return "\n".join(self._errors) or f"{' '.join(self.command)}: ended with {code}, and said nothing"
+
+    def _read_output(self) -> None:
+        with self._process.stdout as output:
+            for line in output:
+                self._lines.append(line)
+
+    def _read_errors(self, reader: int) -> None:
+        rest, decoder = "", codecs.getincrementaldecoder("utf-8")(errors="replace")
+        with open(reader, "rb", buffering=0) as terminal:
+            while True:
+                try:
+                    piece = decoder.decode(terminal.read(4096))
+                except OSError:  # the program has closed its end
+                    piece = ""
+                *whole, rest = re.split(r"[\r\n]+", rest + piece)
+                for line in whole:
+                    self._take(line)
+                # A line of progress stands without its end until the next one.
+                if _PROGRESS.fullmatch(rest.replace(_ERASE, "")):
+                    self._take(rest)
+                    rest = ""
+                if not piece:
+                    self._take(rest)
+                    return
+
+    def _take(self, line: str) -> None:
+        line = line.replace(_ERASE, "")
+        told = _PROGRESS.fullmatch(line)
+        if told:
+            self.progress = Progress(told["what"], float(told["percent"]) / 100, told["detail"], told["left"])
+            if self._tell:
+                self._tell(self.progress)
+        elif line.strip():
+            self._errors.append(line)
+
+
+def call(words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
+         progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None) -> str:
+    """Runs the program to its end: `Job(...).wait()`."""
+    return Job(words, folder, progress, environment).wait()

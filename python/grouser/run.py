@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The results of one run."""
+from __future__ import annotations
+
+import json
+import os
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import h5py
+import numpy
+
+from .bed import Bed, open_bed
+from .errors import FileError
+from .frames import Frames
+from .series import Quantity, Series
+
+SIDES = ("left", "right")
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The undisturbed surface of the bed, before the vehicle touched it, on a grid of nodes."""
+
+    x: numpy.ndarray  #: [columns] of the nodes [m]
+    y: numpy.ndarray  #: [rows] of the nodes [m]
+    height: numpy.ndarray  #: [rows, columns] at (x[column], y[row]) [m]
+    interpolation: str  #: between nodes: "bilinear" or "Catmull-Rom"
+
+
+def text_of(value: object) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def quantity_of(dataset: h5py.Dataset, name: str) -> Quantity:
+    """A dataset with its attributes; one number has the shape ()."""
+    value = dataset[()]
+    if value.shape == (1,):
+        value = value[0]
+    return Quantity(value, text_of(dataset.attrs.get("unit", "")), text_of(dataset.attrs.get("help", "")), name)
+
+
+class Run:
+    """What a run has left in its folder. Everything is read when it is asked for; a run that is still going on can be
+    opened, and opened again later.
+
+    `run["vehicle.left.slip"]` is a Series; `run.names()` lists them; `run.constants` has the numbers that do not
+    change.
+    """
+
+    def __init__(self, path: str | os.PathLike):
+        path = Path(path)
+        self.folder: Path = path.parent if path.name == "results.h5" else path
+        self.file: Path = self.folder / "results.h5"
+        if not self.file.is_file():
+            raise FileError(f"{self.folder}: has no results.h5; name the folder of a run")
+        try:
+            self._open = h5py.File(self.file, "r", locking=False)
+        except OSError as error:
+            raise FileError(f"{self.file}: cannot be read: {error}") from error
+        if "series/time" not in self._open:
+            self._open.close()
+            raise FileError(f"{self.file}: holds no series; it is not the results.h5 of a run")
+        # step, time and every quantity have been written to the same row but where the program was killed meanwhile
+        self._rows = min(len(group["value"]) for group in self._groups.values()) if self._groups else 0
+
+    def close(self) -> None:
+        self._open.close()
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<grouser.Run {self.folder}: {self.status}, {self._rows} rows of {len(self._groups)} series>"
+
+    @cached_property
+    def _groups(self) -> dict[str, h5py.Group]:
+        """{name with dots: group of step, time and value}"""
+        groups: dict[str, h5py.Group] = {}
+
+        def visit(path: str, item: h5py.Dataset | h5py.Group) -> None:
+            if isinstance(item, h5py.Group) and "value" in item and "time" in item:
+                groups[path.replace("/", ".")] = item
+
+        self._open.visititems(visit)
+        return groups
+
+    def names(self, beginning: str = "") -> list[str]:
+        """Names of all series, or of those that begin so: `run.names("vehicle.left.")`."""
+        return [name for name in self._groups if name.startswith(beginning)]
+
+    def __contains__(self, name: str) -> bool:
+        return name.replace("/", ".") in self._groups
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._groups)
+
+    def __getitem__(self, name: str) -> Series:
+        """A series by its name, with dots (or slashes). KeyError where the run has none such."""
+        group = self._groups.get(name.replace("/", "."))
+        if group is None:
+            raise KeyError(f"{self.folder}: there is no series {name!r}; names() lists all {len(self._groups)}")
+        value, rows = group["value"], self._rows
+        return Series(value[:rows], text_of(value.attrs["unit"]), text_of(value.attrs["help"]), name.replace("/", "."),
+                      self.time, self.step, tuple(text_of(label) for label in value.attrs.get("labels", ())))
+
+    @property
+    def time(self) -> numpy.ndarray:
+        """[rows] [s]"""
+        return self._open["series/time"][:self._rows]
+
+    @property
+    def step(self) -> numpy.ndarray:
+        """[rows] number of the step [-]"""
+        return self._open["series/step"][:self._rows]
+
+    def by_shoe(self, name: str) -> dict[str, Series]:
+        """{"left": ..., "right": ...} of a quantity with one number a shoe, each of the shape [rows, shoes]: "sinkage",
+        "tension", "pad_height", "ground_pressure", "on_ground". KeyError for a run without a vehicle."""
+        return {side: self[f"vehicle.{side}.{name}"] for side in SIDES}
+
+    def sinkage(self) -> dict[str, Series]:
+        """{"left": ..., "right": ...}, each [rows, shoes] [m]: NaN for shoes that are off the ground run or carry
+        nothing. KeyError for a run without a vehicle."""
+        return self.by_shoe("sinkage")
+
+    @cached_property
+    def constants(self) -> dict[str, Quantity]:
+        """{name: Quantity} of what is no series: "vehicle.mass", "terrain.bed.porosity", curves such as
+        "terrain.bed.depth" [n]."""
+        constants: dict[str, Quantity] = {}
+
+        def visit(path: str, item: h5py.Dataset | h5py.Group) -> None:
+            name = path.replace("/", ".")
+            if isinstance(item, h5py.Dataset) and not path.startswith("series/") and \
+                    name.rpartition(".")[0] not in self._groups:
+                constants[name] = quantity_of(item, name)
+
+        self._open.visititems(visit)
+        return constants
+
+    @property
+    def surface(self) -> Surface | None:
+        """The undisturbed surface; None for a run without a vehicle on a bed."""
+        group = self._open.get("terrain/surface")
+        return None if group is None else Surface(group["x"][:], group["y"][:], group["height"][:],
+                                                  text_of(group["height"].attrs["interpolation"]))
+
+    @cached_property
+    def scene(self) -> dict:
+        """The resolved scene: all keys with their values, as tomllib reads scene.toml."""
+        return tomllib.loads(text_of(self._open.attrs["scene"]))
+
+    @cached_property
+    def manifest(self) -> dict:
+        """manifest.json: status, program, machine, times, figures, files; {} where it is missing."""
+        file = self.folder / "manifest.json"
+        return json.loads(file.read_text()) if file.is_file() else {}
+
+    @property
+    def status(self) -> str:
+        """"finished", "failed", "stopped" or "running"; "unknown" without a manifest."""
+        return self.manifest.get("status", "unknown")
+
+    @property
+    def facts(self) -> dict[str, str | list[str]]:
+        """What results.h5 says of the run as a whole: version, commit, machine, state_hash, names of parts..."""
+        return {name: text_of(value) if isinstance(value, (str, bytes)) else [text_of(v) for v in value]
+                for name, value in self._open.attrs.items() if name != "scene"}
+
+    @cached_property
+    def frames(self) -> Frames | None:
+        """Grains and parts over time; None where the run wrote no frames."""
+        file = self.folder / "frames.h5"
+        return Frames(file) if file.is_file() else None
+
+    def bed(self) -> Bed:
+        """The grains of the run's checkpoint, as they lay when it was written. FileError where there is none."""
+        return open_bed(self.folder)
+
+
+def open_run(path: str | os.PathLike) -> Run:
+    """Opens the results of a run: its folder, or the results.h5 in it. FileError where there are none."""
+    return Run(path)

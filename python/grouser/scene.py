@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes: read, build, change, run."""
+from __future__ import annotations
+
+import copy
+import os
+import tempfile
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from .check import Check
+from .errors import FileError
+from .program import Job, Progress, call
+from .run import Run
+from .soil import SoilTest
+from .sweep import Sweep
+from .toml import document_text, value_text
+
+Tell = Callable[[Progress], None] | None
+
+
+def _path_of(key: str) -> list[str]:
+    """["contact", "clay|loam", "friction"] of 'contact."clay|loam".friction'."""
+    table: Any = tomllib.loads(f"{key} = 0")
+    path: list[str] = []
+    while isinstance(table, dict):
+        (name, table), = table.items()
+        path.append(name)
+    return path
+
+
+class Scene:
+    """A scene as a document of TOML: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys; the program judges
+    them when the scene is run, planned or checked.
+
+    document: nested dicts, as tomllib reads them; without it an empty scene of version 1. folder: that its files are
+    named from. name: of its results.
+    """
+
+    def __init__(self, document: Mapping[str, Any] | None = None, folder: str | os.PathLike = ".", name: str = "scene"):
+        self.document: dict[str, Any] = copy.deepcopy(dict(document)) if document else {"version": 1}
+        self.folder: Path = Path(folder).resolve()
+        self.name = name
+
+    @classmethod
+    def read(cls, file: str | os.PathLike) -> Scene:
+        """Reads a scene file; its comments are lost. FileError where it is no TOML."""
+        file = Path(file)
+        try:
+            document = tomllib.loads(file.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise FileError(f"{file}: cannot be read: {error.strerror}") from error
+        except ValueError as error:
+            raise FileError(f"{file}: {error}") from error
+        return cls(document, file.parent, file.stem)
+
+    def copy(self) -> Scene:
+        return Scene(self.document, self.folder, self.name)
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of "section.key", or a whole section. KeyError where the scene does not say it (defaults are the
+        program's: `Run.scene` has all)."""
+        table: Any = self.document
+        for word in _path_of(key):
+            if not isinstance(table, dict) or word not in table:
+                raise KeyError(key)
+            table = table[word]
+        return table
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Sets "section.key", or a whole section to a dict. KeyError where something on the way is no section, such as
+        a list ([[grains]], [[plane]]...), which `add()` and `scene["grains"][0]` are for."""
+        *sections, last = _path_of(key)
+        table: Any = self.document
+        for word in sections:
+            table = table.setdefault(word, {})
+            if not isinstance(table, dict):
+                raise KeyError(f"{key}: {word} is no section; a list is changed as scene[{word!r}][0][...]")
+        table[last] = copy.deepcopy(value)
+
+    def __delitem__(self, key: str) -> None:
+        """Takes a key or a section out. KeyError where the scene does not have it."""
+        *sections, last = _path_of(key)
+        table = self[".".join(map(_quoted, sections))] if sections else self.document
+        if last not in table:
+            raise KeyError(key)
+        del table[last]
+
+    def __contains__(self, key: str) -> bool:
+        try:
+            self[key]
+        except KeyError:
+            return False
+        return True
+
+    def add(self, section: str, **keys: Any) -> Scene:
+        """Adds a section to a list: `scene.add("plane", material="glass")`. Returns the scene."""
+        self.document.setdefault(section, []).append(copy.deepcopy(keys))
+        return self
+
+    def text(self) -> str:
+        """The scene as TOML."""
+        return document_text(self.document)
+
+    def write(self, file: str | os.PathLike) -> Path:
+        """Writes the scene file, and folders on the way."""
+        file = Path(file)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(self.text(), encoding="utf-8")
+        return file
+
+    # What follows writes the scene beside the folder of its results, as FOLDER.toml, which is what messages name.
+
+    def start(self, out: str | os.PathLike, *, force: bool = False, resume: bool = False, device: str = "",
+              threads: int | None = None, hash: bool = False, cache: bool = True, progress: Tell = None,
+              environment: dict[str, str] | None = None) -> Job:
+        """Starts `grouser run` and returns at once; `Run(out)` opens what is there already.
+
+        out: folder of the results. force: overwrite what is in it. resume: go on from its checkpoint. device: "auto",
+        "cpu" or "cuda"; threads: of the CPU, 0 for all; else as the scene says. hash: print the hash of the final
+        state. cache: take and keep settled beds and cut parts. progress: called with each line of progress, from
+        another thread. environment: variables beside those of this process.
+        """
+        words = ["run", self._written(out), "--out", Path(out).resolve()]
+        words += [flag for flag, given in (("--force", force), ("--resume", resume), ("--hash", hash),
+                                           ("--no-cache", not cache)) if given]
+        return Job(words + _options(device, threads), self.folder, progress, environment)
+
+    def run(self, out: str | os.PathLike, **options: Any) -> Run:
+        """Runs the scene to its end and opens the results; options as of `start()`. Raises what Job.wait() does."""
+        self.start(out, **options).wait()
+        return Run(out)
+
+    def plan(self, *, probe: bool = False) -> str:
+        """What `grouser plan` says: features, size, step; with `probe` also how long a run will take. Raises InputError
+        for a wrong scene, and writes nothing that stays."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = self.write(Path(folder) / f"{self.name}.toml")
+            return call(["plan", file, *([] if probe else ["--no-probe"])], self.folder)
+
+    def sweep(self, out: str | os.PathLike, values: Mapping[str, Iterable[Any]] | None = None, *, seeds: int = 0,
+              cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False,
+              device: str = "", threads: int | None = None, progress: Tell = None,
+              environment: dict[str, str] | None = None) -> Sweep:
+        """Runs `grouser sweep`: all combinations, which goes on where it stopped.
+
+        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}. cases: {name: {key: value}}, keys that
+        change together. seeds: each combination with run.seed 1 to so many. jobs: runs at the same time.
+        SimulationError names the runs that failed; `Sweep(out)` opens the others.
+        """
+        words = ["sweep", self._written(out), "--out", Path(out).resolve(), "--jobs", str(jobs)]
+        for key, several in (values or {}).items():
+            words += ["--set", f"{key}=" + ",".join(map(_word, several))]
+        for name, keys in (cases or {}).items():
+            words += ["--case", name + (": " if keys else "") + ", ".join(f"{k}={_word(v)}" for k, v in keys.items())]
+        words += ["--seeds", str(seeds)] if seeds else []
+        words += (["--force"] if force else []) + _options(device, threads)
+        call(words, self.folder, progress, environment)
+        return Sweep(out)
+
+    def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
+              jobs: int = 1, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
+              environment: dict[str, str] | None = None) -> Check:
+        """Runs `grouser check`: error bars of all figures, which goes on where it stopped.
+
+        axes: what to vary ("step", "grain_size"...); empty: all. seeds: of every case. budget: "90s", "20min", "1.5h";
+        empty: all of it.
+        """
+        words = ["check", self._written(out), "--out", Path(out).resolve(), "--jobs", str(jobs), "--seeds", str(seeds)]
+        axes = ",".join(axes)
+        words += (["--axes", axes] if axes else []) + (["--budget", budget] if budget else [])
+        words += (["--force"] if force else []) + _options(device, threads)
+        call(words, self.folder, progress, environment)
+        return Check(out)
+
+    def _written(self, out: str | os.PathLike) -> Path:
+        out = Path(out).resolve()
+        return self.write(out.parent / f"{out.name}.toml")
+
+
+def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Iterable[str] = (), *, progress: Tell = None,
+                 environment: dict[str, str] | None = None) -> SoilTest:
+    """Runs `grouser soil`: the constants of a soil by its name, or by a file that ends in .toml. options: words of the
+    command line, such as ["--quick", "--jobs", "2"]. SimulationError where tests ended unsoundly; `SoilTest(out)` opens
+    what the others gave."""
+    call(["soil", soil, "--out", out, *options], None, progress, environment)
+    return SoilTest(out)
+
+
+def _quoted(word: str) -> str:
+    return value_text(word)
+
+
+def _word(value: Any) -> str:
+    """A value on the command line; texts that hold commas are quoted."""
+    if isinstance(value, str):
+        return value_text(value) if "," in value else value
+    return value_text(value)
+
+
+def _options(device: str, threads: int | None) -> list[str]:
+    return (["--device", device] if device else []) + ([] if threads is None else ["--threads", str(threads)])

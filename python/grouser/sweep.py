@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The results of a sweep: one row a run, and means with intervals over seeds."""
+from __future__ import annotations
+
+import csv
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy
+
+from .errors import FileError
+from .run import Run
+from .series import Estimate, Quantity, number, split_unit
+
+#: Columns of summary.csv between the swept keys and the figures.
+_ABOUT = ("status", "message", "wall time [s]", "steps", "simulated time [s]")
+_BEHIND = ("state hash", "commit")
+
+
+def read_csv(file: Path) -> list[dict[str, str]]:
+    """The rows of a CSV file by the names of their columns. FileError where it cannot be read."""
+    try:
+        with open(file, newline="", encoding="utf-8") as text:
+            return list(csv.DictReader(text))
+    except OSError as error:
+        raise FileError(f"{file}: cannot be read: {error.strerror}") from error
+
+
+def value_of(text: str) -> float:
+    """The number of a cell; NaN where it is empty or is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")
+
+
+@dataclass(frozen=True, eq=False)
+class SweepRun:
+    """One run of a sweep."""
+
+    name: str  #: of its folder
+    keys: dict[str, str]  #: {swept key: its value as given}
+    status: str  #: "finished", "failed"...
+    message: str  #: why it did not end
+    figures: dict[str, float]  #: {"sinkage mean": ...}; NaN where it has none; units stand in Sweep.units
+    state_hash: str
+    folder: Path
+
+    def open(self) -> Run:
+        """Its results."""
+        return Run(self.folder)
+
+
+@dataclass(frozen=True, eq=False)
+class SweepMean:
+    """Of a figure over the seeds of one combination."""
+
+    keys: dict[str, str]  #: {swept key: its value as given}, without the seed
+    seeds: int
+    mean: Estimate
+    difference: Estimate  #: to the first combination, seed by seed, in the figure's unit
+
+
+class Sweep:
+    """A sweep's folder. `sweep["sinkage mean"]` has that figure of all runs, in the order of `sweep.runs`."""
+
+    def __init__(self, folder: str | os.PathLike):
+        self.folder: Path = Path(folder)
+        rows = read_csv(self.folder / "summary.csv")
+        columns = list(rows[0]) if rows else []
+        if not rows or columns[0] != "run" or any(name not in columns for name in _ABOUT):
+            raise FileError(f"{self.folder / 'summary.csv'}: is no summary of a sweep")
+        first = columns.index("status")
+        self.keys: list[str] = columns[1:first]  #: the swept ones
+        figures = [c for c in columns[first + len(_ABOUT):] if c not in _BEHIND]
+        self.units: dict[str, str] = dict(map(split_unit, figures))  #: {figure: unit}
+        self.runs: list[SweepRun] = [
+            SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
+                     {split_unit(c)[0]: value_of(row[c]) for c in figures}, row["state hash"], self.folder / row["run"])
+            for row in rows]
+
+    def __getitem__(self, figure: str) -> Quantity:
+        """[runs] of a figure, NaN where a run has none. KeyError names the figures that there are."""
+        if figure not in self.units:
+            raise KeyError(f"{self.folder}: there is no figure {figure!r}; there are {', '.join(self.units)}")
+        return Quantity(numpy.array([run.figures[figure] for run in self.runs]), self.units[figure], "", figure)
+
+    def values(self, key: str) -> numpy.ndarray:
+        """[runs] of a swept key: numbers where all are numbers, else texts. KeyError for one that was not swept."""
+        if key not in self.keys:
+            raise KeyError(f"{self.folder}: {key!r} was not swept; swept were {', '.join(self.keys)}")
+        texts = [run.keys[key] for run in self.runs]
+        numbers = numpy.array([value_of(text) for text in texts])
+        return numpy.array(texts) if numpy.isnan(numbers).any() else numbers
+
+    @cached_property
+    def means(self) -> dict[str, list[SweepMean]]:
+        """{figure: [a mean for each combination]} with 95 % intervals over seeds; {} for a sweep without seeds."""
+        file = self.folder / "intervals.csv"
+        if not file.is_file():
+            return {}
+        means: dict[str, list[SweepMean]] = {}
+        for row in read_csv(file):
+            name, unit = split_unit(row["figure"])
+
+            def estimate(value: str, half_width: str) -> Estimate:
+                return Estimate(value_of(row[value]), value_of(row[half_width]), unit, name)
+
+            means.setdefault(name, []).append(SweepMean(
+                {key: row[key] for key in self.keys if key in row}, int(number(row["seeds"])),
+                estimate("mean", "half width"),
+                estimate("difference to the first", "half width of the difference")))
+        return means
+
+
+def open_sweep(folder: str | os.PathLike) -> Sweep:
+    """Opens the folder of a sweep. FileError where it has no summary."""
+    return Sweep(folder)

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes TOML; Python reads it (tomllib), but does not write it."""
+from __future__ import annotations
+
+import math
+import re
+
+import numpy
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_ESCAPES = {'"': '\\"', "\\": "\\\\", "\b": "\\b", "\t": "\\t", "\n": "\\n", "\f": "\\f", "\r": "\\r"}
+
+
+def key_text(key: str) -> str:
+    """A key as TOML has it: quoted where it has to be."""
+    return key if _BARE.fullmatch(key) else _string(key)
+
+
+def _string(text: str) -> str:
+    return '"' + "".join(_ESCAPES.get(c, c if " " <= c != "\x7f" else f"\\u{ord(c):04x}") for c in text) + '"'
+
+
+def value_text(value: object) -> str:
+    """A value as TOML has it. Numbers keep all their digits; TypeError for what TOML does not know."""
+    if isinstance(value, (numpy.ndarray, numpy.generic)):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else str(value)
+    if isinstance(value, (str, bytes)) or hasattr(value, "__fspath__"):
+        return _string(value if isinstance(value, str) else str(value))
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(value_text, value)) + "]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items()) + "}"
+    raise TypeError(f"{value!r} is no number, text, truth value, list or table")
+
+
+def _is_list_of_tables(value: object) -> bool:
+    return isinstance(value, (list, tuple)) and bool(value) and all(isinstance(v, dict) for v in value)
+
+
+def document_text(document: dict) -> str:
+    """A whole document, tables as sections: `tomllib.loads(document_text(d)) == d`."""
+    lines: list[str] = []
+    _write(document, "", lines)
+    return "\n".join(lines).strip() + "\n"
+
+
+def _write(table: dict, path: str, lines: list[str]) -> None:
+    inner = {k: v for k, v in table.items() if isinstance(v, dict) or _is_list_of_tables(v)}
+    lines += [f"{key_text(k)} = {value_text(v)}" for k, v in table.items() if k not in inner]
+    for key, value in inner.items():
+        name = f"{path}.{key_text(key)}" if path else key_text(key)
+        if isinstance(value, dict):
+            # A table of tables alone needs no header of its own: [material.soil], not [material] before it.
+            if not value or any(not isinstance(v, dict) for v in value.values()):
+                lines += ["", f"[{name}]"]
+            _write(value, name, lines)
+        else:
+            for one in value:
+                lines += ["", f"[[{name}]]"]
+                _write(one, name, lines)

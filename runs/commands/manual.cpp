@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/manual.hpp"
+
+#include "runs/support/build_info.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace grouser::commands {
+
+namespace {
+
+std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
+  std::vector<const CLI::App*> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(command);
+  return commands;
+}
+
+/// Text as roff takes it: nothing in it is a request or an escape.
+std::string roff(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n')) out += "\\&";
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+/// "-h, --help", "--seeds".
+std::string namesOf(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+bool takesValue(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
+
+/// "INT in [0, 1024]", "{auto,cpu}": what stands behind an option; as help has it.
+std::string valueOf(const CLI::Option& option) {
+  std::string value = option.get_type_name();
+  if (value.empty()) value = "TEXT";
+  return option.get_expected_max() > 1 ? value + " ..." : value;
+}
+
+std::string optionText(const CLI::Option& option) {
+  std::string text = ".TP\n";
+  if (option.get_positional())
+    text += fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
+  else
+    text += fmt::format("\\fB{}\\fR{}", roff(namesOf(option)),
+                        takesValue(option) ? " \\fI" + roff(valueOf(option)) + "\\fR" : "");
+  text += "\n" + roff(option.get_description());
+  if (!option.get_default_str().empty()) text += fmt::format(" (default: {})", roff(option.get_default_str()));
+  return text + "\n";
+}
+
+std::string optionsText(const CLI::App& app, bool positional) {
+  std::string text;
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_positional() == positional) text += optionText(*option);
+  return text;
+}
+
+/// "grouser run [OPTIONS] scene".
+std::string synopsis(const CLI::App& app, const std::string& path) {
+  std::string text = fmt::format("\\fB{}\\fR [\\fIOPTIONS\\fR]", roff(path));
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_positional()) {
+      const std::string name = "\\fI" + roff(option->get_name(true)) + "\\fR";
+      text += option->get_required() ? " " + name : " [" + name + "]";
+    }
+  if (!commandsOf(app).empty()) text += " \\fICOMMAND\\fR ...";
+  return text + "\n";
+}
+
+/// Words, options and commands of `app`, and each of its commands with theirs.
+std::string sectionsOf(const CLI::App& app, const std::string& path, const char* heading) {
+  const std::string words = optionsText(app, true), options = optionsText(app, false);
+  std::string text;
+  if (!words.empty()) text += fmt::format("{} ARGUMENTS\n{}", heading, words);
+  if (!options.empty()) text += fmt::format("{} OPTIONS\n{}", heading, options);
+  for (const CLI::App* command : commandsOf(app)) {
+    const std::string name = path + " " + command->get_name();
+    text += fmt::format(".SH {}\n{}\n.PP\n{}", roff(upper(name)), roff(command->get_description()),
+                        synopsis(*command, name));
+    text += sectionsOf(*command, name, ".SS");
+  }
+  return text;
+}
+
+std::string head(const std::string& name, const std::string& description) {
+  return fmt::format(".\\\" Written by `grouser manual`.\n.TH {} 1 \"\" \"grouser {}\" \"User Commands\"\n.SH NAME\n{} "
+                     "\\- {}\n",
+                     roff(upper(name)), support::buildInfo().version, roff(name), roff(description));
+}
+
+constexpr const char* kEnvironment =
+    ".SH ENVIRONMENT\n.TP\n\\fBGROUSER_CACHE\\fR, \\fBGROUSER_CACHE_GIB\\fR\nfolder of settled beds and cut parts, and "
+    "its size in GiB\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets and plots, in the place of the installed one\n";
+
+/// What bash knows of a command: "run" or "bench bed".
+void addCases(const CLI::App& app, const std::string& path, std::string& text) {
+  std::vector<std::string> words;
+  for (const CLI::App* command : commandsOf(app)) words.push_back(command->get_name());
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  text += fmt::format("    \"{}\") words=\"{}\" ;;\n", path, fmt::join(words, " "));
+  for (const CLI::App* command : commandsOf(app))
+    addCases(*command, path.empty() ? command->get_name() : path + " " + command->get_name(), text);
+}
+
+void addChoices(const CLI::App& app, const std::string& path, std::string& text) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) {
+      if (!takesValue(*option)) continue;
+      const std::vector<std::string> choices = choicesOf(*option);
+      text +=
+          fmt::format("    \"{} --{}\") {} ;;\n", path, name,
+                      choices.empty() ? std::string("return") : fmt::format("words=\"{}\"", fmt::join(choices, " ")));
+    }
+  for (const CLI::App* command : commandsOf(app))
+    addChoices(*command, path.empty() ? command->get_name() : path + " " + command->get_name(), text);
+}
+
+} // namespace
+
+std::vector<std::string> choicesOf(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t from = type.find('{'), to = type.find('}');
+  std::vector<std::string> choices;
+  if (from == std::string::npos || to == std::string::npos) return choices;
+  for (std::size_t at = from + 1; at < to;) {
+    const std::size_t end = std::min(type.find(',', at), to);
+    choices.push_back(type.substr(at, end - at));
+    at = end + 1;
+  }
+  return choices;
+}
+
+std::string manualPage(const CLI::App& app, const CLI::App* command) {
+  if (command) {
+    const std::string name = "grouser-" + command->get_name(), path = "grouser " + command->get_name();
+    return head(name, command->get_description()) + ".SH SYNOPSIS\n" + synopsis(*command, path) +
+           sectionsOf(*command, path, ".SH") + ".SH SEE ALSO\n\\fBgrouser\\fR(1)\n";
+  }
+  std::string text = head("grouser", app.get_description()) + ".SH SYNOPSIS\n" + synopsis(app, "grouser") +
+                     ".SH OPTIONS\n" + optionsText(app, false) + ".SH COMMANDS\n";
+  for (const CLI::App* each : commandsOf(app))
+    text += fmt::format(".TP\n\\fBgrouser\\-{}\\fR(1)\n{}\n", roff(each->get_name()), roff(each->get_description()));
+  return text + ".SH NOTES\n" + roff(app.get_footer()) + "\n" + kEnvironment;
+}
+
+std::string bashCompletion(const CLI::App& app) {
+  std::string commands, choices;
+  addCases(app, "", commands);
+  addChoices(app, "", choices);
+  return fmt::format(R"(# Written by `grouser manual --completion`.
+_grouser() {{
+  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}} path="" words="" word
+  COMPREPLY=()
+  for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+    case "$path${{path:+ }}$word" in
+      {}) path="$path${{path:+ }}$word" ;;
+    esac
+  done
+  # The values of an option; return: bash completes files.
+  case "$path $previous" in
+{}  esac
+  [ -z "$words" ] && case "$path" in
+{}  esac
+  # Options where one is begun; elsewhere commands and the words of an option, else bash completes files.
+  COMPREPLY=($(compgen -W "$words" -- "$current"))
+  [[ $current == -* ]] || COMPREPLY=($(printf '%s\n' "${{COMPREPLY[@]}}" | grep -v '^-'))
+}}
+complete -o bashdefault -o default -F _grouser grouser
+)",
+                     [&] {
+                       std::vector<std::string> paths;
+                       for (const CLI::App* command : commandsOf(app)) {
+                         paths.push_back('"' + command->get_name() + '"');
+                         for (const CLI::App* inner : commandsOf(*command))
+                           paths.push_back('"' + command->get_name() + " " + inner->get_name() + '"');
+                       }
+                       return fmt::format("{}", fmt::join(paths, " | "));
+                     }(),
+                     choices, commands);
+}
+
+void writeManual(const CLI::App& app, const std::filesystem::path& folder) {
+  const std::filesystem::path pages = folder / "man/man1", completions = folder / "bash-completion/completions";
+  std::filesystem::create_directories(pages);
+  std::filesystem::create_directories(completions);
+  support::replaceTextFile(pages / "grouser.1", manualPage(app, nullptr));
+  for (const CLI::App* command : commandsOf(app))
+    support::replaceTextFile(pages / ("grouser-" + command->get_name() + ".1"), manualPage(app, command));
+  support::replaceTextFile(completions / "grouser", bashCompletion(app));
+}
+
+} // namespace grouser::commands

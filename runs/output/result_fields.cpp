@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/output/result_fields.hpp"
+
+#include "runs/output/channels.hpp"
+#include "runs/output/mechanism_output.hpp"
+#include "vehicle/observation_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::output {
+
+namespace {
+
+using support::FileField;
+
+/// A mechanism with one of everything, whose series are those that any may have.
+multibody::Model modelOfAll() {
+  using namespace multibody;
+  Model model;
+  const auto joint = [&](const std::string& name, JointType type) {
+    Body body;
+    body.name = "on " + name;
+    return model.addJointAt(name, type, kWorld, model.addBody(body), {});
+  };
+  joint("both", JointType::kCylindrical);
+  const int turning = joint("turning", JointType::kRevolute), sliding = joint("sliding", JointType::kPrismatic);
+  for (const JointType type : {JointType::kRevolute, JointType::kPrismatic}) {
+    AxisSpring spring;
+    spring.joint = type == JointType::kRevolute ? turning : sliding;
+    spring.name = fmt::format("spring {}", spring.joint), spring.stiffness = 1;
+    model.addAxisSpring(spring);
+    for (const DriveKind kind : {DriveKind::kSpeed, DriveKind::kPosition, DriveKind::kForce}) {
+      Drive drive;
+      drive.name = fmt::format("drive {} {}", static_cast<int>(kind), static_cast<int>(type));
+      drive.joint = joint("of " + drive.name, type), drive.kind = kind;
+      drive.law = TimeLaw::constant(0);
+      model.addDrive(drive);
+    }
+  }
+  for (const bool turns : {true, false}) {
+    Coupling coupling;
+    coupling.name = turns ? "to turning" : "to sliding";
+    coupling.joint1 = turns ? sliding : turning, coupling.joint2 = turns ? turning : sliding;
+    model.addCoupling(coupling);
+  }
+  PointSpring spring;
+  spring.name = "point", spring.bodyB = turning, spring.point_A = {1, 0, 0};
+  model.addPointSpring(spring);
+  Bushing bushing;
+  bushing.name = "bushing", bushing.bodyB = turning;
+  model.addBushing(bushing);
+  return model;
+}
+
+/// "joints/both/force" as "joints/NAME/force".
+std::string withoutName(const std::string& path) {
+  constexpr const char* kKinds[] = {"bodies/", "joints/", "springs/", "bushings/", "drives/", "couplings/"};
+  const bool hasName = std::any_of(std::begin(kKinds), std::end(kKinds), [&](auto k) { return path.starts_with(k); });
+  if (!hasName) return path;
+  const std::size_t from = path.find('/') + 1;
+  return path.substr(0, from) + "NAME" + path.substr(path.find('/', from));
+}
+
+std::string shapeOf(const Channel& c) {
+  if (c.width == 1) return "[rows]";
+  return c.columns.empty() ? "[rows, shoes]" : fmt::format("[rows, {}]", c.width);
+}
+
+/// Adds `one` to `all`, unless it stands there.
+void addWords(std::string& all, const char* between, const std::string& one) {
+  if ((between + all + between).find(between + one + between) == std::string::npos) all += between + one;
+}
+
+/// One line for all quantities of a path: "rad or m" where their units differ.
+void add(std::vector<FileField>& fields, const Channel& c) {
+  const std::string path = withoutName(c.path) + "/value";
+  const auto same = std::find_if(fields.begin(), fields.end(), [&](const FileField& f) { return f.path == path; });
+  if (same == fields.end()) {
+    fields.push_back({path, "float64", shapeOf(c), c.unit, c.help});
+    return;
+  }
+  addWords(same->unit, " or ", c.unit);
+  addWords(same->help, "; or ", c.help);
+}
+
+FileField fieldOf(const ResultConstant& c, const char* shape) { return {c.path, "float64", shape, c.unit, c.help}; }
+
+} // namespace
+
+std::vector<FileField> resultFields() {
+  std::vector<FileField> fields{
+      {"/@creator", "text", "", "", "\"grouser\""},
+      {"/@version", "text", "", "", "of the program"},
+      {"/@commit", "text", "", "", "that it was built from; \"-dirty\" behind it where the sources were changed"},
+      {"/@machine", "text", "", "", "processor, cores, memory, system"},
+      {"/@scene", "text", "", "", "the resolved scene, TOML"},
+      {"/@state_hash", "text", "", "", "of the end, 16 hexadecimal digits; empty without --hash"},
+      {"/@soil_meets", "text", "", "", "which parts of a vehicle grains touch: \"all\" or \"shoes\""},
+      {"/@parts", "texts", "", "", "names of the parts that terrain/part_overlap_by counts from 0"},
+      {"/@deepest_in_a_part", "text", "", "", "the greatest overlap of a grain with a part, which part, and when"},
+      {"series/step", "int64", "[rows]", "-", "number of the step; the same dataset lies beside every value"},
+      {"series/time", "float64", "[rows]", "s", "of the row; the same dataset lies beside every value"},
+      fieldOf(kPitchRadius, "[1]"),
+      fieldOf(kVehicleMass, "[1]"),
+      fieldOf(kSurfaceX, "[columns]"),
+      fieldOf(kSurfaceY, "[lines]"),
+      fieldOf(kSurfaceHeight, "[lines, columns]"),
+      {std::string(kSurfaceHeight.path) + "@interpolation", "text", "", "",
+       "between the nodes: \"bilinear\" or \"Catmull-Rom\""}};
+  for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
+  for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
+  for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));
+  for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2)) add(fields, channelOf(q));
+  for (const Channel& c : terrainChannels()) add(fields, c);
+  for (const Channel& c : surfaceChannels("NAME", true)) add(fields, c);
+  for (const Channel& c : ledgerChannels()) add(fields, c);
+  for (const Channel& c : mechanismChannels(modelOfAll(), {})) add(fields, c);
+  return fields;
+}
+
+} // namespace grouser::output

@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The worked examples do what they say, and their figures agree with what is known otherwise."""
+import csv
+import unittest
+
+import numpy
+from fixture import FolderTest
+
+import bouncing_grain
+import error_bars
+import track_sinkage
+
+GRAVITY = 9.81  # [m/s2]
+
+
+class BouncingGrain(FolderTest):
+    def test_measures_the_restitution_that_was_asked_for(self):
+        measured = bouncing_grain.main(str(self.folder))
+        self.assertEqual(len(measured), 3)
+        impact = (2 * GRAVITY * bouncing_grain.HEIGHT) ** 0.5  # [m/s]
+        # Speeds are of frames 1 ms apart: each may miss g dt of the impact's.
+        tolerance = 2 * GRAVITY * 1e-3 / impact
+        for asked, found in measured.items():
+            self.assertAlmostEqual(found, asked, delta=tolerance)
+
+
+class TrackSinkage(FolderTest):
+    def test_reads_what_the_program_wrote_as_text_too(self):
+        run = track_sinkage.main(str(self.folder / "drive"))
+        means = track_sinkage.sinkage_by_shoe(run)
+        with open(self.folder / "drive/sinkage.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        heading = next(row for row in rows if any("left" in cell for cell in row))
+        body = [row for row in rows[rows.index(heading) + 1:]]
+        for side in ("left", "right"):
+            columns = [k for k, cell in enumerate(heading) if side in cell]
+            self.assertEqual(len(columns), len(means[side]))
+            table = numpy.array([[float(row[k] or "nan") for k in columns] for row in body])
+            carried = numpy.isfinite(table).any(axis=0)
+            self.assertGreater(carried.sum(), 4)
+            self.assertTrue((carried == numpy.isfinite(means[side])).all())
+            # The text has six digits.
+            numpy.testing.assert_allclose(means[side][carried], numpy.nanmean(table[:, carried], axis=0), rtol=1e-5,
+                                          atol=1e-6)
+
+        # A shoe in the frames is where the series say: its plate's lowest point lies within a shoe of its frame.
+        heights = run.by_shoe("pad_height")["left"]
+        places = run.frames.part("left shoe 0")
+        for time in (0.0, 0.3):
+            self.assertLess(abs(heights.at(time)[0] - places["z"].at(time)), 0.15)
+        self.assertAlmostEqual(run.surface.x[-1] - run.surface.x[0], 4.2, delta=0.2)
+
+        # The checkpoint at the end and the last frame hold the same grains: a frame has floats.
+        bed, last = run.bed(), run.frames[-1]
+        order = numpy.argsort(last.id)
+        self.assertEqual(len(bed), len(last))
+        numpy.testing.assert_allclose(bed.position, last.position[order], atol=3e-7)
+        numpy.testing.assert_allclose(bed.radius, last.radius[order], rtol=1e-6)
+        self.assertLess(bed.position.min(), 0, "coordinates of both signs are read")
+        self.assertGreater(bed.fixed.sum(), 0, "the floor is of fixed grains")
+        self.assertAlmostEqual(float(bed.structure["porosity"]), float(run.constants["terrain.bed.porosity"]), 12)
+        run.close()
+
+
+class ErrorBars(FolderTest):
+    def test_agree_between_sweep_and_check(self):
+        sweep, check, bed = error_bars.main(str(self.folder))
+        self.assertEqual(len(sweep.runs), 6)
+        self.assertTrue(all(run.status == "finished" for run in sweep.runs))
+        force = sweep["ground force z"]
+        self.assertEqual(force.unit, "N")
+        self.assertEqual(force.value.shape, (6,))
+        # The mean that the sweep tells is that of its runs, and of the series in the files of these.
+        first = sweep.means["ground force z"][0]
+        self.assertAlmostEqual(first.mean.value, numpy.mean(force.value[:3]), places=6)
+        with sweep.runs[0].open() as run:
+            series = run["surfaces.ground.force"]["z"].between(0.1, 0.2)
+            self.assertAlmostEqual(float(numpy.mean(series.value)), force.value[0], places=6)
+        # Friction 0.5 is neither of the swept, but weighs as much; the bar of all is no less than that of the seeds.
+        figure = check["ground force z"]
+        self.assertGreaterEqual(figure.bar.half_width, figure.by_seeds.half_width)
+        self.assertEqual(set(figure.errors), {"step"})
+        bars = check.series["ledger.kinetic"]
+        self.assertEqual(bars.value.shape, bars.bar.shape)
+        self.assertGreater(numpy.nanmax(bars.bar), 0)
+        self.assertGreater(check.costs["base"]["wall_s"], 0)
+        self.assertIn("depth", check.not_run)
+        self.assertEqual(len(bed), 40)
+        self.assertGreater(bed.position[:, 2].min(), 0.5 * 0.01, "no grain lies below the ground")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""docs/files.md names all that files of results hold, with type, shape, unit and help, and nothing that none does."""
+import re
+import unittest
+
+import h5py
+from fixture import ROOT, FolderTest
+
+import grouser
+
+KINDS = {"results.h5": "results.h5", "frames.h5": "frames.h5", "checkpoint.h5": "checkpoint.h5, and beds that are kept"}
+#: Of what no small scene has: runs of several ranks.
+RARE = {"/FRAME/partition/AXIS"}
+QUIET = {"plots": False, "picture": False}
+
+
+def documented() -> dict[str, dict[str, tuple[str, str, str, str]]]:
+    """{file: {path: (type, shape, unit, help)}}"""
+    sections = re.split(r"^## ", (ROOT / "docs/files.md").read_text(), flags=re.M)[1:]
+    tables = {section.split("\n", 1)[0]: section for section in sections}
+    return {file: {row[0]: tuple(row[1:]) for row in
+                   re.findall(r"^\| `(.+?)` \| (.*?) \| (.*?) \| (.*?) \| (.*?) \|$", tables[title], flags=re.M)}
+            for file, title in KINDS.items()}
+
+
+def pattern(path: str) -> re.Pattern[str]:
+    words = {"SIDE": "(left|right)", "NAME": "[^/]+", "FRAME": r"\d{6,}", "NUMBER": r"\d+", "AXIS": "[xyz]"}
+    return re.compile(re.sub("|".join(words), lambda m: words[m[0]], re.escape(path)))
+
+
+class FilesOfResults(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.documented = documented()
+        self.patterns = {file: {path: pattern(path) for path in table} for file, table in self.documented.items()}
+        self.seen = {file: set() for file in KINDS}
+
+    def row(self, file: str, path: str) -> tuple[str, str, str, str]:
+        for name, expression in self.patterns[file].items():
+            if expression.fullmatch("/" + path.lstrip("/")):
+                self.seen[file].add(name)
+                return self.documented[file][name]
+        self.fail(f"docs/files.md has no {path} of {file}")
+
+    def look_at(self, file: str, path) -> None:
+        with h5py.File(path) as opened:
+            for name in opened.attrs:
+                self.row(file, f"/@{name}")
+            for name in ("step", "time") if file == "results.h5" else ():  # datasets of many names
+                self.look_at_item(file, f"series/{name}", opened[f"series/{name}"])
+            opened.visititems(lambda name, item: self.look_at_item(file, name, item))
+
+    def look_at_item(self, file: str, name: str, item) -> None:
+        own = {"unit", "help", "labels"} if isinstance(item, h5py.Dataset) and file == "results.h5" else set()
+        for attribute in set(item.attrs) - own:
+            self.row(file, f"{name}@{attribute}")
+        if not isinstance(item, h5py.Dataset) or (file == "results.h5" and re.search("/(step|time)$", name)
+                                                  and not name.startswith("series/")):
+            return
+        type_, shape, unit, text = self.row(file, name)
+        self.assertEqual(item.dtype.name, type_, name)
+        sides = [side.strip() for side in shape.strip("[]").split(",")]
+        self.assertEqual(len(sides), len(item.shape), f"{name} has the shape {item.shape}, not {shape}")
+        for side, length in zip(sides, item.shape):
+            if side.isdigit():
+                self.assertEqual(int(side), length, f"{name} has the shape {item.shape}, not {shape}")
+        if "unit" in item.attrs:
+            self.assertIn(item.attrs["unit"], unit.split(" or "), name)
+        if "help" in item.attrs:
+            self.assertIn(item.attrs["help"], text.split("; or "), name)
+        elif own and not name.startswith("series/"):
+            self.fail(f"{name} has no help")
+
+    def run_and_look(self, scene: grouser.Scene, name: str) -> None:
+        scene["output"] = {**scene.document.get("output", {}), **QUIET}
+        with scene.run(self.folder / name):
+            pass
+        for file in KINDS:
+            if (self.folder / name / file).is_file():
+                self.look_at(file, self.folder / name / file)
+
+    def test_hold_what_is_documented_and_all_of_that(self):
+        vehicle = grouser.Scene.read(ROOT / "tests/scenes/coupled.toml")
+        vehicle["run.duration"] = 0.04
+        vehicle["run.output_interval"] = 0.02
+        vehicle["driver"].update(tension_ramp=0.002, weight_ramp=0.002)
+        vehicle["terrain.settle_kinetic_energy"] = 0.1
+        self.run_and_look(vehicle, "vehicle")
+        rigid = grouser.Scene.read(ROOT / "tests/scenes/rigid.toml")
+        rigid["run.duration"] = 0.002
+        rigid["vehicle.sphere_radius"] = 0.04
+        self.run_and_look(rigid, "rigid")
+        moving = grouser.Scene.read(ROOT / "tests/scenes/moving.toml")
+        moving["run.duration"] = 0.01
+        moving["cylinder"][0]["pivot"] = [0, 0, 0.01]
+        self.run_and_look(moving, "moving")
+        bushing = grouser.Scene.read(ROOT / "runs/mechanisms/andrews.toml")
+        bushing["run.duration"] = 0.001
+        bushing.add("bushing", name="rubber", bodies=["K1", "K2"], point=[0, 0, 0], stiffness=[1.0, 1.0, 1.0])
+        self.run_and_look(bushing, "bushing")
+        for name in ("slider_crank", "gears", "joint_cylindrical", "joint_prismatic", "spring_torsion", "fourbar2"):
+            mechanism = grouser.Scene.read(ROOT / f"runs/mechanisms/{name}.toml")
+            mechanism["run.duration"] = 0.01
+            self.run_and_look(mechanism, name)
+        self.look_at("checkpoint.h5", self.kept_bed())
+        for file, seen in self.seen.items():
+            unseen = set(self.documented[file]) - seen - RARE
+            self.assertFalse(unseen, f"documented of {file}, but in none of these runs")
+
+    def kept_bed(self):
+        scene = grouser.Scene.read(ROOT / "tests/scenes/bed.toml")
+        scene["terrain"].update(size=[0.6, 0.6], layers=2, cache=True, floor_grains=True, height_range=[0.0, 0.01],
+                                settle_kinetic_energy=0.01, settle_time_limit=2.0)
+        scene["run.duration"] = 0.001
+        scene["output"] = QUIET
+        scene.run("bed", environment={"GROUSER_CACHE": str(self.folder / "cache")}).close()
+        self.look_at("frames.h5", self.folder / "bed/frames.h5")
+        return grouser.kept_beds(self.folder / "cache")[0]
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,227 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package: scenes as text, calls and their errors, files that are not what they should be."""
+import os
+import signal
+import time
+import tomllib
+import unittest
+
+import numpy
+from fixture import ROOT, FolderTest
+
+import grouser
+from grouser.bed import metres_of
+from grouser.toml import document_text
+
+MINIMAL = {"version": 1, "run": {"duration": 0.01, "time_step": 1e-4, "output_interval": 0.005},
+           "material": {"glass": {"stiffness": 1e4}}, "output": {"plots": False, "picture": False},
+           "plane": [{"material": "glass"}], "grain": [{"position": [0, 0, 0.1], "radius": 0.01, "material": "glass"}]}
+
+
+class Toml(unittest.TestCase):
+    def test_reads_back_as_it_was_written(self):
+        documents = [tomllib.loads(file.read_text()) for folder in ("runs/scenes", "runs/mechanisms", "tests/scenes")
+                     for file in sorted((ROOT / folder).glob("*.toml"))]
+        self.assertGreater(len(documents), 30)
+        documents.append({"a b": {"c|d": {"text": 'say "\\" \n\t\x7f ä', "x": 1e-300, "y": -0.1, "z": [[1, 2.5], []]}},
+                          "one": {"table": [{"deep": {"er": True}}, {"in": [{"side": {}}]}]}, "nothing": {}})
+        for document in documents:
+            self.assertEqual(tomllib.loads(document_text(document)), document)
+
+    def test_takes_numbers_of_numpy_and_refuses_what_is_none(self):
+        text = document_text({"a": numpy.float64(0.1), "b": numpy.arange(3), "c": numpy.bool_(True), "d": float("inf")})
+        self.assertEqual(tomllib.loads(text), {"a": 0.1, "b": [0, 1, 2], "c": True, "d": float("inf")})
+        with self.assertRaises(TypeError):
+            document_text({"a": object()})
+
+
+class Scenes(FolderTest):
+    def test_keys_are_set_found_and_taken_out(self):
+        scene = grouser.Scene()
+        scene['contact."clay|loam".friction'] = 0.4
+        self.assertEqual(scene.document["contact"], {"clay|loam": {"friction": 0.4}})
+        self.assertEqual(scene['contact."clay|loam".friction'], 0.4)
+        self.assertNotIn("run.duration", scene)
+        with self.assertRaises(KeyError):
+            scene["run.duration"]
+        other = scene.copy()
+        other["run.duration"] = 1.0
+        self.assertNotIn("run", scene)
+        del other["run.duration"]
+        self.assertNotIn("run.duration", other)
+        scene.add("plane", material="clay")
+        scene["plane"][0]["material"] = "loam"
+        with self.assertRaises(KeyError):
+            scene["plane.material"] = "clay"
+        self.assertEqual(grouser.Scene.read(scene.write("deep/s.toml")).document, scene.document)
+
+    def test_files_that_a_scene_names_are_found_from_its_own_folder(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/hills.png").write_bytes((ROOT / "assets/heightmaps/hills.png").read_bytes())
+        scene = grouser.Scene.read(ROOT / "tests/scenes/bed.toml")
+        scene["terrain.heightmap"] = "hills.png"
+        with self.assertRaises(grouser.InputError):
+            scene.plan()
+        scene.folder = self.folder / "mine"
+        self.assertIn("grains", scene.plan())
+        self.assertEqual([file.name for file in (self.folder / "mine").iterdir()], ["hills.png"])
+
+
+class Calls(FolderTest):
+    def test_a_wrong_scene_raises_what_the_program_says(self):
+        scene = grouser.Scene(MINIMAL)
+        scene["material.glass.restitution"] = 1.4
+        with self.assertRaises(grouser.InputError) as caught:
+            scene.run("bad")
+        self.assertEqual(caught.exception.exit_code, 2)
+        message = str(caught.exception)
+        self.assertRegex(message, r"bad\.toml:\d+: .*restitution = 1\.4 \[-\] is outside")
+        self.assertNotIn("grouser: error", message)
+        self.assertEqual(caught.exception.command[1], "run")
+        self.assertFalse((self.folder / "bad").exists())
+
+    def test_an_unsound_run_raises_and_leaves_what_it_has(self):
+        scene = grouser.Scene(MINIMAL)
+        scene["material.glass.stiffness"] = 60.0
+        scene["grain"][0].update(position=[0, 0, 0.0101], velocity=[0, 0, -10.0])
+        with self.assertRaises(grouser.SimulationError) as caught:
+            scene.run("unsound")
+        self.assertEqual(caught.exception.exit_code, 3)
+        run = grouser.open_run("unsound")
+        self.assertEqual(run.status, "failed")
+        self.assertGreaterEqual(len(run.time), 1)
+
+    def test_progress_comes_while_a_run_goes_on_and_a_stopped_one_can_be_resumed(self):
+        scene = grouser.Scene(MINIMAL)
+        scene["run.duration"] = 1e4
+        scene["run.output_interval"] = 1.0
+        told = []
+        job = scene.start("long", progress=told.append)
+        end = time.monotonic() + 60
+        while len(told) < 3 and job.running and time.monotonic() < end:
+            time.sleep(0.02)
+        self.assertTrue(job.running)
+        job.stop()
+        with self.assertRaises(grouser.StoppedError) as caught:
+            job.wait()
+        self.assertEqual(caught.exception.exit_code, 128 + signal.SIGINT)
+        self.assertGreaterEqual(len(told), 3)
+        fractions = [progress.fraction for progress in told]
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertEqual(told[0].what, "running")
+        stopped = grouser.open_run("long")
+        self.assertEqual(stopped.status, "stopped")
+        self.assertTrue((self.folder / "long/checkpoint.h5").is_file())
+        scene["run.duration"] = float(numpy.ceil(stopped.time[-1])) + 2
+        finished = scene.run("long", resume=True)
+        self.assertEqual(finished.status, "finished")
+        self.assertGreater(finished.time[-1], stopped.time[-1])
+
+    def test_what_was_printed_comes_back(self):
+        self.assertRegex(grouser.call(["--version"]), r"^grouser \d+\.\d+\.\d+\n")
+        with self.assertRaises(grouser.InputError) as caught:
+            grouser.call(["runn"])
+        self.assertIn('did you mean "run"', str(caught.exception))
+        was = os.environ.pop("GROUSER_PROGRAM", None)
+        try:
+            os.environ["GROUSER_PROGRAM"] = "/nonexistent/grouser"
+            with self.assertRaisesRegex(FileNotFoundError, "/nonexistent/grouser"):
+                grouser.call(["--version"])
+        finally:
+            os.environ.pop("GROUSER_PROGRAM")
+            if was is not None:
+                os.environ["GROUSER_PROGRAM"] = was
+
+
+class Files(FolderTest):
+    def test_that_are_something_else_are_said_to_be_so(self):
+        (self.folder / "results.h5").write_text("no HDF5")
+        for name in ("summary.csv", "check.json", "soil.json"):
+            (self.folder / name).write_text('{"other": 1}\n')
+        openers = (grouser.open_run, grouser.open_sweep, grouser.open_check, grouser.open_soil, grouser.open_bed,
+                   grouser.open_frames)
+        for opener in openers:
+            with self.assertRaises(grouser.FileError, msg=opener.__name__):
+                opener(self.folder)
+            with self.assertRaises(grouser.FileError, msg=opener.__name__):
+                opener(self.folder / "missing")
+
+    def test_series_have_times_units_and_columns(self):
+        scene = grouser.Scene(MINIMAL)
+        scene["run.duration"] = 0.1
+        run = scene.run("fall")
+        momentum = run["ledger/momentum"]
+        self.assertEqual((momentum.name, momentum.unit, momentum.labels), ("ledger.momentum", "N s", ("x", "y", "z")))
+        self.assertEqual(momentum.value.shape, (21, 3))
+        self.assertTrue(momentum.help)
+        mass = 2500 * 4 / 3 * numpy.pi * 0.01**3
+        mass *= run.scene["material"]["glass"]["density"] / 2500
+        falls = momentum["z"]
+        # Symplectic Euler: the velocity after n steps is g n dt to rounding.
+        numpy.testing.assert_allclose(falls.value, -mass * 9.81 * falls.time, rtol=1e-6, atol=1e-12)
+        self.assertEqual(falls.between(0.02, 0.05).value.shape, (7,))
+        self.assertEqual(float(falls.at(0.0501)), float(falls.value[10]))
+        for wrong in (lambda: momentum["w"], lambda: falls["x"], lambda: run["ledger"], run.sinkage):
+            with self.assertRaises(KeyError):
+                wrong()
+        self.assertIsNone(run.surface)
+        self.assertEqual(run.names("terrain.")[0], "terrain.capped")
+        self.assertEqual(run.facts["creator"], "grouser")
+        self.assertEqual(numpy.mean(falls), numpy.mean(falls.value))
+
+    def test_positions_of_both_signs_and_all_bits_are_decoded(self):
+        whole = [(0, 0, 0), (-1, 1, -2), (2**41 - 1, -2**41, 12345678901), (-2**32, 2**32, -2**32 - 1)]
+        words = numpy.array([[c & 0xFFFFFFFF for c in p] + [sum((c >> 32 & 0x3FF) << 10 * k for k, c in enumerate(p))]
+                             for p in whole], dtype=numpy.uint32)
+        numpy.testing.assert_array_equal(metres_of(words, 0.5), 0.5 * numpy.array(whole))
+
+    def test_kept_beds_are_found_and_opened(self):
+        scene = grouser.Scene.read(ROOT / "tests/scenes/bed.toml")
+        scene["terrain"].update(size=[0.6, 0.6], layers=2, cache=True, height_range=[0.0, 0.01],
+                                settle_kinetic_energy=0.01, settle_time_limit=2.0)
+        scene["run.duration"] = 0.001
+        scene["output"] = {"plots": False, "picture": False, "frames": False}
+        run = scene.run("bed", environment={"GROUSER_CACHE": str(self.folder / "cache")})
+        files = grouser.kept_beds(self.folder / "cache")
+        self.assertEqual(len(files), 1)
+        bed = grouser.open_bed(files[0])
+        self.assertEqual(len(bed), len(run.bed()))
+        self.assertGreater(float(bed.settled["time"]), 0)
+        self.assertEqual(bed.settled["time"].unit, "s")
+        self.assertTrue((bed.radius == 0.027).all())
+        self.assertAlmostEqual(bed.volume(), len(bed) * 4 / 3 * numpy.pi * 0.027**3)
+
+
+class SoilTests(FolderTest):
+    def test_are_measured_and_opened(self):
+        (self.folder / "sand.toml").write_text(
+            'version = 1\n[soil]\ntitle = "a trial"\ndescription = "soft"\n[material]\nstiffness = 5e3\n'
+            'restitution = 0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = "phi"\n'
+            'value = 25\nunit = "deg"\nsource = "a book"\n')
+        options = ("--quick --seeds 1 --large-seeds 1 --plate-grains 5 --plate-ratio 1.5 --thickness 4.5 --bin 3 "
+                   "--pressure 20000 --inertial-number 0.05 --shear-strain 0.1 --shear-inertial-number 0.05 "
+                   "--threads 1 --device cpu --jobs 2 --shear-loads 2000 5000").split()
+        told = []
+        soil = grouser.measure_soil("sand.toml", "soil", options, progress=told.append)
+        self.assertTrue(soil.coarse)
+        self.assertEqual(soil.grain_radius, 0.01)
+        phi = soil["phi"]
+        self.assertEqual((phi.measured.unit, phi.published), ("deg", ((25.0, "a book"),)))
+        self.assertTrue(5 < phi.measured.value < 50)
+        loads = sorted(curve.load for curve in soil.shear())
+        self.assertEqual(loads, [2000.0, 5000.0])
+        for curve in soil.shear():
+            self.assertEqual(curve.displacement.shape, curve.shear_stress.shape)
+            # Residual strength over load: the angle is between those of its two samples (and cohesion is small).
+            self.assertTrue(0.05 < numpy.median(curve.shear_stress) / curve.load < 1.5)
+        plates = {curve.plate: curve for curve in soil.plates()}
+        self.assertEqual(set(plates), {"small", "large"})
+        self.assertAlmostEqual(plates["large"].breadth / plates["small"].breadth, 1.5)
+        self.assertGreaterEqual(plates["small"].pressure.max(), 19000)
+        with self.assertRaises(grouser.InputError):
+            grouser.measure_soil("sand.toml", "soil", options)
+
+
+if __name__ == "__main__":
+    unittest.main()
