@@ -130,7 +130,7 @@ private:
 
   void addSprocket() {
     const Vec3d axle{0, track_.y, 0};
-    MassSpec mass = spec().sprocket;
+    MassSpec mass{spec().sprocket.mass, spec().sprocket.inertia};
     // What turns with it, as a disc: half as much about the other axes.
     if (options_.drive == SprocketDrive::engine) {
       if (!spec().engine)

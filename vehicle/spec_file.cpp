@@ -105,9 +105,10 @@ std::string specFieldHelp() {
   std::string text = R"(## Keys of a vehicle file
 
 The file that `vehicle.spec` of a scene names. A scene, `--set` and sweeps can change each key for a run, with `spec.`
-before it: `[spec.shoe]` with `pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`. The file begins with `version = 1`; all sections but
-[roller] and [engine] are required. SI units, angles in radians. Axes: x forward, y left, z up; origin: the middle of the sprockets' axle line. The two tracks
-are alike. Inertia is about a part's centre of mass, along the axes of its frame.
+before it: `[spec.shoe]` with `pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`. The file begins with
+`version = 1`; all sections but [roller] and [engine] are required. SI units, angles in radians. Axes: x forward, y
+left, z up; origin: the middle of the sprockets' axle line. The two tracks are alike. Inertia is about a part's centre
+of mass, along the axes of its frame.
 
 A mesh is closed, its triangles face outward, its vertices are in metres in the frame of its part:
 

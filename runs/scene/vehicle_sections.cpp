@@ -275,8 +275,8 @@ SectionEntry specEntry() {
   return {"spec", readSpecKeys, writeSpecKeys,
           [] {
             return std::string(
-                "### `[spec.SECTION]`\n\nKeys of the vehicle file with other values than there, by its own "
-                "sections (below): `[spec.shoe]` with `count = 47`, or `--set spec.shoe.count=47`.\n");
+                "### `[spec.SECTION]`\n\nKeys of the vehicle file with other values than there, by its own sections "
+                "(below): `[spec.shoe]` with\n`pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`.\n");
           },
           [](base::Document&) {}};
 }

@@ -114,13 +114,17 @@ TEST(Torque, AcceleratesMassAndEverythingThatTurns) {
                            3 * turning(s.roller.inertia.y, s.roller.radius) +
                            turning(s.idler.inertia.y, s.idler.radius) + turning(s.sprocket.inertia.y, R));
   const double gained = pulled(strong) - pulled(light);
-  // The pull raises tension and with it friction in the wheels; the hull still nods: 4 %.
-  EXPECT_NEAR(gained, 2 * (strong - light) / (R * mass), 0.04 * 2 * (strong - light) / (R * mass));
+  const double wanted = 2 * (strong - light) / (R * mass);
+  // What the dashpots of contacts take goes with the speed, some 700 N s/m, and the faster run is 0.9 m/s ahead in the
+  // middle: it gains less, by up to a tenth, never more.
+  EXPECT_LT(gained, wanted);
+  EXPECT_GT(gained, 0.9 * wanted);
 }
 
 TEST(EngineDrive, ReachesTheSpeedItIsAskedForLessTheDroop) {
   vehicle::VehicleSpec spec = test::readySpec();
   spec.engine = flat();
+  spec.engine->brakeTorque = 7200; // teeth make the speed ripple about what is asked for: the same slope on both sides
   vehicle::DriverOptions driver;
   driver.drive = SprocketDrive::engine, driver.speeds = {{0}, {3}, {3}};
   test::Ride ride = test::rideOnGround(spec, driver);

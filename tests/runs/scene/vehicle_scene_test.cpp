@@ -117,7 +117,7 @@ TEST(DriverByEngine, NeedsOneInTheVehicleFile) {
                                            "spec.engine.ratio=20",       "spec.engine.governed_speed=250",
                                            "spec.engine.droop=10",       "spec.engine.inertia=40"};
   EXPECT_EQ(refusal(withDriver("drive = \"engine\"\nsprocket_speed = 1"), engine), "");
-  expectRefused(goodScene(), {"engine.torque"}, {"spec.engine.speed=[0, 300]"});
+  expectRefused(goodScene(), {"[engine]", "torque"}, {"spec.engine.speed=[0, 300]"});
 }
 
 TEST(DriverOfACourse, ReachesTheDriver) {
@@ -137,7 +137,7 @@ TEST(DriverOfACourse, ReachesTheDriver) {
 
 TEST(DriverOfACourse, MistakesAreRefused) {
   const auto course = [](const std::string& keys) { return withDriver("", "[driver.course]\n" + keys + "\n"); };
-  expectRefused(course("radius = 3"), {"driver.course.speed", "missing"});
+  expectRefused(course("radius = 3"), {"[driver.course]", "speed"});
   expectRefused(course("speed = 1\nradius = 0"), {"driver.course.radius = 0", "no circle"});
   expectRefused(course("speed = 1\nradius = 3\nx = [0, 1]\ny = [0, 1]"), {"radius", "keep one"});
   expectRefused(course("speed = 1\nx = [0, 1]\ny = [0]"), {"driver.course.y", "1 entries"});
