@@ -365,7 +365,8 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
                  fmt::format("set idler.stop_stiffness = {:.3g}", 10 * s.idler.stiffness)};
   if (s.idler.slideMax <= 0)
     return Fault{{named("idler", "slide_max", "m")},
-                 "holds the idler at its outer stop, where no spring can tighten the track",
+                 fmt::format("holds the idler at its {} stop, where no spring can tighten the track",
+                             s.sprocketInFront() ? "rear" : "front"),
                  "set idler.slide_max = 0.025"};
   return {};
 }
