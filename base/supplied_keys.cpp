@@ -30,4 +30,12 @@ void Document::supply(const std::string& section, const std::string& name, const
   if (!table.find(key)) std::get<Node::Map>(table.value).push_back({key, Node{origin, text}});
 }
 
+void Document::put(const std::string& section, const std::string& key, const Node& value) {
+  Node& table = tableAt(root_, section, section, value.origin);
+  if (Node* there = table.find(key))
+    *there = value;
+  else
+    std::get<Node::Map>(table.value).push_back({key, value});
+}
+
 } // namespace grouser::base

@@ -254,6 +254,12 @@ Section Section::section(const std::string& key) const {
   return {*node, full};
 }
 
+FieldValue Section::value(const Field& field) const {
+  const Node* node = node_->find(field.key);
+  if (!node) return {};
+  return detail::readValue(*node, field, path_.empty() ? field.key : path_ + "." + field.key);
+}
+
 std::vector<std::pair<std::string, Section>> Section::named(const std::string& key) const {
   std::vector<std::pair<std::string, Section>> sections;
   if (!has(key)) return sections;

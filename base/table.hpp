@@ -278,6 +278,9 @@ public:
   std::string name() const { return path_.substr(path_.rfind('.') + 1); }
 
   bool has(std::string_view key) const { return node_->find(key) != nullptr; }
+  /// What stands at a field's key, checked as where a whole table is read; nothing where the key is absent. Throws
+  /// InputError: wrong type, out of range.
+  FieldValue value(const Field& field) const;
   /// The table `key`. Throws InputError where it is missing or no table.
   Section section(const std::string& key) const;
   /// The tables under `key` by name, in the file's order: [material.soil], [material.steel]. Empty where there are
@@ -323,6 +326,9 @@ public:
   /// where there is no such table, it is added. Throws InputError where one of the two is no table.
   void supply(const std::string& section, const std::string& name, const std::string& key, const std::string& text,
               const std::string& origin);
+  /// Has `section.key` be `value`, whatever it was; where there is no such section, it is added. Throws InputError
+  /// where that is no table.
+  void put(const std::string& section, const std::string& key, const Node& value);
   /// One line for each key that was renamed, and where: what users should change in their files.
   const std::vector<std::string>& notes() const { return notes_; }
 

@@ -3,7 +3,9 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "vehicle/engine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -62,10 +64,10 @@ private:
 
   int trackIndex() const { return static_cast<int>(assembly_.tracks.size()); }
 
-  /// Hinge about y; its angle grows with a turn about +y.
-  int addAxle(const std::string& name, int bodyA, int bodyB, const Vec3d& p_V) {
+  /// Hinge about y; its angle grows with a turn about +y. Or what holds both bodies to each other there.
+  int addAxle(const std::string& name, int bodyA, int bodyB, const Vec3d& p_V, JointType type = JointType::kRevolute) {
     const Pose frame_W = multibody::compose(options_.pose_W, multibody::frameWithZX(p_V, kLeft, kForward));
-    return assembly_.model.addJointAt(name, JointType::kRevolute, bodyA, bodyB, frame_W);
+    return assembly_.model.addJointAt(name, type, bodyA, bodyB, frame_W);
   }
 
   void addChassis() {
@@ -94,8 +96,15 @@ private:
       const Vec3d axle{w.firstX + i * w.spacing, track_.y, w.z};
       const int arm = addBody(named("arm", i), a, {axle + alongArm * (0.5 * a.length), planeRotation(a.pivotAngle)});
       const int wheel = addBody(named("road wheel", i), w, {axle, {}});
-      const int joint = addAxle(named("arm pivot", i), assembly_.chassis, arm, axle + alongArm * a.length);
+      const bool sprung = a.suspension == Suspension::sprung;
+      const int joint = addAxle(named("arm pivot", i), assembly_.chassis, arm, axle + alongArm * a.length,
+                                sprung ? JointType::kRevolute : JointType::kFixed);
       addAxle(named("road wheel axle", i), arm, wheel, axle);
+      track_.arms.push_back(arm);
+      track_.armJoints.push_back(joint);
+      track_.wheels.push_back(wheel);
+      addPart(PartKind::kRoadWheel, wheel, w.mesh, trackIndex());
+      if (!sprung) continue;
 
       // A vertical load F on the axle turns the arm about +y with F l cos(angle): the bar holds against it.
       multibody::AxisSpring bar;
@@ -105,10 +114,6 @@ private:
       bar.damping = a.damping;
       bar.preload = -a.preload * a.length * alongArm.x;
       track_.armSprings.push_back(assembly_.model.addAxisSpring(bar));
-      track_.arms.push_back(arm);
-      track_.armJoints.push_back(joint);
-      track_.wheels.push_back(wheel);
-      addPart(PartKind::kRoadWheel, wheel, w.mesh, trackIndex());
     }
   }
 
@@ -125,9 +130,22 @@ private:
 
   void addSprocket() {
     const Vec3d axle{0, track_.y, 0};
-    track_.sprocket = addBody(named("sprocket"), spec().sprocket, {axle, planeRotation(assembly_.wrap.sprocketPhase)});
+    MassSpec mass{spec().sprocket.mass, spec().sprocket.inertia};
+    // What turns with it, as a disc: half as much about the other axes.
+    if (options_.drive == SprocketDrive::engine) {
+      if (!spec().engine)
+        throw base::InputError("vehicle: the driver wants engines, and the vehicle file has no [engine]");
+      const double j = spec().engine->inertia;
+      mass.inertia = mass.inertia + Vec3d{0.5 * j, j, 0.5 * j};
+    }
+    track_.sprocket = addBody(named("sprocket"), mass, {axle, planeRotation(assembly_.wrap.sprocketPhase)});
     track_.sprocketJoint = addAxle(named("sprocket axle"), assembly_.chassis, track_.sprocket, axle);
     track_.drive = assembly_.model.addDrive({named("drive"), track_.sprocketJoint, 0, true});
+    if (options_.drive != SprocketDrive::speed) {
+      multibody::Drive torque;
+      torque.name = named("torque"), torque.joint = track_.sprocketJoint, torque.kind = multibody::DriveKind::kForce;
+      track_.torque = assembly_.model.addDrive(torque);
+    }
     addPart(PartKind::kSprocket, track_.sprocket, spec().sprocket.mesh, trackIndex());
   }
 
@@ -136,7 +154,8 @@ private:
     const Vec3d axle{assembly_.wrap.idlerX, track_.y, s.z};
     track_.carrier = addBody(named("idler carrier"), {s.carrierMass, s.carrierInertia}, {axle, {}});
     track_.idler = addBody(named("idler"), s, {axle, {}});
-    const Pose slide_W = multibody::compose(options_.pose_W, multibody::frameWithZX(axle, kForward, kLeft));
+    const Pose slide_W =
+        multibody::compose(options_.pose_W, multibody::frameWithZX(axle, kForward * spec().outward(), kLeft));
     track_.slideJoint = assembly_.model.addJointAt(named("idler slide"), JointType::kPrismatic, assembly_.chassis,
                                                    track_.carrier, slide_W);
     addAxle(named("idler axle"), track_.carrier, track_.idler, axle);
@@ -237,7 +256,32 @@ void applyControls(const Assembly& vehicle, const Controls& controls, const base
   for (const Track& track : vehicle.tracks) {
     loads.axisSprings[track.tensioner].loadFactor = controls.tension;
     for (const int bar : track.armSprings) loads.axisSprings[bar].loadFactor = controls.weight;
-    loads.drives[track.drive].speed = controls.sprocketSpeed[track.side == Side::kLeft ? 0 : 1];
+    const std::size_t side = track.side == Side::kLeft ? 0 : 1;
+    loads.drives[track.drive].speed = controls.sprocketSpeed[side];
+    if (track.torque < 0) continue;
+    loads.drives[track.drive].on = controls.held;
+    loads.drives[track.torque].force = controls.held ? 0 : controls.torque[side];
+  }
+}
+
+HullMotion hullMotion(const Assembly& vehicle, const multibody::State& state) {
+  const RoadWheelSpec& wheels = vehicle.spec.roadWheel;
+  const base::Pose& hull = state.pose[vehicle.chassis];
+  const multibody::Twist& twist = state.twist[vehicle.chassis];
+  const Vec3d middle{wheels.firstX + 0.5 * wheels.spacing * (wheels.count - 1), 0, wheels.z - wheels.radius};
+  const Vec3d lever = base::rotate(hull.orientation, middle - vehicle.spec.chassis.centre);
+  const Vec3d p = hull.position + lever, v = twist.v + base::cross(twist.w, lever);
+  const Vec3d ahead = base::rotate(hull.orientation, {1, 0, 0});
+  const double level = std::max(std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y), 1e-9);
+  const double c = ahead.x / level, s = ahead.y / level;
+  return {p.x, p.y, c, s, v.x * c + v.y * s, twist.w.z};
+}
+
+void addEngineTorques(const Assembly& vehicle, const multibody::State& state, Controls& controls) {
+  for (const Track& track : vehicle.tracks) {
+    const std::size_t side = track.side == Side::kLeft ? 0 : 1;
+    controls.torque[side] =
+        engineTorque(*vehicle.spec.engine, controls.sprocketSpeed[side], state.joint[track.sprocketJoint].rate);
   }
 }
 

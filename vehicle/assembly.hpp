@@ -45,11 +45,12 @@ struct Track {
       shoeJoints;          ///< joint i holds shoe i (A) and shoe i+1 (B); its angle is the fold, positive about a wheel
   std::vector<int> wheels; ///< bodies, rearmost first
   std::vector<int> arms;   ///< bodies
-  std::vector<int> armJoints;               ///< chassis to arm, positive about +y: the wheel goes up
-  std::vector<int> armSprings;              ///< axis springs
-  std::vector<int> rollers;                 ///< bodies
-  int sprocket{}, sprocketJoint{}, drive{}; ///< body, joint (positive is forward), drive
-  int carrier{}, slideJoint{}, tensioner{}; ///< body, joint (positive is forward), axis spring
+  std::vector<int> armJoints;  ///< chassis to arm, positive about +y: the wheel goes up; rigid arms do not turn
+  std::vector<int> armSprings; ///< axis springs; none of rigid arms
+  std::vector<int> rollers;    ///< bodies
+  int sprocket{}, sprocketJoint{}, drive{}; ///< body, joint (positive is forward), drive by speed
+  int torque = -1;                          ///< drive by torque, where that is meant
+  int carrier{}, slideJoint{}, tensioner{}; ///< body, joint (positive is away from the sprocket), axis spring
   int idler{};                              ///< body
   std::vector<int> shoeParts;               ///< indices into Assembly::parts, in the order of `shoes`
 };
@@ -60,6 +61,7 @@ struct AssemblyOptions {
   bool fixChassis = false; ///< the chassis never moves
   bool left = true;        ///< build the left track
   bool right = true;       ///< build the right track
+  SprocketDrive drive = SprocketDrive::speed;
 };
 
 /// A vehicle, exactly wrapped, ready to be stepped: every joint is closed at the start, every spring at its drawn
@@ -94,6 +96,12 @@ base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double grou
 /// full gravity of the scene [m/s2]; wrenches in `loads` are left alone.
 void applyControls(const Assembly& vehicle, const Controls& controls, const base::Vec3d& gravity,
                    multibody::Loads& loads);
+
+/// The hull as a driver sees it.
+HullMotion hullMotion(const Assembly& vehicle, const multibody::State& state);
+
+/// Has the engines give the torques that their governors find at the sprockets' speeds.
+void addEngineTorques(const Assembly& vehicle, const multibody::State& state, Controls& controls);
 
 /// Pose of a part in the world.
 base::Pose partPose(const Part& part, const multibody::State& state);

@@ -29,6 +29,7 @@ double smoothRamp(double time, double start, double duration) {
 
 Driver::Driver(DriverOptions options) : options_(std::move(options)) {
   const SpeedTable& table = options_.speeds;
+  const TorqueTable& torques = options_.torques;
   if (options_.tensionRamp < 0 || options_.weightRamp < 0 || options_.driveRamp < 0)
     throw base::InputError("driver: a ramp lasts less than 0 s");
   if (options_.driveStart < options_.tensionRamp + options_.weightRamp)
@@ -38,6 +39,14 @@ Driver::Driver(DriverOptions options) : options_(std::move(options)) {
         "driver: the speed table needs at least one row, and as many speeds left and right as times");
   if (multibody::firstOutOfOrder(table.time, true) > 0)
     throw base::InputError("driver: the times of the speed table must rise; a time may stand twice, for a jump");
+  if (torques.time.empty() || torques.left.size() != torques.time.size() ||
+      torques.right.size() != torques.time.size() || multibody::firstOutOfOrder(torques.time, true) > 0)
+    throw base::InputError("driver: the torque table needs as many torques left and right as times, which rise");
+  if (options_.course) {
+    if (options_.drive == SprocketDrive::torque)
+      throw base::InputError("driver: a course is driven by speeds or engines, not by torques that are given");
+    course_.emplace(*options_.course);
+  }
 }
 
 std::string Driver::judge(double time, double speed, double load) {
@@ -59,15 +68,19 @@ std::string Driver::judge(double time, double speed, double load) {
 }
 
 std::vector<double> Driver::save() const {
-  if (!options_.rest) return {};
-  return {begun_.value_or(-1), restsSince_.value_or(-1)};
+  std::vector<double> saved;
+  if (options_.rest) saved = {begun_.value_or(-1), restsSince_.value_or(-1)};
+  if (course_)
+    for (const double value : course_->save()) saved.push_back(value);
+  return saved;
 }
 
 void Driver::restore(const std::vector<double>& saved) {
   if (saved.size() != save().size())
     throw base::InputError(
         "driver: the checkpoint is of another start of the drive; resume with the scene that was run");
-  if (saved.empty()) return;
+  if (course_) course_->restore(saved.data() + (saved.size() - Course::kSaved));
+  if (!options_.rest) return;
   begun_ = saved[0] < 0 ? std::nullopt : std::optional(saved[0]);
   restsSince_ = saved[1] < 0 ? std::nullopt : std::optional(saved[1]);
 }
@@ -78,10 +91,20 @@ Controls Driver::at(double time) const {
   controls.weight = smoothRamp(time, options_.tensionRamp, options_.weightRamp);
   const std::optional<double> start = driveStart();
   if (!start) return controls;
+  controls.held = time < *start;
   const double drive = smoothRamp(time, *start, options_.driveRamp);
   const double t = time - *start;
   controls.sprocketSpeed = {drive * tableValue(options_.speeds.time, options_.speeds.left, t),
                             drive * tableValue(options_.speeds.time, options_.speeds.right, t)};
+  if (options_.drive == SprocketDrive::torque)
+    controls.torque = {drive * tableValue(options_.torques.time, options_.torques.left, t),
+                       drive * tableValue(options_.torques.time, options_.torques.right, t)};
+  return controls;
+}
+
+Controls Driver::step(double time, double dt, const HullMotion& motion) {
+  Controls controls = at(time);
+  if (course_ && !controls.held) controls.sprocketSpeed = course_->sprocketSpeeds(motion, time - *driveStart(), dt);
   return controls;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vehicle/course.hpp"
+
 #include <array>
 #include <optional>
 #include <string>
@@ -24,6 +26,20 @@ struct RestBounds {
   double timeLimit = 5; ///< after the weight's ramp [s]
 };
 
+/// What the driver gives the sprockets.
+enum class SprocketDrive {
+  speed,  ///< their speeds, whatever torque that takes
+  torque, ///< torques
+  engine  ///< what engines give that governors hold at the speeds
+};
+
+/// Torques of the two sprockets over time, as a SpeedTable.
+struct TorqueTable {
+  std::vector<double> time;  ///< [s]
+  std::vector<double> left;  ///< [N m], forward positive
+  std::vector<double> right; ///< [N m]
+};
+
 struct DriverOptions {
   double tensionRamp = 0.15;        ///< tensioner's preload from 0 to its full force [s]
   double weightRamp = 0.3;          ///< then weight and the arms' preload from 0 to full [s]
@@ -31,6 +47,9 @@ struct DriverOptions {
   double driveRamp = 0.3;           ///< sprocket speed from 0 to the table's value [s]
   std::optional<RestBounds> rest{}; ///< wait until it rests, and no less than until driveStart
   SpeedTable speeds{{0}, {0}, {0}};
+  SprocketDrive drive = SprocketDrive::speed;
+  TorqueTable torques{{0}, {0}, {0}};    ///< where torques are given
+  std::optional<CourseOptions> course{}; ///< closed loop, instead of the speeds
 };
 
 /// What the driver asks for at one time.
@@ -38,6 +57,8 @@ struct Controls {
   double tension = 1;                        ///< factor on the tensioner's preload, 0..1
   double weight = 1;                         ///< factor on the vehicle's weight and the arms' preload, 0..1
   std::array<double, 2> sprocketSpeed{0, 0}; ///< left, right [rad/s]
+  std::array<double, 2> torque{0, 0};        ///< left, right [N m]; where not speeds are given
+  bool held = true;                          ///< sprockets that torques drive are held still
 };
 
 /// Tension, then weight, then drive, each on a smooth ramp: a step of the tension gives peaks of 16 kN where a ramp
@@ -46,7 +67,11 @@ class Driver {
 public:
   /// Throws base::InputError on negative times, unequal columns or falling table times.
   explicit Driver(DriverOptions options);
+  /// Without a course, which needs the hull's motion.
   Controls at(double time) const;
+  /// The same for a step of `dt` [s] that begins at `time`, with a course that follows the hull. Once a step.
+  Controls step(double time, double dt, const HullMotion& motion);
+  const Course* course() const { return course_ ? &*course_ : nullptr; }
 
   /// Whether the drive waits for a vehicle at rest.
   bool waits() const { return options_.rest && !begun_; }
@@ -57,8 +82,8 @@ public:
   /// When the drive began, or begins for sure [s]; empty while the vehicle is not at rest.
   std::optional<double> driveStart() const { return options_.rest ? begun_ : options_.driveStart; }
 
-  /// All that changes, for checkpoint and hash: when it began, since when it has been at rest, -1 for never. Empty
-  /// where the start is fixed.
+  /// All that changes, for checkpoint and hash: when it began, since when it has been at rest, -1 for never; then what
+  /// a course remembers. Empty where the start is fixed and there is no course.
   std::vector<double> save() const;
   void restore(const std::vector<double>& saved);
   const DriverOptions& options() const { return options_; }
@@ -67,6 +92,7 @@ private:
   static constexpr double kRestTime = 0.05; ///< [s]
 
   DriverOptions options_;
+  std::optional<Course> course_;
   std::optional<double> begun_, restsSince_; ///< [s]
 };
 

@@ -41,9 +41,11 @@ constexpr VehicleField kVehicleFields[] = {
 
 constexpr ScalarField kTrackFields[] = {
     {"sprocket_speed", "rad/s", "forward positive", &TrackObservation::sprocketSpeed},
-    {"drive_torque", "N m", "multiplier of the sprocket's drive, forward positive", &TrackObservation::driveTorque},
-    {"idler_force", "N", "of the tensioner on the idler, forward positive", &TrackObservation::idlerForce},
-    {"idler_slide", "m", "from the drawn place, forward positive", &TrackObservation::idlerSlide},
+    {"drive_torque", "N m", "of the hull on the sprocket by its drive, forward positive",
+     &TrackObservation::driveTorque},
+    {"idler_force", "N", "of the tensioner on the idler, positive away from the sprocket",
+     &TrackObservation::idlerForce},
+    {"idler_slide", "m", "from the drawn place, positive away from the sprocket", &TrackObservation::idlerSlide},
     {"speed", "m/s", "of the hull at this track", &TrackObservation::speed},
     {"slip", "-", "1 - speed / (sprocket speed x pitch radius)", &TrackObservation::slip},
     {"tooth_speed", "m/s", "mean over whole tooth passages", &TrackObservation::toothSpeed},

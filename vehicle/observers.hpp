@@ -30,7 +30,7 @@ struct TrackObservation {
   std::vector<double> onGround;       ///< 1 on the ground run and carrying load, else 0
   double sprocketSpeed = 0;           ///< [rad/s]
   double driveTorque = 0;             ///< of the hull on the sprocket, positive drives forward [N m]
-  double idlerForce = 0;              ///< of the tensioner on the idler's carrier, forward positive [N]
+  double idlerForce = 0;              ///< of the tensioner on the idler's carrier, positive away from the sprocket [N]
   double idlerSlide = 0;              ///< from the place of the wrap, forward positive [m]
   double speed = 0;                   ///< of the hull at this track, along the hull's x axis [m/s]
   double slip = 0;                    ///< 1 - speed / (omega r_pitch) [-]; NaN while the sprocket stands

@@ -79,7 +79,8 @@ std::optional<SpecFault> massFault(const VehicleSpec& s, const PartMeshes& meshe
   if (auto fault = surfaceFault("shoe", s.shoe, meshes.shoe)) return fault;
   if (auto fault = surfaceFault("sprocket", s.sprocket, meshes.sprocket)) return fault;
   if (auto fault = surfaceFault("road_wheel", s.roadWheel, meshes.roadWheel)) return fault;
-  if (auto fault = surfaceFault("roller", s.roller, meshes.roller)) return fault;
+  if (!s.roller.x.empty())
+    if (auto fault = surfaceFault("roller", s.roller, meshes.roller)) return fault;
   if (auto fault = surfaceFault("idler", s.idler, meshes.idler)) return fault;
   if (auto fault = inertiaFault("arm", "inertia", s.arm.mass, s.arm.inertia, s.arm.length, "the arm")) return fault;
   return inertiaFault("idler", "carrier_inertia", s.idler.carrierMass, s.idler.carrierInertia, s.idler.radius,

@@ -159,12 +159,14 @@ std::optional<SpecFault> hornFault(const VehicleSpec& s, const PartMeshes& meshe
     const TriangleMesh& mesh;
   };
   for (const Rim& r : {Rim{"road wheels", s.roadWheel.radius, meshes.roadWheel},
-                       Rim{"rollers", s.roller.radius, meshes.roller}, Rim{"idler", s.idler.radius, meshes.idler}})
+                       Rim{"rollers", s.roller.radius, meshes.roller}, Rim{"idler", s.idler.radius, meshes.idler}}) {
+    if (r.mesh.vertices.empty()) continue; // a vehicle without rollers
     if (const double overlap = hubRadius(r.mesh, half) - (r.radius - s.shoe.hornHeight); overlap > 0)
       return SpecFault{"shoe", "horn_height",
                        fmt::format("[m] makes the horns overlap the hub of the {} by {:.1f} mm; set shoe.horn_height "
                                    "to at most {:.4f} with a mesh of that height",
                                    r.name, 1e3 * overlap, s.shoe.hornHeight - overlap)};
+  }
   return {};
 }
 
@@ -172,7 +174,8 @@ std::optional<SpecFault> hornFault(const VehicleSpec& s, const PartMeshes& meshe
 
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes) {
   if (auto fault = rimFault("road_wheel", spec.roadWheel.radius, spec.roadWheel.mesh, meshes.roadWheel)) return fault;
-  if (auto fault = rimFault("roller", spec.roller.radius, spec.roller.mesh, meshes.roller)) return fault;
+  if (!spec.roller.x.empty())
+    if (auto fault = rimFault("roller", spec.roller.radius, spec.roller.mesh, meshes.roller)) return fault;
   if (auto fault = rimFault("idler", spec.idler.radius, spec.idler.mesh, meshes.idler)) return fault;
   if (auto fault = shoeMeshFault(spec, meshes.shoe)) return fault;
   if (auto fault = teethFault(spec, meshes)) return fault;

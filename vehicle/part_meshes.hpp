@@ -9,9 +9,9 @@
 
 namespace grouser::vehicle {
 
-/// Meshes of a vehicle, one a kind of part.
+/// Meshes of a vehicle, one a kind of part; that of the rollers is empty where there are none.
 struct PartMeshes {
-  base::TriangleMesh chassis, shoe, sprocket, roadWheel, roller, idler;
+  base::TriangleMesh chassis{}, shoe{}, sprocket{}, roadWheel{}, roller{}, idler{};
 };
 
 /// Where a mesh has other lengths than the spec says: what is placed by one and touches by the other overlaps or hangs

@@ -218,8 +218,7 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
                  fmt::format("folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less", step,
                              s.shoe.maximumFold),
                  ""};
-  double least = std::min(s.roadWheel.radius, s.idler.radius);
-  if (!s.roller.x.empty()) least = std::min(least, s.roller.radius);
+  const double least = s.smallestWheel();
   if (const double overlap = s.shoe.hornHeight - least; overlap >= 0)
     return Fault{{knob("shoe", "horn_height", s.shoe.hornHeight, 0.001,
                        [](VehicleSpec& v, double h) { v.shoe.hornHeight = h; })},
@@ -275,7 +274,9 @@ bool insideLoop(const Wrap& wrap, double x, double z) {
 /// Wheels against the shoes of the closed loop.
 std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
   using Kind = Wheel::Kind;
-  if (auto fault = overlapOfWheels(s, wrap.idlerX + s.idler.slideMin, " at the idler's rear stop")) return fault;
+  if (auto fault = overlapOfWheels(s, wrap.idlerX + s.outward() * s.idler.slideMin,
+                                   s.sprocketInFront() ? " at the idler's front stop" : " at the idler's rear stop"))
+    return fault;
   for (const Wheel& wheel : wheelsOf(s, wrap.idlerX)) {
     if (wheel.kind == Kind::sprocket) continue; // it meets the pins' bosses alone
     const std::vector<Knob> knobs =
@@ -312,6 +313,7 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
     f.advice = fmt::format("choose its y in ({:g}, {:g})", -s.trackOffset, s.trackOffset);
     return f;
   }
+  if (s.arm.suspension == Suspension::rigid) return {};
   const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
   const double lever = s.arm.length * base::cos(s.arm.pivotAngle);
   const double turn = (load - s.arm.preload) * lever; // [N m] that the bar must take beyond its preload
@@ -350,11 +352,11 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
                          weight, 2 * weight);
     return f;
   }
-  if (const double travel = s.idler.preload / s.idler.stiffness; travel > 0.5 * s.idler.x)
+  if (const double travel = s.idler.preload / s.idler.stiffness; travel > 0.5 * std::fabs(s.idler.x))
     return Fault{{named("idler", "stiffness", "N/m")},
                  fmt::format("must be pressed by {:.0f} mm to give idler.preload = {:g} N, and the track is "
                              "{:.0f} mm long",
-                             1e3 * travel, s.idler.preload, 1e3 * s.idler.x),
+                             1e3 * travel, s.idler.preload, 1e3 * std::fabs(s.idler.x)),
                  fmt::format("set idler.stiffness = {:.0f}", std::ceil(s.idler.preload / 0.03))};
   if (s.idler.stopStiffness < s.idler.stiffness)
     return Fault{{named("idler", "stop_stiffness", "N/m")},
@@ -363,7 +365,8 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
                  fmt::format("set idler.stop_stiffness = {:.3g}", 10 * s.idler.stiffness)};
   if (s.idler.slideMax <= 0)
     return Fault{{named("idler", "slide_max", "m")},
-                 "holds the idler at its front stop, where no spring can tighten the track",
+                 fmt::format("holds the idler at its {} stop, where no spring can tighten the track",
+                             s.sprocketInFront() ? "rear" : "front"),
                  "set idler.slide_max = 0.025"};
   return {};
 }

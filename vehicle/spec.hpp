@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/enum_words.hpp"
 #include "base/vec.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +38,8 @@ struct ShoeSpec : SurfaceSpec {
   double pinDamping{};    ///< viscous moment in each pin joint [N m s/rad]
 };
 
-/// Drive sprocket, at the rear. Its frame: origin on the axle, y along it; gap k lies at the angle 2 pi k / teeth from
-/// +x towards +z.
+/// Drive sprocket, at the rear or in front. Its frame: origin on the axle, y along it; gap k lies at the angle 2 pi k /
+/// teeth from +x towards +z.
 struct SprocketSpec : SurfaceSpec {
   int teeth{}; ///< [-]
 };
@@ -50,15 +52,23 @@ struct RoadWheelSpec : SurfaceSpec {
   double z{};       ///< axle height over the sprocket's axle [m]
 };
 
-/// Trailing arm: from a pivot ahead of and above the wheel's axle. Its centre of mass lies in its middle.
-struct ArmSpec : MassSpec {
-  double length{};     ///< pivot to axle [m]
-  double pivotAngle{}; ///< of the pivot over the horizontal through the axle [rad]
-  double stiffness{};  ///< torsion bar [N m/rad]
-  double damping{};    ///< [N m s/rad]
-  double preload{};    ///< vertical load on the wheel that the bar carries in the drawn position [N]
+/// How road wheels hang on the hull.
+enum class Suspension {
+  sprung, ///< on arms that turn about their pivots against torsion bars
+  rigid   ///< on arms that are part of the hull
 };
 
+/// Trailing arm: from a pivot ahead of and above the wheel's axle. Its centre of mass lies in its middle.
+struct ArmSpec : MassSpec {
+  Suspension suspension = Suspension::sprung; ///< rigid: stiffness, damping and preload have no meaning
+  double length{};                            ///< pivot to axle [m]
+  double pivotAngle{};                        ///< of the pivot over the horizontal through the axle [rad]
+  double stiffness{};                         ///< torsion bar [N m/rad]
+  double damping{};                           ///< [N m s/rad]
+  double preload{}; ///< vertical load on the wheel that the bar carries in the drawn position [N]
+};
+
+/// Without places there are no rollers, and no mesh is asked for.
 struct RollerSpec : SurfaceSpec {
   double radius{};          ///< [m]
   std::vector<double> x, z; ///< axles from the sprocket's axle [m]
@@ -67,8 +77,8 @@ struct RollerSpec : SurfaceSpec {
 struct IdlerSpec : SurfaceSpec {
   double radius{}; ///< [m]
   double x{}, z{}; ///< drawn place of the axle [m]; the wrap finds the exact x, which must lie within the slide's range
-  double slideMin{};      ///< stop to the rear, relative to the wrap's place [m], < 0
-  double slideMax{};      ///< stop to the front [m], > 0
+  double slideMin{};      ///< stop towards the sprocket, relative to the wrap's place [m], < 0
+  double slideMax{};      ///< stop away from it [m], > 0
   double stiffness{};     ///< tensioner spring [N/m]
   double damping{};       ///< [N s/m]
   double preload{};       ///< spring force at the wrap's place [N]
@@ -80,6 +90,18 @@ struct IdlerSpec : SurfaceSpec {
 
 struct ChassisSpec : SurfaceSpec {
   Vec3d centre; ///< centre of mass from the middle of the sprockets' axle line [m]
+};
+
+/// An engine for each sprocket, behind a gear. Of one that drives both, half of its torque for each.
+struct EngineSpec {
+  std::vector<double> speed;  ///< of its shaft [rad/s], rising
+  std::vector<double> torque; ///< full load at these speeds [N m]
+  double ratio{};             ///< speed of the engine over that of the sprocket [-]
+  double efficiency = 1;      ///< of the gear [-]
+  double governedSpeed{};     ///< that the governor lets it reach [rad/s]
+  double droop{};             ///< of its shaft, over which the governor goes from no torque to all [rad/s]
+  double brakeTorque = 0;     ///< most that holds the sprocket back where it turns faster than asked [N m]
+  double inertia{};           ///< of all that turns with the sprocket, reduced to it [kg m2]
 };
 
 /// Part against part, and part against ground.
@@ -105,7 +127,14 @@ struct VehicleSpec {
   RollerSpec roller;
   IdlerSpec idler;
   ContactSpec contact;
+  std::optional<EngineSpec> engine; ///< where the file has one
 
+  /// Of the sprocket: in front where the idler lies behind it.
+  bool sprocketInFront() const { return idler.x < 0; }
+  /// Which way along x the tensioner pushes the idler, away from the sprocket: 1 or -1.
+  double outward() const { return sprocketInFront() ? -1 : 1; }
+  /// Radius of the smallest wheel that rolls in the track [m].
+  double smallestWheel() const;
   /// Height of the pin line of the ground run [m]: wheels stand on the plates.
   double groundPinHeight() const { return roadWheel.z - roadWheel.radius - shoe.plateTop; }
   /// Height of the lowest points, the grousers of the ground run [m].
@@ -121,3 +150,12 @@ struct VehicleSpec {
 };
 
 } // namespace grouser::vehicle
+
+namespace grouser::base {
+
+template <> struct EnumWords<vehicle::Suspension> {
+  using E = vehicle::Suspension;
+  static constexpr EnumWord<E> list[] = {{E::sprung, "sprung"}, {E::rigid, "rigid"}};
+};
+
+} // namespace grouser::base

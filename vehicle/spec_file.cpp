@@ -6,70 +6,109 @@
 #include "vehicle/running_gear.hpp"
 #include "vehicle/spec_tables.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <optional>
 
 namespace grouser::vehicle {
 
 namespace {
 
+void checkEngine(const base::Section& section, const EngineSpec& engine) {
+  if (engine.speed.empty()) section.fail("speed", "[rad/s] is empty; give at least one point of the torque curve");
+  if (engine.torque.size() != engine.speed.size())
+    section.fail("torque", fmt::format("[N m] has another length than speed, which has {}; make both alike",
+                                       engine.speed.size()));
+  for (std::size_t i = 1; i < engine.speed.size(); ++i)
+    if (!(engine.speed[i] > engine.speed[i - 1]))
+      section.fail("speed", fmt::format("[rad/s] does not increase at entry {}; sort it", i));
+  if (*std::max_element(engine.torque.begin(), engine.torque.end()) <= 0)
+    section.fail("torque", "[N m] is 0 at all speeds; give the engine a torque");
+}
+
 /// Rules between keys, which no single range can state.
 void checkTogether(const base::Section& root, const VehicleSpec& spec) {
+  if (spec.arm.suspension == Suspension::sprung)
+    for (const char* key : {"stiffness", "damping", "preload"})
+      if (!root.section("arm").has(key))
+        root.section("arm").fail(key, "is missing, and arms are sprung; give it, or set suspension = \"rigid\"");
   if (spec.roller.x.size() != spec.roller.z.size())
     root.section("roller").fail("z", "must have as many values as roller.x, one a roller");
   const auto principal = [&root](const std::string& section, const std::string& key, const Vec3d& i) {
     if (i.x > i.y + i.z || i.y > i.z + i.x || i.z > i.x + i.y)
       root.section(section).fail(key, "belongs to no solid body: no principal moment exceeds the sum of the other two");
   };
+  if (spec.engine) checkEngine(root.section("engine"), *spec.engine);
   principal("chassis", "inertia", spec.chassis.inertia);
   principal("shoe", "inertia", spec.shoe.inertia);
   principal("sprocket", "inertia", spec.sprocket.inertia);
   principal("road_wheel", "inertia", spec.roadWheel.inertia);
   principal("arm", "inertia", spec.arm.inertia);
-  principal("roller", "inertia", spec.roller.inertia);
+  if (root.has("roller")) principal("roller", "inertia", spec.roller.inertia);
   principal("idler", "inertia", spec.idler.inertia);
   principal("idler", "carrier_inertia", spec.idler.carrierInertia);
 }
 
+/// The file as it is read: with its changed keys. Messages name both places.
+base::Document documentOf(const SpecSource& source) {
+  base::Document document = base::Document::load(source.file);
+  for (const SpecKey& k : source.changed) {
+    base::Node value = k.value;
+    value.origin = fmt::format("{}, in place of what {} says", k.value.origin, source.file);
+    document.put(k.section, k.key, value);
+  }
+  return document;
+}
+
 } // namespace
 
-VehicleSpec readVehicleSpec(const std::string& path) {
-  const base::Document document = base::Document::load(path);
+VehicleSpec readVehicleSpec(const SpecSource& source) {
+  const base::Document document = documentOf(source);
   const base::Section root = document.root();
-  root.allowOnly(
-      {"version", "vehicle", "chassis", "shoe", "sprocket", "road_wheel", "arm", "roller", "idler", "contact"});
+  root.allowOnly({"version", "vehicle", "chassis", "shoe", "sprocket", "road_wheel", "arm", "roller", "idler",
+                  "contact", "engine"});
   VehicleSpec spec = root.section("vehicle").read(vehicleTable());
   spec.chassis = root.section("chassis").read(chassisTable());
   spec.shoe = root.section("shoe").read(shoeTable());
   spec.sprocket = root.section("sprocket").read(sprocketTable());
   spec.roadWheel = root.section("road_wheel").read(roadWheelTable());
   spec.arm = root.section("arm").read(armTable());
-  spec.roller = root.section("roller").read(rollerTable());
+  if (root.has("engine")) spec.engine = root.section("engine").read(engineTable());
+  if (root.has("roller")) spec.roller = root.section("roller").read(rollerTable());
   spec.idler = root.section("idler").read(idlerTable());
   spec.contact = root.section("contact").read(contactTable());
   checkTogether(root, spec);
   if (const std::optional<SpecFault> fault = runningGearFault(spec))
     root.section(fault->section).fail(fault->key, fault->message);
   // The mesh folder is named from the spec file's own place.
-  spec.meshFolder = (std::filesystem::path(path).parent_path() / spec.meshFolder).lexically_normal().string();
+  spec.meshFolder = (std::filesystem::path(source.file).parent_path() / spec.meshFolder).lexically_normal().string();
   return spec;
 }
 
-void refuse(const std::string& path, const SpecFault& fault) {
-  const base::Document document = base::Document::load(path);
+void refuse(const SpecSource& source, const SpecFault& fault) {
+  const base::Document document = documentOf(source);
   document.root().section(fault.section).fail(fault.key, fault.message);
 }
 
-void refuseMesh(const std::string& path, const std::string& section, const std::string& why) {
-  refuse(path, {section, "mesh", "in vehicle.mesh_folder is no mesh for it: " + why});
+void refuseMesh(const SpecSource& source, const std::string& section, const std::string& why) {
+  refuse(source, {section, "mesh", "in vehicle.mesh_folder is no mesh for it: " + why});
+}
+
+std::vector<SpecSection> specSections() {
+  const auto of = [](const auto& table) { return SpecSection{table.name(), table.fields()}; };
+  return {of(vehicleTable()), of(chassisTable()), of(shoeTable()),  of(sprocketTable()), of(roadWheelTable()),
+          of(armTable()),     of(rollerTable()),  of(idlerTable()), of(contactTable()),  of(engineTable())};
 }
 
 std::string specFieldHelp() {
   std::string text = R"(## Keys of a vehicle file
 
-The file that `vehicle.spec` of a scene names. It begins with `version = 1`; all sections and keys are required. SI
-units, angles in radians. Axes: x forward, y left, z up; origin: the middle of the sprockets' axle line. The two tracks
-are alike. Inertia is about a part's centre of mass, along the axes of its frame.
+The file that `vehicle.spec` of a scene names. A scene, `--set` and sweeps can change each key for a run, with `spec.`
+before it: `[spec.shoe]` with `pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`. The file begins with
+`version = 1`; all sections but [roller] and [engine] are required. SI units, angles in radians. Axes: x forward, y
+left, z up; origin: the middle of the sprockets' axle line. The two tracks are alike. Inertia is about a part's centre
+of mass, along the axes of its frame.
 
 A mesh is closed, its triangles face outward, its vertices are in metres in the frame of its part:
 
@@ -79,10 +118,11 @@ A mesh is closed, its triangles face outward, its vertices are in metres in the 
 - sprocket, road wheel, roller, idler: origin on the axle, y along it; gap k of the sprocket at the angle
   2 pi k / teeth from +x towards +z, so deep that pins seat at the radius pitch / (2 sin(pi / teeth)).
 )";
-  const std::string tables[] = {
-      base::describe(vehicleTable()),  base::describe(chassisTable()),   base::describe(shoeTable()),
-      base::describe(sprocketTable()), base::describe(roadWheelTable()), base::describe(armTable()),
-      base::describe(rollerTable()),   base::describe(idlerTable()),     base::describe(contactTable())};
+  const std::string tables[] = {base::describe(vehicleTable()),   base::describe(chassisTable()),
+                                base::describe(shoeTable()),      base::describe(sprocketTable()),
+                                base::describe(roadWheelTable()), base::describe(armTable()),
+                                base::describe(rollerTable()),    base::describe(idlerTable()),
+                                base::describe(contactTable()),   base::describe(engineTable())};
   for (const std::string& table : tables) text.append("\n").append(table);
   return text;
 }

@@ -73,7 +73,7 @@ Table<ShoeSpec> shoeTable() {
 }
 
 Table<SprocketSpec> sprocketTable() {
-  Table<SprocketSpec> t("sprocket", "Drive sprocket at the rear, its axle is the origin");
+  Table<SprocketSpec> t("sprocket", "Drive sprocket, at the rear or in front; its axle is the origin");
   t.add("teeth", &SprocketSpec::teeth, "-", "number of teeth").atLeast(6).atMost(40).required();
   addSurface(t);
   return t;
@@ -92,23 +92,27 @@ Table<RoadWheelSpec> roadWheelTable() {
 
 Table<ArmSpec> armTable() {
   Table<ArmSpec> t("arm", "Trailing arm of a road wheel with its torsion bar");
+  t.add("suspension", &ArmSpec::suspension, "",
+        "arms that turn against torsion bars, or that are part of the hull: stiffness, damping and preload then have "
+        "no meaning");
   t.add("length", &ArmSpec::length, "m", "pivot to axle").above(0).atMost(2).required();
   t.add("pivot_angle", &ArmSpec::pivotAngle, "rad", "of the pivot over the horizontal through the axle")
       .atLeast(-1)
       .atMost(1)
       .required();
-  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar").atLeast(0).atMost(1e9).required();
-  t.add("damping", &ArmSpec::damping, "N m s/rad", "damper about the pivot").atLeast(0).atMost(1e9).required();
-  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position")
+  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar; required of sprung arms").atLeast(0).atMost(1e9);
+  t.add("damping", &ArmSpec::damping, "N m s/rad", "damper about the pivot; required of sprung arms")
       .atLeast(0)
-      .atMost(1e7)
-      .required();
+      .atMost(1e9);
+  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position; required of sprung arms")
+      .atLeast(0)
+      .atMost(1e7);
   addMass(t);
   return t;
 }
 
 Table<RollerSpec> rollerTable() {
-  Table<RollerSpec> t("roller", "Support rollers of one track");
+  Table<RollerSpec> t("roller", "Support rollers of one track; without this section there are none");
   t.add("radius", &RollerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
   t.add("x", &RollerSpec::x, "m", "axles").atLeast(-20).atMost(20).required();
   t.add("z", &RollerSpec::z, "m", "axles").atLeast(-20).atMost(20).required();
@@ -117,15 +121,16 @@ Table<RollerSpec> rollerTable() {
 }
 
 Table<IdlerSpec> idlerTable() {
-  Table<IdlerSpec> t("idler", "Idler in front, on a carrier that slides along x against the tensioner");
+  Table<IdlerSpec> t("idler", "Idler, on a carrier that slides along x against the tensioner");
   t.add("radius", &IdlerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
-  t.add("x", &IdlerSpec::x, "m", "drawn place of the axle; the wrap finds the exact one")
-      .above(0)
+  t.add("x", &IdlerSpec::x, "m",
+        "drawn place of the axle; the wrap finds the exact one. Below 0: the sprocket is in front")
+      .atLeast(-20)
       .atMost(20)
       .required();
   t.add("z", &IdlerSpec::z, "m", "axle height").atLeast(-20).atMost(20).required();
-  t.add("slide_min", &IdlerSpec::slideMin, "m", "stop to the rear").atMost(0).atLeast(-0.5).required();
-  t.add("slide_max", &IdlerSpec::slideMax, "m", "stop to the front").atLeast(0).atMost(0.5).required();
+  t.add("slide_min", &IdlerSpec::slideMin, "m", "stop towards the sprocket").atMost(0).atLeast(-0.5).required();
+  t.add("slide_max", &IdlerSpec::slideMax, "m", "stop away from the sprocket").atLeast(0).atMost(0.5).required();
   t.add("stiffness", &IdlerSpec::stiffness, "N/m", "tensioner spring").above(0).atMost(1e10).required();
   t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damper").atLeast(0).atMost(1e9).required();
   t.add("preload", &IdlerSpec::preload, "N", "spring force at the wrap's place").atLeast(0).atMost(1e7).required();
@@ -134,6 +139,41 @@ Table<IdlerSpec> idlerTable() {
   t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "sliding carrier").atLeast(1e-3).atMost(1e6).required();
   t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "of the carrier").above(0).atMost(1e8).required();
   addSurface(t);
+  return t;
+}
+
+Table<EngineSpec> engineTable() {
+  Table<EngineSpec> t("engine", "An engine for each sprocket behind a gear, for driver.drive = \"engine\"; of one that "
+                                "drives both, half of its torque. Without this section there is none");
+  t.add("speed", &EngineSpec::speed, "rad/s", "of its shaft, the points of its torque curve, increasing")
+      .atLeast(0)
+      .atMost(1e5)
+      .required();
+  t.add("torque", &EngineSpec::torque, "N m", "full load at these speeds; linear between them")
+      .atLeast(0)
+      .atMost(1e6)
+      .required();
+  t.add("ratio", &EngineSpec::ratio, "-", "speed of the engine over that of the sprocket")
+      .above(0)
+      .atMost(1e4)
+      .required();
+  t.add("efficiency", &EngineSpec::efficiency, "-", "of the gear").above(0).atMost(1);
+  t.add("governed_speed", &EngineSpec::governedSpeed, "rad/s", "of its shaft, which the governor lets it reach")
+      .above(0)
+      .atMost(1e5)
+      .required();
+  t.add("droop", &EngineSpec::droop, "rad/s", "of its shaft, over which the governor goes from no torque to all")
+      .above(0)
+      .atMost(1e4)
+      .required();
+  t.add("brake_torque", &EngineSpec::brakeTorque, "N m",
+        "most that holds a sprocket back where it turns faster than asked")
+      .atLeast(0)
+      .atMost(1e7);
+  t.add("inertia", &EngineSpec::inertia, "kg m2", "of engine and gear, reduced to the sprocket, with which it turns")
+      .above(0)
+      .atMost(1e6)
+      .required();
   return t;
 }
 

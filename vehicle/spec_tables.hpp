@@ -16,5 +16,6 @@ base::Table<ArmSpec> armTable();
 base::Table<RollerSpec> rollerTable();
 base::Table<IdlerSpec> idlerTable();
 base::Table<ContactSpec> contactTable();
+base::Table<EngineSpec> engineTable();
 
 } // namespace grouser::vehicle

@@ -18,7 +18,11 @@ double nearestTurn(double step, double n) { return step - n * std::floor(step / 
 Travel::Travel(const Assembly& vehicle, int track, int teeth) : vehicle_(&vehicle), track_(track), teeth_(teeth) {
   // Half way from the sprocket to what next carries the top run: close enough that slack behind the gate stays small.
   const VehicleSpec& spec = vehicle.spec;
-  gateX_ = 0.5 * (spec.roller.x.empty() ? 0.5 * vehicle.wrap.idlerX : spec.roller.x.front());
+  double next = 0.5 * vehicle.wrap.idlerX;
+  if (!spec.roller.x.empty()) next = spec.roller.x.front();
+  for (const double x : spec.roller.x)
+    if (std::fabs(x) < std::fabs(next)) next = x;
+  gateX_ = 0.5 * next;
 }
 
 double Travel::loopCoordinate(const multibody::State& state) const {

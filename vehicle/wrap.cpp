@@ -204,6 +204,32 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
   return found;
 }
 
+/// The vehicle with front and rear exchanged, as far as a loop knows of it.
+VehicleSpec mirrored(VehicleSpec spec) {
+  spec.idler.x = -spec.idler.x;
+  spec.roadWheel.firstX = -(spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1));
+  for (double& x : spec.roller.x) x = -x;
+  return spec;
+}
+VehicleSpec atRear(const VehicleSpec& spec) { return spec.sprocketInFront() ? mirrored(spec) : spec; }
+
+/// The loop of a vehicle with its sprocket in front, from that of its mirror image.
+Wrap mirrored(const Wrap& image, const VehicleSpec& spec) {
+  Wrap wrap = image;
+  wrap.sprocketInFront = true;
+  wrap.sprocketPhase = 0; // a gap of the sprocket lies straight ahead
+  wrap.idlerX = -image.idlerX;
+  const double turn = image.counts.idler * 2 * base::asin(0.5 * spec.shoe.pitch / spec.idlerPinRadius());
+  wrap.idlerFirstAngle = wrapToPi(kPi - (image.idlerFirstAngle + turn));
+  std::reverse(wrap.kinks.begin(), wrap.kinks.end());
+  const std::size_t n = image.pins.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const PlanePoint p = image.pins[(n - k) % n];
+    wrap.pins[k] = {-p.x, p.z};
+  }
+  return wrap;
+}
+
 /// A number of shoes with which the vehicle is `sound`, nearest to what the way about the wheels asks for; 0: none.
 int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& sound) {
   const int wanted = static_cast<int>(std::floor(hullLength(spec) / spec.shoe.pitch + 0.5));
@@ -260,7 +286,11 @@ double Wrap::shoeAngle(int i) const { return direction(pins[i], pins[(i + 1) % p
 
 base::Quat planeRotation(double angle) { return {base::cos(0.5 * angle), 0, -base::sin(0.5 * angle), 0}; }
 
-std::optional<Wrap> findWrap(const VehicleSpec& spec) { return search(spec, false).best; }
+std::optional<Wrap> findWrap(const VehicleSpec& spec) {
+  std::optional<Wrap> wrap = search(atRear(spec), false).best;
+  if (wrap && spec.sprocketInFront()) return mirrored(*wrap, spec);
+  return wrap;
+}
 
 Wrap wrapTrack(const VehicleSpec& spec) {
   if (const std::optional<Wrap> wrap = findWrap(spec)) return *wrap;
@@ -270,21 +300,25 @@ Wrap wrapTrack(const VehicleSpec& spec) {
       fault.advice.empty() ? "no number of shoes and no place of the idler alone closes it" : fault.advice));
 }
 
-ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(const VehicleSpec&)>& sound) {
+ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(const VehicleSpec&)>& accepts) {
+  const double side = given.outward();
+  const VehicleSpec spec = atRear(given);
+  const auto sound = [&](const VehicleSpec& other) { return accepts(side < 0 ? mirrored(other) : other); };
   const double loop = spec.shoe.count * spec.shoe.pitch, way = hullLength(spec);
   const std::optional<Wrap> nearest = search(spec, true).nearest;
   ClosureFault fault;
   if (nearest)
-    fault.gap =
-        fmt::format("{} shoes of pitch {:g} m (loop {:.4f} m) close only with the idler at x = {:.4f} m, "
-                    "{:+.1f} mm from idler.x = {:.4f} m, outside its slide [{:g}, {:g}] mm",
-                    spec.shoe.count, spec.shoe.pitch, loop, nearest->idlerX, 1e3 * (nearest->idlerX - spec.idler.x),
-                    spec.idler.x, 1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax);
+    fault.gap = fmt::format("{} shoes of pitch {:g} m (loop {:.4f} m) close only with the idler at x = {:.4f} m, "
+                            "{:+.1f} mm from idler.x = {:.4f} m, outside its slide [{:g}, {:g}] mm",
+                            spec.shoe.count, spec.shoe.pitch, loop, side * nearest->idlerX,
+                            side * 1e3 * (nearest->idlerX - spec.idler.x), side * spec.idler.x,
+                            1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax);
   else
     fault.gap = fmt::format("the track does not close: {} shoes of pitch {:g} m make {:.4f} m, the way about the "
                             "wheels is {:.4f} m ({:+.1f} mm)",
                             spec.shoe.count, spec.shoe.pitch, loop, way, 1e3 * (loop - way));
-  if (const double x = soundIdlerX(spec, nearest, sound); x > 0) fault.advice = fmt::format("set idler.x = {:.4f}", x);
+  if (const double x = soundIdlerX(spec, nearest, sound); x > 0)
+    fault.advice = fmt::format("set idler.x = {:.4f}", side * x);
   if (const int count = soundCount(spec, sound); count > 0)
     fault.advice += fmt::format("{}set shoe.count = {}", fault.advice.empty() ? "" : ", or ", count);
   return fault;
@@ -293,7 +327,7 @@ ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(cons
 double hullLength(const VehicleSpec& spec) {
   // Perimeter of the convex hull of finely cut circles and of the ground run's ends (Andrew's monotone chain). A
   // polygon of pins is shorter than its circle: the circles here have the polygon's length a radian.
-  const Frame f(spec);
+  const Frame f(atRear(spec));
   const double sprocketRadius = spec.pitchRadius(), idlerRadius = f.pitch / f.idlerStep;
   std::vector<PlanePoint> points{{f.rearWheelX, f.groundZ}, {f.frontWheelX, f.groundZ}};
   constexpr int kCuts = 720;

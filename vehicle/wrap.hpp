@@ -16,7 +16,8 @@ struct PlanePoint {
   double x{}, z{};
 };
 
-/// How many pitches lie on each stretch of the loop, in the order in which pins are numbered.
+/// How many pitches lie on each stretch of the loop, in the order in which pins are numbered where the sprocket is at
+/// the rear. With one in front they follow each other the other way round, and the rear strand is the one in front.
 struct WrapCounts {
   int sprocket{};   ///< edges between engaged pins
   int rearStrand{}; ///< from the sprocket down to the ground run
@@ -28,7 +29,9 @@ struct WrapCounts {
 
 /// Exact closed polygon of the shoes about the wheels: every edge one pitch long.
 /// Pins are numbered from the sprocket's top gap, rearwards and down, forward along the ground, up the idler and back
-/// along the top; shoe i reaches from pin i (its rear end, x = -pitch/2) to pin i+1 (x = +pitch/2).
+/// along the top; shoe i reaches from pin i (its rear end, x = -pitch/2) to pin i+1 (x = +pitch/2). With the sprocket
+/// in front the loop is the mirror image, and its pins are numbered from the same gap the same way about: back along
+/// the top, down about the idler, forward along the ground, up to the sprocket.
 struct Wrap {
   WrapCounts counts;
   double pitch{};         ///< [m]
@@ -36,7 +39,9 @@ struct Wrap {
   double idlerX{};        ///< [m]
   double idlerFirstAngle{}; ///< angle of the first pin on the idler, from +x towards +z [rad]
   std::array<double, 6>
-      kinks{}; ///< turns [rad] at: sprocket exit, ground start, ground end, idler entry, exit, sprocket entry
+      kinks{}; ///< turns [rad] at: sprocket exit, ground start, ground end, idler entry, exit, sprocket entry; in the
+               ///< order of the pins, so that with the sprocket in front the first is its entry
+  bool sprocketInFront = false;
   std::vector<PlanePoint> pins; ///< [shoes]
 
   /// Largest deviation of an edge from one pitch [m].
@@ -46,7 +51,9 @@ struct Wrap {
   /// Direction of shoe i's x axis, from +x towards +z [rad].
   double shoeAngle(int i) const;
   /// Shoes with both pins on the ground run: [first, last].
-  int firstGroundShoe() const { return counts.sprocket + counts.rearStrand; }
+  int firstGroundShoe() const {
+    return sprocketInFront ? counts.top + counts.idler + counts.frontStrand : counts.sprocket + counts.rearStrand;
+  }
   int lastGroundShoe() const { return firstGroundShoe() + counts.ground - 1; }
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kUsage =
     "usage: grouser_assets FOLDER\n"
     "       grouser_assets --wheel FILE RADIUS WIDTH GROUSERS HEIGHT THICKNESS\n"
-    "Writes the meshes of the vehicle and of rigs into FOLDER as OBJ [m], or into FILE a wheel with GROUSERS [-]\n"
+    "Writes the meshes of the vehicles and of rigs into FOLDER as OBJ [m], or into FILE a wheel with GROUSERS [-]\n"
     "straight blades of HEIGHT and THICKNESS on a drum of RADIUS and WIDTH, all [m].\n";
 
 /// Whether it could be written.
@@ -66,7 +66,10 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder(argv[1]);
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  for (const auto& parts : {grouser::assets::vehicleParts(), grouser::assets::rigParts()})
+  std::filesystem::create_directories(folder / "m113", ignored);
+  std::filesystem::create_directories(folder / "robot", ignored);
+  for (const auto& parts : {grouser::assets::vehicleParts(), grouser::assets::m113Parts(),
+                            grouser::assets::robotParts(), grouser::assets::rigParts()})
     for (const auto& part : parts)
       if (!write(folder / (part.name + ".obj"), part)) return 2;
   return 0;

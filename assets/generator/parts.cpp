@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace grouser::assets {
 
@@ -25,6 +26,53 @@ std::vector<NamedMesh> vehicleParts() {
           {"idler", wheel({0.217, 0.127, 128})},
           {"sprocket", sprocket()},
           {"chassis", chassis()}};
+}
+
+namespace {
+
+/// Lower hull between the tracks, a sloped bow, and sponsons over the tracks.
+TriangleMesh m113Hull() {
+  TriangleMesh mesh;
+  prism(mesh, {{-4.25, -0.11}, {-0.20, -0.11}, {0.45, 0.20}, {0.35, 0.42}, {-4.30, 0.42}, {-4.30, 0.00}}, -0.83, 0.83);
+  prism(mesh, {{-4.35, 0.40}, {0.40, 0.40}, {-0.60, 1.28}, {-4.30, 1.28}}, -1.27, 1.27);
+  return mesh;
+}
+
+/// A flat box between the tracks, with a deck over them.
+TriangleMesh robotHull() {
+  TriangleMesh mesh;
+  prism(mesh, {{-0.02, -0.070}, {0.82, -0.070}, {1.00, 0.040}, {0.96, 0.125}, {-0.07, 0.125}, {-0.07, 0.00}}, -0.262,
+        0.262);
+  prism(mesh, {{-0.07, 0.120}, {0.93, 0.120}, {0.88, 0.200}, {-0.05, 0.200}}, -0.40, 0.40);
+  return mesh;
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  for (Vec3d& v : mesh.vertices) v = v * factor;
+  return mesh;
+}
+
+} // namespace
+
+std::vector<NamedMesh> m113Parts() {
+  TrackDims track;
+  track.padHalfWidth = 0.190, track.plateOuter = 0.150, track.bossInner = 0.195, track.bossOuter = 0.225;
+  SprocketDims teeth;
+  teeth.ringInner = 0.200, teeth.ringOuter = 0.220;
+  return {{"m113/shoe", shoe(track)},
+          {"m113/road_wheel", wheel({0.305, 0.180, 128}, track)},
+          {"m113/idler", wheel({0.255, 0.150, 128}, track)},
+          {"m113/sprocket", sprocket(teeth)},
+          {"m113/chassis", m113Hull()}};
+}
+
+std::vector<NamedMesh> robotParts() {
+  std::vector<NamedMesh> parts = vehicleParts();
+  for (NamedMesh& part : parts) {
+    part.mesh = part.name == "chassis" ? robotHull() : scaled(std::move(part.mesh), kRobotScale);
+    part.name = "robot/" + part.name;
+  }
+  return parts;
 }
 
 std::vector<NamedMesh> rigParts() { return {{"grouser_wheel", grouserWheel()}}; }

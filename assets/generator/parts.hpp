@@ -95,6 +95,14 @@ struct NamedMesh {
 /// The default vehicle's parts: shoe, road_wheel, roller, idler, sprocket, chassis.
 std::vector<NamedMesh> vehicleParts();
 
+/// Parts of the M113-like vehicle, in a folder of their own: m113/shoe, road_wheel, idler, sprocket, chassis.
+std::vector<NamedMesh> m113Parts();
+
+/// Lengths of the robot's running gear over those of the default vehicle [-].
+inline constexpr double kRobotScale = 0.35;
+/// The robot's parts, in a folder of their own: those of the default vehicle, smaller, and a hull.
+std::vector<NamedMesh> robotParts();
+
 /// Parts of rigs in runs/scenes: grouser_wheel.
 std::vector<NamedMesh> rigParts();
 

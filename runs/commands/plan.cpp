@@ -181,7 +181,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   text += fmt::format("  {:<24} {}{}\n", "grains", grains, doubt);
   if (grains) text += memoryText(scene, static_cast<double>(grains));
   if (scene.vehicle) {
-    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
     setup::placeVehicle(scene, spec);
     text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
                         spec.shoe.count, spec.pitchRadius());

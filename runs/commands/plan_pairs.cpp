@@ -35,7 +35,7 @@ std::string pairsText(const scene::Scene& scene) {
                                ? ": between vehicle and rigid ground all contact data are the vehicle file's"
                                : "");
   if (scene.vehicle) {
-    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
     if (text.empty()) text += "\nwhat acts where they meet\n";
     const auto part = [&](const char* what, double friction) {
       text += fmt::format("  {:<{}}  foundation of {:.4g} N/m3, relaxation {:.4g} s, friction {:.4g}\n", what, width,

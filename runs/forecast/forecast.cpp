@@ -59,7 +59,8 @@ double speedOf(const scene::Scene& scene) {
   double speed = 0;
   if (scene.vehicle) {
     const scene::SpeedTable table = scene.driver.speeds();
-    const double pitch = vehicle::readVehicleSpec(scene.vehicle->spec).pitchRadius();
+    const double pitch = vehicle::readVehicleSpec(scene.vehicle->source()).pitchRadius();
+    if (scene.driver.course) speed = std::fabs(scene.driver.course->speed);
     for (const std::vector<double>* side : {&table.left, &table.right})
       for (const double w : *side) speed = std::max(speed, std::fabs(w) * pitch);
   }

@@ -9,6 +9,7 @@
 #include "terrain/bed_plan.hpp"
 #include "terrain/grain_model.hpp"
 #include "terrain/radius_distribution.hpp"
+#include "vehicle/driver.hpp"
 
 /// What a scene file chooses from a list of words. An enum of the solvers serves here as it is; the words stand here
 /// alone.
@@ -50,6 +51,11 @@ enum class PlacedWhen { before, afterSettling };
 } // namespace grouser::scene
 
 namespace grouser::base {
+
+template <> struct EnumWords<vehicle::SprocketDrive> {
+  using E = vehicle::SprocketDrive;
+  static constexpr EnumWord<E> list[] = {{E::speed, "speed"}, {E::torque, "torque"}, {E::engine, "engine"}};
+};
 
 template <> struct EnumWords<scene::ContactLawKind> {
   using E = scene::ContactLawKind;

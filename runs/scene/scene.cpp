@@ -14,6 +14,11 @@ SpeedTable Driver::speeds() const {
   return {{0}, {left.value_or(sprocketSpeed.value_or(0))}, {right.value_or(sprocketSpeed.value_or(0))}};
 }
 
+TorqueTable Driver::torques() const {
+  if (torqueTable) return *torqueTable;
+  return {{0}, {leftTorque.value_or(torque.value_or(0))}, {rightTorque.value_or(torque.value_or(0))}};
+}
+
 double GrainFill::smallestRadius() const {
   double least = radius.value_or(1e300);
   for (const Grain& g : fromFile) least = std::min(least, g.radius);

@@ -5,6 +5,7 @@
 #include "runs/scene/choices.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/scene/surface_structs.hpp"
+#include "vehicle/spec_source.hpp"
 
 #include <array>
 #include <cstdint>
@@ -208,8 +209,11 @@ struct Vehicle {
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   ChassisMount chassis = ChassisMount::free;
-  SoilMeets soilMeets = SoilMeets::all; ///< which parts grains touch
+  SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch
+  std::vector<vehicle::SpecKey> specKeys; ///< [spec.SECTION]: keys of the vehicle file with other values
   bool operator==(const Vehicle&) const = default;
+
+  vehicle::SpecSource source() const { return {spec, specKeys}; }
 };
 
 /// Sprocket speeds over time, linear between the points, constant outside.
@@ -218,10 +222,33 @@ struct SpeedTable {
   bool operator==(const SpeedTable&) const = default;
 };
 
+/// [driver.torques]: of the sprockets over time, as SpeedTable.
+struct TorqueTable {
+  std::vector<double> time, left, right; ///< [s], [N m], [N m]
+  bool operator==(const TorqueTable&) const = default;
+};
+
+/// [driver.course]: hull speed, and a circle or a path of points, in closed loop.
+struct Course {
+  double speed{};                            ///< [m/s]
+  double acceleration = 1;                   ///< [m/s2]
+  std::optional<double> radius;              ///< [m] of a circle, to the left positive
+  std::vector<double> x, y;                  ///< [m] of a path
+  std::optional<double> lookAhead;           ///< [m]; empty: as long as the ground run
+  double speedGain = 0.5, speedIntegral = 1; ///< [-], [1/s]
+  double turnGain = 0.5, turnIntegral = 2;   ///< [-], [1/s]
+  double mostSpeed = 100;                    ///< [rad/s] of a sprocket
+  bool operator==(const Course&) const = default;
+};
+
 /// [driver]
 struct Driver {
-  std::optional<double> sprocketSpeed, left, right; ///< [rad/s]
-  std::optional<SpeedTable> table;                  ///< [driver.table]; its time begins with the drive
+  vehicle::SprocketDrive drive = vehicle::SprocketDrive::speed;
+  std::optional<double> sprocketSpeed, left, right;      ///< [rad/s]
+  std::optional<SpeedTable> table;                       ///< [driver.table]; its time begins with the drive
+  std::optional<double> torque, leftTorque, rightTorque; ///< [N m]
+  std::optional<TorqueTable> torqueTable;                ///< [driver.torques]
+  std::optional<Course> course;                          ///< [driver.course]
   double tensionRamp = 0.15;
   double weightRamp = 0.3;
   std::optional<double> driveStart; ///< [s]; empty: when the vehicle rests
@@ -233,9 +260,12 @@ struct Driver {
 
   /// Of the drive at the earliest [s]: as given, or when tension and weight are on.
   double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
-  double rampOfDrive() const { return driveRamp.value_or(table ? 0 : 0.3); } ///< [s]
+  double rampOfDrive() const { return driveRamp.value_or(table || torqueTable ? 0 : 0.3); } ///< [s]
   /// Whatever form the speeds were given in, as one table.
   SpeedTable speeds() const;
+  TorqueTable torques() const;
+  /// Whether the way of the vehicle does not follow from speeds that are given.
+  bool isFree() const { return course || drive == vehicle::SprocketDrive::torque; }
 };
 
 /// [output]

@@ -6,7 +6,9 @@
 
 #include "base/rounded.hpp"
 #include "multibody/time_law.hpp"
+#include "vehicle/spec_file.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace grouser::scene::detail {
@@ -46,13 +48,23 @@ Table<Vehicle> vehicleTable() {
 
 Table<Driver> driverTable() {
   using S = Driver;
-  Table<S> t("driver", "Sprocket speeds and the order of the start: tension, weight, drive");
+  Table<S> t("driver", "What the sprockets are given, and the order of the start: tension, weight, drive");
+  t.add("drive", &S::drive, "",
+        "what the sprockets are given: speeds, whatever torque that takes; torques; or what the engines of the vehicle "
+        "file give, whose governors hold the speeds");
   t.add("sprocket_speed", &S::sprocketSpeed, "rad/s",
         "of both sprockets; positive drives forward; 0 where no speed is given")
       .atLeast(-100)
       .atMost(100);
   t.add("left", &S::left, "rad/s", "of the left sprocket, together with right").atLeast(-100).atMost(100);
   t.add("right", &S::right, "rad/s", "of the right sprocket, together with left").atLeast(-100).atMost(100);
+  t.add("torque", &S::torque, "N m", "on each sprocket; positive drives forward").atLeast(-1e7).atMost(1e7);
+  t.add("left_torque", &S::leftTorque, "N m", "on the left sprocket, together with right_torque")
+      .atLeast(-1e7)
+      .atMost(1e7);
+  t.add("right_torque", &S::rightTorque, "N m", "on the right sprocket, together with left_torque")
+      .atLeast(-1e7)
+      .atMost(1e7);
   t.add("tension_ramp", &S::tensionRamp, "s", "over which the idlers' springs come on").atLeast(0).atMost(1e3);
   t.add("weight_ramp", &S::weightRamp, "s", "over which gravity and the arms' preload come on, then")
       .atLeast(0)
@@ -91,6 +103,47 @@ Table<SpeedTable> speedTable() {
   return t;
 }
 
+Table<TorqueTable> torqueTable() {
+  using S = TorqueTable;
+  Table<S> t("driver.torques", "Sprocket torques over time, instead of fixed ones; linear between the points");
+  t.add("time", &S::time, "s", "from the start of the drive (drive_start), increasing; a time given twice is a jump")
+      .atLeast(0)
+      .required();
+  t.add("left", &S::left, "N m", "left sprocket at these times").atLeast(-1e7).atMost(1e7).required();
+  t.add("right", &S::right, "N m", "right sprocket at these times").atLeast(-1e7).atMost(1e7).required();
+  return t;
+}
+
+Table<Course> courseTable() {
+  using S = Course;
+  Table<S> t("driver.course",
+             "Closed loop: the hull's speed is held, and a circle or a path of points, by the speeds of "
+             "both sprockets");
+  t.add("speed", &S::speed, "m/s", "of the hull, at the middle of the ground run; backwards below 0")
+      .atLeast(-50)
+      .atMost(50)
+      .required();
+  t.add("acceleration", &S::acceleration, "m/s2", "at which it is taken up, and given up at the end of a path")
+      .above(0)
+      .atMost(100);
+  t.add("radius", &S::radius, "m", "of a circle, to the left positive, instead of a path; straight on without both")
+      .atLeast(-1e6)
+      .atMost(1e6);
+  t.add("x", &S::x, "m", "corners of a path, along which the vehicle drives to the last").atLeast(-1e6).atMost(1e6);
+  t.add("y", &S::y, "m", "corners of a path").atLeast(-1e6).atMost(1e6);
+  t.add("look_ahead", &S::lookAhead, "m",
+        "how far ahead on the path the point lies that it steers to; \"auto\": as far as from first to last road wheel")
+      .above(0)
+      .atMost(1e3)
+      .orWord("auto");
+  t.add("speed_gain", &S::speedGain, "-", "of the error of speed").atLeast(0).atMost(100);
+  t.add("speed_integral", &S::speedIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
+  t.add("turn_gain", &S::turnGain, "-", "of the error of the rate of turn").atLeast(0).atMost(100);
+  t.add("turn_integral", &S::turnIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
+  t.add("most_speed", &S::mostSpeed, "rad/s", "that a sprocket is asked for").above(0).atMost(100);
+  return t;
+}
+
 void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
   if (!v.material.empty()) requireMaterial(scene, section, "material", v.material);
   resolveFile(scene, section, "spec", v.spec);
@@ -107,6 +160,53 @@ void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
   }
 }
 
+void checkTorques(const Section& section, const Driver& d) {
+  const bool torques = d.torque || d.leftTorque || d.rightTorque || section.has("torques");
+  const bool speeds = d.sprocketSpeed || d.left || section.has("table");
+  const char* given = d.torque ? "torque" : d.leftTorque ? "left_torque" : d.rightTorque ? "right_torque" : "torques";
+  if (torques && d.drive != vehicle::SprocketDrive::torque)
+    section.fail(given, "[N m] is given, and driver.drive does not drive by torques; set driver.drive = \"torque\", or "
+                        "remove it");
+  if (speeds && d.drive == vehicle::SprocketDrive::torque)
+    section.fail(d.sprocketSpeed ? "sprocket_speed"
+                 : d.left        ? "left"
+                                 : "table",
+                 "[rad/s] is given, and driver.drive = \"torque\" gives the sprockets torques; give torque, or "
+                 "left_torque with right_torque, or [driver.torques]");
+  if (d.leftTorque.has_value() != d.rightTorque.has_value())
+    section.fail(given, fmt::format("[N m] stands without {}; give both, or torque alone",
+                                    d.leftTorque ? "right_torque" : "left_torque"));
+  if ((d.torque ? 1 : 0) + (d.leftTorque ? 1 : 0) + (section.has("torques") ? 1 : 0) > 1)
+    section.fail(given, "[N m] is one of several torques given; keep one of torque, left_torque with right_torque, "
+                        "[driver.torques]");
+  if (!section.has("course")) return;
+  if (speeds)
+    section.fail(d.sprocketSpeed ? "sprocket_speed"
+                 : d.left        ? "left"
+                                 : "table",
+                 "[rad/s] is given beside [driver.course], which finds the speeds; remove one of the two");
+  if (d.drive == vehicle::SprocketDrive::torque)
+    section.fail("drive", "gives the sprockets torques, and [driver.course] finds speeds; set it to \"speed\" or "
+                          "\"engine\", or remove the course");
+}
+
+void checkCourse(const Section& section, Course& c, const Scene& scene) {
+  if (scene.vehicle->chassis == ChassisMount::fixed)
+    section.fail("", "is for a hull that moves, and vehicle.chassis = \"fixed\"; free it, or give sprocket_speed");
+  if (c.radius && *c.radius == 0) section.fail("radius", "[m] is no circle; give one above 0 (left) or below (right)");
+  if (c.radius && !c.x.empty()) section.fail("radius", "[m] is given beside a path, x and y; keep one of the two");
+  if (c.x.size() != c.y.size())
+    section.fail(c.x.size() < c.y.size() ? "x" : "y",
+                 fmt::format("[m] has {} entries, and the other coordinate {}; give both of each corner",
+                             std::min(c.x.size(), c.y.size()), std::max(c.x.size(), c.y.size())));
+  if (c.x.size() == 1) section.fail("x", "[m] is one corner alone, and no path; give two at least");
+  for (std::size_t i = 1; i < c.x.size(); ++i)
+    if (c.x[i] == c.x[i - 1] && c.y[i] == c.y[i - 1])
+      section.fail("x", fmt::format("[m] and y name one corner twice, at entries {} and {}; remove one", i - 1, i));
+  if (!c.x.empty() && c.speed < 0)
+    section.fail("speed", "[m/s] is below 0, and a path is driven forwards; give one above 0");
+}
+
 void checkDriver(const Section& section, Driver& d, const Scene& scene) {
   constexpr double kTyped = 1e-9; // [s]: 0.1 and 0.2 are 0.3
   if (!scene.vehicle) section.fail("", "has nothing to drive; add a section [vehicle], or remove this one");
@@ -116,6 +216,7 @@ void checkDriver(const Section& section, Driver& d, const Scene& scene) {
   if ((d.sprocketSpeed ? 1 : 0) + (d.left ? 1 : 0) + (section.has("table") ? 1 : 0) > 1)
     section.fail(d.sprocketSpeed ? "sprocket_speed" : "left",
                  "[rad/s] is one of several speeds given; keep one of sprocket_speed, left with right, [driver.table]");
+  checkTorques(section, d);
   if (const double ramps = d.tensionRamp + d.weightRamp; d.driveBegins() < ramps - kTyped)
     section.fail("drive_start",
                  fmt::format("[s] is before tension and weight are on, driver.tension_ramp + driver.weight_ramp = "
@@ -123,14 +224,61 @@ void checkDriver(const Section& section, Driver& d, const Scene& scene) {
                              ramps, base::roundedUp(ramps, 6)));
 }
 
-void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) {
+/// Of speeds and torques alike.
+template <class Sides> void checkSides(const Section& section, Sides& table, const char* unit) {
   const std::size_t n = table.time.size();
   if (n == 0) section.fail("time", "[s] is empty; give at least one time");
   if (table.left.size() != n || table.right.size() != n)
     section.fail(table.left.size() != n ? "left" : "right",
-                 fmt::format("[rad/s] has another length than time, which has {}; make all three alike", n));
+                 fmt::format("[{}] has another length than time, which has {}; make all three alike", unit, n));
   if (const std::size_t i = multibody::firstOutOfOrder(table.time, true); i > 0)
     section.fail("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+}
+
+void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) { checkSides(section, table, "rad/s"); }
+void checkTorqueTable(const Section& section, TorqueTable& table, const Scene&) { checkSides(section, table, "N m"); }
+
+/// [spec.SECTION]: keys of the vehicle file. What they mean together is judged where that file is read.
+void readSpecKeys(const Section& root, Scene& scene) {
+  if (!root.has("spec")) return;
+  const Section spec = root.section("spec");
+  if (!scene.vehicle)
+    spec.fail("", "changes keys of a vehicle file, and there is none; add a section [vehicle], or remove this one");
+  const std::vector<vehicle::SpecSection> sections = vehicle::specSections();
+  std::vector<std::string> names;
+  for (const vehicle::SpecSection& s : sections) names.push_back(s.name);
+  spec.allowOnly(names);
+  for (const vehicle::SpecSection& s : sections) {
+    if (!spec.has(s.name)) continue;
+    const Section section = spec.section(s.name);
+    std::vector<std::string> keys;
+    for (const base::Field& field : s.fields) keys.push_back(field.key);
+    section.allowOnly(keys);
+    for (const base::Field& field : s.fields)
+      if (const base::Node* node = section.node().find(field.key))
+        scene.vehicle->specKeys.push_back({s.name, field.key, *node, base::toToml(section.value(field))});
+  }
+}
+
+std::string writeSpecKeys(const Scene& scene) {
+  std::string text, section;
+  if (!scene.vehicle) return text;
+  for (const vehicle::SpecKey& k : scene.vehicle->specKeys) {
+    if (k.section != section) text += fmt::format("\n[spec.{}]\n", k.section);
+    section = k.section;
+    text += fmt::format("{} = {}\n", k.key, k.text);
+  }
+  return text;
+}
+
+SectionEntry specEntry() {
+  return {"spec", readSpecKeys, writeSpecKeys,
+          [] {
+            return std::string(
+                "### `[spec.SECTION]`\n\nKeys of the vehicle file with other values than there, by its own sections "
+                "(below): `[spec.shoe]` with\n`pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`.\n");
+          },
+          [](base::Document&) {}};
 }
 
 bool hasVehicle(const Scene& scene) { return scene.vehicle.has_value(); }
@@ -139,9 +287,15 @@ bool hasVehicle(const Scene& scene) { return scene.vehicle.has_value(); }
 
 SectionList vehicleSections() {
   const auto table = [](auto& scene) -> auto& { return scene.driver.table; };
+  const auto torques = [](auto& scene) -> auto& { return scene.driver.torqueTable; };
+  const auto course = [](auto& scene) -> auto& { return scene.driver.course; };
   return {optional("vehicle", &Scene::vehicle, vehicleTable(), checkVehicle),
-          single("driver", &Scene::driver, driverTable(), checkDriver, {"table"}).writtenIf(hasVehicle),
-          optional("driver.table", table, speedTable(), checkSpeeds).writtenIf(hasVehicle)};
+          specEntry(),
+          single("driver", &Scene::driver, driverTable(), checkDriver, {"table", "torques", "course"})
+              .writtenIf(hasVehicle),
+          optional("driver.table", table, speedTable(), checkSpeeds).writtenIf(hasVehicle),
+          optional("driver.torques", torques, torqueTable(), checkTorqueTable).writtenIf(hasVehicle),
+          optional("driver.course", course, courseTable().leaveOutEmpty(), checkCourse).writtenIf(hasVehicle)};
 }
 
 } // namespace grouser::scene::detail

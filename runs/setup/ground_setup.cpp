@@ -177,7 +177,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
   std::optional<double> specFriction;
   if (scene.vehicle && scene.vehicle->material.empty())
-    specFriction = vehicle::readVehicleSpec(scene.vehicle->spec).contact.frictionGround;
+    specFriction = vehicle::readVehicleSpec(scene.vehicle->source()).contact.frictionGround;
   for (const std::string& soil : kinds.material) {
     const std::string& part = !scene.vehicle                    ? scene.meshes.front().material
                               : scene.vehicle->material.empty() ? soil

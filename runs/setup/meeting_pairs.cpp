@@ -100,7 +100,7 @@ std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
   if (scene.vehicle) {
     std::optional<double> friction;
     if (scene.vehicle->material.empty())
-      friction = vehicle::readVehicleSpec(scene.vehicle->spec).contact.frictionGround;
+      friction = vehicle::readVehicleSpec(scene.vehicle->source()).contact.frictionGround;
     pairs.add("grain on the vehicle", scene.vehicle->material, friction);
   }
   return pairs.take();

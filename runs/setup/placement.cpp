@@ -89,13 +89,13 @@ void checkParts(const scene::Scene& scene) {
     scene.fail(
         "run", "gravity",
         "[m/s2] does not pull the vehicle to the ground; give it a z below 0, or set vehicle.chassis = \"fixed\"");
-  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   const double radius = scene.vehicle->sphereRadius;
   const auto read = [&](const char* section, const std::string& name) {
     try {
       return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
     } catch (const base::InputError& error) {
-      vehicle::refuseMesh(scene.vehicle->spec, section, error.what());
+      vehicle::refuseMesh(scene.vehicle->source(), section, error.what());
     }
   };
   vehicle::PartMeshes meshes;
@@ -109,6 +109,7 @@ void checkParts(const scene::Scene& scene) {
        {Named{"shoe", spec.shoe.mesh, meshes.shoe}, Named{"sprocket", spec.sprocket.mesh, meshes.sprocket},
         Named{"road_wheel", spec.roadWheel.mesh, meshes.roadWheel}, Named{"roller", spec.roller.mesh, meshes.roller},
         Named{"idler", spec.idler.mesh, meshes.idler}}) {
+    if (&mesh == &meshes.roller && spec.roller.x.empty()) continue;
     mesh = read(section, name);
     const auto [low, high] = spheredecomp::bounds(mesh);
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
@@ -123,7 +124,7 @@ void checkParts(const scene::Scene& scene) {
   }
   for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
     if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))
-      vehicle::refuse(scene.vehicle->spec, *fault);
+      vehicle::refuse(scene.vehicle->source(), *fault);
 }
 
 base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,

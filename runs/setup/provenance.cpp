@@ -77,14 +77,15 @@ std::string inputsOf(const scene::Scene& scene) {
     text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
   if (!scene.vehicle) return text;
   text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
-  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   using Named = std::pair<const char*, const std::string&>;
   for (const auto& [section, mesh] :
        {Named{"chassis", spec.chassis.mesh}, Named{"shoe", spec.shoe.mesh}, Named{"sprocket", spec.sprocket.mesh},
         Named{"road_wheel", spec.roadWheel.mesh}, Named{"roller", spec.roller.mesh}, Named{"idler", spec.idler.mesh}}) {
+    if (&mesh == &spec.roller.mesh && spec.roller.x.empty()) continue;
     const fs::path file = fs::path(spec.meshFolder) / mesh;
     if (!fs::is_regular_file(file))
-      vehicle::refuseMesh(scene.vehicle->spec, section, file.string() + ": no such mesh file; check the path");
+      vehicle::refuseMesh(scene.vehicle->source(), section, file.string() + ": no such mesh file; check the path");
     text += fmt::format("mesh:{} {}\n", mesh, hashOfFile(file));
   }
   return text;

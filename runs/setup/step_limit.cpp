@@ -189,7 +189,7 @@ StepLimit stepLimit(const scene::Scene& scene) {
   }
   considerFreeSurfaces(limit, scene, grainKinds(scene));
   if (!scene.vehicle) return limit;
-  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   considerVehicle(limit, spec), considerPressedShoe(limit, scene, spec);
   return limit;
 }

@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "base/table.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "vehicle/engine.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -86,8 +87,21 @@ void addDrives(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   }
 }
 
+/// Of a course: the turn of the smallest wheel at its speed.
+void addCourseTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  const double speed = std::fabs(scene.driver.course->speed);
+  if (speed == 0) return;
+  const double smallest = vehicle::readVehicleSpec(scene.vehicle->source()).smallestWheel();
+  addPeriod(scales, 2 * base::kPi * smallest / speed, "turn of the smallest wheel", "m/s",
+            [&scene](const std::string& message) {
+              if (scene.document) scene.document->root().section("driver").section("course").fail("speed", message);
+              scene.fail("driver.course", "speed", message);
+            });
+}
+
 /// The quickest turn that the driver asks for, of the sprockets or of the smallest wheel that rolls in the track.
 void addTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  if (scene.driver.course) return addCourseTurns(scales, scene);
   const scene::SpeedTable table = scene.driver.speeds();
   const char* key = scene.driver.sprocketSpeed ? "sprocket_speed" : "left";
   double speed = 0;
@@ -98,8 +112,8 @@ void addTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
       if (!scene.driver.sprocketSpeed) key = side;
     }
   if (speed == 0) return;
-  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->spec);
-  const double smallest = std::min({spec.roadWheel.radius, spec.idler.radius, spec.roller.radius});
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+  const double smallest = spec.smallestWheel();
   const double quicker = std::max(1.0, spec.pitchRadius() / smallest);
   const Fail fails = [&scene, key](const std::string& message) {
     if (scene.driver.table && scene.document)
@@ -118,6 +132,11 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (d.driveBegins() >= scene.run.duration) return;
   addRamp(scales, d.rampOfDrive(), failsIn(scene, "driver", "drive_ramp"));
   addTurns(scales, scene);
+  if (d.torqueTable)
+    addTable(scales, d.torqueTable->time, scene.run.duration - d.driveBegins(), [&scene](const std::string& message) {
+      if (scene.document) scene.document->root().section("driver").section("torques").fail("time", message);
+      scene.fail("driver.torques", "time", message);
+    });
   if (!d.table) return;
   const Fail atTable = [&scene](const std::string& message) {
     if (scene.document) scene.document->root().section("driver").section("table").fail("time", message);
@@ -130,7 +149,7 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
 /// slower. The solver takes them implicitly, which is stable at any step and damps what is not resolved.
 void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle) return;
-  const std::string& file = scene.vehicle->spec;
+  const vehicle::SpecSource file = scene.vehicle->source();
   const vehicle::VehicleSpec s = vehicle::readVehicleSpec(file);
   const auto add = [&](const char* section, const char* key, const char* unit, double stiffness, double inertia) {
     if (!(stiffness > 0)) return;
@@ -143,7 +162,11 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   // About the pivot: the arm, and the wheel at its end, which turns freely on its axle.
   const double arm = s.arm.inertia.y + s.arm.mass * 0.25 * s.arm.length * s.arm.length +
                      s.roadWheel.mass * s.arm.length * s.arm.length;
-  add("arm", "stiffness", "N m/rad", s.arm.stiffness, arm);
+  if (s.arm.suspension == vehicle::Suspension::sprung) add("arm", "stiffness", "N m/rad", s.arm.stiffness, arm);
+  // The governor on what turns with the sprocket, as long as no tooth bears on the track.
+  if (s.engine && scene.driver.drive == vehicle::SprocketDrive::engine)
+    add("engine", "droop", "rad/s", vehicle::governorSlope(*s.engine) * vehicle::governorSlope(*s.engine),
+        (s.engine->inertia + s.sprocket.inertia.y) * (s.engine->inertia + s.sprocket.inertia.y));
   add("idler", "stiffness", "N/m", s.idler.stiffness, s.idler.carrierMass + s.idler.mass);
   add("idler", "stop_stiffness", "N/m", s.idler.stopStiffness, s.idler.carrierMass + s.idler.mass);
 }

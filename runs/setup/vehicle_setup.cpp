@@ -9,7 +9,18 @@ namespace grouser::setup {
 
 namespace {
 
-vehicle::DriverOptions driverOptions(const scene::Driver& d) {
+vehicle::CourseOptions courseOptions(const scene::Course& c, const vehicle::VehicleSpec& spec) {
+  vehicle::CourseOptions o;
+  o.speed = c.speed, o.acceleration = c.acceleration, o.curvature = c.radius ? 1 / *c.radius : 0;
+  o.x = c.x, o.y = c.y;
+  o.lookAhead = c.lookAhead.value_or(spec.roadWheel.spacing * (spec.roadWheel.count - 1));
+  o.speedGain = c.speedGain, o.speedIntegral = c.speedIntegral;
+  o.turnGain = c.turnGain, o.turnIntegral = c.turnIntegral, o.mostSpeed = c.mostSpeed;
+  o.tread = 2 * spec.trackOffset, o.pitchRadius = spec.pitchRadius();
+  return o;
+}
+
+vehicle::DriverOptions driverOptions(const scene::Driver& d, const vehicle::VehicleSpec& spec) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
   // The sum of ramps that were typed may be a bit above the start that was.
@@ -18,6 +29,9 @@ vehicle::DriverOptions driverOptions(const scene::Driver& d) {
   if (!d.driveStart) options.rest = vehicle::RestBounds{d.restSpeed, d.restLoad, d.restTimeLimit};
   const scene::SpeedTable table = d.speeds();
   options.speeds = {table.time, table.left, table.right};
+  const scene::TorqueTable torques = d.torques();
+  options.drive = d.drive, options.torques = {torques.time, torques.left, torques.right};
+  if (d.course) options.course = courseOptions(*d.course, spec);
   return options;
 }
 
@@ -26,13 +40,18 @@ vehicle::DriverOptions driverOptions(const scene::Driver& d) {
 VehicleSetup vehicleSetup(const scene::Scene& scene) {
   const scene::Vehicle& v = *scene.vehicle;
   VehicleSetup setup;
-  setup.spec = vehicle::readVehicleSpec(v.spec);
+  setup.spec = vehicle::readVehicleSpec(v.source());
+  if (scene.driver.drive == vehicle::SprocketDrive::engine && !setup.spec.engine)
+    scene.fail(
+        "driver", "drive",
+        "wants engines, and the vehicle file has none; give it a section [engine] (grouser fields --vehicle), or "
+        "set \"speed\" or \"torque\"");
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
   setup.sphereRadius = v.sphereRadius;
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
-  setup.driver = driverOptions(scene.driver);
+  setup.driver = driverOptions(scene.driver, setup.spec);
   // What hangs or weighs nothing presses on no ground.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();
   return setup;

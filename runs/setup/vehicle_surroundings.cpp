@@ -57,7 +57,7 @@ std::vector<Obstacle> obstaclesOf(const scene::Scene& scene) {
 class Course {
 public:
   explicit Course(const scene::Scene& scene)
-      : scene_(scene), spec_(vehicle::readVehicleSpec(scene.vehicle->spec)), place_(placeVehicle(scene, spec_)) {
+      : scene_(scene), spec_(vehicle::readVehicleSpec(scene.vehicle->source())), place_(placeVehicle(scene, spec_)) {
     const vehicle::Wrap wrap = vehicle::wrapTrack(spec_);
     const double reach = 0.5 * spec_.shoe.pitch - spec_.shoe.padBottom + spec_.shoe.grouserHeight;
     double rear = 1e300, front = -1e300, top = -1e300;
@@ -71,6 +71,10 @@ public:
 
   const Corridor& start() const { return start_; }
   bool turns() const {
+    if (const auto& course = scene_.driver.course) return course->radius || !course->x.empty();
+    const scene::TorqueTable torques = scene_.driver.torques();
+    for (std::size_t i = 0; i < torques.time.size(); ++i)
+      if (torques.left[i] != torques.right[i]) return true;
     const scene::SpeedTable table = scene_.driver.speeds();
     for (std::size_t i = 0; i < table.time.size(); ++i)
       if (table.left[i] != table.right[i]) return true;
@@ -83,13 +87,21 @@ public:
     for (const std::vector<double>* side : {&table.left, &table.right})
       for (const double omega : *side) fastest = std::max(fastest, std::fabs(omega));
     if (scene_.vehicle->chassis == scene::ChassisMount::fixed) return 0;
-    const double way = fastest * spec_.pitchRadius() * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
+    double speed = fastest * spec_.pitchRadius();
+    if (scene_.driver.course)
+      speed = std::fabs(scene_.driver.course->speed);
+    else if (scene_.driver.isFree())
+      speed = 1e6; // of what torques drive nobody knows how fast it goes
+    const double way = speed * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
     return std::min(way, ground_ ? ground_->area().width() + ground_->area().length() : kFarthest);
   }
   /// Straight ahead and back.
   Corridor way() const {
     const scene::SpeedTable table = scene_.driver.speeds();
     bool ahead = false, back = false;
+    if (const auto& course = scene_.driver.course; course && !turns())
+      (course->speed < 0 ? back : ahead) = course->speed != 0;
+    for (const double torque : scene_.driver.torques().left) ahead = ahead || torque > 0, back = back || torque < 0;
     for (const double omega : table.left) ahead = ahead || omega > 0, back = back || omega < 0;
     Corridor c = start_;
     if (ahead) c.front += farthest();

@@ -20,6 +20,7 @@ vehicle::Assembly assembled(const setup::VehicleSetup& setup,
   const setup::Placement& place = setup.place;
   vehicle::AssemblyOptions options;
   options.fixChassis = setup.fixChassis;
+  options.drive = setup.driver.drive;
   options.pose_W = setup.onTerrain ? setup::setDown(setup.spec, place, setup.clearance, surfaceHeight)
                                    : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
   options.pose_W.position.z += lift;
@@ -77,8 +78,17 @@ void VehicleRig::collectLoads() {
   }
 }
 
+/// What the driver asks for in this step; without a course and without engines a function of time alone.
+vehicle::Controls VehicleRig::controls() {
+  vehicle::Controls controls = driver_.course()
+                                   ? driver_.step(state_.time, timeStep_, vehicle::hullMotion(assembly_, state_))
+                                   : driver_.at(state_.time);
+  if (driver_.options().drive == vehicle::SprocketDrive::engine) vehicle::addEngineTorques(assembly_, state_, controls);
+  return controls;
+}
+
 void VehicleRig::advance() {
-  vehicle::applyControls(assembly_, driver_.at(state_.time), gravity_, loads_);
+  vehicle::applyControls(assembly_, controls(), gravity_, loads_);
   replicated_.run([this] {
     solver_->step(state_, loads_, timeStep_);
     observer_->update(state_, timeStep_);

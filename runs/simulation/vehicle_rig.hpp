@@ -80,6 +80,7 @@ private:
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
+  vehicle::Controls controls();
   std::string judgeRest();
   std::string judgeTurns() const;
   std::string judgeTension();

@@ -69,7 +69,7 @@ VehicleCase onBed(double radius, std::vector<SpecChange> changes, int seed = 1) 
 
 vehicle::VehicleSpec shippedSpec(const fs::path& folder) {
   const scene::Scene scene = sceneOf(onRigidGround({}), kStep, folder);
-  return vehicle::readVehicleSpec(scene.vehicle->spec);
+  return vehicle::readVehicleSpec(scene.vehicle->source());
 }
 
 std::vector<double> between(double low, double high, int count) {

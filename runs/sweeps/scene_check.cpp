@@ -17,7 +17,7 @@ void checkScene(const scene::Scene& scene) {
   setup::checkRestitutions(scene);
   setup::plannedGrains(scene);
   if (scene.vehicle) {
-    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
+    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
     setup::checkParts(scene);
   }
   const double step = setup::chooseTimeStep(scene);

@@ -214,6 +214,8 @@ double steadyFrom(const scene::Scene& scene, double driveStart) {
   if (!scene.vehicle) return 0.5 * scene.run.duration;
   const double begins = std::isfinite(driveStart) ? driveStart : scene.driver.driveBegins();
   double ramped = begins + scene.driver.rampOfDrive();
+  if (const auto& course = scene.driver.course) ramped = begins + std::fabs(course->speed) / course->acceleration;
+  if (const auto& torques = scene.driver.torqueTable) ramped = std::max(ramped, begins + torques->time.back());
   if (scene.driver.table) ramped = std::max(ramped, begins + scene.driver.table->time.back());
   return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
 }

@@ -14,7 +14,7 @@ namespace {
 /// All that is committed: of the vehicle, and of rigs.
 std::vector<NamedMesh> allParts() {
   std::vector<NamedMesh> parts = vehicleParts();
-  for (const NamedMesh& part : rigParts()) parts.push_back(part);
+  for (const auto& more : {m113Parts(), robotParts(), rigParts()}) parts.insert(parts.end(), more.begin(), more.end());
   return parts;
 }
 

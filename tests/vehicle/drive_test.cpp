@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole vehicle on level rigid ground with analytic contact: what it must do before any sphere set is made.
-#include "plane_contact.hpp"
-
-#include "multibody/solver.hpp"
-#include "vehicle/observers.hpp"
-#include "vehicle/spec_file.hpp"
+#include "base/math.hpp"
+#include "ride.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,59 +13,10 @@ using base::Vec3d;
 
 namespace {
 
-const Vec3d kGravity{0, 0, -9.81};
-/// Stiffer than the reference 1e7 N/m, so that overlaps of 5 kN stay below the millimetre that is tested.
-constexpr double kStiffness = 3e7;
-/// A thirtieth of the period of a shoe on its contact spring, 2 pi sqrt(m / k) = 3.3e-3 s.
-constexpr double kStep = 1e-4;
-
-vehicle::VehicleSpec spec() {
-  return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
-}
-
-/// A vehicle, its driver, and all that is needed to step it.
-class Ride {
-public:
-  Ride(const vehicle::AssemblyOptions& options, const vehicle::DriverOptions& driver, double groundHeight)
-      : vehicle_(vehicle::assemble(spec(), options)), solver_(vehicle_.model), driver_(driver),
-        contact_(vehicle_, {.stiffness = kStiffness, .groundHeight = groundHeight}),
-        state(multibody::makeState(vehicle_.model)), loads(multibody::makeLoads(vehicle_.model)), observer(vehicle_) {}
-
-  /// Steps until `time`, calling `each` after every step.
-  template <class Each> void until(double time, Each each) {
-    while (state.time < time - 0.5 * kStep) {
-      vehicle::applyControls(vehicle_, driver_.at(state.time), kGravity, loads);
-      contact_.apply(state, loads);
-      solver_.step(state, loads, kStep);
-      observer.update(state, kStep);
-      each();
-    }
-  }
-  void until(double time) {
-    until(time, [] {});
-  }
-  vehicle::Observation observe() const {
-    return observer.observe(state, contact_.ground(), [](double, double) { return 0.0; });
-  }
-  const vehicle::Assembly& vehicle() const { return vehicle_; }
-  const vehicle::GroundLoads& ground() const { return contact_.ground(); }
-
-private:
-  vehicle::Assembly vehicle_;
-  multibody::Solver solver_;
-  vehicle::Driver driver_;
-  test::PlaneContact contact_;
-
-public:
-  multibody::State state;
-  multibody::Loads loads;
-  vehicle::Observer observer;
-};
+using test::Ride;
 
 Ride onGround(double left, double right, double driveRamp = 0.5) {
-  vehicle::AssemblyOptions options;
-  options.pose_W = vehicle::placeOnGround(spec(), 0, 0, 0, 0.002, 0);
-  return Ride(options, {.driveRamp = driveRamp, .speeds = {{0}, {left}, {right}}}, 0.0);
+  return test::rideOnGround(test::readySpec(), {.driveRamp = driveRamp, .speeds = {{0}, {left}, {right}}});
 }
 
 } // namespace
@@ -78,7 +26,7 @@ TEST(Drive, WeightlessTensionedTrack_HoldsTheIdlerByTwoStrands) {
   options.fixChassis = true;
   options.right = false;
   // Weight never comes: only the tensioner acts.
-  Ride ride(options, {.tensionRamp = 0.2, .weightRamp = 10, .driveStart = 20}, -10);
+  Ride ride(test::readySpec(), options, {.tensionRamp = 0.2, .weightRamp = 10, .driveStart = 20}, -10);
   ride.until(0.2);
   double tension = 0, force = 0;
   int samples = 0;

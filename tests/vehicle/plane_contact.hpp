@@ -51,6 +51,7 @@ private:
   const vehicle::Assembly& vehicle_;
   PlaneContactOptions options_;
   double damping_;
+  double size_; ///< of shoes and teeth over those of the default vehicle [-]
   const multibody::State* state_ = nullptr;
   multibody::Loads* loads_ = nullptr;
   vehicle::GroundLoads ground_;
@@ -60,7 +61,7 @@ private:
 inline PlaneContact::PlaneContact(const vehicle::Assembly& vehicle, const PlaneContactOptions& options)
     : vehicle_(vehicle), options_(options),
       damping_(2 * options.dampingRatio * std::sqrt(options.stiffness * vehicle.spec.shoe.mass)),
-      grips_(vehicle.model.bodies().size()) {}
+      size_(vehicle.spec.shoe.pitch / 0.154), grips_(vehicle.model.bodies().size()) {}
 
 inline void PlaneContact::touch(int shoe, int other, const base::Vec3d& p_W, const base::Vec3d& normal, double overlap,
                                 double friction) {
@@ -85,12 +86,13 @@ inline void PlaneContact::push(int body, const base::Vec3d& p_W, const base::Vec
 }
 
 inline void PlaneContact::circleOnPlate(int shoe, int wheel, double radius) {
-  constexpr double kPlate = 0.07, kPlay = 0.012, kHornStiffness = 1e6;
+  constexpr double kHornStiffness = 1e6;
+  const double plateY = 0.07 * size_, play = 0.012 * size_;
   const vehicle::ShoeSpec& s = vehicle_.spec.shoe;
   const base::Pose& pose = state_->pose[shoe];
   const double reach = radius + s.pitch;
   if (base::norm2(state_->pose[wheel].position - pose.position) > reach * reach) return;
-  for (const double y : {-kPlate, kPlate}) {
+  for (const double y : {-plateY, plateY}) {
     const base::Vec3d c = pose.toBody(state_->pose[wheel].toWorld({0, y, 0}));
     const base::Vec3d nearest{std::clamp(c.x, -s.halfLength, s.halfLength), c.y, s.plateTop};
     const base::Vec3d gap{c.x - nearest.x, 0, c.z - nearest.z};
@@ -99,7 +101,7 @@ inline void PlaneContact::circleOnPlate(int shoe, int wheel, double radius) {
     const base::Vec3d normal = base::rotate(pose.orientation, gap * (-1 / distance));
     touch(shoe, wheel, pose.toWorld(nearest), normal, radius - distance, options_.frictionInside);
     // The horn between the two halves of the wheel.
-    const double shift = c.y - y, beyond = std::fabs(shift) - kPlay;
+    const double shift = c.y - y, beyond = std::fabs(shift) - play;
     if (beyond <= 0) continue;
     const base::Vec3d side = base::rotate(pose.orientation, {0, (shift > 0 ? 0.5 : -0.5) * kHornStiffness * beyond, 0});
     push(shoe, pose.toWorld(nearest), side);
@@ -109,17 +111,17 @@ inline void PlaneContact::circleOnPlate(int shoe, int wheel, double radius) {
 
 inline void PlaneContact::bossInGap(int shoe, int sprocket) {
   // Gap of the default sprocket, from the pin: a seat arc over +-60 degrees, then a convex flank on either side.
-  constexpr double kBoss = 0.018, kSeat = 0.0185, kFlank = 0.06, kFlankX = 0.0680, kFlankY = -0.0393, kTip = 0.0162;
-  constexpr double kRing = 0.16;
+  const double boss = 0.018 * size_, seat = 0.0185 * size_, flank = 0.06 * size_, flankX = 0.0680 * size_,
+               flankY = -0.0393 * size_, tipY = 0.0162 * size_, ringY = 0.16 * size_;
   const vehicle::VehicleSpec& spec = vehicle_.spec;
   const base::Pose& wheel = state_->pose[sprocket];
   const double reach = spec.sprocketPinRadius() + spec.shoe.pitch;
   if (base::norm2(state_->pose[shoe].position - wheel.position) > reach * reach) return;
-  for (const double ring : {-kRing, kRing}) {
+  for (const double ring : {-ringY, ringY}) {
     const base::Vec3d boss_W = state_->pose[shoe].toWorld({0.5 * spec.shoe.pitch, ring, 0});
     const base::Vec3d p = wheel.toBody(boss_W);
     const double r = std::sqrt(p.x * p.x + p.z * p.z);
-    if (r > spec.sprocketPinRadius() + 0.05) continue;
+    if (r > spec.sprocketPinRadius() + 0.05 * size_) continue;
     const double gap = 2 * base::kPi / spec.sprocket.teeth;
     const double k = gap * std::floor(base::atan2(p.z, p.x) / gap + 0.5);
     const base::Vec3d outward{base::cos(k), 0, base::sin(k)}, along{-base::sin(k), 0, base::cos(k)};
@@ -129,15 +131,15 @@ inline void PlaneContact::bossInGap(int shoe, int sprocket) {
     const auto seatOrFlank = [&](double nx, double ny, double overlap) {
       if (overlap <= 0) return;
       const base::Vec3d normal = base::rotate(wheel.orientation, along * nx + outward * ny);
-      touch(shoe, sprocket, boss_W - normal * kBoss, normal, overlap, options_.frictionInside);
+      touch(shoe, sprocket, boss_W - normal * boss, normal, overlap, options_.frictionInside);
     };
     if (d > 0 && -y >= 0.5 * d) {
-      seatOrFlank(-x / d, -y / d, d + kBoss - kSeat);
+      seatOrFlank(-x / d, -y / d, d + boss - seat);
       continue;
     }
     for (const double side : {-1.0, 1.0}) {
-      const double fx = x - side * kFlankX, fy = y - kFlankY, distance = std::sqrt(fx * fx + fy * fy);
-      if (kFlankY + fy * kFlank / distance < kTip) seatOrFlank(fx / distance, fy / distance, kFlank + kBoss - distance);
+      const double fx = x - side * flankX, fy = y - flankY, distance = std::sqrt(fx * fx + fy * fy);
+      if (flankY + fy * flank / distance < tipY) seatOrFlank(fx / distance, fy / distance, flank + boss - distance);
     }
   }
 }
@@ -148,8 +150,8 @@ inline void PlaneContact::pointsOnGround(int shoe) {
   const multibody::Twist& twist = state_->twist[shoe];
   if (pose.position.z - s.pitch > options_.groundHeight) return;
   int corner = 0;
-  for (const double x : {-0.045, 0.045})
-    for (const double y : {-0.1, 0.1}) {
+  for (const double x : {-0.045 * size_, 0.045 * size_})
+    for (const double y : {-0.1 * size_, 0.1 * size_}) {
       Grip& grip = grips_[shoe][corner++];
       const base::Vec3d tip = pose.toWorld({x, y, s.padBottom - s.grouserHeight});
       const base::Vec3d v = twist.v + base::cross(twist.w, tip - pose.position);

@@ -73,3 +73,68 @@ TEST(VehicleSpec, RollersOfUnequalLists_AreRefused) {
   const std::string text = refusalAfter("x = [0.70, 1.38, 2.06]", "x = [0.70, 1.38]");
   EXPECT_NE(text.find("roller.z"), std::string::npos) << text;
 }
+
+namespace {
+
+/// A changed key as a scene hands it on.
+vehicle::SpecKey changed(const std::string& section, const std::string& key, base::Node::List list) {
+  return {section, key, base::Node{"scene.toml:7", std::move(list)}, ""};
+}
+vehicle::SpecKey changed(const std::string& section, const std::string& key, double value) {
+  return {section, key, base::Node{"scene.toml:7", value}, ""};
+}
+
+std::string refusalOf(const vehicle::SpecSource& source) {
+  try {
+    vehicle::readVehicleSpec(source);
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST(VehicleSpec, ChangedKeysStandInPlaceOfTheFiles) {
+  const vehicle::VehicleSpec spec =
+      vehicle::readVehicleSpec({kVehicle, {changed("shoe", "pin_damping", 7.5), changed("idler", "preload", 9000.0)}});
+  EXPECT_EQ(spec.shoe.pinDamping, 7.5);
+  EXPECT_EQ(spec.idler.preload, 9000);
+  EXPECT_EQ(spec.shoe.mass, 8.5);
+}
+
+TEST(VehicleSpec, FaultOfAChangedKeyNamesBothPlaces) {
+  const std::string text = refusalOf({kVehicle, {changed("road_wheel", "spacing", 0.2)}});
+  for (const char* word : {"scene.toml:7", "light_tracked.toml", "road_wheel.spacing = 0.2", "overlap"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << ": " << text;
+}
+
+TEST(VehicleSpec, WithoutRollersNothingIsAskedOfThem) {
+  const base::Node::List none;
+  const vehicle::VehicleSpec spec =
+      vehicle::readVehicleSpec({kVehicle, {changed("roller", "x", none), changed("roller", "z", none)}});
+  EXPECT_TRUE(spec.roller.x.empty());
+  EXPECT_NEAR(spec.totalMass(), 5018 - 6 * 6, 1e-11);
+}
+
+TEST(VehicleSpec, SprungArmsNeedTheirSpring) {
+  for (const char* line : {"stiffness = 7700.0 ", "damping = 300.0 ", "preload = 5000.0 "}) {
+    const std::string text = refusalAfter(line, "# ");
+    EXPECT_NE(text.find("arms are sprung"), std::string::npos) << line << text;
+    EXPECT_EQ(refusalAfter(line, "suspension = \"rigid\" # "), "") << line;
+  }
+}
+
+TEST(VehicleSpec, EnginesAreCheckedTogether) {
+  const std::string engine = "[engine]\nspeed = [0.0, 100.0]\ntorque = [300.0, 200.0]\nratio = 20.0\n"
+                             "governed_speed = 150.0\ndroop = 10.0\ninertia = 40.0\n\n[contact]";
+  EXPECT_EQ(refusalAfter("[contact]", engine), "");
+  const auto broken = [&](const std::string& from, const std::string& to) {
+    std::string text = engine;
+    return refusalAfter("[contact]", text.replace(text.find(from), from.size(), to));
+  };
+  EXPECT_NE(broken("[300.0, 200.0]", "[300.0]").find("engine.torque"), std::string::npos);
+  EXPECT_NE(broken("[0.0, 100.0]", "[100.0, 0.0]").find("does not increase"), std::string::npos);
+  EXPECT_NE(broken("[300.0, 200.0]", "[0.0, 0.0]").find("0 at all speeds"), std::string::npos);
+  EXPECT_NE(broken("inertia = 40.0\n", "").find("inertia"), std::string::npos);
+}

@@ -22,14 +22,14 @@ scene::Scene rigid(const std::vector<std::string>& overrides) {
 TEST(Placement, DefaultStandsOnTheTerrainAtEveryHeading) {
   for (const char* heading : {"0", "45", "90", "180", "270"}) {
     const scene::Scene scene = rigid({std::string("vehicle.heading=") + heading, "terrain.size=[5, 5]"});
-    EXPECT_NO_THROW(setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec))) << heading;
+    EXPECT_NO_THROW(setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()))) << heading;
   }
 }
 
 TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
   const scene::Scene scene = rigid({"vehicle.position=[7.0, 0]"});
   try {
-    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->spec));
+    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
     FAIL() << "the front would hang over the edge";
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("it needs 3.4"), std::string::npos) << error.what();
