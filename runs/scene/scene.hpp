@@ -208,6 +208,7 @@ struct Vehicle {
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   ChassisMount chassis = ChassisMount::free;
   SoilMeets soilMeets = SoilMeets::all; ///< which parts grains touch
+  std::optional<bool> hullTouches;      ///< ground, grains and obstacles; empty: see setup::hullTouches()
   bool operator==(const Vehicle&) const = default;
 };
 

@@ -41,6 +41,10 @@ Table<Vehicle> vehicleTable() {
       "soil_meets", &S::soilMeets, "",
       "parts that grains touch: all but the hull, or the shoes alone, so that no grain is pinched by sprocket, wheels, "
       "rollers or idler, which pass through those that lie on the track; named in all results");
+  t.add("hull_touches", &S::hullTouches, "",
+        "whether the hull meets the ground and the surfaces at rest, as shoes do; \"auto\": on rigid ground, and where "
+        "the scene has such surfaces; not on grains alone, where it costs time")
+      .orWord("auto");
   return t;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/vehicle_setup.hpp"
 
+#include "runs/setup/obstacles.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
   setup.sphereRadius = v.sphereRadius;
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
+  setup.hullTouches = hullTouches(scene);
   setup.driver = driverOptions(scene.driver);
   // What hangs or weighs nothing presses on no ground.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();

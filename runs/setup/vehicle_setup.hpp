@@ -20,6 +20,7 @@ struct VehicleSetup {
   bool fixChassis{};          ///< as on a bench
   double sphereRadius{};      ///< of the parts' sphere sets [m]
   bool soilMeetsShoesAlone{}; ///< and no other part
+  bool hullTouches{};         ///< ground, grains and obstacles
   vehicle::DriverOptions driver;
   double thickestStone{}; ///< that may get between wheels and plates [m]: the largest grain, where soil meets them
   double largestTurn = std::numeric_limits<double>::infinity(); ///< of a body in a step [rad]

@@ -31,27 +31,12 @@ struct Corridor {
   double height;            ///< over the ground [m]
 };
 
-/// A surface, a plane among them, with where it stands in the scene.
-struct Obstacle {
-  std::string list, name;
-  std::size_t number;
-  bool moves;
-  SceneSurface surface;
-};
-
-std::vector<Obstacle> obstaclesOf(const scene::Scene& scene) {
-  std::vector<Obstacle> all;
-  for (const SceneSurface& s : surfacesOf(scene)) all.push_back({s.list(), s.name, s.number, s.moves || s.free, s});
-  // Walls are planes without a name of their own.
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    if (!scene.planes[k].isWall()) continue;
-    scene::Scene one;
-    one.planes = {scene.planes[k]};
-    one.planes.front().name = fmt::format("plane{}", k);
-    std::vector<SceneSurface> surfaces = surfacesOf(one);
-    if (!surfaces.empty()) all.push_back({"plane", surfaces.front().name, k, false, surfaces.front()});
-  }
-  return all;
+/// What moves acts on grains alone.
+std::vector<SceneSurface> movingSurfaces(const scene::Scene& scene) {
+  std::vector<SceneSurface> moving;
+  for (const SceneSurface& s : surfacesOf(scene))
+    if (s.moves) moving.push_back(s);
+  return moving;
 }
 
 class Course {
@@ -70,12 +55,6 @@ public:
   }
 
   const Corridor& start() const { return start_; }
-  bool turns() const {
-    const scene::SpeedTable table = scene_.driver.speeds();
-    for (std::size_t i = 0; i < table.time.size(); ++i)
-      if (table.left[i] != table.right[i]) return true;
-    return false;
-  }
   /// How far it can come in the whole run, without slip [m].
   double farthest() const {
     const scene::SpeedTable table = scene_.driver.speeds();
@@ -97,13 +76,13 @@ public:
     return c;
   }
 
-  /// Whether the obstacle reaches into the corridor.
-  bool meets(const Obstacle& o, const Corridor& c) const {
-    const base::Pose pose = placeOf(o.surface);
-    const bool plane = o.surface.geometry.shape == terrain::SurfaceShape::plane;
+  /// Whether the surface reaches into the corridor, where it is at the start.
+  bool meets(const SceneSurface& s, const Corridor& c) const {
+    const base::Pose pose = placeOf(s);
+    const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     // Of a plane the corners tell; of all else balls about a lattice of points.
     const double cell = plane ? 1e300 : kCell, radius = plane ? 0 : 0.87 * kCell;
-    const double reach = plane ? 1e300 : sizeOf(o.surface) + radius + c.height;
+    const double reach = plane ? 1e300 : sizeOf(s) + radius + c.height;
     const int nx = cellsOf(c.front - c.rear, cell), ny = cellsOf(2 * c.half, cell), nz = cellsOf(c.height, cell);
     for (int i = 0; i <= nx; ++i)
       for (int j = 0; j <= ny; ++j) {
@@ -113,7 +92,7 @@ public:
         const double ground = ground_ ? ground_->height(p.x, p.y) : 0;
         for (int k = 0; k <= nz; ++k) {
           p.z = ground + kFree + radius + (c.height - kFree) * k / nz;
-          if (overlapAt(o.surface, pose, p, radius) > 0) return true;
+          if (overlapAt(s, pose, p, radius) > 0) return true;
         }
       }
     return false;
@@ -164,24 +143,26 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
   if (!scene.terrain && !grains && scene.vehicle->chassis != scene::ChassisMount::fixed)
     scene.fail(
         "vehicle", "chassis",
-        "is \"free\" over planes alone, which act on grains and not on a vehicle; add [terrain], or set chassis = "
-        "\"fixed\"");
-  const std::vector<Obstacle> all = obstaclesOf(scene);
+        "is \"free\" over planes alone, on which no vehicle is set down; add [terrain] with kind = \"rigid\", or "
+        "set chassis = \"fixed\"");
+  const std::vector<SceneSurface> all = movingSurfaces(scene);
   if (all.empty()) return;
   const Course course(scene);
-  for (const Obstacle& o : all) {
-    const bool atStart = course.meets(o, course.start());
-    if (!atStart && !course.meets(o, course.way())) continue;
-    const std::string key = o.list == "plane" ? "point" : "position";
-    scene.fail(o.list, o.number, key,
-               fmt::format("[m]: {} \"{}\" stands {}; surfaces act on grains alone, and the vehicle would pass through "
-                           "it: {}",
-                           o.list, o.name,
-                           atStart ? "where the vehicle is set down"
-                                   : fmt::format("in the way of the vehicle, which can drive {:.1f} m in run.duration",
-                                                 course.farthest()),
-                           atStart ? "move it or vehicle.position, or remove it"
-                                   : "move it aside, turn vehicle.heading, shorten run.duration, or remove it"));
+  for (const SceneSurface& s : all) {
+    const bool atStart = course.meets(s, course.start());
+    if (!atStart && !course.meets(s, course.way())) continue;
+    const std::string key = s.kind == SurfaceKind::plane ? "point" : "position";
+    scene.fail(
+        s.list(), s.number, key,
+        fmt::format("[m]: {} \"{}\" moves and stands {}; surfaces that move act on grains alone, and the vehicle "
+                    "would pass through it: {}",
+                    s.list(), s.name,
+                    atStart ? "where the vehicle is set down"
+                            : fmt::format("in the way of the vehicle, which can drive {:.1f} m in run.duration",
+                                          course.farthest()),
+                    atStart ? "let it rest, move it or vehicle.position, or remove it"
+                            : "let it rest, move it aside, turn vehicle.heading, shorten run.duration, or "
+                              "remove it"));
   }
 }
 
@@ -194,19 +175,10 @@ std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
         fmt::format("driver.table begins at {:g} and {:g} rad/s: the sprockets turn so fast from one step to "
                     "the next; let the table begin at 0, or set driver.drive_ramp",
                     scene.driver.table->left.front(), scene.driver.table->right.front()));
-  const std::vector<Obstacle> all = obstaclesOf(scene);
-  if (all.empty()) return warnings;
-  const Course course(scene);
-  const double reach = course.farthest();
-  Corridor around = course.start();
-  const double radius = reach + std::max({around.front, -around.rear, around.half});
-  around.front = radius, around.rear = -radius, around.half = radius;
-  for (const Obstacle& o : all)
-    if (o.moves || (course.turns() && course.meets(o, around)))
-      warnings.push_back(
-          fmt::format("{} \"{}\" acts on grains alone: where the vehicle meets it, it passes through without "
-                      "a force",
-                      o.list, o.name));
+  for (const SceneSurface& s : movingSurfaces(scene))
+    warnings.push_back(fmt::format("{} \"{}\" moves and acts on grains alone: where the vehicle meets it, it passes "
+                                   "through without a force",
+                                   s.list(), s.name));
   return warnings;
 }
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 8; // of the layout below
+constexpr int kVersion = 9; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -103,6 +103,8 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/track/sums", v.track.sums);
     archive("/vehicle/ground/states", v.ground.states);
     archive("/vehicle/ground/sums", v.ground.sums);
+    archive("/vehicle/surfaces/states", v.surfaces.states);
+    archive("/vehicle/surfaces/sums", v.surfaces.sums);
     archive("/vehicle/bed/memories", v.bed.memories);
     archive("/vehicle/bed/angles", v.bed.angles);
     archive("/vehicle/bed/dents", v.bed.dents);

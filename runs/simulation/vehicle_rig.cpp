@@ -6,6 +6,7 @@
 #include "runs/setup/time_scales.hpp"
 #include "runs/simulation/grains_under_shoes.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace grouser::simulation {
@@ -26,11 +27,16 @@ vehicle::Assembly assembled(const setup::VehicleSetup& setup,
   return vehicle::assemble(setup.spec, options);
 }
 
-/// So much that no shoe stands in a grain.
-double liftFor(const setup::VehicleSetup& setup, const Ground& ground,
+base::Comm commOf(const Ground& ground) { return ground.grains ? ground.grains->system().comm : base::Comm{}; }
+
+/// So much that no shoe stands in a grain, and no part in an obstacle.
+double liftFor(const setup::SimulationSetup& setup, const Ground& ground, const VehicleParts& parts,
                const std::function<double(double, double)>& surfaceHeight) {
-  if (!setup.onTerrain || !ground.grains) return 0;
-  return liftOffGrains(assembled(setup, surfaceHeight, 0), *ground.grains);
+  const setup::VehicleSetup& vehicle = *setup.vehicle;
+  double lift = 0;
+  if (vehicle.onTerrain && ground.grains) lift = liftOffGrains(assembled(vehicle, surfaceHeight, 0), *ground.grains);
+  if (setup.ground.obstacles.empty()) return lift;
+  return lift + liftOffObstacles(assembled(vehicle, surfaceHeight, lift), parts, setup.ground.obstacles);
 }
 
 /// Which shoe has left the terrain, in words; empty while none has.
@@ -56,22 +62,22 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
                        std::optional<double> lift)
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), gravity_(setup.gravity),
       area_(setup.ground.area), surfaceHeight_(surfaceHeight), replicated_(ground.grains.get()),
-      lift_(lift ? *lift : liftFor(*setup.vehicle, ground, surfaceHeight)),
+      parts_(std::make_unique<VehicleParts>(assembled(*setup.vehicle, surfaceHeight, 0), setup.vehicle->sphereRadius,
+                                            setup.vehicle->hullTouches, commOf(ground), kept)),
+      lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_,
                                                     vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})) {
-  const base::Comm comm = ground.grains ? ground.grains->system().comm : base::Comm{};
-  parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm, kept);
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
-                                                setup.vehicle->soilMeetsShoesAlone);
+                                                setup.vehicle->soilMeetsShoesAlone, kept);
 }
 
 void VehicleRig::collectLoads() {
   contacts_->collect(loads_);
   for (ForceMeans* means : {&rowMeans_, &alarmMeans_}) {
-    means->sums.resize(parts_->contactParts());
+    means->sums.resize(parts_->contactParts() + contacts_->surfaces());
     for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
     ++means->steps;
   }
@@ -88,10 +94,10 @@ void VehicleRig::advance() {
 
 vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
   vehicle::GroundLoads loads;
-  if (!contacts_->onGround()) return loads;
+  if (!contacts_->onGround() && contacts_->surfaces() == 0) return loads;
   loads.force.resize(assembly_.model.bodies().size());
   const double share = means.steps > 0 ? 1 / static_cast<double>(means.steps) : 0.0;
-  for (std::size_t c = 0; c < means.sums.size(); ++c) {
+  for (std::size_t c = 0; c < std::min(means.sums.size(), parts_->contactParts()); ++c) {
     const auto body = static_cast<std::size_t>(assembly_.parts[parts_->partOf(c)].body);
     loads.force[body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
   }
@@ -106,6 +112,12 @@ Vec3d VehicleRig::meanGroundForce() const {
   Vec3d sum;
   for (const Vec3d& force : groundLoads(rowMeans_).force) sum += force;
   return sum;
+}
+
+Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
+  const std::size_t place = parts_->contactParts() + obstacle;
+  if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
+  return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
 }
 
 /// Lets a driver that waits know whether the vehicle rests.
@@ -185,8 +197,8 @@ VehicleState VehicleRig::save() const {
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  if (s.groundForces.size() > parts_->contactParts() || s.alarmForces.size() > parts_->contactParts() ||
-      s.judged.size() != swings_.save().size())
+  const std::size_t most = parts_->contactParts() + contacts_->surfaces();
+  if (s.groundForces.size() > most || s.alarmForces.size() > most || s.judged.size() != swings_.save().size())
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);

@@ -52,6 +52,8 @@ public:
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
   void restartMeans() { rowMeans_.restart(), contacts_->forgetPressed(); }
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
+  /// Of the vehicle on one of setup.ground.obstacles, mean since restartMeans() [N].
+  base::Vec3d meanForceOn(std::size_t obstacle) const;
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
   /// Steps between two calls of alarm(), and of those that look at the pull of the tracks, which takes a millisecond.
@@ -73,7 +75,8 @@ public:
   void restore(const VehicleState& state);
 
 private:
-  /// Sums over steps of the ground's force on each contact part: whole quanta, so that a checkpoint keeps them exactly.
+  /// Sums over steps of the ground's force on each contact part, then of that on each surface: whole quanta, so that a
+  /// checkpoint keeps them exactly.
   struct ForceMeans {
     std::vector<base::Vec3l> sums;
     std::int64_t steps{0};
@@ -89,6 +92,7 @@ private:
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
   ReplicatedWork replicated_;
+  std::unique_ptr<VehicleParts> parts_;
   double lift_; ///< [m]
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
@@ -96,7 +100,6 @@ private:
   multibody::Loads loads_;
   vehicle::Driver driver_;
   std::unique_ptr<vehicle::Observer> observer_;
-  std::unique_ptr<VehicleParts> parts_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;
   SwingGrowth swings_; ///< of track and arms

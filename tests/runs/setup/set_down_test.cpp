@@ -138,39 +138,45 @@ std::string box(double x, double y, const char* more = "") {
                      x, y, more);
 }
 
-TEST(Surroundings, WhatStandsWhereTheVehicleIsSetDown_IsRefused) {
+const char* const kMoves = "velocity = [0, -0.1, 0]\n";
+
+TEST(Surroundings, WhatMovesWhereTheVehicleIsSetDown_IsRefused) {
   for (const std::string& more :
-       {box(3, 0.9), box(2, 0),
+       {box(3, 0.9, kMoves), box(2, 0, kMoves),
         std::string("[[cylinder]]\nposition = [3, 0, 0.5]\naxis = [0, 1, 0]\nradius = 0.3\n"
-                    "length = 2\nmaterial = \"soil\"\nname = \"rock\"\n"),
-        std::string("[[plane]]\npoint = [3, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\nname = \"rock\"\n")}) {
+                    "length = 2\nmaterial = \"soil\"\nname = \"rock\"\nspin = [0, 1, 0]\n"),
+        std::string("[[plane]]\npoint = [3, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\nname = \"rock\"\n"
+                    "velocity = [0, 1, 0]\n")}) {
     const std::string message = refusalWith(more);
-    for (const char* word : {"set_down.toml:", "\"rock\"", "where the vehicle is set down", "pass through", "move it"})
+    for (const char* word :
+         {"set_down.toml:", "\"rock\"", "moves", "where the vehicle is set down", "pass through", "let it rest"})
       EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
   }
 }
 
-TEST(Surroundings, WhatStandsInItsWay_IsRefused) {
-  const std::string message = refusalWith(box(6, -0.9)); // it drives 1.7 m
+TEST(Surroundings, WhatMovesInItsWay_IsRefused) {
+  const std::string message = refusalWith(box(6, -0.9, kMoves)); // it drives 1.7 m
   EXPECT_NE(message.find("in the way of the vehicle, which can drive 1.7 m"), std::string::npos) << message;
-  EXPECT_NE(refusalWith(box(6, -0.9)).find("shorten run.duration"), std::string::npos);
+  EXPECT_NE(message.find("shorten run.duration"), std::string::npos);
 }
 
 TEST(Surroundings, WhatItCannotReach_IsNot) {
-  EXPECT_EQ(refusalWith(box(9, 0)), "") << "beyond its way";
-  EXPECT_EQ(refusalWith(box(6, 2)), "") << "beside it";
-  EXPECT_EQ(refusalWith(box(0.7, 0)), "") << "behind it";
+  EXPECT_EQ(refusalWith(box(9, 0, kMoves)), "") << "beyond its way";
+  EXPECT_EQ(refusalWith(box(6, 2, kMoves)), "") << "beside it";
+  EXPECT_EQ(refusalWith(box(0.7, 0, kMoves)), "") << "behind it";
 }
 
-TEST(Surroundings, WhatItMayReachByTurning_IsSaid) {
+TEST(Surroundings, WhatRestsIsMet) {
+  EXPECT_EQ(refusalWith(box(6, -0.9)), "");
+  EXPECT_EQ(refusalWith(box(3, 0.9)), "");
+}
+
+TEST(Surroundings, WhatMovesIsSaid) {
   const auto warned = [](const std::string& more) {
     return vehicleWarnings(sceneWith("position = [2, 0]\n" + more, true)).size();
   };
-  std::string turning = box(6, 1.9);
-  turning.replace(turning.find("sprocket_speed = 2"), 18, "left = 1\nright = 2");
-  EXPECT_EQ(warned(turning), 1u);
-  EXPECT_EQ(warned(box(6, 1.9)), 0u);
-  EXPECT_EQ(warned(box(6, 1.9, "velocity = [0, -0.1, 0]\n")), 1u) << "what moves may come into its way";
+  EXPECT_EQ(warned(box(6, 1.9)), 0u) << "it rests";
+  EXPECT_EQ(warned(box(6, 1.9, kMoves)), 1u) << "it may come into the vehicle's way";
 }
 
 TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {
