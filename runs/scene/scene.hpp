@@ -207,8 +207,9 @@ struct Vehicle {
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   ChassisMount chassis = ChassisMount::free;
-  SoilMeets soilMeets = SoilMeets::all; ///< which parts grains touch
-  std::optional<bool> hullTouches;      ///< ground, grains and obstacles; empty: see setup::hullTouches()
+  SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch
+  std::optional<double> hullSphereRadius; ///< [m]; empty: 0.02, or sphereRadius where that is more
+  std::optional<bool> hullTouches;        ///< ground, grains and obstacles; empty: see setup::hullTouches()
   bool operator==(const Vehicle&) const = default;
 };
 
@@ -236,6 +237,14 @@ struct Driver {
   double rampOfDrive() const { return driveRamp.value_or(table ? 0 : 0.3); } ///< [s]
   /// Whatever form the speeds were given in, as one table.
   SpeedTable speeds() const;
+};
+
+/// [stop]: what ends a run of a vehicle before run.duration.
+struct Stop {
+  std::optional<double> distance; ///< [m] from where it was set down
+  std::optional<double> edge;     ///< [m] between a shoe and the end of the terrain
+  std::optional<double> immobile; ///< [s] that it is driven and does not move
+  bool operator==(const Stop&) const = default;
 };
 
 /// [output]
@@ -279,6 +288,7 @@ struct Scene {
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;
   Driver driver;
+  Stop stop;
   Output output;
   Parallel parallel;
   std::shared_ptr<const base::Document> document; ///< the file itself; null for a scene that a program has made

@@ -10,6 +10,9 @@ namespace grouser::setup {
 
 namespace {
 
+/// Of a hull [m]: it is large, and what it rests on is.
+constexpr double kHullSphereRadius = 0.02;
+
 vehicle::DriverOptions driverOptions(const scene::Driver& d) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
@@ -34,6 +37,8 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.sphereRadius = v.sphereRadius;
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
   setup.hullTouches = hullTouches(scene);
+  setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, v.sphereRadius));
+  setup.stop = {scene.stop.distance, scene.stop.edge, scene.stop.immobile};
   setup.driver = driverOptions(scene.driver);
   // What hangs or weighs nothing presses on no ground.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();

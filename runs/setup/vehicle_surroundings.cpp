@@ -31,6 +31,13 @@ struct Corridor {
   double height;            ///< over the ground [m]
 };
 
+/// Where a vehicle comes to the end of the terrain.
+struct Edge {
+  double way;  ///< that is left to it at the start [m]
+  double time; ///< at which it is there [s]
+  bool ahead;  ///< else behind
+};
+
 /// What moves acts on grains alone.
 std::vector<SceneSurface> movingSurfaces(const scene::Scene& scene) {
   std::vector<SceneSurface> moving;
@@ -64,6 +71,22 @@ public:
     if (scene_.vehicle->chassis == scene::ChassisMount::fixed) return 0;
     const double way = fastest * spec_.pitchRadius() * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
     return std::min(way, ground_ ? ground_->area().width() + ground_->area().length() : kFarthest);
+  }
+  /// When it leaves the terrain, driven straight, without slip and ramp; empty where it does not.
+  std::optional<Edge> edge() const {
+    const auto area = terrainArea(scene_);
+    const scene::SpeedTable table = scene_.driver.speeds();
+    if (!area || table.left != table.right || scene_.vehicle->chassis == scene::ChassisMount::fixed) return {};
+    constexpr int kPieces = 2000;
+    const double begins = scene_.driver.driveBegins(), dt = (scene_.run.duration - begins) / kPieces;
+    const double front = wayTo(*area, start_.front, 1), rear = wayTo(*area, -start_.rear, -1);
+    double way = 0;
+    for (int k = 0; dt > 0 && k < kPieces; ++k) {
+      way += speedAt(table, (k + 0.5) * dt) * spec_.pitchRadius() * dt;
+      if (way > front) return Edge{front, begins + (k + 1) * dt, true};
+      if (-way > rear) return Edge{rear, begins + (k + 1) * dt, false};
+    }
+    return {};
   }
   /// Straight ahead and back.
   Corridor way() const {
@@ -99,6 +122,23 @@ public:
   }
 
 private:
+  /// Of the sprockets, `time` [s] after the drive has begun.
+  static double speedAt(const scene::SpeedTable& table, double time) {
+    const auto after =
+        static_cast<std::size_t>(std::upper_bound(table.time.begin(), table.time.end(), time) - table.time.begin());
+    if (after == 0) return table.left.front();
+    if (after == table.time.size()) return table.left.back();
+    const double from = table.time[after - 1], share = (time - from) / (table.time[after] - from);
+    return table.left[after - 1] + share * (table.left[after] - table.left[after - 1]);
+  }
+  /// From what reaches `reach` [m] beyond the vehicle's place to the end of the terrain, along the heading or back [m].
+  double wayTo(const terrain::Rectangle& area, double reach, double sign) const {
+    const double c = sign * base::cos(place_.heading), s = sign * base::sin(place_.heading);
+    const auto along = [](double from, double slope, double low, double high) {
+      return slope > 1e-9 ? (high - from) / slope : slope < -1e-9 ? (low - from) / slope : 1e300;
+    };
+    return std::min(along(place_.x, c, area.xMin, area.xMax), along(place_.y, s, area.yMin, area.yMax)) - reach;
+  }
   /// At the start; what is put on the bed stands about so high over its surface.
   base::Pose placeOf(const SceneSurface& s) const {
     base::Pose pose = s.start;
@@ -175,6 +215,12 @@ std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
         fmt::format("driver.table begins at {:g} and {:g} rad/s: the sprockets turn so fast from one step to "
                     "the next; let the table begin at 0, or set driver.drive_ramp",
                     scene.driver.table->left.front(), scene.driver.table->right.front()));
+  const std::optional<Edge> edge = scene.stop.edge ? std::nullopt : Course(scene).edge();
+  if (edge && !(scene.stop.distance && *scene.stop.distance <= edge->way))
+    warnings.push_back(fmt::format("the terrain ends {:.2f} m {} the vehicle, which without slip is there at {:.3g} s; "
+                                   "the run ends where a shoe leaves it: enlarge terrain.size, shorten "
+                                   "run.duration ({:g} s), or give stop.distance or stop.edge",
+                                   edge->way, edge->ahead ? "ahead of" : "behind", edge->time, scene.run.duration));
   for (const SceneSurface& s : movingSurfaces(scene))
     warnings.push_back(fmt::format("{} \"{}\" moves and acts on grains alone: where the vehicle meets it, it passes "
                                    "through without a force",

@@ -15,7 +15,7 @@ namespace grouser::setup {
 void checkVehicleSurroundings(const scene::Scene& scene);
 
 /// What a user should know of a vehicle's scene before it runs, a sentence each: surfaces that move and that it would
-/// pass through, speeds that begin with a jump.
+/// pass through, an end of the terrain that it comes to before the run's, speeds that begin with a jump.
 std::vector<std::string> vehicleWarnings(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -115,6 +115,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/alarm_forces", v.alarmForces);
     archive("/vehicle/alarm_steps", v.alarmSteps);
     archive("/vehicle/judged", v.judged);
+    archive("/vehicle/stalled_steps", v.stalledSteps);
     archive("/vehicle/impulse_on_parts", v.impulseOnParts);
     archive("/vehicle/angular_on_parts", v.angularOnParts);
   }
@@ -263,7 +264,7 @@ bool isFree(const std::string& key) {
       "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
       "terrain.heightmap", "terrain.cache",       "vehicle.spec"};
   const bool soil = key.rfind("material.", 0) == 0 && (key.ends_with("\".soil") || key.ends_with("\".soil_hash"));
-  return soil || key.rfind("output.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
+  return soil || key.rfind("output.", 0) == 0 || key.rfind("stop.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
          std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
 }
 

@@ -137,7 +137,10 @@ std::int64_t Simulation::advance(std::int64_t most) {
     if (!ahead_) ahead_ = std::make_unique<StepsAhead>(exec_, *ground_.grains, *vehicle_);
     const std::int64_t count = std::min(most, toLook);
     try {
-      for (std::int64_t k = 1; k <= count; ++k) stepAhead(k == count);
+      for (std::int64_t k = 1; k <= count; ++k) {
+        stepAhead(k == count);
+        if (!vehicle_->ended().empty()) return k; // at a look at the alarm, before which no step is launched
+      }
     } catch (...) {
       ahead_->callOff();
       throw;

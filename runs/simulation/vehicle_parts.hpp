@@ -3,6 +3,7 @@
 
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 #include "runs/simulation/sphere_cache.hpp"
 #include "vehicle/assembly.hpp"
 
@@ -18,7 +19,7 @@ class VehicleParts {
 public:
   /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets are kept; null: all are cut.
   /// Throws InputError where a mesh is of no use.
-  VehicleParts(const vehicle::Assembly& assembly, double sphereRadius, bool hullTouches, const base::Comm& comm,
+  VehicleParts(const vehicle::Assembly& assembly, const setup::VehicleSetup& setup, const base::Comm& comm,
                SphereCache* kept);
 
   const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
@@ -46,8 +47,8 @@ public:
 private:
   void addContactPart(std::size_t part);
   /// `hull`: its mesh, of which contacts need the surface only.
-  void cut(const std::vector<std::size_t>& meshes, std::size_t hull, double sphereRadius, SphereCache* kept,
-           const base::Comm& comm);
+  void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const setup::VehicleSetup& setup,
+           SphereCache* kept, const base::Comm& comm);
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;

@@ -64,6 +64,10 @@ public:
   /// at fixed steps.
   std::string alarm(std::int64_t step);
 
+  /// What of the scene's [stop] has come to pass, in words, as alarm() has found it: the run is over. Empty: it goes
+  /// on.
+  const std::string& ended() const { return ended_; }
+
   /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
   multibody::Balance bodiesBalance() const { return multibody::balance(assembly_.model, state_, loads_); }
   /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
@@ -86,8 +90,11 @@ private:
   std::string judgeRest();
   std::string judgeTurns() const;
   std::string judgeTension();
+  bool stalls() const;
+  std::string judgeEnd() const;
 
   double timeStep_, largestTurn_;
+  setup::StopSetup stop_;
   base::Vec3d gravity_;
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
@@ -102,7 +109,9 @@ private:
   std::unique_ptr<vehicle::Observer> observer_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;
-  SwingGrowth swings_; ///< of track and arms
+  SwingGrowth swings_;          ///< of track and arms
+  std::int64_t stalledSteps_{}; ///< for which driven tracks have not moved the hull
+  std::string ended_;
 };
 
 } // namespace grouser::simulation

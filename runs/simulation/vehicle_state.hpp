@@ -30,6 +30,7 @@ struct VehicleState {
   std::vector<base::Vec3l> alarmForces;  ///< by part and surface, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
   std::vector<double> judged;            ///< SwingGrowth::save()
+  std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
   base::Vec3d angularOnParts;            ///< since the start [N m s]
 

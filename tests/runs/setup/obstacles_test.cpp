@@ -17,24 +17,37 @@ namespace {
 
 /// On level rigid ground at height 0; `vehicle`: more of that section.
 scene::Scene sceneWith(const std::string& more, const std::string& vehicle = {}) {
-  return parseScene("version = 1\n[run]\nduration = 1\ntime_step = 1e-4\n[material.steel]\nstiffness = 1e6\n"
-                    "friction = 0.5\n[material.ice]\nstiffness = 1e6\nfriction = 0.05\n[terrain]\nkind = \"rigid\"\n"
-                    "heightmap = \"heightmaps/flat.png\"\nsize = [12, 6]\nheight_range = [0, 0]\nmaterial = \"steel\"\n"
-                    "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n" +
-                        vehicle + more,
-                    GROUSER_SOURCE_DIR "/tests/scenes/obstacles.toml");
+  return parseScene(
+      "version = 1\n[run]\nduration = 1\ntime_step = 1e-4\n[material.steel]\nstiffness = 1e6\ndensity = 7800\n"
+      "friction = 0.5\n[material.ice]\nstiffness = 1e6\nfriction = 0.05\n[terrain]\nkind = \"rigid\"\n"
+      "heightmap = \"heightmaps/flat.png\"\nsize = [12, 6]\nheight_range = [0, 0]\nmaterial = \"steel\"\n"
+      "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n" +
+          vehicle + more,
+      GROUSER_SOURCE_DIR "/tests/scenes/obstacles.toml");
 }
 
 std::string box(const std::string& more = {}) {
   return "[[box]]\nposition = [5, 0, 0.1]\nsize = [2, 1, 0.2]\nmaterial = \"ice\"\n" + more;
 }
 
+TEST(Obstacles, WhatMovesWhereThereAreNoGrainsIsRefused) {
+  try {
+    sceneWith(box("velocity = [0, 0, 1]\n"));
+    FAIL() << "accepted";
+  } catch (const base::InputError& error) {
+    const std::string said = error.what();
+    for (const char* word : {"box.0", "moves in a scene without grains", "let it rest, or remove it"})
+      EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
+  }
+}
+
 TEST(Obstacles, AreWhatRests) {
   const std::vector<Obstacle> all =
       obstaclesOf(sceneWith("[[plane]]\npoint = [0, 3, 0]\nnormal = [0, -1, 0]\nmaterial = \"steel\"\n" + box() +
-                            "[[cylinder]]\nposition = [9, 9, 0]\nradius = 1\nlength = 1\nmaterial = \"steel\"\n"
+                            "[[grain]]\nposition = [9, 0, 3]\nradius = 0.1\nmaterial = \"steel\"\n[[cylinder]]\n"
+                            "position = [9, 9, 0]\nradius = 1\nlength = 1\nmaterial = \"steel\"\n"
                             "velocity = [0, 0, 1]\n"));
-  ASSERT_EQ(all.size(), 2u);
+  ASSERT_EQ(all.size(), 2u) << "but for the cylinder";
   EXPECT_EQ(all[0].surface.name, "box0");
   ASSERT_TRUE(all[0].amongSurfaces);
   EXPECT_EQ(all[1].surface.name, "plane0") << "to grains a wall";

@@ -179,6 +179,25 @@ TEST(Surroundings, WhatMovesIsSaid) {
   EXPECT_EQ(warned(box(6, 1.9, kMoves)), 1u) << "it may come into the vehicle's way";
 }
 
+TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
+  const auto said = [](const std::string& more) {
+    const auto warnings = vehicleWarnings(sceneWith(more));
+    return warnings.empty() ? "" : warnings.front();
+  };
+  // Of 12 m; the lead of its shoes before its place is 3.1 m. At 8 rad/s it drives 1.96 m/s from 0.45 s to 4 s.
+  EXPECT_EQ(said("position = [1.8, 0]\n[driver]\nsprocket_speed = 8\n"), "") << "7.0 m of 7.1 m";
+  const std::string ahead = said("position = [2.2, 0]\n[driver]\nsprocket_speed = 8\n");
+  for (const char* word : {"the terrain ends 6.", "m ahead of the vehicle", "enlarge terrain.size", "run.duration"})
+    EXPECT_NE(ahead.find(word), std::string::npos) << word << " in: " << ahead;
+  EXPECT_NE(said("position = [2, 0]\n[driver]\nsprocket_speed = -4\n").find("m behind the vehicle"), std::string::npos);
+  EXPECT_NE(said("position = [3, -1.5]\nheading = 90\n[driver]\nsprocket_speed = 4\n"), "") << "across";
+  EXPECT_EQ(said("position = [6, 0]\n[driver]\nleft = 3\nright = 8\n"), "") << "where it turns nobody knows";
+  EXPECT_EQ(said("position = [6, 0]\n[driver.table]\ntime = [0, 1, 2, 3]\nleft = [0, 5, -5, 0]\n"
+                 "right = [0, 5, -5, 0]\n"),
+            "")
+      << "there and back";
+}
+
 TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {
   const auto warnings = vehicleWarnings(sceneWith("[driver.table]\ntime = [0, 1]\nleft = [2, 2]\nright = [2, 2]\n"));
   ASSERT_EQ(warnings.size(), 1u);
