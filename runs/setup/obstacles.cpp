@@ -124,7 +124,8 @@ double topOf(const SurfaceSetup& surface, double x, double y) {
   case terrain::SurfaceShape::tube:
     return kNone;
   }
-  return low <= high ? high : kNone;
+  if (low > high) return kNone;
+  return high;
 }
 
 std::function<double(double, double)> withObstacles(const std::function<double(double, double)>& ground,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What ends a run of a vehicle before its time: a distance, the edge of the ground, immobility.
+#include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
@@ -68,6 +69,26 @@ TEST(Flow, EndsWhereTheTracksSpinInVain) {
   EXPECT_NE(end.find("stop.immobile: for 0.1"), std::string::npos) << end;
   EXPECT_LT(way(simulation), 0.15) << "the wall stands 0.1 m before it";
   EXPECT_LT(simulation.vehicle()->meanForceOn(0).x * -1, 0) << "and is pushed";
+}
+
+TEST(Flow, WhatIsAskedWronglyIsSaid) {
+  struct Wrong {
+    const char *text, *vehicle;
+    std::vector<std::string> words;
+  };
+  for (const Wrong& w : {Wrong{"[stop]\ndistance = -1\n", "", {"stop.distance = -1 [m] is outside"}},
+                         Wrong{"[stop]\nimobile = 1\n", "", {"unknown key stop.imobile", "did you mean immobile?"}},
+                         Wrong{"[stop]\nedge = 1\n",
+                               "chassis = \"fixed\"\n",
+                               {"stop", "for a vehicle that is held", "set vehicle.chassis = \"free\""}}}) {
+    try {
+      sceneWith(w.text, w.vehicle);
+      ADD_FAILURE() << w.text << " is accepted";
+    } catch (const base::InputError& error) {
+      for (const std::string& word : w.words)
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << word << " in: " << error.what();
+    }
+  }
 }
 
 TEST(Flow, GoesOnWhereNothingIsAsked) {
