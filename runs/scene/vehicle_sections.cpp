@@ -34,15 +34,16 @@ Table<Vehicle> vehicleTable() {
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
   t.add("material", &S::material, "",
-        "of the parts against grains; where not given they are of the grains' own material, but with friction_ground "
-        "of the vehicle file; on rigid ground all contact data are the vehicle file's");
+        "of the parts against grains and, for friction, obstacles; where not given they are of the other's own "
+        "material, but with friction_ground of the vehicle file; on rigid ground all contact data are the vehicle "
+        "file's");
   t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
-  t.add(
-      "soil_meets", &S::soilMeets, "",
-      "parts that grains touch: all but the hull, or the shoes alone, so that no grain is pinched by sprocket, wheels, "
-      "rollers or idler, which pass through those that lie on the track; named in all results");
+  t.add("soil_meets", &S::soilMeets, "",
+        "parts that grains touch: all (the hull if hull_touches), or the shoes alone, so that no grain is pinched by "
+        "sprocket, wheels, "
+        "rollers or idler, which pass through those that lie on the track; named in all results");
   t.add("hull_sphere_radius", &S::hullSphereRadius, "m",
-        "the same of the hull, where it touches something; \"auto\": 0.02, or sphere_radius where that is more")
+        "of the hull's sphere set, where it touches something; \"auto\": 0.02, or sphere_radius where that is more")
       .above(0)
       .atMost(1)
       .orWord("auto");
