@@ -16,6 +16,31 @@ struct PartPair {
   int a{}, b{}; ///< parts
 };
 
+/// The deepest contact of a ball at world point `x` with a part, whose discs stand in `grid`: outward normal and
+/// overlap [m]. False where they do not touch. The threads of `group` share the search.
+template <class Group> GROUSER_HD bool deepestDisc(const SurfaceGridView& grid, const PartMotion& part,
+                                                   const base::Vec3d& x, double radius, const Group& group,
+                                                   base::Vec3d& normal, double& overlap) {
+  const base::Vec3d local = part.toPart(x);
+  const std::int64_t cell = grid.cellAt(local);
+  if (cell < 0) return false;
+  const std::uint32_t last = grid.start[cell + 1];
+  std::uint32_t deepest = last;
+  overlap = 0;
+  for (std::uint32_t k = grid.start[cell] + static_cast<std::uint32_t>(group.rank); k < last; k += Group::width) {
+    const Disc& disc = grid.disc[grid.entry[k]];
+    if (outOfReach(disc, local, radius)) continue;
+    const double depth =
+        radius + static_cast<double>(disc.radius) - static_cast<double>(distanceTo(disc, local).distance);
+    if (depth > overlap) overlap = depth, deepest = k;
+  }
+  group.agreeOnGreatest(overlap, deepest);
+  if (overlap <= 0) return false;
+  const base::Vec3f outward = distanceTo(grid.disc[grid.entry[deepest]], local).normal;
+  normal = part.rotation * outward.as<double>();
+  return true;
+}
+
 /// Contacts between rigid parts made of spheres: shoes against sprocket, wheels, rollers and idler.
 class PartPartContacts {
 public:
@@ -64,26 +89,8 @@ public:
     template <class Group> GROUSER_HD bool findContact(int p, const PartMotion* motion, const base::Vec3d& x,
                                                        double radius, const Group& group, base::Vec3d& normal,
                                                        double& overlap) const {
-      const PartMotion& b = motion[pair[p].b];
-      const base::Vec3d local = b.toPart(x);
-      const SurfaceGridView& grid = grids[setOfPart[pair[p].b]];
-      const std::int64_t cell = grid.cellAt(local);
-      if (cell < 0) return false;
-      const std::uint32_t last = grid.start[cell + 1];
-      std::uint32_t deepest = last;
-      overlap = 0;
-      for (std::uint32_t k = grid.start[cell] + static_cast<std::uint32_t>(group.rank); k < last; k += Group::width) {
-        const Disc& disc = grid.disc[grid.entry[k]];
-        if (outOfReach(disc, local, radius)) continue;
-        const double depth =
-            radius + static_cast<double>(disc.radius) - static_cast<double>(distanceTo(disc, local).distance);
-        if (depth > overlap) overlap = depth, deepest = k;
-      }
-      group.agreeOnGreatest(overlap, deepest);
-      if (overlap <= 0) return false;
-      const base::Vec3f outward = distanceTo(grid.disc[grid.entry[deepest]], local).normal;
-      normal = b.rotation * outward.as<double>();
-      return true;
+      const int b = pair[p].b;
+      return deepestDisc(grids[setOfPart[b]], motion[b], x, radius, group, normal, overlap);
     }
   };
 

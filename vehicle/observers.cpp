@@ -26,7 +26,8 @@ constexpr double kSkip = 0.75;
 /// Does the ground carry more than half of the weight?
 bool stands(const Assembly& vehicle, const GroundLoads& ground) {
   double up = 0;
-  for (const Vec3d& f : ground.force) up += f.z;
+  for (std::size_t body = 0; body < ground.force.size(); ++body)
+    if (static_cast<int>(body) != vehicle.chassis) up += ground.force[body].z; // on its hull the tracks hang
   return up > 0.5 * vehicle.mass * kStandardGravity;
 }
 

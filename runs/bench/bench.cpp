@@ -91,8 +91,8 @@ struct Contacts {
     grainPart += static_cast<double>(l.partContacts), partPart += static_cast<double>(l.patches);
     if (const simulation::VehicleRig* rig = simulation.vehicle()) {
       pairsListed +=
-          static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->contacts().grainPairsListed())));
-      samplesListed += static_cast<double>(rig->contacts().samplesListed());
+          static_cast<double>(simulation.comm().sumOf(static_cast<std::int64_t>(rig->contacts().listed().grainPairs)));
+      samplesListed += static_cast<double>(rig->contacts().listed().samples);
     }
     ++counts;
   }

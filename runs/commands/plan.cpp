@@ -12,6 +12,7 @@
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/obstacles.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
@@ -47,6 +48,14 @@ std::string memoryText(const scene::Scene& scene, double grains) {
   part("planes and floor", m.boundaries);
   part("more while lists are made", m.rebuild);
   return text;
+}
+
+/// What a vehicle meets beside its ground.
+std::string obstaclesLine(const scene::Scene& scene) {
+  std::string names;
+  for (const setup::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
+  const std::string hull = setup::hullTouches(scene) ? "the hull touches too" : "the hull touches nothing";
+  return onOff(!names.empty(), "obstacles", (names.empty() ? "none to the vehicle" : names) + "; " + hull);
 }
 
 /// "3: drum, lifter, lid; 2 move, 1 free".
@@ -154,6 +163,7 @@ std::string switches(const scene::Scene& scene) {
   text += surfacesLine(scene);
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
+  if (scene.vehicle) text += obstaclesLine(scene);
   const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilMeets == scene::SoilMeets::shoes;
   text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_meets = \"shoes\"" : "");
   text +=

@@ -74,6 +74,8 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
     for (std::size_t i = 0; i < surfaces->count(); ++i)
       for (const output::Channel& c : output::surfaceChannels(surfaces->surface(i).name, surfaces->surface(i).hasPivot))
         channels.push_back(c);
+  for (const setup::Obstacle& o : simulation.setup().ground.obstacles)
+    for (const output::Channel& c : output::obstacleChannels(o.surface.name)) channels.push_back(c);
   for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
@@ -176,6 +178,8 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
     for (std::size_t i = 0; i < surfaces->count(); ++i)
       parts_.push_back({surfaces->surface(i).name, output::PartKind::surface,
                         output::surfaceMesh(setup.planes, surfaces->surface(i))});
+  for (const setup::Obstacle& o : drawnObstacles())
+    parts_.push_back({o.surface.name, output::PartKind::surface, output::surfaceMesh(setup.planes, o.surface)});
   ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(setup.planes);
   writer_.setParts(parts_, ground_);
   std::vector<std::string> names;
@@ -186,6 +190,11 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
   if (const auto& grains = simulation_.ground().grains;
       grains && output::GrainsCsv::isWanted(setup, static_cast<std::int64_t>(grains->count())))
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
+}
+
+/// Those that are not drawn as the grains' surfaces.
+std::vector<setup::Obstacle> Recorder::drawnObstacles() const {
+  return simulation_.ground().grains ? std::vector<setup::Obstacle>{} : simulation_.setup().ground.obstacles;
 }
 
 void Recorder::row() {
@@ -216,6 +225,9 @@ void Recorder::row() {
       row_.set(group + "power", o.power), row_.set(group + "position", o.position);
       if (surfaces->surface(i).hasPivot) row_.set(group + "pivot_torque", o.pivotTorque);
     }
+  const std::vector<setup::Obstacle>& obstacles = simulation_.setup().ground.obstacles;
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
   setLedgerRow(row_, l, !simulation_.mechanism());
@@ -250,6 +262,7 @@ output::Frame Recorder::currentFrame() const {
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
   if (const simulation::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
+  for (const setup::Obstacle& o : drawnObstacles()) frame.partPoses.push_back(o.surface.start);
   if (const simulation::Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
   return frame;
 }

@@ -36,6 +36,7 @@ public:
 private:
   void begin(const RunRequest& options, const simulation::Checkpoint* former);
   output::Frame currentFrame() const;
+  std::vector<setup::Obstacle> drawnObstacles() const;
 
   simulation::Simulation& simulation_;
   const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from

@@ -6,6 +6,7 @@
 #include "runs/commands/failed_run.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
+#include "runs/commands/signal_watch.hpp"
 #include "runs/forecast/machine_fit.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
@@ -31,31 +32,6 @@ using support::Stopwatch;
 
 /// Of all threads of this process since it began [s].
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-/// A signal that any rank has received. All must agree on the step at which they stop, so all are asked together: as
-/// often as answers within a fifth of a second take, since launchers that pass an interrupt on kill after one second.
-class SignalWatch {
-public:
-  explicit SignalWatch(const base::Comm& comm) : comm_(comm) {}
-
-  int receivedAt(std::int64_t step) {
-    if (comm_.alone()) return support::StopSignals::received();
-    if (step < next_) return 0;
-    const double perStep = asked_.seconds() / static_cast<double>(std::max<std::int64_t>(1, step - last_));
-    std::uint64_t all[] = {static_cast<std::uint64_t>(support::StopSignals::received()),
-                           static_cast<std::uint64_t>(1e9 * perStep) + 1};
-    comm_.maximum(all, 2);
-    constexpr std::uint64_t kWithin = 200'000'000, kMost = 100; // [ns], steps
-    last_ = step, next_ = step + static_cast<std::int64_t>(std::clamp<std::uint64_t>(kWithin / all[1], 1, kMost));
-    asked_ = {};
-    return static_cast<int>(all[0]);
-  }
-
-private:
-  base::Comm comm_;
-  std::int64_t last_ = 0, next_ = 0;
-  Stopwatch asked_;
-};
 
 /// How the grains are divided among the ranks.
 void describeRanks(const simulation::Simulation& simulation) {
@@ -261,7 +237,8 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
   const std::int64_t saveEvery = run.checkpointInterval > 0 ? stepsOf(run.checkpointInterval) : total + 1;
   support::Progress progress("running", simulation.comm().first());
   SignalWatch signals(simulation.comm());
-  while (simulation.steps() < total) {
+  const simulation::VehicleRig* rig = simulation.vehicle();
+  while (simulation.steps() < total && !(rig && !rig->ended().empty())) {
     const std::int64_t now = simulation.steps();
     simulation.advance(
         std::min({total - now, rowEvery - now % rowEvery, frameEvery - now % frameEvery, saveEvery - now % saveEvery}));
@@ -320,8 +297,8 @@ void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints&
   }
 }
 
-/// When the vehicle drove off.
-void describeDrive(const simulation::Simulation& simulation, output::Summary& summary) {
+/// When the vehicle drove off, and what has ended the run before its time.
+void describeDrive(const simulation::Simulation& simulation, output::RunWriter& writer, output::Summary& summary) {
   if (!simulation.vehicle()) return;
   const std::optional<double> start = simulation.vehicle()->driveStart();
   if (start) summary.figures["drive_start_s"] = *start;
@@ -330,6 +307,10 @@ void describeDrive(const simulation::Simulation& simulation, output::Summary& su
   else
     fmt::print("drive     not begun: {}\n", start ? "driver.drive_start lies after the end"
                                                   : "the vehicle was not at rest before the end; raise run.duration");
+  if (const std::string& end = simulation.vehicle()->ended(); !end.empty()) {
+    fmt::print("ended     at {:.6g} s by {}\n", simulation.time(), end);
+    writer.fact("ended_by", end);
+  }
 }
 
 /// Share of weight x time that crushing may cut off before its loads say little [-].
@@ -454,7 +435,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    describeDrive(simulation, summary);
+    describeDrive(simulation, recorder.writer(), summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
     summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
     if (simulation.settled().steps > 0) {
@@ -468,7 +449,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     }
     summary.figures["wall_steps_s"] = drove, summary.figures["cpu_steps_s"] = cpu;
     summary.figures["microseconds_a_step"] =
-        1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, total - begin));
+        1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, simulation.steps() - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
     describeLedger(simulation);
     describeSqueezed(simulation, recorder, summary);

@@ -56,6 +56,10 @@ std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot) {
   return channels;
 }
 
+std::vector<Channel> obstacleChannels(const std::string& name) {
+  return {{"obstacles/" + name + "/force", "N", "of the vehicle on it, mean since the last row", 3, kAxes}};
+}
+
 std::vector<Channel> ledgerChannels() {
   return {
       {"ledger/drive_work", "J", "done by drives and moving surfaces", 1, {}},
@@ -68,7 +72,11 @@ std::vector<Channel> ledgerChannels() {
       {"ledger/dissipated_rolling", "J", "by rolling resistance of grains", 1, {}},
       {"ledger/dissipated_yielding", "J", "by plastic work of grains' contacts", 1, {}},
       {"ledger/dissipated_crushing", "J", "by grains that crush against parts", 1, {}},
-      {"ledger/dissipated_parts", "J", "by contacts of rigid parts with each other and with rigid ground", 1, {}},
+      {"ledger/dissipated_parts",
+       "J",
+       "by contacts of rigid parts with each other, with rigid ground and surfaces",
+       1,
+       {}},
       {"ledger/dissipated_joints", "J", "by dampers and end stops of joints and springs", 1, {}},
       {"ledger/integration_error",
        "J",

@@ -19,6 +19,8 @@ template <class Quantity> Channel channelOf(const Quantity& q) { return {q.path,
 std::vector<Channel> terrainChannels();
 /// Loads on a rigid surface and what moves it, under surfaces/NAME. `hasPivot`: its torque about that too.
 std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot = false);
+/// What a vehicle does to a surface at rest, under obstacles/NAME.
+std::vector<Channel> obstacleChannels(const std::string& name);
 /// Energy and momentum.
 std::vector<Channel> ledgerChannels();
 

@@ -211,6 +211,8 @@ struct Vehicle {
   ChassisMount chassis = ChassisMount::free;
   SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch
   std::vector<vehicle::SpecKey> specKeys; ///< [spec.SECTION]: keys of the vehicle file with other values
+  std::optional<double> hullSphereRadius; ///< [m]; empty: 0.02, or sphereRadius where that is more
+  std::optional<bool> hullTouches;        ///< ground, grains and obstacles; empty: see setup::hullTouches()
   bool operator==(const Vehicle&) const = default;
 
   vehicle::SpecSource source() const { return {spec, specKeys}; }
@@ -268,6 +270,14 @@ struct Driver {
   bool isFree() const { return course || drive == vehicle::SprocketDrive::torque; }
 };
 
+/// [stop]: what ends a run of a vehicle before run.duration.
+struct Stop {
+  std::optional<double> distance; ///< [m] from where it was set down
+  std::optional<double> edge;     ///< [m] between a shoe and the end of the terrain
+  std::optional<double> immobile; ///< [s] that it is driven and does not move
+  bool operator==(const Stop&) const = default;
+};
+
 /// [output]
 struct Output {
   std::string folder;              ///< empty: out/NAME of the scene file
@@ -309,6 +319,7 @@ struct Scene {
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;
   Driver driver;
+  Stop stop;
   Output output;
   Parallel parallel;
   std::shared_ptr<const base::Document> document; ///< the file itself; null for a scene that a program has made

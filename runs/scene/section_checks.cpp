@@ -55,8 +55,9 @@ namespace {
 void checkMeshes(const Section& root, const Scene& scene) {
   const std::vector<Section> sections = root.list("mesh");
   for (std::size_t k = 0; k < sections.size(); ++k) {
-    if (scene.vehicle)
-      sections[k].fail("", "stands beside [vehicle]; a scene has the one or the other: use boxes and cylinders");
+    if (scene.vehicle && scene.terrain && scene.terrain->granular())
+      sections[k].fail("", "stands beside [vehicle] on a bed of grains, which meet the one or the other; use boxes and "
+                           "cylinders, or rigid ground");
     if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 &&
         scene.meshes[k].placed == PlacedWhen::before)
       sections[k].fail("placed",

@@ -36,13 +36,23 @@ Table<Vehicle> vehicleTable() {
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
   t.add("material", &S::material, "",
-        "of the parts against grains; where not given they are of the grains' own material, but with friction_ground "
-        "of the vehicle file; on rigid ground all contact data are the vehicle file's");
+        "of the parts against grains and, for friction, obstacles; where not given they are of the other's own "
+        "material, but with friction_ground of the vehicle file; on rigid ground all contact data are the vehicle "
+        "file's");
   t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
-  t.add(
-      "soil_meets", &S::soilMeets, "",
-      "parts that grains touch: all but the hull, or the shoes alone, so that no grain is pinched by sprocket, wheels, "
-      "rollers or idler, which pass through those that lie on the track; named in all results");
+  t.add("soil_meets", &S::soilMeets, "",
+        "parts that grains touch: all (the hull if hull_touches), or the shoes alone, so that no grain is pinched by "
+        "sprocket, wheels, "
+        "rollers or idler, which pass through those that lie on the track; named in all results");
+  t.add("hull_sphere_radius", &S::hullSphereRadius, "m",
+        "of the hull's sphere set, where it touches something; \"auto\": 0.02, or sphere_radius where that is more")
+      .above(0)
+      .atMost(1)
+      .orWord("auto");
+  t.add("hull_touches", &S::hullTouches, "",
+        "whether the hull meets the ground and the surfaces at rest, as shoes do; \"auto\": on rigid ground, and where "
+        "the scene has such surfaces; not on grains alone, where it costs time")
+      .orWord("auto");
   return t;
 }
 
@@ -142,6 +152,31 @@ Table<Course> courseTable() {
   t.add("turn_integral", &S::turnIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
   t.add("most_speed", &S::mostSpeed, "rad/s", "that a sprocket is asked for").above(0).atMost(100);
   return t;
+}
+
+Table<Stop> stopTable() {
+  using S = Stop;
+  Table<S> t("stop", "What ends a run with a vehicle before run.duration, in order, with exit code 0");
+  t.add("distance", &S::distance, "m", "level distance from where it was set down; not asked where not given")
+      .above(0)
+      .atMost(1e6);
+  t.add("edge", &S::edge, "m",
+        "between the middle of a shoe and the end of the terrain; where not given a shoe that leaves it is an error")
+      .atLeast(0)
+      .atMost(1e6);
+  t.add("immobile", &S::immobile, "s",
+        "for which driven tracks move the hull at less than a twentieth of their speed; not asked where not given")
+      .above(0)
+      .atMost(1e5);
+  return t;
+}
+
+void checkStop(const Section& section, Stop& s, const Scene& scene) {
+  if (!scene.vehicle) section.fail("", "needs a vehicle; add a section [vehicle], or remove this one");
+  if (s.edge && !scene.terrain)
+    section.fail("edge", "[m] has no meaning without terrain; add a section [terrain], or remove it");
+  if (scene.vehicle->chassis == ChassisMount::fixed)
+    section.fail("", "has no meaning for a vehicle that is held; set vehicle.chassis = \"free\", or remove it");
 }
 
 void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
@@ -295,7 +330,8 @@ SectionList vehicleSections() {
               .writtenIf(hasVehicle),
           optional("driver.table", table, speedTable(), checkSpeeds).writtenIf(hasVehicle),
           optional("driver.torques", torques, torqueTable(), checkTorqueTable).writtenIf(hasVehicle),
-          optional("driver.course", course, courseTable().leaveOutEmpty(), checkCourse).writtenIf(hasVehicle)};
+          optional("driver.course", course, courseTable().leaveOutEmpty(), checkCourse).writtenIf(hasVehicle),
+          single("stop", &Scene::stop, stopTable(), checkStop).writtenIf(hasVehicle)};
 }
 
 } // namespace grouser::scene::detail

@@ -239,6 +239,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, S
   checkSurfacesBetweenSides(scene);
   GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, sizes);
+  ground.obstacles = obstaclesOf(scene);
   const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return ground;
   if (sizes == SizeChecks::due) checkFillSizes(scene);

@@ -3,6 +3,7 @@
 
 #include "contact/grain_part_contacts.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/obstacles.hpp"
 #include "runs/setup/sources.hpp"
 #include "runs/setup/surface_setup.hpp"
 #include "terrain/bed.hpp"
@@ -94,6 +95,7 @@ struct GroundSetup {
   std::optional<terrain::HeightField> surface; ///< as the height-map says
   std::optional<terrain::HeightField> rigid;   ///< what is rigid: the ground itself, or the floor below the grains
   std::vector<SurfaceSetup> surfaces;          ///< that grains meet: planes that move or have a name, boxes, ...
+  std::vector<Obstacle> obstacles;             ///< that parts of the vehicle meet
   std::optional<GrainsSetup> grains;
 };
 

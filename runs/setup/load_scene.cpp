@@ -65,19 +65,27 @@ void checkMechanism(const Section& root, const scene::Scene& scene) {
   checkWhole(root, builder.model(), scene);
 }
 
-/// What surfaces are to grains and to each other.
+/// Grains feel all surfaces, vehicles those that rest.
+void requireFelt(const Section& section, const scene::Scene& scene, const SceneSurface& s) {
+  if (scene.vehicle && !s.moves) return;
+  if (scene.vehicle)
+    section.fail("", "moves in a scene without grains, and a vehicle meets surfaces that rest alone; let it rest, or "
+                     "remove it");
+  section.fail("", s.kind == SurfaceKind::plane
+                       ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
+                       : "stands in a scene without grains, and nothing else touches it; remove it");
+}
+
+/// What surfaces are to grains, vehicles and each other.
 void checkSurfaces(const Section& root, const scene::Scene& scene) {
   const GrainKinds kinds = grainKinds(scene);
   std::map<std::string, std::string> places; // of names
   for (const SceneSurface& s : surfacesOf(scene)) {
     const Section section = root.list(s.list())[s.number];
-    if (!kinds.any())
-      section.fail("", s.kind == SurfaceKind::plane
-                           ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
-                           : "stands in a scene without grains, and nothing else touches it; remove it");
+    if (!kinds.any()) requireFelt(section, scene, s);
     const auto [other, fresh] = places.emplace(s.name, section.path());
     if (!fresh) section.fail("name", fmt::format("\"{}\" is that of {} too; choose another", s.name, other->second));
-    if (s.geometry.shape == terrain::SurfaceShape::tube && s.geometry.half.x <= kinds.largest)
+    if (s.geometry.shape == terrain::SurfaceShape::tube && kinds.any() && s.geometry.half.x <= kinds.largest)
       section.fail("radius",
                    fmt::format("[m] is not above that of the largest grain, {:g} m; a hollow cylinder must be "
                                "wider than what is in it: raise it, or set hollow = false",

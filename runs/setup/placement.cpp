@@ -122,6 +122,19 @@ void checkParts(const scene::Scene& scene) {
                  fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
                              spheredecomp::kMostLatticePoints));
   }
+  if (const std::optional<double> coarse = scene.vehicle->hullSphereRadius) {
+    const auto [low, high] = spheredecomp::bounds(meshes.chassis);
+    const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (*coarse > 0.5 * longest)
+      scene.fail("vehicle", "hull_sphere_radius",
+                 fmt::format("[m] is above {} m, half of the longest side of {}; lower it",
+                             base::roundedDown(0.5 * longest, 4), spec.chassis.mesh));
+    if (const double points = spheredecomp::latticePoints(meshes.chassis, *coarse);
+        !(points <= spheredecomp::kMostLatticePoints))
+      scene.fail("vehicle", "hull_sphere_radius",
+                 fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", spec.chassis.mesh,
+                             points, spheredecomp::kMostLatticePoints));
+  }
   for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
     if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))
       vehicle::refuse(scene.vehicle->source(), *fault);

@@ -12,6 +12,7 @@
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/obstacles.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/time_scales.hpp"
 #include "vehicle/spec_file.hpp"
@@ -157,12 +158,17 @@ void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
   considerIdler(limit, s);
 }
 
+/// Whether shoes can come to lie on what is rigid.
+bool hasRigidGround(const scene::Scene& scene) {
+  return (scene.terrain && !scene.terrain->granular()) || !obstaclesOf(scene).empty();
+}
+
 /// A shoe between rigid ground and the wheel that it bears. The highest mode of both springs together is no higher than
 /// that of the ground's, its whole pad against shift and turn, and that of the wheel's on the shoe's end added up
 /// (Weyl). The wheel lies as deep as its share of the weight presses it, F = 4/3 modulus width sqrt(2 R) depth^(3/2).
 /// Where `grouser study stability --scene vehicle` finds vehicles unsound is docs/vehicle_stability.md.
 void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
-  if (!scene.terrain || scene.terrain->granular()) return;
+  if (!hasRigidGround(scene)) return;
   const vehicle::ContactSpec& c = s.contact;
   const double length = s.shoe.halfLength, width = s.shoe.padHalfWidth, mass = s.shoe.mass;
   const double pad = c.foundationModulus * 4 * length * width;

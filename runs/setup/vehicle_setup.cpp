@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/vehicle_setup.hpp"
 
+#include "runs/setup/obstacles.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -8,6 +9,9 @@
 namespace grouser::setup {
 
 namespace {
+
+/// Of a hull [m]: it is large, and what it rests on is.
+constexpr double kHullSphereRadius = 0.02;
 
 vehicle::CourseOptions courseOptions(const scene::Course& c, const vehicle::VehicleSpec& spec) {
   vehicle::CourseOptions o;
@@ -51,6 +55,9 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
   setup.sphereRadius = v.sphereRadius;
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
+  setup.hullTouches = hullTouches(scene);
+  setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, v.sphereRadius));
+  setup.stop = {scene.stop.distance, scene.stop.edge, scene.stop.immobile};
   setup.driver = driverOptions(scene.driver, setup.spec);
   // What hangs or weighs nothing presses on no ground.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();

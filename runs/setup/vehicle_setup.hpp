@@ -7,9 +7,17 @@
 #include "vehicle/spec.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace grouser::setup {
+
+/// What ends a run before its time; empty where it is not asked.
+struct StopSetup {
+  std::optional<double> distance; ///< [m] from where it was set down
+  std::optional<double> edge;     ///< [m] between a shoe and the end of the terrain
+  std::optional<double> immobile; ///< [s] that it is driven and does not move
+};
 
 /// A vehicle, where it is set down, and its driver.
 struct VehicleSetup {
@@ -20,7 +28,10 @@ struct VehicleSetup {
   bool fixChassis{};          ///< as on a bench
   double sphereRadius{};      ///< of the parts' sphere sets [m]
   bool soilMeetsShoesAlone{}; ///< and no other part
+  bool hullTouches{};         ///< ground, grains and obstacles
+  double hullSphereRadius{};  ///< of its set then [m]
   vehicle::DriverOptions driver;
+  StopSetup stop;
   double thickestStone{}; ///< that may get between wheels and plates [m]: the largest grain, where soil meets them
   double largestTurn = std::numeric_limits<double>::infinity(); ///< of a body in a step [rad]
 };

@@ -31,27 +31,19 @@ struct Corridor {
   double height;            ///< over the ground [m]
 };
 
-/// A surface, a plane among them, with where it stands in the scene.
-struct Obstacle {
-  std::string list, name;
-  std::size_t number;
-  bool moves;
-  SceneSurface surface;
+/// Where a vehicle comes to the end of the terrain.
+struct Edge {
+  double way;  ///< that is left to it at the start [m]
+  double time; ///< at which it is there [s]
+  bool ahead;  ///< else behind
 };
 
-std::vector<Obstacle> obstaclesOf(const scene::Scene& scene) {
-  std::vector<Obstacle> all;
-  for (const SceneSurface& s : surfacesOf(scene)) all.push_back({s.list(), s.name, s.number, s.moves || s.free, s});
-  // Walls are planes without a name of their own.
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    if (!scene.planes[k].isWall()) continue;
-    scene::Scene one;
-    one.planes = {scene.planes[k]};
-    one.planes.front().name = fmt::format("plane{}", k);
-    std::vector<SceneSurface> surfaces = surfacesOf(one);
-    if (!surfaces.empty()) all.push_back({"plane", surfaces.front().name, k, false, surfaces.front()});
-  }
-  return all;
+/// What moves acts on grains alone.
+std::vector<SceneSurface> movingSurfaces(const scene::Scene& scene) {
+  std::vector<SceneSurface> moving;
+  for (const SceneSurface& s : surfacesOf(scene))
+    if (s.moves) moving.push_back(s);
+  return moving;
 }
 
 class Course {
@@ -95,6 +87,24 @@ public:
     const double way = speed * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
     return std::min(way, ground_ ? ground_->area().width() + ground_->area().length() : kFarthest);
   }
+  /// When it leaves the terrain, driven straight, without slip and ramp; empty where it does not.
+  std::optional<Edge> edge() const {
+    const auto area = terrainArea(scene_);
+    const scene::SpeedTable table = scene_.driver.speeds();
+    if (!area || table.left.empty() || turns() || scene_.driver.isFree() || scene_.driver.course ||
+        scene_.vehicle->chassis == scene::ChassisMount::fixed)
+      return {};
+    constexpr int kPieces = 2000;
+    const double begins = scene_.driver.driveBegins(), dt = (scene_.run.duration - begins) / kPieces;
+    const double front = wayTo(*area, start_.front, 1), rear = wayTo(*area, -start_.rear, -1);
+    double way = 0;
+    for (int k = 0; dt > 0 && k < kPieces; ++k) {
+      way += speedAt(table, (k + 0.5) * dt) * spec_.pitchRadius() * dt;
+      if (way > front) return Edge{front, begins + (k + 1) * dt, true};
+      if (-way > rear) return Edge{rear, begins + (k + 1) * dt, false};
+    }
+    return {};
+  }
   /// Straight ahead and back.
   Corridor way() const {
     const scene::SpeedTable table = scene_.driver.speeds();
@@ -109,13 +119,13 @@ public:
     return c;
   }
 
-  /// Whether the obstacle reaches into the corridor.
-  bool meets(const Obstacle& o, const Corridor& c) const {
-    const base::Pose pose = placeOf(o.surface);
-    const bool plane = o.surface.geometry.shape == terrain::SurfaceShape::plane;
+  /// Whether the surface reaches into the corridor, where it is at the start.
+  bool meets(const SceneSurface& s, const Corridor& c) const {
+    const base::Pose pose = placeOf(s);
+    const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     // Of a plane the corners tell; of all else balls about a lattice of points.
     const double cell = plane ? 1e300 : kCell, radius = plane ? 0 : 0.87 * kCell;
-    const double reach = plane ? 1e300 : sizeOf(o.surface) + radius + c.height;
+    const double reach = plane ? 1e300 : sizeOf(s) + radius + c.height;
     const int nx = cellsOf(c.front - c.rear, cell), ny = cellsOf(2 * c.half, cell), nz = cellsOf(c.height, cell);
     for (int i = 0; i <= nx; ++i)
       for (int j = 0; j <= ny; ++j) {
@@ -125,13 +135,30 @@ public:
         const double ground = ground_ ? ground_->height(p.x, p.y) : 0;
         for (int k = 0; k <= nz; ++k) {
           p.z = ground + kFree + radius + (c.height - kFree) * k / nz;
-          if (overlapAt(o.surface, pose, p, radius) > 0) return true;
+          if (overlapAt(s, pose, p, radius) > 0) return true;
         }
       }
     return false;
   }
 
 private:
+  /// Of the sprockets, `time` [s] after the drive has begun.
+  static double speedAt(const scene::SpeedTable& table, double time) {
+    const auto after =
+        static_cast<std::size_t>(std::upper_bound(table.time.begin(), table.time.end(), time) - table.time.begin());
+    if (after == 0) return table.left.front();
+    if (after == table.time.size()) return table.left.back();
+    const double from = table.time[after - 1], share = (time - from) / (table.time[after] - from);
+    return table.left[after - 1] + share * (table.left[after] - table.left[after - 1]);
+  }
+  /// From what reaches `reach` [m] beyond the vehicle's place to the end of the terrain, along the heading or back [m].
+  double wayTo(const terrain::Rectangle& area, double reach, double sign) const {
+    const double c = sign * base::cos(place_.heading), s = sign * base::sin(place_.heading);
+    const auto along = [](double from, double slope, double low, double high) {
+      return slope > 1e-9 ? (high - from) / slope : slope < -1e-9 ? (low - from) / slope : 1e300;
+    };
+    return std::min(along(place_.x, c, area.xMin, area.xMax), along(place_.y, s, area.yMin, area.yMax)) - reach;
+  }
   /// At the start; what is put on the bed stands about so high over its surface.
   base::Pose placeOf(const SceneSurface& s) const {
     base::Pose pose = s.start;
@@ -176,24 +203,26 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
   if (!scene.terrain && !grains && scene.vehicle->chassis != scene::ChassisMount::fixed)
     scene.fail(
         "vehicle", "chassis",
-        "is \"free\" over planes alone, which act on grains and not on a vehicle; add [terrain], or set chassis = "
-        "\"fixed\"");
-  const std::vector<Obstacle> all = obstaclesOf(scene);
+        "is \"free\" over planes alone, on which no vehicle is set down; add [terrain] with kind = \"rigid\", or "
+        "set chassis = \"fixed\"");
+  const std::vector<SceneSurface> all = movingSurfaces(scene);
   if (all.empty()) return;
   const Course course(scene);
-  for (const Obstacle& o : all) {
-    const bool atStart = course.meets(o, course.start());
-    if (!atStart && !course.meets(o, course.way())) continue;
-    const std::string key = o.list == "plane" ? "point" : "position";
-    scene.fail(o.list, o.number, key,
-               fmt::format("[m]: {} \"{}\" stands {}; surfaces act on grains alone, and the vehicle would pass through "
-                           "it: {}",
-                           o.list, o.name,
-                           atStart ? "where the vehicle is set down"
-                                   : fmt::format("in the way of the vehicle, which can drive {:.1f} m in run.duration",
-                                                 course.farthest()),
-                           atStart ? "move it or vehicle.position, or remove it"
-                                   : "move it aside, turn vehicle.heading, shorten run.duration, or remove it"));
+  for (const SceneSurface& s : all) {
+    const bool atStart = course.meets(s, course.start());
+    if (!atStart && !course.meets(s, course.way())) continue;
+    const std::string key = s.kind == SurfaceKind::plane ? "point" : "position";
+    scene.fail(
+        s.list(), s.number, key,
+        fmt::format("[m]: {} \"{}\" moves and stands {}; surfaces that move act on grains alone, and the vehicle "
+                    "would pass through it: {}",
+                    s.list(), s.name,
+                    atStart ? "where the vehicle is set down"
+                            : fmt::format("in the way of the vehicle, which can drive {:.1f} m in run.duration",
+                                          course.farthest()),
+                    atStart ? "let it rest, move it or vehicle.position, or remove it"
+                            : "let it rest, move it aside, turn vehicle.heading, shorten run.duration, or "
+                              "remove it"));
   }
 }
 
@@ -206,19 +235,16 @@ std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
         fmt::format("driver.table begins at {:g} and {:g} rad/s: the sprockets turn so fast from one step to "
                     "the next; let the table begin at 0, or set driver.drive_ramp",
                     scene.driver.table->left.front(), scene.driver.table->right.front()));
-  const std::vector<Obstacle> all = obstaclesOf(scene);
-  if (all.empty()) return warnings;
-  const Course course(scene);
-  const double reach = course.farthest();
-  Corridor around = course.start();
-  const double radius = reach + std::max({around.front, -around.rear, around.half});
-  around.front = radius, around.rear = -radius, around.half = radius;
-  for (const Obstacle& o : all)
-    if (o.moves || (course.turns() && course.meets(o, around)))
-      warnings.push_back(
-          fmt::format("{} \"{}\" acts on grains alone: where the vehicle meets it, it passes through without "
-                      "a force",
-                      o.list, o.name));
+  const std::optional<Edge> edge = scene.stop.edge ? std::nullopt : Course(scene).edge();
+  if (edge && !(scene.stop.distance && *scene.stop.distance <= edge->way))
+    warnings.push_back(fmt::format("the terrain ends {:.2f} m {} the vehicle, which without slip is there at {:.3g} s; "
+                                   "the run ends where a shoe leaves it: enlarge terrain.size, shorten "
+                                   "run.duration ({:g} s), or give stop.distance or stop.edge",
+                                   edge->way, edge->ahead ? "ahead of" : "behind", edge->time, scene.run.duration));
+  for (const SceneSurface& s : movingSurfaces(scene))
+    warnings.push_back(fmt::format("{} \"{}\" moves and acts on grains alone: where the vehicle meets it, it passes "
+                                   "through without a force",
+                                   s.list(), s.name));
   return warnings;
 }
 

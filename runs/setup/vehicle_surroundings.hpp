@@ -8,13 +8,14 @@
 
 namespace grouser::setup {
 
-/// What stands about a vehicle acts on grains alone: it would pass through planes, boxes, cylinders and meshes. Throws
-/// InputError where one of them stands where the vehicle is set down, or in the way that it can drive straight ahead or
-/// back, and where a vehicle free to fall has neither terrain nor grains below. Called for plan and run.
+/// Surfaces that move act on grains alone: a vehicle would pass through them. Throws InputError where one of them
+/// stands where the vehicle is set down, or in the way that it can drive straight ahead or back, and where a vehicle
+/// free to fall has neither terrain nor grains below. Called for plan and run. Surfaces at rest are met: see
+/// obstacles.hpp.
 void checkVehicleSurroundings(const scene::Scene& scene);
 
-/// What a user should know of a vehicle's scene before it runs, a sentence each: surfaces that it may yet reach and
-/// would pass through, speeds that begin with a jump.
+/// What a user should know of a vehicle's scene before it runs, a sentence each: surfaces that move and that it would
+/// pass through, an end of the terrain that it comes to before the run's, speeds that begin with a jump.
 std::vector<std::string> vehicleWarnings(const scene::Scene& scene);
 
 } // namespace grouser::setup

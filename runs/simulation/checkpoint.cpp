@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 8; // of the layout below
+constexpr int kVersion = 9; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -103,6 +103,8 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/track/sums", v.track.sums);
     archive("/vehicle/ground/states", v.ground.states);
     archive("/vehicle/ground/sums", v.ground.sums);
+    archive("/vehicle/surfaces/states", v.surfaces.states);
+    archive("/vehicle/surfaces/sums", v.surfaces.sums);
     archive("/vehicle/bed/memories", v.bed.memories);
     archive("/vehicle/bed/angles", v.bed.angles);
     archive("/vehicle/bed/dents", v.bed.dents);
@@ -113,6 +115,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/alarm_forces", v.alarmForces);
     archive("/vehicle/alarm_steps", v.alarmSteps);
     archive("/vehicle/judged", v.judged);
+    archive("/vehicle/stalled_steps", v.stalledSteps);
     archive("/vehicle/impulse_on_parts", v.impulseOnParts);
     archive("/vehicle/angular_on_parts", v.angularOnParts);
   }
@@ -290,7 +293,7 @@ bool isFree(const std::string& key) {
       "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
       "terrain.heightmap", "terrain.cache",       "vehicle.spec"};
   const bool soil = key.rfind("material.", 0) == 0 && (key.ends_with("\".soil") || key.ends_with("\".soil_hash"));
-  return soil || key.rfind("output.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
+  return soil || key.rfind("output.", 0) == 0 || key.rfind("stop.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
          std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
 }
 

@@ -227,6 +227,8 @@ void lift(setup::GroundSetup& scene, const std::vector<double>& lifts) {
   setup::GrainsSetup& grains = *scene.grains;
   if (lifts.size() != scene.surfaces.size() + grains.onBed.size())
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  for (setup::Obstacle& o : scene.obstacles)
+    if (o.amongSurfaces) o.surface.lift(lifts[*o.amongSurfaces]);
   auto way = lifts.begin();
   auto boundary = grains.boundaries.surfaces.begin();
   for (setup::SurfaceSetup& s : scene.surfaces) {

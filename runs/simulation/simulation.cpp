@@ -41,7 +41,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
       takeIntoScene(ground_, setup_.ground, exec, comm);
     }
   }
-  surface_ = surfaceHeight(ground_);
+  surface_ = setup::withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
   if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres);
   if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
   if (ground_.grains) ground_.grains->setSteps(0);
@@ -125,8 +125,8 @@ void Simulation::stepAhead(bool last) {
 
 /// Whether nothing but grains and vehicle takes part in a step, so that the device can be given work ahead.
 bool Simulation::canStepAhead() const {
-  return vehicle_ && ground_.grains && !surfaces_ && !mechanism_ && setup_.ground.grains->sources.empty() &&
-         !setup_.crushes() && terrain::GrainsAhead::canLaunch(*ground_.grains);
+  return vehicle_ && ground_.grains && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
+         setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*ground_.grains);
 }
 
 std::int64_t Simulation::advance(std::int64_t most) {
@@ -137,7 +137,10 @@ std::int64_t Simulation::advance(std::int64_t most) {
     if (!ahead_) ahead_ = std::make_unique<StepsAhead>(exec_, *ground_.grains, *vehicle_);
     const std::int64_t count = std::min(most, toLook);
     try {
-      for (std::int64_t k = 1; k <= count; ++k) stepAhead(k == count);
+      for (std::int64_t k = 1; k <= count; ++k) {
+        stepAhead(k == count);
+        if (!vehicle_->ended().empty()) return k; // at a look at the alarm, before which no step is launched
+      }
     } catch (...) {
       ahead_->callOff();
       throw;

@@ -62,7 +62,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   if (hasBed()) keepSurface(ground_, state.surface, bedGround().grains->model.radius);
   ground_.structure = state.bed;
-  surface_ = surfaceHeight(ground_);
+  surface_ = setup::withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {
     ground_.grains->restore(*state.grains, isPutOnBed() || !setup_.ground.grains->sources.empty());

@@ -23,14 +23,12 @@ constexpr double kAhead = 0.0005;      // [m] that parts may move in a step laun
 
 VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                  const setup::GroundSetup& setup, const base::Exec& exec, double timeStep,
-                                 const Ground& ground, bool shoesAlone)
+                                 const Ground& ground, bool shoesAlone, SphereCache* kept)
     : assembly_(assembly), parts_(parts), exec_(exec), side_(exec, true), graph_(exec),
       replicated_(ground.grains.get()), timeStep_(timeStep) {
   if (ground.grains) comm_ = ground.grains->system().comm;
   const std::size_t n = parts.contactParts();
-  motion_ = base::Mirrored<contact::PartMotion>(exec_, n);
   travelled_ = base::Mirrored<double>(exec_, 2);
-  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n + 1); // and the count of grains that have ended
   // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
   const double largest = 1e4 * assembly_.mass * 9.81;
   quanta_.force = base::fixedPointFor(largest, 46);
@@ -40,6 +38,11 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
   makeTrack();
   makeGround(setup, ground, shoesAlone);
+  makeObstacles(setup, ground, kept);
+  motion_ = base::Mirrored<contact::PartMotion>(exec_, n + surfaces());
+  if (obstacles_) std::copy(obstacles_->motions().begin(), obstacles_->motions().end(), motion_.host() + n);
+  // And the count of grains that have ended.
+  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n + 1 + (obstacles_ ? n + surfaces() : 0));
 }
 
 void VehicleContacts::makeTrack() {
@@ -77,6 +80,13 @@ void VehicleContacts::makeGround(const setup::GroundSetup& setup, const Ground& 
   }
 }
 
+void VehicleContacts::makeObstacles(const setup::GroundSetup& setup, const Ground& ground, SphereCache* kept) {
+  const bool hullTouches = parts_.contactIndex(0) >= 0; // the hull stands first among the parts
+  obstacles_ = ObstacleContacts::make(assembly_, parts_, setup.obstacles,
+                                      hullTouches && !ground.grains && ground.rigid ? &*ground.rigid : nullptr, exec_,
+                                      {quanta_, timeStep_, kBedMargin}, comm_, kept);
+}
+
 contact::PartMotion VehicleContacts::motionOf(std::size_t c, const multibody::State& state) const {
   const vehicle::Part& part = assembly_.parts[parts_.partOf(c)];
   const base::Pose pose = vehicle::partPose(part, state);
@@ -91,10 +101,10 @@ void VehicleContacts::setPoses(const multibody::State& state) {
 
 /// Two parts approach each other at most as fast as both move relative to the hull.
 bool VehicleContacts::trackHasLeft() const { return 2 * relativeTravel_ > kTrackMargin; }
-bool VehicleContacts::groundHasLeft() const { return onGround() && absoluteTravel_ > kBedMargin; }
+bool VehicleContacts::groundHasLeft() const { return (onGround() || obstacles_) && absoluteTravel_ > kBedMargin; }
 
 void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
-  const bool trackIsDue = trackHasLeft(), groundIsDue = onGround() && (groundHasLeft() || slotsChanged);
+  const bool trackIsDue = trackHasLeft(), groundIsDue = groundHasLeft() || (onGround() && slotsChanged);
   if (!trackIsDue && !groundIsDue) return;
   ++listings_;
   motion_.upload();
@@ -109,6 +119,7 @@ void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChan
     grainLoads_ = bed_->grainLoads();
   }
   if (rigidGround_) rigidGround_->refresh(motion_.device());
+  if (obstacles_) obstacles_->refresh(motion_.device());
   absoluteTravel_ = 0;
 }
 
@@ -117,10 +128,11 @@ void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* obser
   if (observer) return computeInParts(grains, *observer);
   graph_.from(grains ? grains->view().position : nullptr).run([this, grains] {
     uploadPoses();
-    // Side by side: the two write different halves of loadSums_, and read the same poses.
+    // Side by side: all write different parts of loadSums_, and read the same poses.
     side_.fork();
     computeGround(grains, side_.exec());
     computeTrack();
+    computeObstacles();
     side_.join();
     downloadLoads();
   });
@@ -133,6 +145,7 @@ void VehicleContacts::computeInParts(const terrain::Grains* grains, StepObserver
   computeTrack();
   observer.after(Stage::trackContacts);
   computeGround(grains, exec_);
+  computeObstacles();
   observer.after(Stage::groundContacts);
   downloadLoads();
 }
@@ -158,6 +171,14 @@ void VehicleContacts::computeTrack() {
   replicated_.run([this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
+/// All parts against the surfaces at rest, and the hull against rigid ground.
+void VehicleContacts::computeObstacles() {
+  if (!obstacles_) return;
+  replicated_.run([this] {
+    obstacles_->compute(motion_.device(), travelled_.device().data() + 1, loadSums_.device().data() + obstacleLoads());
+  });
+}
+
 /// All parts against the bed, or shoes against rigid ground.
 void VehicleContacts::computeGround(const terrain::Grains* grains, const base::Exec& exec) {
   contact::PartLoad* groundLoads = loadSums_.device().data() + parts_.contactParts();
@@ -168,6 +189,7 @@ void VehicleContacts::computeGround(const terrain::Grains* grains, const base::E
 void VehicleContacts::collect(multibody::Loads& loads) {
   const std::size_t n = parts_.contactParts();
   const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
+  const contact::PartLoad* surfaces = obstacles_ ? loadSums_.host() + obstacleLoads() : nullptr;
   // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
   constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
   static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
@@ -179,6 +201,10 @@ void VehicleContacts::collect(multibody::Loads& loads) {
                     groundForceQuantum_.checked(ground[c].force, "forces on a part");
     wrench.torque += quanta_.torque.checked(track[c].torque, "torques on a part") +
                      groundTorqueQuantum_.checked(ground[c].torque, "torques on a part");
+    if (surfaces) {
+      wrench.force += quanta_.force.checked(surfaces[c].force, "forces on a part");
+      wrench.torque += quanta_.torque.checked(surfaces[c].torque, "torques on a part");
+    }
     impulseOnParts_ += ground[c].force;
     angularOnParts_ += (groundTorqueQuantum_.value(ground[c].torque) +
                         cross(motion_.host()[c].centre, groundForceQuantum_.value(ground[c].force))) *
@@ -191,8 +217,16 @@ std::vector<std::uint32_t> VehicleContacts::endedGrains() const {
   return bed_->ended();
 }
 
-const base::Vec3l& VehicleContacts::groundForce(std::size_t c) const {
-  return (loadSums_.host() + parts_.contactParts() + c)->force;
+base::Vec3l VehicleContacts::inGroundQuanta(const base::Vec3l& force) const {
+  return groundForceQuantum_.quantise(quanta_.force.value(force));
+}
+
+base::Vec3l VehicleContacts::groundForce(std::size_t index) const {
+  const std::size_t n = parts_.contactParts();
+  base::Vec3l force{};
+  if (index < n) force = (loadSums_.host() + n + index)->force;
+  if (obstacles_) force += inGroundQuanta((loadSums_.host() + obstacleLoads() + index)->force);
+  return force;
 }
 
 void VehicleContacts::trackTravel(const multibody::State& state) {
@@ -251,6 +285,10 @@ VehicleContacts::Ledger VehicleContacts::ledger() const {
     const contact::PatchBuffers::Ledger ground = rigidGround_->ledger();
     ledger.elastic += ground.elastic, ledger.dissipated += ground.dissipated, ledger.patches += ground.patches;
   }
+  if (obstacles_) {
+    const contact::PatchBuffers::Ledger surfaces = obstacles_->ledger();
+    ledger.elastic += surfaces.elastic, ledger.dissipated += surfaces.dissipated, ledger.patches += surfaces.patches;
+  }
   if (bed_) {
     const contact::GrainPartContacts::Ledger bed = bed_->ledger();
     ledger.elastic += bed.elastic;
@@ -281,14 +319,18 @@ std::optional<PressedMost> VehicleContacts::pressedMost() const {
   return PressedMost{static_cast<int>(part), most->grain, most->share};
 }
 
-std::size_t VehicleContacts::samplesListed() const {
-  return track_->samplesListed() + (rigidGround_ ? rigidGround_->samplesListed() : 0);
+VehicleContacts::Listed VehicleContacts::listed() const {
+  Listed listed{track_->samplesListed(), bed_ ? bed_->pairs() : 0};
+  if (rigidGround_) listed.samples += rigidGround_->samplesListed();
+  if (obstacles_) listed.samples += obstacles_->samplesListed();
+  return listed;
 }
 
 void VehicleContacts::save(VehicleState& s) const {
   s.track = track_->save();
   if (rigidGround_) s.ground = rigidGround_->save();
   if (bed_) s.bed = bed_->save();
+  if (obstacles_) s.surfaces = obstacles_->save();
   s.impulseOnParts = impulseOnParts_;
   s.angularOnParts = angularOnParts_;
 }
@@ -297,6 +339,7 @@ void VehicleContacts::restore(const VehicleState& s) {
   track_->restore(s.track);
   if (rigidGround_) rigidGround_->restore(s.ground);
   if (bed_) bed_->restore(s.bed);
+  if (obstacles_) obstacles_->restore(s.surfaces);
   impulseOnParts_ = s.impulseOnParts;
   angularOnParts_ = s.angularOnParts;
   relativeTravel_ = absoluteTravel_ = kNeverListed;

@@ -8,6 +8,7 @@
 #include "contact/patch_contacts.hpp"
 #include "multibody/state.hpp"
 #include "runs/simulation/ground.hpp"
+#include "runs/simulation/obstacle_contacts.hpp"
 #include "runs/simulation/pressed_grain.hpp"
 #include "runs/simulation/replicated_work.hpp"
 #include "runs/simulation/step_observer.hpp"
@@ -23,15 +24,16 @@
 
 namespace grouser::simulation {
 
-/// What the parts of a vehicle touch: shoes the running gear, all parts the grains, shoes rigid ground. Computed on the
-/// device where there is one. On several ranks each computes the contacts with its own grains; all else is done alike.
+/// What the parts of a vehicle touch: shoes the running gear, all parts the grains and the surfaces at rest of the
+/// scene, shoes and hull rigid ground. Computed on the device where there is one. On several ranks each computes the
+/// contacts with its own grains; all else is done alike.
 class VehicleContacts {
 public:
   /// `assembly`, `parts` and the grains of `ground` outlive it, and it outlives the grains' steps: on several ranks it
   /// registers with their migration, as MeshContacts does.
-  /// `shoesAlone`: grains meet no other part.
+  /// `shoesAlone`: grains meet no other part. `kept` as in VehicleParts.
   VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const setup::GroundSetup& setup,
-                  const base::Exec& exec, double timeStep, const Ground& ground, bool shoesAlone = false);
+                  const base::Exec& exec, double timeStep, const Ground& ground, bool shoesAlone, SphereCache* kept);
   VehicleContacts(const VehicleContacts&) = delete;
   VehicleContacts& operator=(const VehicleContacts&) = delete;
 
@@ -58,14 +60,17 @@ public:
   /// For the grains' step; null on rigid ground.
   const contact::GrainLoadsView* grainLoads() const { return bed_ ? &grainLoads_ : nullptr; }
   bool onGround() const { return bed_ || rigidGround_; }
-  /// Force of the ground on a contact part in the last step, in quanta of groundForceQuantum().
-  const base::Vec3l& groundForce(std::size_t contactPart) const;
+  /// Surfaces at rest that are to be met, and rigid ground for the hull; see ObstacleContacts.
+  std::size_t surfaces() const { return obstacles_ ? obstacles_->surfaces() : 0; }
+  /// Force of ground and surfaces on a contact part in the last step, in quanta of groundForceQuantum(). From the
+  /// number of contact parts on: of these on the surfaces.
+  base::Vec3l groundForce(std::size_t index) const;
   const base::FixedPoint& groundForceQuantum() const { return groundForceQuantum_; }
 
   /// Energies of the contacts [J].
   struct Ledger {
     double elastic{};                         ///< held now
-    double dissipated{};                      ///< since the start, of parts with each other and with rigid ground
+    double dissipated{};                      ///< since the start, of parts with each other and with what is rigid
     double damped{}, rubbed{}, rolled{};      ///< since the start, of parts with grains
     double crushed{}, cutImpulse{};           ///< the same where grains crush, the latter [N s]
     std::int64_t capped{};                    ///< contacts at the force at which their grain crushes
@@ -88,9 +93,12 @@ public:
     if (bed_) bed_->forgetPressed();
   }
 
-  /// Listed as near now: samples of parts against parts and rigid ground, and pairs of grain and part.
-  std::size_t samplesListed() const;
-  std::size_t grainPairsListed() const { return bed_ ? bed_->pairs() : 0; }
+  /// What is listed as near now.
+  struct Listed {
+    std::size_t samples{};    ///< of parts against parts and what is rigid
+    std::size_t grainPairs{}; ///< of grain and part
+  };
+  Listed listed() const;
 
   void save(VehicleState& state) const;
   /// Marks the lists as outdated: the next step makes them anew.
@@ -99,6 +107,7 @@ public:
 private:
   void makeTrack();
   void makeGround(const setup::GroundSetup& setup, const Ground& ground, bool shoesAlone);
+  void makeObstacles(const setup::GroundSetup& setup, const Ground& ground, SphereCache* kept);
   contact::PartMotion motionOf(std::size_t contactPart, const multibody::State& state) const;
 
   // Whether parts have moved beyond what the lists hold.
@@ -108,7 +117,11 @@ private:
   void computeInParts(const terrain::Grains* grains, StepObserver& observer);
   void uploadPoses();
   void computeTrack();
+  void computeObstacles();
   void computeGround(const terrain::Grains* grains, const base::Exec& exec);
+  /// Of all contact parts, then of the surfaces.
+  std::size_t obstacleLoads() const { return 2 * parts_.contactParts() + 1; }
+  base::Vec3l inGroundQuanta(const base::Vec3l& force) const;
   void downloadLoads();
 
   const vehicle::Assembly& assembly_;
@@ -122,12 +135,14 @@ private:
 
   contact::PatchQuanta quanta_;
   base::FixedPoint groundForceQuantum_, groundTorqueQuantum_;
-  base::Mirrored<contact::PartMotion> motion_;
+  base::Mirrored<contact::PartMotion> motion_; ///< of the contact parts, then of the surfaces, which rest
   base::Mirrored<double> travelled_; ///< relative and absolute travel since the lists were made [m], for the device
-  base::Mirrored<contact::PartLoad> loadSums_; ///< of all contact parts: from the track, then from the ground
+  /// Of all contact parts: from the track, then from the ground; behind these see obstacleLoads().
+  base::Mirrored<contact::PartLoad> loadSums_;
   std::unique_ptr<contact::PartPartContacts> track_;
   std::unique_ptr<terrain::GroundContacts> rigidGround_;
   std::unique_ptr<contact::GrainPartContacts> bed_;
+  std::unique_ptr<ObstacleContacts> obstacles_;
   contact::GrainLoadsView grainLoads_;
   static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
   double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};

@@ -9,14 +9,15 @@
 
 namespace grouser::simulation {
 
-VehicleParts::VehicleParts(const vehicle::Assembly& assembly, double sphereRadius, const base::Comm& comm,
+VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const setup::VehicleSetup& setup, const base::Comm& comm,
                            SphereCache* kept)
     : contactIndex_(assembly.parts.size(), -1) {
   std::map<std::string, std::size_t> indexOf;
   std::vector<std::size_t> touching; // meshes that are to be cut
+  std::vector<std::size_t> hulls;    // parts
   for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
     const vehicle::Part& part = assembly.parts[p];
-    const bool touches = part.kind != vehicle::PartKind::kChassis;
+    const bool isHull = part.kind == vehicle::PartKind::kChassis, touches = setup.hullTouches || !isHull;
     const auto [at, fresh] = indexOf.emplace(part.mesh, meshes_.size());
     if (fresh) {
       meshes_.push_back(
@@ -26,22 +27,32 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, double sphereRadiu
     }
     meshOfPart_.push_back(at->second);
     ++setFigures_[at->second].instances;
-    if (!touches) continue;
-    contactIndex_[p] = static_cast<int>(contactParts_.size());
-    contactParts_.push_back(static_cast<int>(p));
+    if (isHull)
+      hulls.push_back(p);
+    else
+      addContactPart(p);
   }
-  cut(touching, sphereRadius, kept, comm);
+  // Behind the others, so that these have the same places with and without it.
+  if (setup.hullTouches)
+    for (const std::size_t hull : hulls) addContactPart(hull);
+  cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup, kept, comm);
   for (std::size_t c = 0; c < contactParts_.size(); ++c)
     reach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[partOf(c)]]) +
                      norm(assembly.parts[partOf(c)].pose_B.position));
 }
 
-void VehicleParts::cut(const std::vector<std::size_t>& meshes, double sphereRadius, SphereCache* kept,
-                       const base::Comm& comm) {
+void VehicleParts::addContactPart(std::size_t part) {
+  contactIndex_[part] = static_cast<int>(contactParts_.size());
+  contactParts_.push_back(static_cast<int>(part));
+}
+
+void VehicleParts::cut(const std::vector<std::size_t>& meshes, std::size_t hull, const setup::VehicleSetup& setup,
+                       SphereCache* kept, const base::Comm& comm) {
   std::vector<PartCut> parts;
   for (const std::size_t m : meshes) {
     parts.push_back({&meshes_[m], setFigures_[m].mesh, {}});
-    parts.back().options.radius = sphereRadius;
+    parts.back().options.radius = m == hull ? setup.hullSphereRadius : setup.sphereRadius;
+    parts.back().options.interior = m != hull;
   }
   std::vector<base::SphereSet> sets = cutParts(parts, kept, comm);
   sets_.resize(meshes_.size());

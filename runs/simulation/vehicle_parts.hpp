@@ -3,6 +3,7 @@
 
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 #include "runs/simulation/sphere_cache.hpp"
 #include "vehicle/assembly.hpp"
 
@@ -12,13 +13,14 @@
 
 namespace grouser::simulation {
 
-/// Surfaces of a vehicle's parts: meshes, and the spheres that these are cut into, once for each kind of part. All
-/// parts but the hull touch something: the contact parts.
+/// Surfaces of a vehicle's parts: meshes, and the spheres that these are cut into, once for each kind of part. Those
+/// that touch something are the contact parts: all but the hull, and that behind them where it is asked for.
 class VehicleParts {
 public:
   /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets are kept; null: all are cut.
   /// Throws InputError where a mesh is of no use.
-  VehicleParts(const vehicle::Assembly& assembly, double sphereRadius, const base::Comm& comm, SphereCache* kept);
+  VehicleParts(const vehicle::Assembly& assembly, const setup::VehicleSetup& setup, const base::Comm& comm,
+               SphereCache* kept);
 
   const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
   std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
@@ -34,7 +36,7 @@ public:
   std::size_t contactParts() const { return contactParts_.size(); }
   /// Its place among the assembly's parts.
   std::size_t partOf(std::size_t contactPart) const { return static_cast<std::size_t>(contactParts_[contactPart]); }
-  /// Of a part of the assembly among the contact parts; -1 for the hull.
+  /// Of a part of the assembly among the contact parts; -1 for a hull that touches nothing.
   int contactIndex(int part) const { return contactIndex_[static_cast<std::size_t>(part)]; }
   /// Farthest point of its surface from its body's centre of mass [m].
   double reach(std::size_t contactPart) const { return reach_[contactPart]; }
@@ -43,11 +45,14 @@ public:
   std::vector<int> setOfContactPart() const;
 
 private:
-  void cut(const std::vector<std::size_t>& meshes, double sphereRadius, SphereCache* kept, const base::Comm& comm);
+  void addContactPart(std::size_t part);
+  /// `hull`: its mesh, of which contacts need the surface only.
+  void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const setup::VehicleSetup& setup,
+           SphereCache* kept, const base::Comm& comm);
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;
-  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for the hull
+  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for a hull that touches nothing
   std::vector<SetFigures> setFigures_;
   std::vector<int> contactParts_, contactIndex_;
   std::vector<double> reach_;

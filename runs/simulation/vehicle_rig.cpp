@@ -6,6 +6,9 @@
 #include "runs/setup/time_scales.hpp"
 #include "runs/simulation/grains_under_shoes.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace grouser::simulation {
@@ -27,27 +30,44 @@ vehicle::Assembly assembled(const setup::VehicleSetup& setup,
   return vehicle::assemble(setup.spec, options);
 }
 
-/// So much that no shoe stands in a grain.
-double liftFor(const setup::VehicleSetup& setup, const Ground& ground,
+base::Comm commOf(const Ground& ground) { return ground.grains ? ground.grains->system().comm : base::Comm{}; }
+
+/// So much that no shoe stands in a grain, and no part in an obstacle.
+double liftFor(const setup::SimulationSetup& setup, const Ground& ground, const VehicleParts& parts,
                const std::function<double(double, double)>& surfaceHeight) {
-  if (!setup.onTerrain || !ground.grains) return 0;
-  return liftOffGrains(assembled(setup, surfaceHeight, 0), *ground.grains);
+  const setup::VehicleSetup& vehicle = *setup.vehicle;
+  double lift = 0;
+  if (vehicle.onTerrain && ground.grains) lift = liftOffGrains(assembled(vehicle, surfaceHeight, 0), *ground.grains);
+  if (setup.ground.obstacles.empty()) return lift;
+  return lift + liftOffObstacles(assembled(vehicle, surfaceHeight, lift), parts, setup.ground.obstacles);
+}
+
+/// The first shoe that is not `within` [m] inside the terrain, and where; null while all are.
+struct ShoeAtEdge {
+  const vehicle::Part* shoe;
+  Vec3d place;
+};
+std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
+                                     const multibody::State& state, double within) {
+  if (!area) return {};
+  for (const int index : assembly.groundParts) {
+    const vehicle::Part& part = assembly.parts[static_cast<std::size_t>(index)];
+    const base::Vec3d p = state.pose[static_cast<std::size_t>(part.body)].position;
+    if (p.x < area->xMin + within || p.x > area->xMax - within || p.y < area->yMin + within ||
+        p.y > area->yMax - within)
+      return ShoeAtEdge{&part, p};
+  }
+  return {};
 }
 
 /// Which shoe has left the terrain, in words; empty while none has.
 std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                        const multibody::State& state) {
-  if (!area) return {};
-  for (const int index : assembly.groundParts) {
-    const vehicle::Part& part = assembly.parts[static_cast<std::size_t>(index)];
-    const base::Vec3d p = state.pose[static_cast<std::size_t>(part.body)].position;
-    if (p.x >= area->xMin && p.x <= area->xMax && p.y >= area->yMin && p.y <= area->yMax) continue;
-    return fmt::format(
-        "the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position or "
-        "shorten run.duration",
-        part.name, p.x, p.y);
-  }
-  return {};
+  const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, 0);
+  if (!at) return {};
+  return fmt::format("the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position, "
+                     "shorten run.duration, or let stop.edge end the run before",
+                     at->shoe->name, at->place.x, at->place.y);
 }
 
 } // namespace
@@ -55,24 +75,25 @@ std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehi
 VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
                        const std::function<double(double, double)>& surfaceHeight, SphereCache* kept,
                        std::optional<double> lift)
-    : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), gravity_(setup.gravity),
-      area_(setup.ground.area), surfaceHeight_(surfaceHeight), replicated_(ground.grains.get()),
-      lift_(lift ? *lift : liftFor(*setup.vehicle, ground, surfaceHeight)),
+    : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), stop_(setup.vehicle->stop),
+      gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
+      replicated_(ground.grains.get()),
+      parts_(std::make_unique<VehicleParts>(assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle, commOf(ground),
+                                            kept)),
+      lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_,
                                                     vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})) {
-  const base::Comm comm = ground.grains ? ground.grains->system().comm : base::Comm{};
-  parts_ = std::make_unique<VehicleParts>(assembly_, setup.vehicle->sphereRadius, comm, kept);
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
-                                                setup.vehicle->soilMeetsShoesAlone);
+                                                setup.vehicle->soilMeetsShoesAlone, kept);
 }
 
 void VehicleRig::collectLoads() {
   contacts_->collect(loads_);
   for (ForceMeans* means : {&rowMeans_, &alarmMeans_}) {
-    means->sums.resize(parts_->contactParts());
+    means->sums.resize(parts_->contactParts() + contacts_->surfaces());
     for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
     ++means->steps;
   }
@@ -98,10 +119,10 @@ void VehicleRig::advance() {
 
 vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
   vehicle::GroundLoads loads;
-  if (!contacts_->onGround()) return loads;
+  if (!contacts_->onGround() && contacts_->surfaces() == 0) return loads;
   loads.force.resize(assembly_.model.bodies().size());
   const double share = means.steps > 0 ? 1 / static_cast<double>(means.steps) : 0.0;
-  for (std::size_t c = 0; c < means.sums.size(); ++c) {
+  for (std::size_t c = 0; c < std::min(means.sums.size(), parts_->contactParts()); ++c) {
     const auto body = static_cast<std::size_t>(assembly_.parts[parts_->partOf(c)].body);
     loads.force[body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
   }
@@ -116,6 +137,12 @@ Vec3d VehicleRig::meanGroundForce() const {
   Vec3d sum;
   for (const Vec3d& force : groundLoads(rowMeans_).force) sum += force;
   return sum;
+}
+
+Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
+  const std::size_t place = parts_->contactParts() + obstacle;
+  if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
+  return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
 }
 
 /// Lets a driver that waits know whether the vehicle rests.
@@ -154,6 +181,43 @@ std::string VehicleRig::judgeTension() {
                      SwingGrowth::kMost, r, part, setup::atMost(0.5 * timeStep_ / r));
 }
 
+/// Whether every track that is driven moves the hull at less than a twentieth of its speed.
+bool VehicleRig::stalls() const {
+  constexpr double kShare = 0.05;
+  const std::optional<double> start = driver_.driveStart();
+  if (!start || state_.time < *start + driver_.options().driveRamp) return false;
+  const std::array<double, 2> omega = driver_.at(state_.time).sprocketSpeed;
+  bool driven = false;
+  for (std::size_t i = 0; i < assembly_.tracks.size(); ++i) {
+    const double wanted =
+        std::fabs(omega[assembly_.tracks[i].side == vehicle::Side::kLeft ? 0 : 1]) * assembly_.spec.pitchRadius();
+    if (wanted == 0) continue;
+    driven = true;
+    if (std::fabs(vehicle::trackSpeed(assembly_, static_cast<int>(i), state_)) >= kShare * wanted) return false;
+  }
+  return driven;
+}
+
+/// By the state alone, so that a resumed run ends where it ended.
+std::string VehicleRig::judgeEnd() const {
+  const auto origin = [](const base::Pose& hull, const Vec3d& centre) { return hull.toWorld(-centre); };
+  const auto hull = static_cast<std::size_t>(assembly_.chassis);
+  const Vec3d& centre = assembly_.spec.chassis.centre;
+  const Vec3d way = origin(state_.pose[hull], centre) - origin(assembly_.model.bodies()[hull].pose, centre);
+  const double distance = std::sqrt(way.x * way.x + way.y * way.y);
+  if (stop_.distance && distance >= *stop_.distance)
+    return fmt::format("stop.distance: the vehicle is {:.3f} m from where it was set down", distance);
+  if (const auto at = stop_.edge ? shoeAtEdge(area_, assembly_, state_, *stop_.edge) : std::nullopt)
+    return fmt::format("stop.edge: the {} is at ({:.2f}, {:.2f}) m, within {:g} m of the end of the terrain",
+                       at->shoe->name, at->place.x, at->place.y, *stop_.edge);
+  const double stalled = static_cast<double>(stalledSteps_) * timeStep_;
+  if (stop_.immobile && stalled >= *stop_.immobile)
+    return fmt::format("stop.immobile: for {:.3g} s the tracks have been driven and the hull has moved at less than a "
+                       "twentieth of their speed",
+                       stalled);
+  return {};
+}
+
 std::string VehicleRig::alarm(std::int64_t step) {
   // Both before the track: what they see throws it.
   std::string alarm = step % kTensionInterval == 0 ? judgeTension() : "";
@@ -161,6 +225,8 @@ std::string VehicleRig::alarm(std::int64_t step) {
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
   if (alarm.empty()) alarm = judgeRest();
   alarmMeans_.restart();
+  stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
+  ended_ = judgeEnd();
   return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
 }
 
@@ -191,12 +257,13 @@ VehicleState VehicleRig::save() const {
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
   s.judged = swings_.save();
+  s.stalledSteps = stalledSteps_;
   return s;
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  if (s.groundForces.size() > parts_->contactParts() || s.alarmForces.size() > parts_->contactParts() ||
-      s.judged.size() != swings_.save().size())
+  const std::size_t most = parts_->contactParts() + contacts_->surfaces();
+  if (s.groundForces.size() > most || s.alarmForces.size() > most || s.judged.size() != swings_.save().size())
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);
@@ -205,6 +272,8 @@ void VehicleRig::restore(const VehicleState& s) {
   rowMeans_ = {s.groundForces, s.meanSteps};
   alarmMeans_ = {s.alarmForces, s.alarmSteps};
   swings_.restore(s.judged[0], s.judged[1]);
+  stalledSteps_ = s.stalledSteps;
+  if (std::llround(state_.time / timeStep_) % kAlarmInterval == 0) ended_ = judgeEnd();
 }
 
 } // namespace grouser::simulation

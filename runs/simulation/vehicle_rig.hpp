@@ -52,6 +52,8 @@ public:
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
   void restartMeans() { rowMeans_.restart(), contacts_->forgetPressed(); }
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
+  /// Of the vehicle on one of setup.ground.obstacles, mean since restartMeans() [N].
+  base::Vec3d meanForceOn(std::size_t obstacle) const;
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
   /// Steps between two calls of alarm(), and of those that look at the pull of the tracks, which takes a millisecond.
@@ -61,6 +63,10 @@ public:
   /// the loads since it was last asked, and so whether a vehicle that was set down rests and drives off: to be called
   /// at fixed steps.
   std::string alarm(std::int64_t step);
+
+  /// What of the scene's [stop] has come to pass, in words, as alarm() has found it: the run is over. Empty: it goes
+  /// on.
+  const std::string& ended() const { return ended_; }
 
   /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
   multibody::Balance bodiesBalance() const { return multibody::balance(assembly_.model, state_, loads_); }
@@ -73,7 +79,8 @@ public:
   void restore(const VehicleState& state);
 
 private:
-  /// Sums over steps of the ground's force on each contact part: whole quanta, so that a checkpoint keeps them exactly.
+  /// Sums over steps of the ground's force on each contact part, then of that on each surface: whole quanta, so that a
+  /// checkpoint keeps them exactly.
   struct ForceMeans {
     std::vector<base::Vec3l> sums;
     std::int64_t steps{0};
@@ -84,12 +91,16 @@ private:
   std::string judgeRest();
   std::string judgeTurns() const;
   std::string judgeTension();
+  bool stalls() const;
+  std::string judgeEnd() const;
 
   double timeStep_, largestTurn_;
+  setup::StopSetup stop_;
   base::Vec3d gravity_;
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
   ReplicatedWork replicated_;
+  std::unique_ptr<VehicleParts> parts_;
   double lift_; ///< [m]
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
@@ -97,10 +108,11 @@ private:
   multibody::Loads loads_;
   vehicle::Driver driver_;
   std::unique_ptr<vehicle::Observer> observer_;
-  std::unique_ptr<VehicleParts> parts_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;
-  SwingGrowth swings_; ///< of track and arms
+  SwingGrowth swings_;          ///< of track and arms
+  std::int64_t stalledSteps_{}; ///< for which driven tracks have not moved the hull
+  std::string ended_;
 };
 
 } // namespace grouser::simulation

@@ -27,6 +27,14 @@ std::vector<std::uint32_t> VehicleState::words() const {
   add(driver, driver.size());
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
+  // Of surfaces those patches that are in touch: what is out of reach is no part of the state.
+  for (std::size_t k = 0; k < surfaces.states.size(); ++k) {
+    const contact::PatchState& s = surfaces.states[k];
+    if (s.stiffness == 0) continue;
+    words.push_back(static_cast<std::uint32_t>(k));
+    const std::vector<double> numbers{s.shear.x, s.shear.y, s.shear.z, s.stiffness};
+    add(numbers, numbers.size());
+  }
   return words;
 }
 
@@ -37,6 +45,7 @@ std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleStat
     by[assembly.parts[static_cast<std::size_t>(pair.other)].name] += state.track.states[k].dissipated;
   }
   for (const contact::PatchState& patch : state.ground.states) by["ground"] += patch.dissipated;
+  for (const contact::PatchState& patch : state.surfaces.states) by["obstacles and hull"] += patch.dissipated;
   std::vector<std::pair<double, std::string>> most;
   for (const auto& [name, energy] : by) most.emplace_back(energy, name);
   std::sort(most.begin(), most.end(), std::greater<>());

@@ -22,13 +22,15 @@ struct VehicleState {
   contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
   contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it
   contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
+  contact::SavedPatches surfaces; ///< of all parts with surfaces at rest, and of the hull with rigid ground
 
   // Sums for output and alarm, in quanta of force.
-  std::vector<base::Vec3l> groundForces; ///< by part, since the last row
+  std::vector<base::Vec3l> groundForces; ///< by part and surface, since the last row
   std::int64_t meanSteps{};              ///< of that sum
-  std::vector<base::Vec3l> alarmForces;  ///< by part, since the last check of the track
+  std::vector<base::Vec3l> alarmForces;  ///< by part and surface, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
   std::vector<double> judged;            ///< SwingGrowth::save()
+  std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
   base::Vec3d angularOnParts;            ///< since the start [N m s]
 

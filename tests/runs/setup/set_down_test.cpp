@@ -138,39 +138,64 @@ std::string box(double x, double y, const char* more = "") {
                      x, y, more);
 }
 
-TEST(Surroundings, WhatStandsWhereTheVehicleIsSetDown_IsRefused) {
+const char* const kMoves = "velocity = [0, -0.1, 0]\n";
+
+TEST(Surroundings, WhatMovesWhereTheVehicleIsSetDown_IsRefused) {
   for (const std::string& more :
-       {box(3, 0.9), box(2, 0),
+       {box(3, 0.9, kMoves), box(2, 0, kMoves),
         std::string("[[cylinder]]\nposition = [3, 0, 0.5]\naxis = [0, 1, 0]\nradius = 0.3\n"
-                    "length = 2\nmaterial = \"soil\"\nname = \"rock\"\n"),
-        std::string("[[plane]]\npoint = [3, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\nname = \"rock\"\n")}) {
+                    "length = 2\nmaterial = \"soil\"\nname = \"rock\"\nspin = [0, 1, 0]\n"),
+        std::string("[[plane]]\npoint = [3, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\nname = \"rock\"\n"
+                    "velocity = [0, 1, 0]\n")}) {
     const std::string message = refusalWith(more);
-    for (const char* word : {"set_down.toml:", "\"rock\"", "where the vehicle is set down", "pass through", "move it"})
+    for (const char* word :
+         {"set_down.toml:", "\"rock\"", "moves", "where the vehicle is set down", "pass through", "let it rest"})
       EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
   }
 }
 
-TEST(Surroundings, WhatStandsInItsWay_IsRefused) {
-  const std::string message = refusalWith(box(6, -0.9)); // it drives 1.7 m
+TEST(Surroundings, WhatMovesInItsWay_IsRefused) {
+  const std::string message = refusalWith(box(6, -0.9, kMoves)); // it drives 1.7 m
   EXPECT_NE(message.find("in the way of the vehicle, which can drive 1.7 m"), std::string::npos) << message;
-  EXPECT_NE(refusalWith(box(6, -0.9)).find("shorten run.duration"), std::string::npos);
+  EXPECT_NE(message.find("shorten run.duration"), std::string::npos);
 }
 
 TEST(Surroundings, WhatItCannotReach_IsNot) {
-  EXPECT_EQ(refusalWith(box(9, 0)), "") << "beyond its way";
-  EXPECT_EQ(refusalWith(box(6, 2)), "") << "beside it";
-  EXPECT_EQ(refusalWith(box(0.7, 0)), "") << "behind it";
+  EXPECT_EQ(refusalWith(box(9, 0, kMoves)), "") << "beyond its way";
+  EXPECT_EQ(refusalWith(box(6, 2, kMoves)), "") << "beside it";
+  EXPECT_EQ(refusalWith(box(0.7, 0, kMoves)), "") << "behind it";
 }
 
-TEST(Surroundings, WhatItMayReachByTurning_IsSaid) {
+TEST(Surroundings, WhatRestsIsMet) {
+  EXPECT_EQ(refusalWith(box(6, -0.9)), "");
+  EXPECT_EQ(refusalWith(box(3, 0.9)), "");
+}
+
+TEST(Surroundings, WhatMovesIsSaid) {
   const auto warned = [](const std::string& more) {
     return vehicleWarnings(sceneWith("position = [2, 0]\n" + more, true)).size();
   };
-  std::string turning = box(6, 1.9);
-  turning.replace(turning.find("sprocket_speed = 2"), 18, "left = 1\nright = 2");
-  EXPECT_EQ(warned(turning), 1u);
-  EXPECT_EQ(warned(box(6, 1.9)), 0u);
-  EXPECT_EQ(warned(box(6, 1.9, "velocity = [0, -0.1, 0]\n")), 1u) << "what moves may come into its way";
+  EXPECT_EQ(warned(box(6, 1.9)), 0u) << "it rests";
+  EXPECT_EQ(warned(box(6, 1.9, kMoves)), 1u) << "it may come into the vehicle's way";
+}
+
+TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
+  const auto said = [](const std::string& more) {
+    const auto warnings = vehicleWarnings(sceneWith(more));
+    return warnings.empty() ? "" : warnings.front();
+  };
+  // Of 12 m; the lead of its shoes before its place is 3.1 m. At 8 rad/s it drives 1.96 m/s from 0.45 s to 4 s.
+  EXPECT_EQ(said("position = [1.8, 0]\n[driver]\nsprocket_speed = 8\n"), "") << "7.0 m of 7.1 m";
+  const std::string ahead = said("position = [2.2, 0]\n[driver]\nsprocket_speed = 8\n");
+  for (const char* word : {"the terrain ends 6.", "m ahead of the vehicle", "enlarge terrain.size", "run.duration"})
+    EXPECT_NE(ahead.find(word), std::string::npos) << word << " in: " << ahead;
+  EXPECT_NE(said("position = [2, 0]\n[driver]\nsprocket_speed = -4\n").find("m behind the vehicle"), std::string::npos);
+  EXPECT_NE(said("position = [3, -1.5]\nheading = 90\n[driver]\nsprocket_speed = 4\n"), "") << "across";
+  EXPECT_EQ(said("position = [6, 0]\n[driver]\nleft = 3\nright = 8\n"), "") << "where it turns nobody knows";
+  EXPECT_EQ(said("position = [6, 0]\n[driver.table]\ntime = [0, 1, 2, 3]\nleft = [0, 5, -5, 0]\n"
+                 "right = [0, 5, -5, 0]\n"),
+            "")
+      << "there and back";
 }
 
 TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {

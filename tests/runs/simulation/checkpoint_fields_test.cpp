@@ -107,6 +107,7 @@ const NamedChange kHashed[] = {
     {"spring of the track", [](SimulationState& s) { s.vehicle->track.states[1].shear.y += 1; }},
     {"stiffness of a track's spring", [](SimulationState& s) { s.vehicle->track.states[1].stiffness += 1; }},
     {"spring on the ground", [](SimulationState& s) { s.vehicle->ground.states[2].shear.z += 1; }},
+    {"spring on an obstacle", [](SimulationState& s) { s.vehicle->surfaces.states[1].shear.x += 1; }},
     {"patch on a part", [](SimulationState& s) { s.vehicle->bed.memories[0] ^= 1; }},
     {"rolling angle on a part", [](SimulationState& s) { s.vehicle->bed.angles[2] += 1; }},
     {"dent on a part", [](SimulationState& s) { s.vehicle->bed.dents[2] += 1; }},
@@ -129,6 +130,8 @@ const NamedChange kUnhashed[] = {
     {"book of the vehicle's bodies", [](SimulationState& s) { s.vehicle->bodies.back() += 1; }},
     {"book of the mechanism", [](SimulationState& s) { s.mechanism->bodies.back() += 1; }},
     {"grains taken out", [](SimulationState& s) { s.taken.mass += 1; }},
+    {"sums of an obstacle", [](SimulationState& s) { s.vehicle->surfaces.sums[0].elastic += 1; }},
+    {"steps without way", [](SimulationState& s) { s.vehicle->stalledSteps += 50; }},
     {"what was pressed most", [](SimulationState& s) { s.vehicle->bed.deepest[1] ^= 1; }},
     {"worst gap", [](SimulationState& s) { s.mechanism->worst[0] += 1; }},
 };
