@@ -97,7 +97,7 @@ constexpr Meaning kMeanings[] = {
     {"vehicle/lift", "m", "with which it was set down"},
     {"vehicle/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
     {"vehicle/observers", "-, m", "travel of each track in teeth, pitches and metres"},
-    {"vehicle/driver", "s, rad, m",
+    {"vehicle/driver", "s, m/s, rad/s, m",
      "when the drive began, and since when it had rested, -1: not yet; of a course the integrals of the errors of "
      "speed "
      "and of turning, and the way along it"},

@@ -224,7 +224,7 @@ TEST_F(KeptSpheres, RunsHaveTheStatesOfRunsWithoutCache) {
       EXPECT_NE(c.summary().find("taken from"), std::string::npos) << "the resumed one needs no cut: " << c.summary();
     }
   }
-  EXPECT_EQ(files().size(), 6u) << "five parts that touch, and the mesh";
+  EXPECT_EQ(files().size(), 7u) << "five parts and a hull that touch, and the mesh";
   fs::remove(folder_.string() + ".obj");
 }
 
